@@ -1,0 +1,52 @@
+"""The request: one frozen, typed record for everything a drawing can be asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+Vector = tuple[float, float, float]
+View = str | Sequence[float]
+"""A named view (`hlr.view.names`) or a direction from the object toward the viewer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Perspective:
+    """A perspective camera. `eye` None: far enough along the view direction for the whole model to fit.
+
+    fov is the vertical field of view in degrees; None: as wide as the model needs, at most 120.
+    """
+
+    eye: Vector | None = None
+    target: Vector | None = None
+    fov: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What is asked of a drawing. Lengths are millimetres on paper unless said otherwise.
+
+    hidden       draw hidden lines
+    smooth       draw tangent (G1) edges, thin
+    seam         draw the seams of closed surfaces
+    scale        paper : model; 0.5 is 1:2
+    fit          (width, height) to fit the drawing into instead of a scale
+    accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
+    crease       degrees: where a mesh without B-rep folds more than this, an edge is drawn
+    up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
+    perspective  None: orthographic
+    threads      0: all cores
+    strict       warnings are errors
+    """
+
+    hidden: bool = True
+    smooth: bool = False
+    seam: bool = False
+    scale: float = 1.0
+    fit: tuple[float, float] | None = None
+    accuracy: float | None = None
+    crease: float = 30.0
+    up: Vector | None = None
+    perspective: Perspective | None = None
+    threads: int = 0
+    strict: bool = False
