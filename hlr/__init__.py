@@ -1,0 +1,1 @@
+"""Hidden-line drawings of CAD models."""
