@@ -1,0 +1,166 @@
+"""Decide by ray casting whether the lines of a drawing are truly visible or hidden.
+
+A point of a line drawn visible is wrong where the way to the viewer is blocked from the point and from a whole ring
+around it; one drawn hidden is wrong where it is blocked from none of them. The ring and the depth from which a hit
+counts absorb what is not decidable: the two meshes differ from the true model, each within its deflection.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+from peers.exchange import Camera, DrawnLine, Exchange
+from peers.reference import Floats, Reference
+
+FRACTIONS = (0.1, 0.3, 0.5, 0.7, 0.9)
+SHORTEST = 1 / 1000
+"""Lines up to this are not judged; like the following in diagonals of the bounding box."""
+RADIUS = 1 / 3000
+DEPTH = 1 / 8000
+RING = 8
+CHUNK = 100_000
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Points on lines: position, index of the line, whether it is drawn visible."""
+
+    points: Floats
+    line: npt.NDArray[np.int64]
+    visible: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """`blocked` counts, per sample, the blocked rays of the nine.
+
+    judged      lines long enough to be sampled
+    displaced   samples whose paper position is not the projection of their model position
+    """
+
+    samples: Samples
+    blocked: npt.NDArray[np.int64]
+    judged: int
+    displaced: int
+
+    @property
+    def wrong_visible(self) -> npt.NDArray[np.bool_]:
+        return self.samples.visible & (self.blocked == RING + 1)
+
+    @property
+    def wrong_hidden(self) -> npt.NDArray[np.bool_]:
+        return ~self.samples.visible & (self.blocked == 0)
+
+    @property
+    def wrong(self) -> int:
+        return int(self.wrong_visible.sum() + self.wrong_hidden.sum())
+
+
+class RayCaster:
+    """Embree over a reference mesh. Single precision: so the mesh is centred and brought to unit size first."""
+
+    def __init__(self, reference: Reference) -> None:
+        corners = reference.points[reference.triangles]
+        self.diagonal = reference.diagonal
+        self._centre = (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2
+        self._corners = (corners - self._centre) / self.diagonal
+        self._scene = EmbreeScene(robust=True)
+        TriangleMesh(self._scene, np.ascontiguousarray(self._corners, dtype=np.float32))
+
+    def blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.int64]:
+        """For each point the number of blocked rays among its own and those of the ring."""
+        parts = [self._blocked(points[i : i + CHUNK], camera) for i in range(0, len(points), CHUNK)]
+        return np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
+
+    def _blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.int64]:
+        starts = (points - self._centre) / self.diagonal
+        if camera.eye is None:
+            toward = np.broadcast_to(camera.direction, starts.shape)
+            reach = np.full(len(starts), np.inf)
+        else:
+            toward = (camera.eye - self._centre) / self.diagonal - starts
+            reach = np.linalg.norm(toward, axis=1)
+            toward = toward / reach[:, None]
+        origins = starts[:, None, :] + np.concatenate([np.zeros((1, 3)), self._ring(camera)])[None]
+        origins = (origins + (toward * DEPTH)[:, None, :]).reshape(-1, 3)
+        toward = np.repeat(toward, RING + 1, axis=0)
+        limit = np.repeat(np.minimum(reach - DEPTH, 1e30), RING + 1)
+        return self._hit(origins, toward, limit).reshape(-1, RING + 1).sum(axis=1)
+
+    @staticmethod
+    def _ring(camera: Camera) -> Floats:
+        angles = np.arange(RING) * (2 * np.pi / RING)
+        return RADIUS * (np.cos(angles)[:, None] * camera.right + np.sin(angles)[:, None] * camera.up)
+
+    def _hit(self, origins: Floats, toward: Floats, limit: Floats) -> npt.NDArray[np.bool_]:
+        result = self._scene.run(
+            np.ascontiguousarray(origins, dtype=np.float32), np.ascontiguousarray(toward, dtype=np.float32), output=True
+        )
+        return (result["primID"] >= 0) & (result["tfar"] < limit)
+
+
+def sample(drawing: Exchange, diagonal: float) -> tuple[Samples, int]:
+    """Five points on each line that is long enough, at fixed fractions of its length in the image."""
+    points: list[Floats] = []
+    numbers: list[int] = []
+    for number, line in enumerate(drawing.lines):
+        along = _image_length(line, drawing.camera)
+        if along[-1] <= diagonal * SHORTEST:
+            continue
+        points.append(_at(line.points3, along))
+        numbers.append(number)
+    line_of = np.repeat(np.asarray(numbers, dtype=np.int64), len(FRACTIONS))
+    visible = np.array([line.visible for line in drawing.lines], dtype=np.bool_)
+    position = np.concatenate(points) if points else np.zeros((0, 3))
+    return Samples(position, line_of, visible[line_of]), len(numbers)
+
+
+def _image_length(line: DrawnLine, camera: Camera) -> Floats:
+    """Running length of a line as seen: without what it covers along the line of sight."""
+    steps = np.diff(line.points3, axis=0)
+    sight = camera.direction if camera.eye is None else camera.eye - (line.points3[1:] + line.points3[:-1]) / 2
+    sight = sight / np.linalg.norm(sight, axis=-1, keepdims=True)
+    across = steps - np.sum(steps * sight, axis=-1, keepdims=True) * sight
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(across, axis=1))])
+
+
+def _at(points: Floats, along: Floats) -> Floats:
+    wanted = np.asarray(FRACTIONS) * along[-1]
+    return np.stack([np.interp(wanted, along, points[:, axis]) for axis in range(3)], axis=1)
+
+
+def _displaced(drawing: Exchange, diagonal: float) -> int:
+    """Vertices whose paper position is not (P.right, P.up) * unit * scale - origin. Orthographic only."""
+    if drawing.camera.eye is not None or not drawing.lines:
+        return 0
+    model = np.concatenate([line.points3 for line in drawing.lines])
+    paper = np.concatenate([line.points for line in drawing.lines])
+    factor = drawing.unit * drawing.scale
+    expected = np.stack([model @ drawing.camera.right, model @ drawing.camera.up], axis=1) * factor - drawing.origin
+    return int((np.abs(expected - paper).max(axis=1) > 2e-4 * diagonal * factor).sum())
+
+
+def judge(drawing: Exchange, caster: RayCaster) -> Verdict:
+    samples, judged = sample(drawing, caster.diagonal)
+    blocked = caster.blocked(samples.points, drawing.camera)
+    return Verdict(samples, blocked, judged, _displaced(drawing, caster.diagonal))
+
+
+def offenders(drawing: Exchange, verdict: Verdict) -> Iterator[str]:
+    """One line of text per wrongly drawn line, worst first."""
+    wrong = verdict.wrong_visible | verdict.wrong_hidden
+    numbers, first, counts = np.unique(verdict.samples.line[wrong], return_index=True, return_counts=True)
+    positions = verdict.samples.points[wrong]
+    for i in np.argsort(-counts, kind="stable"):
+        line = drawing.lines[numbers[i]]
+        x, y, z = positions[first[i]]
+        state = "visible" if line.visible else "hidden"
+        yield (
+            f"{counts[i]}/{len(FRACTIONS)} {line.kind} {state}: part {line.part} {drawing.parts[line.part]!r} "
+            f"edge {line.edge} face {line.face} line {numbers[i]} at ({x:.6g}, {y:.6g}, {z:.6g})"
+        )

@@ -1,0 +1,193 @@
+"""OpenCASCADE's own hidden-line removal as a peer, handed over in the exchange format.
+
+The exact algorithm gives its edges in 3-D. The polygonal one gives flat pieces only: each is lifted back onto the
+triangle edge it came from, where several lie on one another in favour of the peer (see `peers.lift`).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from peers.exchange import Camera
+from peers.reference import FINENESS, Floats, read_shape, shape_diagonal
+
+DIRECTIONS: dict[str, tuple[float, float, float]] = {
+    "front": (0, -1, 0),
+    "back": (0, 1, 0),
+    "right": (1, 0, 0),
+    "left": (-1, 0, 0),
+    "top": (0, 0, 1),
+    "bottom": (0, 0, -1),
+    "iso": (1, -1, 1),
+}
+METHODS = ("exact", "poly")
+
+
+def camera_of(view: str | Sequence[float]) -> Camera:
+    """A named view or a direction; up is z, along z it is y."""
+    name = view if isinstance(view, str) else ",".join(f"{value:.6g}" for value in view)
+    direction = np.asarray(DIRECTIONS[view] if isinstance(view, str) else view, dtype=np.float64)
+    direction = direction / np.linalg.norm(direction)
+    up = np.array([0.0, 0.0, 1.0]) if abs(direction[2]) < 0.9999 else np.array([0.0, 1.0, 0.0])
+    right = np.cross(up, direction)
+    right = right / np.linalg.norm(right)
+    return Camera(name, direction, right, np.cross(direction, right))
+
+
+def _projector(camera: Camera) -> Any:
+    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+    from OCP.HLRAlgo import HLRAlgo_Projector
+
+    return HLRAlgo_Projector(
+        gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(*map(float, camera.direction)), gp_Dir(*map(float, camera.right)))
+    )
+
+
+def edges_of(compound: Any) -> Iterator[Any]:
+    from OCP.TopAbs import TopAbs_EDGE
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    if compound is None or compound.IsNull():
+        return
+    explorer = TopExp_Explorer(compound, TopAbs_EDGE)
+    while explorer.More():
+        yield TopoDS.Edge_s(explorer.Current())
+        explorer.Next()
+
+
+def _polyline(edge: Any, deflection: float) -> Floats | None:
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.GCPnts import GCPnts_QuasiUniformDeflection
+
+    curve = BRepAdaptor_Curve(edge)
+    points = GCPnts_QuasiUniformDeflection(curve, deflection)
+    if not points.IsDone() or points.NbPoints() < 2:
+        return None
+    return np.array([points.Value(i).Coord() for i in range(1, points.NbPoints() + 1)])
+
+
+def _exact(shape: Any, camera: Camera, deflection: float) -> list[tuple[str, bool, Floats]]:
+    from OCP.BRepLib import BRepLib
+    from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape, HLRBRep_TypeOfResultingEdge
+
+    algorithm = HLRBRep_Algo()
+    algorithm.Add(shape)
+    algorithm.Projector(_projector(camera))
+    algorithm.Update()
+    algorithm.Hide()
+    result = HLRBRep_HLRToShape(algorithm)
+    kinds = {
+        "sharp": HLRBRep_TypeOfResultingEdge.HLRBRep_Sharp,
+        "outline": HLRBRep_TypeOfResultingEdge.HLRBRep_OutLine,
+    }
+    lines = []
+    for kind, selector in kinds.items():
+        for visible in (True, False):
+            compound = result.CompoundOfEdges(selector, visible, True)
+            if compound is None or compound.IsNull():
+                continue
+            BRepLib.BuildCurves3d_s(compound)
+            for edge in edges_of(compound):
+                points = _polyline(edge, deflection)
+                if points is not None:
+                    lines.append((kind, visible, points))
+    return lines
+
+
+def _poly(shape: Any, camera: Camera) -> list[tuple[str, bool, Floats]]:
+    from OCP.BRep import BRep_Tool
+    from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
+    from OCP.TopExp import TopExp
+    from peers.lift import Lifter
+    from peers.reference import from_shape
+
+    lifter = Lifter(from_shape(shape), camera)
+    algorithm = HLRBRep_PolyAlgo()
+    algorithm.Load(shape)
+    algorithm.Projector(_projector(camera))
+    algorithm.Update()
+    result = HLRBRep_PolyHLRToShape()
+    result.Update(algorithm)
+    lines = []
+    for kind, visible, compound in (
+        ("sharp", True, result.VCompound()),
+        ("sharp", False, result.HCompound()),
+        ("outline", True, result.OutLineVCompound()),
+        ("outline", False, result.OutLineHCompound()),
+    ):
+        for edge in edges_of(compound):
+            ends = [BRep_Tool.Pnt_s(vertex(edge)).Coord()[:2] for vertex in (TopExp.FirstVertex_s, TopExp.LastVertex_s)]
+            lifted = lifter.lift(np.array(ends), nearest=visible)
+            if lifted is not None:
+                lines.append((kind, visible, lifted))
+    return lines
+
+
+def draw(shape: Any, method: str, camera: Camera, source: str = "shape") -> dict[str, Any]:
+    """The drawing of one view as an exchange document; timings hold the peer's own seconds."""
+    deflection = shape_diagonal(shape) / FINENESS
+    start = time.perf_counter()
+    lines = _exact(shape, camera, deflection) if method == "exact" else _poly(shape, camera)
+    seconds = time.perf_counter() - start
+    axes = np.stack([camera.right, camera.up], axis=1)
+    return {
+        "format": "hlr-drawing",
+        "version": 1,
+        "source": source,
+        "units": "mm",
+        "accuracy": {},
+        "view": {
+            "name": camera.name,
+            "projection": "orthographic",
+            "direction": camera.direction.tolist(),
+            "right": camera.right.tolist(),
+            "up": camera.up.tolist(),
+        },
+        "scale": 1.0,
+        "origin": [0.0, 0.0],
+        "parts": [{"name": source, "color": None, "transform": np.eye(4).tolist()}],
+        "lines": [
+            {
+                "class": kind,
+                "visible": visible,
+                "part": 0,
+                "edge": None,
+                "face": None,
+                "points": (points @ axes).tolist(),
+                "points3": points.tolist(),
+            }
+            for kind, visible, points in lines
+        ],
+        "notes": [],
+        "counters": {},
+        "timings": {"total": seconds},
+    }
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Draw one file in one view; the referee runs this as a child, because the exact algorithm may never end."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--method", choices=METHODS, default="exact")
+    parser.add_argument("--view", default="iso", help="a name or X,Y,Z")
+    parser.add_argument("--out", type=Path, required=True)
+    given = parser.parse_args(arguments)
+    view = given.view if given.view in DIRECTIONS else [float(value) for value in given.view.split(",")]
+    document = draw(read_shape(given.file), given.method, camera_of(view), given.file.name)
+    given.out.write_text(json.dumps(document))
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

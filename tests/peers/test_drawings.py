@@ -1,0 +1,52 @@
+"""Our own drawings before the ray referee: not one wrong sample on models that are hard in one way each."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from peers import exchange, models, referee, reference
+from peers.judge import RayCaster, judge, offenders
+
+hlr = pytest.importorskip("hlr")
+if not hasattr(hlr, "draw_views"):
+    pytest.skip("the pipeline is not there yet", allow_module_level=True)
+
+VIEWS: list[referee.View] = ["front", "top", "right", "iso", *referee.random_views(1)]
+
+
+@pytest.mark.parametrize("name", models.MODELS)
+def test_brep(name: str, tmp_path: Path) -> None:
+    expect_faultless(models.save(name, tmp_path))
+
+
+@pytest.mark.parametrize("suffix", [".stl", ".ply", ".glb"])
+@pytest.mark.parametrize("name", ["bracket", "clash", "ball_in_ring"])
+def test_mesh(name: str, suffix: str, tmp_path: Path) -> None:
+    expect_faultless(models.save(name, tmp_path, suffix))
+
+
+@pytest.mark.parametrize("name", ["bracket", "ball_in_ring"])
+def test_perspective(name: str, tmp_path: Path) -> None:
+    from hlr.plan.options import Options, Perspective
+    from hlr.writers import render
+
+    path = models.save(name, tmp_path)
+    model = reference.load(path)
+    for fov in (30.0, 90.0):
+        options = Options(accuracy=model.diagonal / reference.FINENESS, perspective=Perspective(fov=fov))
+        (drawing,) = hlr.draw_views(path, ["iso"], options)
+        document = exchange.parse(render(drawing, "json"))
+        assert document.camera.eye is not None
+        verdict = judge(document, RayCaster(model))
+        assert verdict.judged and not verdict.wrong, "\n".join(offenders(document, verdict))
+
+
+def expect_faultless(path: Path) -> None:
+    drawn = 0
+    for row, document, verdict in referee.judge_file(path, VIEWS, ["hlr"]):
+        assert document is not None and verdict is not None, row.failure
+        assert row.visible, "a drawing with nothing visible proves nothing"
+        assert not row.bad, f"{row}\n" + "\n".join(offenders(document, verdict))
+        drawn += 1
+    assert drawn == len(VIEWS)
