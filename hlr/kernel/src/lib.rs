@@ -1,8 +1,14 @@
 //! Exact object-space hidden-line removal: module registration only.
 
+pub mod bind;
+pub mod exact;
+pub mod scan;
+
 use pyo3::prelude::*;
 
 #[pymodule]
-fn _kernel(_m: &Bound<'_, PyModule>) -> PyResult<()> {
+fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     Ok(())
 }

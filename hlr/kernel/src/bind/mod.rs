@@ -1,0 +1,4 @@
+//! NumPy <-> Rust: shapes and ranges are checked here, no geometry.
+
+pub mod running;
+pub mod scan;

@@ -1,0 +1,158 @@
+//! `edge_table` and `visibility` as Python sees them.
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::running::run;
+use crate::exact::snap::Grid;
+use crate::scan::mesh::{Mesh, Part};
+use crate::scan::sweep::{self, Counters};
+use crate::scan::topology;
+
+/// Rows of a C-contiguous (n, N) array.
+pub fn rows<'a, T: numpy::Element, const N: usize>(
+    array: &'a PyReadonlyArray2<'_, T>,
+    name: &str,
+) -> PyResult<&'a [[T; N]]> {
+    let wrong = || PyValueError::new_err(format!("{name} must be a C-contiguous (n, {N}) array"));
+    let slice = array.as_slice().map_err(|_| wrong())?;
+    if array.as_array().shape()[1] != N {
+        return Err(wrong());
+    }
+    let (rows, _) = slice.as_chunks::<N>();
+    Ok(rows)
+}
+
+fn flat<'a, T: numpy::Element>(array: &'a PyReadonlyArray1<'_, T>, name: &str) -> PyResult<&'a [T]> {
+    array.as_slice().map_err(|_| PyValueError::new_err(format!("{name} must be contiguous")))
+}
+
+fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
+    if found == wanted {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!("{name} has {found} entries, {wanted} are needed")))
+}
+
+fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize) -> PyResult<()> {
+    for v in values {
+        if v < 0 || v as usize >= limit {
+            return Err(PyValueError::new_err(format!("{name} holds {v}, allowed are 0..{limit}")));
+        }
+    }
+    Ok(())
+}
+
+type EdgeArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>);
+
+#[pyfunction]
+pub fn edge_table<'py>(
+    py: Python<'py>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    n_points: usize,
+) -> PyResult<EdgeArrays<'py>> {
+    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+    expect_below("triangles", triangles.iter().flatten().copied(), n_points)?;
+    let t = run(py, 0, |_| topology::topology(triangles))?;
+    let n = t.edges.len();
+    let edges = t.edges.into_flattened().into_pyarray(py).reshape([n, 2])?;
+    Ok((edges, t.offsets.into_pyarray(py), t.incident.into_pyarray(py)))
+}
+
+#[pyfunction]
+#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, threads = 0))]
+#[allow(clippy::too_many_arguments)] // one argument per array of the scene: the stub names them
+pub fn visibility<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    triangle_part: PyReadonlyArray1<'py, i32>,
+    edges: PyReadonlyArray2<'py, i32>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    incident: PyReadonlyArray1<'py, i32>,
+    edge_part: PyReadonlyArray1<'py, i32>,
+    role: PyReadonlyArray1<'py, u8>,
+    cull: PyReadonlyArray1<'py, bool>,
+    sound: PyReadonlyArray1<'py, bool>,
+    delta: PyReadonlyArray1<'py, f64>,
+    threads: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let points = rows::<f64, 3>(&points, "points")?;
+    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+    let edges = rows::<i32, 2>(&edges, "edges")?;
+    let (triangle_part, edge_part) = (flat(&triangle_part, "triangle_part")?, flat(&edge_part, "edge_part")?);
+    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
+    let (role, cull, sound, delta) =
+        (flat(&role, "role")?, flat(&cull, "cull")?, flat(&sound, "sound")?, flat(&delta, "delta")?);
+    expect_len("triangle_part", triangle_part.len(), triangles.len())?;
+    expect_len("edge_part", edge_part.len(), edges.len())?;
+    expect_len("role", role.len(), edges.len())?;
+    expect_len("offsets", offsets.len(), edges.len() + 1)?;
+    expect_len("sound", sound.len(), cull.len())?;
+    expect_len("delta", delta.len(), cull.len())?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("edges", edges.iter().flatten().copied(), points.len())?;
+    expect_below("triangle_part", triangle_part.iter().copied(), cull.len())?;
+    expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
+    expect_below("incident", incident.iter().copied(), triangles.len())?;
+    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
+    if offsets.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("offsets must ascend"));
+    }
+    let outcome = run(py, threads, |stopped| {
+        let grid = Grid::around(points)?;
+        let mesh = Mesh {
+            points: points.iter().map(|p| grid.snap(p)).collect(),
+            triangles,
+            triangle_part,
+            edges,
+            offsets,
+            incident,
+            edge_part,
+            role,
+            parts: (0..cull.len())
+                .map(|p| Part { cull: cull[p], sound: sound[p], delta: grid.delta(delta[p]) })
+                .collect(),
+        };
+        Some(sweep::visibility(&mesh, stopped))
+    })?;
+    let Some(outcome) = outcome else {
+        return Err(PyValueError::new_err("points hold coordinates that are not finite"));
+    };
+    let outcome = outcome.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+    let out = PyDict::new(py);
+    let pieces = &outcome.pieces;
+    out.set_item("edge", pieces.iter().map(|p| p.edge as i32).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("t0", pieces.iter().map(|p| p.segment.start).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("t1", pieces.iter().map(|p| p.segment.end).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("state", pieces.iter().map(|p| p.segment.state as u8).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("facing", outcome.facing.into_pyarray(py))?;
+    out.set_item("counters", counters(py, &outcome.counters)?)?;
+    Ok(out)
+}
+
+fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    for (name, value) in [
+        ("triangles", c.triangles),
+        ("culled", c.culled),
+        ("contours", c.contours),
+        ("drawn", c.drawn),
+        ("hidden_by_culling", c.hidden_by_culling),
+        ("projecting", c.projecting),
+        ("bands", c.bands),
+        ("seeds", c.seeds),
+        ("crossing_tests", c.crossing_tests),
+        ("crossings", c.crossings),
+        ("piercing_parts", c.piercing_parts),
+        ("piercing_tests", c.piercing_tests),
+        ("piercings", c.piercings),
+        ("failed_checks", c.failed_checks),
+        ("contradictions", c.contradictions),
+    ] {
+        out.set_item(name, value)?;
+    }
+    Ok(out)
+}

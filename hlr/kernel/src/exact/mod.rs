@@ -1,0 +1,8 @@
+//! One rounding to a grid, then integer predicates without any error.
+
+pub mod predicates;
+pub mod snap;
+pub mod wide;
+
+/// A snapped point in view space: x right, y up, z away from the viewer.
+pub type Point = [i32; 3];

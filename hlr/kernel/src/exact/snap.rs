@@ -1,0 +1,114 @@
+//! The only rounding there is: view coordinates become integers on a power-of-two grid.
+//!
+//! |x|, |y| <= 2^30 - 1 keeps `orient2d` within 63 bits; |z| <= 2^29 leaves room to move a segment toward
+//! the viewer by a contact tolerance of up to 2^28 units.
+
+use super::Point;
+
+const XY_LIMIT: f64 = ((1i64 << 30) - 1) as f64;
+const Z_LIMIT: f64 = (1i64 << 29) as f64;
+/// Largest contact tolerance in grid units.
+pub const DELTA_LIMIT: f64 = (1i64 << 28) as f64;
+
+/// Where the grid lies: integer = round((coordinate - centre) * scale).
+#[derive(Clone, Copy, Debug)]
+pub struct Grid {
+    pub centre: [f64; 3],
+    pub scale_xy: f64,
+    pub scale_z: f64,
+}
+
+/// Largest power of two `s` with `half * s <= limit`, found without logarithms: libm differs between machines.
+fn power_of_two_scale(half: f64, limit: f64) -> f64 {
+    if half <= 0.0 {
+        return 1.0;
+    }
+    let mut s = 1.0f64;
+    while half * s > limit {
+        s *= 0.5;
+    }
+    while half * s * 2.0 <= limit && s < 1e300 {
+        s *= 2.0;
+    }
+    s
+}
+
+impl Grid {
+    /// The finest grid that holds every point; None where a coordinate is not finite.
+    pub fn around(points: &[[f64; 3]]) -> Option<Grid> {
+        let mut low = [f64::INFINITY; 3];
+        let mut high = [f64::NEG_INFINITY; 3];
+        for p in points {
+            for k in 0..3 {
+                if !p[k].is_finite() {
+                    return None;
+                }
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        if points.is_empty() {
+            (low, high) = ([0.0; 3], [0.0; 3]);
+        }
+        let mut centre = [0.0; 3];
+        let mut half = [0.0; 3];
+        for k in 0..3 {
+            centre[k] = low[k] * 0.5 + high[k] * 0.5;
+            half[k] = (high[k] - centre[k]).max(centre[k] - low[k]);
+        }
+        if !half.iter().all(|h| h.is_finite()) {
+            return None;
+        }
+        Some(Grid {
+            centre,
+            scale_xy: power_of_two_scale(half[0].max(half[1]), XY_LIMIT),
+            scale_z: power_of_two_scale(half[2], Z_LIMIT),
+        })
+    }
+
+    pub fn snap(&self, p: &[f64; 3]) -> Point {
+        [
+            ((p[0] - self.centre[0]) * self.scale_xy).round_ties_even() as i32,
+            ((p[1] - self.centre[1]) * self.scale_xy).round_ties_even() as i32,
+            ((p[2] - self.centre[2]) * self.scale_z).round_ties_even() as i32,
+        ]
+    }
+
+    /// A depth tolerance in grid units: at least one unit where it is positive at all.
+    pub fn delta(&self, depth: f64) -> i64 {
+        if depth > 0.0 { (depth * self.scale_z).ceil().min(DELTA_LIMIT) as i64 } else { 0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_integers_are_kept_exactly() {
+        let points: Vec<[f64; 3]> = vec![[0.0, 1.0, 2.0], [4.0, 3.0, 7.0], [1.0, 2.0, 3.0]];
+        let grid = Grid::around(&points).unwrap();
+        for p in &points {
+            let s = grid.snap(p);
+            for k in 0..3 {
+                let scale = if k < 2 { grid.scale_xy } else { grid.scale_z };
+                assert_eq!(f64::from(s[k]) / scale + grid.centre[k], p[k]);
+            }
+        }
+    }
+
+    #[test]
+    fn nan_and_infinity_are_refused() {
+        assert!(Grid::around(&[[f64::NAN, 0.0, 0.0]]).is_none());
+        assert!(Grid::around(&[[f64::INFINITY, 0.0, 0.0]]).is_none());
+        assert!(Grid::around(&[[f64::MAX, 0.0, 0.0], [f64::MIN, 0.0, 0.0]]).is_some());
+    }
+
+    #[test]
+    fn limits_hold_at_the_corners() {
+        let grid = Grid::around(&[[-1e9, -1e-9, 5.0], [1e9, 1e-9, 5.0]]).unwrap();
+        let s = grid.snap(&[1e9, 1e-9, 5.0]);
+        assert!(s[0] <= XY_LIMIT as i32 && s[0] > (1 << 29));
+        assert_eq!(s[2], 0);
+    }
+}

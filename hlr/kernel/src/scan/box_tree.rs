@@ -1,0 +1,135 @@
+//! A hierarchy of axis-aligned boxes: median split along the longest side, eight boxes a leaf.
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Aabb {
+    pub low: [i32; 3],
+    pub high: [i32; 3],
+}
+
+impl Aabb {
+    pub const EMPTY: Aabb = Aabb { low: [i32::MAX; 3], high: [i32::MIN; 3] };
+
+    pub fn of(points: &[&[i32; 3]]) -> Aabb {
+        points.iter().fold(Aabb::EMPTY, |b, p| b.union(&Aabb { low: **p, high: **p }))
+    }
+
+    pub fn union(&self, other: &Aabb) -> Aabb {
+        let mut out = *self;
+        for k in 0..3 {
+            out.low[k] = out.low[k].min(other.low[k]);
+            out.high[k] = out.high[k].max(other.high[k]);
+        }
+        out
+    }
+
+    #[inline(always)]
+    pub fn overlaps(&self, other: &Aabb) -> bool {
+        (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
+    }
+
+    /// Grown toward the viewer.
+    pub fn toward_viewer(mut self, depth: i64) -> Aabb {
+        self.low[2] = (i64::from(self.low[2]) - depth).max(i64::from(i32::MIN)) as i32;
+        self
+    }
+}
+
+struct Node {
+    bounds: Aabb,
+    /// Leaf: first item. Inner: index of the right child (the left one follows its parent).
+    link: u32,
+    /// Leaf: number of items; 0 for inner nodes.
+    count: u32,
+}
+
+pub struct BoxTree {
+    nodes: Vec<Node>,
+    items: Vec<(Aabb, u32)>,
+}
+
+const LEAF: usize = 8;
+
+impl BoxTree {
+    pub fn new(mut items: Vec<(Aabb, u32)>) -> BoxTree {
+        let mut nodes = Vec::with_capacity(items.len() / 2 + 1);
+        let n = items.len();
+        if n > 0 {
+            split(&mut items, 0, n, &mut nodes);
+        }
+        BoxTree { nodes, items }
+    }
+
+    /// Call `visit` for every item whose box overlaps `query`.
+    pub fn query(&self, query: &Aabb, mut visit: impl FnMut(u32)) {
+        if self.nodes.is_empty() {
+            return;
+        }
+        let mut stack = [0u32; 64];
+        let mut top = 1;
+        while top > 0 {
+            top -= 1;
+            let index = stack[top];
+            let node = &self.nodes[index as usize];
+            if !node.bounds.overlaps(query) {
+                continue;
+            }
+            if node.count > 0 {
+                for (bounds, item) in &self.items[node.link as usize..(node.link + node.count) as usize] {
+                    if bounds.overlaps(query) {
+                        visit(*item);
+                    }
+                }
+            } else {
+                // Depth is log2 of the item count: 64 entries are never used up.
+                stack[top] = node.link;
+                stack[top + 1] = index + 1;
+                top += 2;
+            }
+        }
+    }
+}
+
+fn split(items: &mut [(Aabb, u32)], first: usize, end: usize, nodes: &mut Vec<Node>) {
+    let bounds = items[first..end].iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
+    let here = nodes.len();
+    let count = end - first;
+    if count <= LEAF {
+        nodes.push(Node { bounds, link: first as u32, count: count as u32 });
+        return;
+    }
+    nodes.push(Node { bounds, link: 0, count: 0 });
+    let axis = (0..3).max_by_key(|&k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).unwrap_or(0);
+    let half = count / 2;
+    items[first..end].select_nth_unstable_by_key(half, |(b, i)| (i64::from(b.low[axis]) + i64::from(b.high[axis]), *i));
+    split(items, first, first + half, nodes);
+    nodes[here].link = nodes.len() as u32;
+    split(items, first + half, end, nodes);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_what_a_plain_search_finds() {
+        let mut state = 1u64;
+        let mut random = |n: i32| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 33) as i32).rem_euclid(n)
+        };
+        let mut cube = |size: i32| {
+            let low = [random(100), random(100), random(100)];
+            Aabb { low, high: [low[0] + random(size), low[1] + random(size), low[2] + random(size)] }
+        };
+        let boxes: Vec<(Aabb, u32)> = (0..500).map(|i| (cube(20), i)).collect();
+        let tree = BoxTree::new(boxes.clone());
+        for _ in 0..200 {
+            let q = cube(30);
+            let mut found = Vec::new();
+            tree.query(&q, |i| found.push(i));
+            found.sort_unstable();
+            let expected: Vec<u32> = boxes.iter().filter(|(b, _)| b.overlaps(&q)).map(|&(_, i)| i).collect();
+            assert_eq!(found, expected);
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! The edge table: contours with their jumps, the edges to be drawn, and those that culling alone decides.
+
+use rayon::prelude::*;
+
+use super::mesh::{DRAWN, Mesh, OUTLINE};
+use super::polygon_table::PolygonTable;
+
+/// A contour edge: passing it changes the count.
+#[derive(Clone, Copy, Debug)]
+pub struct Contour {
+    pub edge: u32,
+    /// Polygons on its left minus polygons on its right.
+    pub jump: i32,
+}
+
+pub struct EdgeTable {
+    pub contours: Vec<Contour>,
+    /// Edges whose visibility has to be found.
+    pub drawn: Vec<u32>,
+    /// Edges of closed parts with nothing but faces turned away: hidden by their own part, without any search.
+    pub hidden: Vec<u32>,
+    /// Drawn edges seen end-on: points in the image.
+    pub projecting: usize,
+}
+
+enum Fate {
+    Ignored,
+    Projecting,
+    Hidden,
+    Drawn,
+}
+
+impl EdgeTable {
+    pub fn new(mesh: &Mesh, table: &PolygonTable) -> EdgeTable {
+        let found: Vec<(i32, Fate)> = (0..mesh.edges.len())
+            .into_par_iter()
+            .map(|e| {
+                let jump = jump(mesh, table, e);
+                (jump, fate(mesh, table, e, jump))
+            })
+            .collect();
+        let mut out = EdgeTable { contours: Vec::new(), drawn: Vec::new(), hidden: Vec::new(), projecting: 0 };
+        for (e, (jump, fate)) in found.iter().enumerate() {
+            let (a, b) = mesh.ends(e);
+            if *jump != 0 && (a[0] != b[0] || a[1] != b[1]) {
+                out.contours.push(Contour { edge: e as u32, jump: *jump });
+            }
+            match fate {
+                Fate::Ignored => {}
+                Fate::Projecting => out.projecting += 1,
+                Fate::Hidden => out.hidden.push(e as u32),
+                Fate::Drawn => out.drawn.push(e as u32),
+            }
+        }
+        out
+    }
+}
+
+/// Counted triangles on the left of lo -> hi minus those on its right.
+fn jump(mesh: &Mesh, table: &PolygonTable, edge: usize) -> i32 {
+    let [lo, hi] = mesh.edges[edge];
+    let mut sum = 0;
+    for &t in mesh.incident(edge) {
+        let t = t as usize;
+        if !table.counted(mesh, t) {
+            continue;
+        }
+        let [p, q, r] = mesh.triangles[t];
+        let forward = (p == lo && q == hi) || (q == lo && r == hi) || (r == lo && p == hi);
+        sum += i32::from(table.facing[t]) * if forward { 1 } else { -1 };
+    }
+    sum
+}
+
+fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
+    let role = mesh.role[edge];
+    if role & DRAWN == 0 && (role & OUTLINE == 0 || jump == 0) {
+        return Fate::Ignored;
+    }
+    let (a, b) = mesh.ends(edge);
+    if a[0] == b[0] && a[1] == b[1] {
+        return Fate::Projecting;
+    }
+    let faces = mesh.incident(edge);
+    let part = &mesh.parts[mesh.edge_part[edge] as usize];
+    if part.cull && !faces.is_empty() && faces.iter().all(|&t| table.facing[t as usize] < 0) {
+        return Fate::Hidden;
+    }
+    Fate::Drawn
+}

@@ -1,0 +1,76 @@
+//! The slow, certain way: one drawn edge against every polygon by itself, no assumption on how polygons join.
+//!
+//! Used only where the count of the fast way failed its check. Each polygon is its own closed story (covered and in
+//! front at the start, three borders, one plane), so the sum over all polygons cannot be inconsistent.
+
+use std::sync::OnceLock;
+
+use super::active_spans::Count;
+use super::box_tree::{Aabb, BoxTree};
+use super::invisibility::{Event, Parameter, Segment, walk};
+use super::mesh::Mesh;
+use super::piercing::pierce;
+use super::polygon_table::PolygonTable;
+use crate::exact::predicates::crossing;
+
+pub struct ExactQuery<'a> {
+    mesh: &'a Mesh<'a>,
+    table: &'a PolygonTable,
+    tree: OnceLock<BoxTree>,
+}
+
+impl<'a> ExactQuery<'a> {
+    pub fn new(mesh: &'a Mesh<'a>, table: &'a PolygonTable) -> Self {
+        ExactQuery { mesh, table, tree: OnceLock::new() }
+    }
+
+    fn tree(&self) -> &BoxTree {
+        self.tree.get_or_init(|| {
+            let items = (0..self.mesh.triangles.len())
+                .filter(|&t| self.table.counted(self.mesh, t))
+                .map(|t| {
+                    let (p, q, r) = self.mesh.corners(t);
+                    (Aabb::of(&[p, q, r]), t as u32)
+                })
+                .collect();
+            BoxTree::new(items)
+        })
+    }
+
+    /// Segments of one drawn edge; false if even these counts contradict each other.
+    pub fn decide(&self, edge: usize, out: &mut Vec<Segment>) -> bool {
+        let mesh = self.mesh;
+        let (a, b) = mesh.ends(edge);
+        let part = mesh.edge_part[edge];
+        let mut shadow = Aabb::of(&[a, b]);
+        shadow.low[2] = i32::MIN;
+        let (mut start, mut end) = (Count::default(), Count::default());
+        let mut events: Vec<Event> = Vec::new();
+        self.tree().query(&shadow, |t| {
+            let t = t as usize;
+            let Some(cover) = mesh.cover(t) else { return };
+            let delta = mesh.delta(part, mesh.triangle_part[t]);
+            let (plain, moved) = cover.hides_end(a, b, delta);
+            start.plain += i32::from(plain);
+            start.moved += i32::from(moved);
+            let (plain, moved) = cover.hides_end(b, a, delta);
+            end.plain += i32::from(plain);
+            end.moved += i32::from(moved);
+            for k in 0..3 {
+                let (p, q) = cover.edge(k);
+                if let Some(hit) = crossing(a, b, p, q)
+                    && hit.beneath > 0
+                {
+                    let beyond = hit.beneath > i128::from(delta) * i128::from(hit.d);
+                    let at = Parameter::crossing(hit.n, hit.d);
+                    let moved = if beyond { hit.to_left } else { 0 };
+                    events.push(Event { drawn: 0, at, plain: hit.to_left, moved });
+                }
+            }
+            pierce(a, b, &cover, delta, |at, plain, moved| {
+                events.push(Event { drawn: 0, at, plain, moved });
+            });
+        });
+        walk(start, &mut events, end, out)
+    }
+}

@@ -1,0 +1,36 @@
+//! Which way each triangle faces, and whether it is counted.
+
+use rayon::prelude::*;
+
+use super::mesh::Mesh;
+use crate::exact::predicates::orient2d;
+
+pub struct PolygonTable {
+    /// +1 toward the viewer, -1 away, 0 edge-on.
+    pub facing: Vec<i8>,
+    pub culled: usize,
+}
+
+impl PolygonTable {
+    pub fn new(mesh: &Mesh) -> PolygonTable {
+        let facing: Vec<i8> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|t| {
+                let (p, q, r) = mesh.corners(t);
+                orient2d(p, q, r).signum() as i8
+            })
+            .collect();
+        let culled =
+            facing.par_iter().zip(mesh.triangle_part).filter(|&(&f, &p)| f < 0 && mesh.parts[p as usize].cull).count();
+        PolygonTable { facing, culled }
+    }
+
+    /// Counted in front of others: not edge-on, and facing the viewer where its part allows culling. A line of sight
+    /// that meets a closed solid from outside meets a face toward the viewer first, so the others add nothing to
+    /// the question whether anything is in front.
+    #[inline(always)]
+    pub fn counted(&self, mesh: &Mesh, triangle: usize) -> bool {
+        let f = self.facing[triangle];
+        f > 0 || (f < 0 && !mesh.parts[mesh.triangle_part[triangle] as usize].cull)
+    }
+}
