@@ -1,0 +1,47 @@
+"""The command and its verbs."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import click
+
+VERBS = ("draw", "info")
+
+
+class Verbs(click.Group):
+    """Verbs are imported when they are named: each costs start-up time."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """All verbs, in the order of the help text."""
+        return list(VERBS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The verb, or None."""
+        if cmd_name not in VERBS:
+            return None
+        command: click.Command = getattr(import_module(f".commands.{cmd_name}", __package__), cmd_name)
+        return command
+
+
+def _version(ctx: click.Context, parameter: click.Parameter, wanted: Any) -> None:
+    if not wanted or ctx.resilient_parsing:
+        return
+    from importlib.metadata import version
+
+    click.echo(f"hlr {version('hlr-drawing')}")
+    ctx.exit()
+
+
+@click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.option("--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version.")
+def command() -> None:
+    """Hidden-line drawings of CAD models.
+
+    \b
+      hlr draw motor.step -o motor.svg
+      hlr info motor.step
+
+    Reads STEP, IGES, BREP, CadQuery and build123d scripts, STL, OBJ, PLY, OFF, 3MF and GLB. Writes SVG, PDF and JSON.
+    """

@@ -1,0 +1,215 @@
+"""`hlr draw`: a model in, drawings out."""
+
+from __future__ import annotations
+
+import json
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import click
+
+from hlr.errors import OptionError, StrictError
+
+from ..exits import warn
+from ..meter import meter
+from ..outputs import STDOUT, plan
+from ..parameters import Scale, Size, Vector, Vector3, ViewName
+from ..signals import tidily
+from ..streams import put, result_only
+
+if TYPE_CHECKING:
+    from hlr.drawing import Drawing
+    from hlr.plan.options import Options
+
+
+@click.command(short_help="Draw a model as SVG, PDF or JSON.")
+@click.argument("source")
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="Where to write: .svg, .pdf or .json; - for standard output. {stem}, {view} and {n} stand for the source, "
+    "the view and its number. Default: {stem}.svg in this folder.",
+)
+@click.option(
+    "--view",
+    "views",
+    type=ViewName(),
+    metavar="NAME|X,Y,Z",
+    multiple=True,
+    help="front, back, left, right, top, bottom, iso, ... or a direction toward the viewer. May be repeated. "
+    "Default: iso.",
+)
+@click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on.")
+@click.option("--smooth", is_flag=True, help="Also tangent edges, thin.")
+@click.option("--seam", is_flag=True, help="Also the seams of closed surfaces.")
+@click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
+@click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
+@click.option(
+    "--accuracy",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="MM",
+    help="How far a line may be off on paper. Default: 0.05, less for small drawings.",
+)
+@click.option(
+    "--crease",
+    type=click.FloatRange(0.0, 180.0),
+    metavar="DEG",
+    default=30.0,
+    help="Meshes: fold from which an edge is drawn. Default: 30.",
+)
+@click.option("--up", type=Vector(), metavar="X,Y,Z", help="What points up on paper.")
+@click.option("--perspective", is_flag=True, help="Perspective instead of parallel projection.")
+@click.option("--eye", type=Vector(), metavar="X,Y,Z", help="Perspective: where the eye is.")
+@click.option("--target", type=Vector(), metavar="X,Y,Z", help="Perspective: what it looks at.")
+@click.option(
+    "--fov",
+    type=click.FloatRange(0.0, 180.0, min_open=True, max_open=True),
+    metavar="DEG",
+    help="Perspective: vertical field of view.",
+)
+@click.option("--threads", type=click.IntRange(min=0), metavar="N", default=0, help="Default: all cores.")
+@click.option("--strict", is_flag=True, help="Warnings are errors: nothing is written.")
+@click.option("--format", type=click.Choice(["svg", "pdf", "json"]), help="Format, where the name does not say it.")
+@click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
+@click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
+def draw(
+    *,
+    source: str,
+    output: str | None,
+    views: tuple[str | Vector3, ...],
+    format: str | None,
+    as_json: bool,
+    quiet: bool,
+    **wishes: Any,
+) -> None:
+    """Draw SOURCE with its visible and hidden lines.
+
+    \b
+      hlr draw part.step -o part.svg
+      hlr draw part.step -o "{stem}-{view}.pdf" --view front --view top --view right
+      hlr draw part.stl --view -1,1,1 --scale 1:2 -o - > part.svg
+
+    A CadQuery or build123d script is run to get its model.
+    """
+    views = views or ("iso",)
+    names = [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views]
+    options = _options(**wishes)
+    targets = _targets(output, source, names, format, as_json)
+
+    with ExitStack() as stack:
+        # While anything runs that is not ours, standard output is out of its reach.
+        stream = stack.enter_context(result_only())
+        with meter(quiet) as progress:
+            import hlr
+
+            drawings = hlr.draw_views(source, list(views), options, progress=progress)
+        _warn(drawings, options.strict)
+        _write(drawings, targets, stream)
+        if as_json:
+            put(stream, json.dumps({"drawings": _summary(drawings, targets)}, indent=2).encode() + b"\n")
+    if not quiet and sys.stderr.isatty():
+        for drawing, (path, _) in zip(drawings, targets, strict=True):
+            _tell(drawing, path)
+
+
+def _options(
+    *,
+    scale: float | None,
+    fit: tuple[float, float] | None,
+    perspective: bool,
+    eye: Vector3 | None,
+    target: Vector3 | None,
+    fov: float | None,
+    **others: Any,
+) -> Options:
+    from hlr.plan.options import Options, Perspective
+
+    if scale is not None and fit is not None:
+        raise OptionError("--scale and --fit contradict one another; give one of them")
+    camera = None
+    if perspective or eye is not None or target is not None or fov is not None:
+        camera = Perspective(eye=eye, target=target, fov=fov)
+    return Options(scale=1.0 if scale is None else scale, fit=fit, perspective=camera, **others)
+
+
+def _targets(
+    output: str | None, source: str, names: list[str], format: str | None, as_json: bool
+) -> list[tuple[Path | None, str]]:
+    """Path (None: standard output) and format of each view. What cannot be written is refused before any work."""
+    from hlr.writers import files, format_of
+
+    if output == STDOUT:
+        if len(names) > 1:
+            raise OptionError("standard output takes one view; write several views to files with {view} in the name")
+        if as_json:
+            raise OptionError("--json and -o - both want standard output; write the drawing to a file")
+        return [(None, format or "svg")]
+    paths = plan(output, source, names, format)
+    for path in paths:
+        files.check(path)
+    return [(path, format or format_of(path)) for path in paths]
+
+
+def _warn(drawings: list[Drawing], strict: bool) -> None:
+    """Each warning once, though every view has met it."""
+    notes = list(dict.fromkeys(note for drawing in drawings for note in drawing.notes))
+    if strict and notes:
+        more = f" (and {len(notes) - 1} more)" if len(notes) > 1 else ""
+        raise StrictError(f"{notes[0]}{more}; nothing is written, because of --strict")
+    for note in notes:
+        warn(note)
+
+
+def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], stream: BinaryIO) -> None:
+    """All files or none."""
+    from hlr.writers import files, render
+
+    made: dict[Path, bytes] = {}
+    for drawing, (path, format) in zip(drawings, targets, strict=True):
+        data = render(drawing, format)
+        if path is None:
+            put(stream, data)
+        else:
+            made[path] = data
+    with tidily():
+        files.place(made)
+
+
+def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) -> list[dict[str, Any]]:
+    return [
+        {
+            "file": str(path),
+            "format": format,
+            "source": drawing.source,
+            "view": drawing.view.name,
+            "scale": drawing.scale,
+            "accuracy": dict(drawing.accuracy),
+            "lines": _counts(drawing),
+            "notes": list(drawing.notes),
+            "counters": dict(drawing.counters),
+            "timings": dict(drawing.timings),
+        }
+        for drawing, (path, format) in zip(drawings, targets, strict=True)
+    ]
+
+
+def _counts(drawing: Drawing) -> dict[str, int]:
+    visible = sum(line.visible for line in drawing.lines)
+    return {"visible": visible, "hidden": len(drawing.lines) - visible}
+
+
+def _tell(drawing: Drawing, path: Path | None) -> None:
+    """One line for people."""
+    from hlr.writers.style import ratio
+
+    counts = _counts(drawing)
+    seconds = drawing.timings.get("total", 0.0)
+    where = "standard output" if path is None else str(path)
+    click.echo(
+        f"{where}: {drawing.view.name}, {ratio(drawing.scale)}, {counts['visible']} visible and "
+        f"{counts['hidden']} hidden lines, {seconds:.1f} s",
+        err=True,
+    )

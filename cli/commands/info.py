@@ -1,0 +1,106 @@
+"""`hlr info`: what a model consists of, and what is wrong with it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..exits import warn
+from ..meter import meter
+from ..streams import put, result_only
+
+if TYPE_CHECKING:
+    from hlr.scene.report import ModelInfo, PartReport
+
+_HEADINGS = ("part", "solids", "faces", "edges", "triangles", "closed", "defects")
+_LONGEST_NAME = 40
+
+
+@click.command(short_help="Parts, faces, edges, triangles and defects of a model.")
+@click.argument("source")
+@click.option(
+    "--crease",
+    type=click.FloatRange(0.0, 180.0),
+    metavar="DEG",
+    default=30.0,
+    help="Meshes: fold that counts as an edge. Default: 30.",
+)
+@click.option("--json", "as_json", is_flag=True, help="For machines.")
+@click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
+def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
+    """Say what SOURCE consists of, part by part, and what is wrong with it.
+
+    closed: every edge has a face on both sides, and the faces agree on what is outside.
+    """
+    with result_only() as stream:
+        with meter(quiet) as progress:
+            import hlr
+
+            model = hlr.info(source, crease=crease, progress=progress)
+        if as_json:
+            text = json.dumps(_document(model), indent=2)
+        else:
+            text = _table(model)
+            for note in model.notes:
+                warn(note)
+        encoding = sys.stdout.encoding or "utf-8"
+        put(stream, (text + "\n").encode(encoding, "replace"))
+
+
+def _document(model: ModelInfo) -> dict[str, Any]:
+    return {
+        "source": model.source,
+        "kind": model.kind,
+        "unit": float(model.unit),
+        "bounds": [[float(x) for x in corner] for corner in model.bounds],
+        "parts": [
+            {
+                "name": part.name,
+                "color": None if part.color is None else [float(x) for x in part.color],
+                "solids": int(part.solids),
+                "faces": int(part.faces),
+                "edges": int(part.edges),
+                "triangles": int(part.triangles),
+                "closed": bool(part.closed),
+                "oriented": bool(part.oriented),
+                "defects": list(part.defects),
+            }
+            for part in model.parts
+        ],
+        "notes": list(model.notes),
+    }
+
+
+def _table(model: ModelInfo) -> str:
+    low, high = model.bounds
+    size = " x ".join(f"{(b - a) * model.unit:.6g}" for a, b in zip(low, high, strict=True))
+    unit = "" if model.unit == 1.0 else f", 1 unit = {model.unit:g} mm"
+    rows = [_HEADINGS, *(_row(part) for part in model.parts)]
+    if len(model.parts) > 1:
+        rows.append(_total(model))
+    widths = [max(len(row[i]) for row in rows) for i in range(len(_HEADINGS))]
+    lines = [f"{model.source}: {model.kind}, {size} mm{unit}", ""]
+    for row in rows:
+        cells = [row[0].ljust(widths[0])]
+        cells += [cell.rjust(width) for cell, width in zip(row[1:6], widths[1:6], strict=True)]
+        lines.append("  ".join([*cells, row[6]]).rstrip())
+    return "\n".join(lines)
+
+
+def _row(part: PartReport) -> tuple[str, ...]:
+    name = "".join(c if c.isprintable() else "?" for c in part.name)
+    if len(name) > _LONGEST_NAME:
+        name = name[: _LONGEST_NAME - 1] + "…"
+    closed = "no" if not part.closed else "yes" if part.oriented else "twisted"
+    counts = (str(n) for n in (part.solids, part.faces, part.edges, part.triangles))
+    return (name, *counts, closed, "; ".join(part.defects))
+
+
+def _total(model: ModelInfo) -> tuple[str, ...]:
+    parts = model.parts
+    sums = (sum(getattr(part, name) for part in parts) for name in _HEADINGS[1:5])
+    closed = sum(part.closed and part.oriented for part in parts)
+    return (f"{len(parts)} parts", *(str(n) for n in sums), f"{closed}/{len(parts)}", "")

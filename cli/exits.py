@@ -1,0 +1,105 @@
+"""How the command ends: one sentence and an exit code for everything that can go wrong."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Sequence
+from typing import NoReturn
+
+import click
+
+from hlr.errors import HlrError
+
+from . import signals
+
+REFUSED = 2
+FAULT = 1
+
+
+def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run a command and leave the process."""
+    signals.at_once()
+    try:
+        result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
+        sys.stdout.flush()
+        _leave(result if isinstance(result, int) else 0)
+    except click.exceptions.NoArgsIsHelpError as error:
+        print(error.format_message(), file=sys.stderr)
+        _leave(REFUSED)
+    except click.UsageError as error:
+        path = error.ctx.command_path if error.ctx else "hlr"
+        _refuse(f"{_sentence(error.format_message())} (see {path} --help)")
+    except click.ClickException as error:
+        _refuse(error.format_message())
+    except HlrError as error:
+        _debug()
+        _refuse(str(error))
+    except signals.Stopped as stopped:
+        signals.die_by(stopped.number)
+    except (KeyboardInterrupt, click.Abort):
+        signals.die_by(signal.SIGINT)
+    except BrokenPipeError:
+        _broken_pipe()
+    except MemoryError:
+        _debug()
+        _refuse("out of memory; a larger --accuracy needs less")
+    except SystemExit:
+        raise
+    except BaseException as error:  # a panic of the kernel is no Exception
+        _debug()
+        _report(error)
+
+
+def warn(message: str) -> None:
+    """A warning on standard error."""
+    print(f"hlr: warning: {_one_line(message)}", file=sys.stderr)
+
+
+def _refuse(message: str) -> NoReturn:
+    print(f"hlr: {_one_line(message)}", file=sys.stderr)
+    _leave(REFUSED)
+
+
+def _report(error: BaseException) -> NoReturn:
+    text = _one_line(str(error)) or "no message"
+    print(
+        f"hlr: internal error: {type(error).__name__}: {text}; this is a fault of hlr, please report it with the "
+        "command and, if you may share it, the model (HLR_DEBUG=1 shows the traceback)",
+        file=sys.stderr,
+    )
+    _leave(FAULT)
+
+
+def _debug() -> None:
+    """Show the traceback of the current exception where it was asked for."""
+    if os.environ.get("HLR_DEBUG", "") not in ("", "0"):
+        import traceback
+
+        traceback.print_exc()
+
+
+def _broken_pipe() -> NoReturn:
+    """The reader of the output has gone: end without a word, as other programs do."""
+    if hasattr(signal, "SIGPIPE"):
+        signals.die_by(signal.SIGPIPE)
+    os._exit(0)
+
+
+def _leave(code: int) -> NoReturn:
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _broken_pipe()
+    sys.exit(code)
+
+
+def _sentence(message: str) -> str:
+    """A message of click in the style of ours: it starts small and has no full stop."""
+    text = message.rstrip(".")
+    return text[:1].lower() + text[1:]
+
+
+def _one_line(message: str) -> str:
+    return " ".join(message.split())

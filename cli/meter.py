@@ -1,0 +1,60 @@
+"""Progress on a terminal, drawn by a small process of its own.
+
+OpenCASCADE keeps the interpreter for seconds, so a thread could not draw; and Ctrl-C ends this process without a
+chance to tidy the terminal. A child does both: it draws for as long as its input is open, then clears its line.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+Progress = Callable[[str, float], None]
+
+# Seconds between two reports of one stage: the eye needs no more, and the child has to read them all.
+_PERIOD = 0.05
+
+
+@contextlib.contextmanager
+def meter(quiet: bool) -> Iterator[Progress | None]:
+    """Yield what the stages call with their name and the fraction done; None where nobody would see it."""
+    if quiet or not sys.stderr.isatty():
+        yield None
+        return
+    try:
+        # -P: the folder that hlr was started in must not provide modules.
+        child = subprocess.Popen(
+            [sys.executable, "-P", "-m", f"{__package__}.meter_process"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+        )
+    except OSError:  # drawing matters more than showing progress
+        yield None
+        return
+    try:
+        yield _sender(child)
+    finally:
+        with contextlib.suppress(OSError):
+            if child.stdin is not None:
+                child.stdin.close()
+        child.wait()
+
+
+def _sender(child: subprocess.Popen[bytes]) -> Progress:
+    shown, at = "", 0.0
+
+    def report(stage: str, fraction: float) -> None:
+        nonlocal shown, at
+        now = time.monotonic()
+        if stage == shown and now - at < _PERIOD:
+            return
+        shown, at = stage, now
+        with contextlib.suppress(OSError, ValueError):
+            if child.stdin is not None:
+                child.stdin.write(f"{fraction:.4f} {stage}\n".encode())
+                child.stdin.flush()
+
+    return report

@@ -1,0 +1,84 @@
+"""What may stand behind an option: vectors, scales, sizes."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import click
+
+Vector3 = tuple[float, float, float]
+
+
+class Vector(click.ParamType[Vector3]):
+    """Three numbers: X,Y,Z."""
+
+    name = "X,Y,Z"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> Vector3:
+        """Three finite numbers."""
+        vector = vector_of(str(value))
+        if vector is None:
+            self.fail(f"{value!r} is not three numbers such as 1,-1,1", param, ctx)
+        return vector
+
+
+class ViewName(click.ParamType[str | Vector3]):
+    """A named view, or a direction from the object toward the viewer."""
+
+    name = "NAME|X,Y,Z"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str | Vector3:
+        """A vector where there is a comma; any other text is a name, which the view stage knows."""
+        text = str(value).strip()
+        if "," not in text:
+            return text
+        vector = vector_of(text)
+        if vector is None:
+            self.fail(f"{text!r} is neither a name such as iso nor three numbers such as 1,-1,1", param, ctx)
+        return vector
+
+
+class Scale(click.ParamType[float]):
+    """Paper to model: 1:2, 0.5 or 2."""
+
+    name = "1:2|0.5|2"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """A positive number."""
+        paper, colon, model = str(value).partition(":")
+        above, below = number_of(paper), number_of(model) if colon else 1.0
+        if above is None or below is None or above <= 0.0 or below <= 0.0:
+            self.fail(f"{value!r} is not a scale such as 1:2, 0.5 or 2", param, ctx)
+        return above / below
+
+
+class Size(click.ParamType[tuple[float, float]]):
+    """Width and height in millimetres: 200x150."""
+
+    name = "WxH"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
+        """Two positive numbers."""
+        sides = [number_of(side) for side in re.split("[xX×]", str(value))]
+        match sides:
+            case [float(width), float(height)] if width > 0.0 and height > 0.0:
+                return (width, height)
+        self.fail(f"{value!r} is not a size in millimetres such as 200x150", param, ctx)
+
+
+def vector_of(text: str) -> Vector3 | None:
+    """Three finite numbers with commas between them, or None."""
+    match [number_of(part) for part in text.split(",")]:
+        case [float(x), float(y), float(z)]:
+            return (x, y, z)
+    return None
+
+
+def number_of(text: str) -> float | None:
+    """A finite number, or None."""
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None

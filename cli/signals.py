@@ -1,0 +1,67 @@
+"""Ctrl-C at any moment: at once while computing, tidily while writing.
+
+OpenCASCADE keeps the interpreter for seconds, and a Python signal handler would wait for it. So while computing, the
+system's own handling ends the process: nothing has been written yet. Only while files are written do the signals
+become an exception, so that half-written files are removed.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import NoReturn
+
+_STOPPING = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
+)
+
+
+class Stopped(BaseException):
+    """A signal asked the process to end while it was writing."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.number = number
+
+
+def at_once() -> None:
+    """Let Ctrl-C end the process without Python's help."""
+    # An ignored signal stays ignored: that is how a shell protects its background jobs.
+    if _in_main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+@contextmanager
+def tidily() -> Iterator[None]:
+    """Within this block, a signal raises Stopped."""
+    if not _in_main_thread():
+        yield
+        return
+    before = {number: signal.getsignal(number) for number in _STOPPING}
+    caught = [number for number, handler in before.items() if handler == signal.SIG_DFL]
+    for number in caught:
+        signal.signal(number, _stop)
+    try:
+        yield
+    finally:
+        for number in caught:
+            signal.signal(number, before[number])
+
+
+def die_by(number: int) -> NoReturn:
+    """End the process by a signal, so that the caller sees the true reason (130 in a shell for Ctrl-C)."""
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
+    os._exit(128 + number)  # where a signal does not end the process at once
+
+
+def _stop(number: int, frame: FrameType | None) -> NoReturn:
+    raise Stopped(number)
+
+
+def _in_main_thread() -> bool:
+    return threading.current_thread() is threading.main_thread()

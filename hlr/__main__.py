@@ -1,0 +1,5 @@
+"""`python -m hlr` is the command line."""
+
+from hlr.cli import main
+
+main()

@@ -1,0 +1,66 @@
+"""Files appear whole or not at all: written beside their place, then renamed into it."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import stat
+from collections.abc import Mapping
+from pathlib import Path
+
+from hlr.errors import WriteError
+
+
+def check(path: Path) -> None:
+    """Raise WriteError where `path` clearly cannot be written: no folder, a folder in its place, no permission."""
+    folder = path.parent
+    if not folder.exists():
+        raise WriteError(f"cannot write {path}: the folder {folder} does not exist; create it first")
+    if not folder.is_dir():
+        raise WriteError(f"cannot write {path}: {folder} is not a folder")
+    if path.is_dir():
+        raise WriteError(f"cannot write {path}: it is a folder; give a file name")
+    if path.exists():
+        # Renaming would replace even a file that is write-protected.
+        if not os.access(path, os.W_OK):
+            raise WriteError(f"cannot write {path}: the file is write-protected")
+    elif not os.access(folder, os.W_OK | os.X_OK):
+        raise WriteError(f"cannot write {path}: no permission to write into the folder {folder}")
+
+
+def place(files: Mapping[Path, bytes]) -> None:
+    """Write all files, or none: earlier content stays until every new file is complete on disk.
+
+    Raises WriteError, in one sentence, where the system refuses.
+    """
+    staged: list[tuple[Path, Path, Path]] = []
+    path = Path()
+    try:
+        for path, data in files.items():
+            check(path)
+            if path.exists() and not path.is_file():  # a pipe or a device has no content to protect
+                path.write_bytes(data)
+                continue
+            # Through a symbolic link to the file it means, not onto the link.
+            target = Path(os.path.realpath(path))
+            beside = target.with_name(f".{target.name[:100]}.{secrets.token_hex(4)}.tmp")
+            staged.append((path, beside, target))
+            _fill(beside, data, target)
+        for asked, beside, target in staged:
+            path = asked
+            beside.replace(target)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise WriteError(f"cannot write {path}: {reason[:1].lower()}{reason[1:]}") from error
+    finally:
+        for _, beside, _ in staged:
+            with contextlib.suppress(OSError):
+                beside.unlink(missing_ok=True)
+
+
+def _fill(beside: Path, data: bytes, target: Path) -> None:
+    with open(beside, "xb") as file:
+        file.write(data)
+    if target.exists():
+        os.chmod(beside, stat.S_IMODE(target.stat().st_mode))

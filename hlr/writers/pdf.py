@@ -1,0 +1,108 @@
+"""PDF: one page of the drawing's size, vector lines, one layer (optional content group) per line class and visibility.
+
+The same drawing gives the same bytes: there are no dates, and the file identifier is a digest of the content.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import zlib
+
+import numpy as np
+import pydyf
+
+from hlr.drawing import Drawing
+from hlr.writers import style
+from hlr.writers.number import encode, number
+from hlr.writers.strokes import Layer, Strokes, strokes
+from hlr.writers.svg import title
+
+_POINTS_PER_MM = 72.0 / 25.4
+# The largest page side that PDF 1.7 allows, in its user units; beyond it the unit itself grows.
+_MAX_SIDE = 14400.0
+# Four times as fast as the highest level of compression, and 6 % larger.
+_LEVEL = 4
+
+
+def pdf(drawing: Drawing) -> bytes:
+    """The drawing as a PDF file. Raises WriteError where a point is not finite."""
+    page = strokes(drawing)
+    document = pydyf.PDF()
+    layers = []
+    for layer in page.layers:
+        group = pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(layer_name(layer.kind, layer.visible))})
+        document.add_object(group)
+        layers.append(group.reference)
+
+    unit = 10.0**-page.places
+    side = max(page.width, page.height) * unit * _POINTS_PER_MM
+    user_unit = max(1, math.ceil(side / _MAX_SIDE))
+    factor = _POINTS_PER_MM / user_unit
+    content = zlib.compress(_content(page, factor), _LEVEL)
+    stream = pydyf.Stream([content], {"Filter": "/FlateDecode"})
+    document.add_object(stream)
+
+    names = {f"L{i}": reference for i, reference in enumerate(layers)}
+    sheet = {
+        "Type": "/Page",
+        "Parent": document.pages.reference,
+        "MediaBox": pydyf.Array([0, 0, _real(page.width * unit * factor), _real(page.height * unit * factor)]),
+        "Contents": stream.reference,
+        "Resources": pydyf.Dictionary({"Properties": pydyf.Dictionary(names)}),
+    }
+    if user_unit > 1:
+        sheet["UserUnit"] = user_unit
+    document.add_page(pydyf.Dictionary(sheet))
+    if layers:
+        # The layer list of a viewer reads from the top: visible lines first.
+        order = pydyf.Array(layers[::-1])
+        shown = pydyf.Dictionary({"Order": order, "ON": pydyf.Array(layers), "Name": pydyf.String("Drawing")})
+        document.catalog["OCProperties"] = pydyf.Dictionary({"OCGs": pydyf.Array(layers), "D": shown})
+    document.info["Title"] = pydyf.String(title(drawing).encode("utf-8", "replace").decode("utf-8"))
+    document.info["Creator"] = pydyf.String("hlr")
+    out = io.BytesIO()
+    document.write(out, version=b"1.7", identifier=True)
+    return out.getvalue()
+
+
+def layer_name(kind: str, visible: bool) -> str:
+    """The name of a layer as a viewer lists it: "Visible sharp"."""
+    return f"{'Visible' if visible else 'Hidden'} {kind}"
+
+
+def _content(page: Strokes, factor: float) -> bytes:
+    """The page's drawing commands, in millimetres."""
+    unit = 10.0**-page.places
+    shift = f"{_real(-page.left * unit * factor)} {_real(-page.bottom * unit * factor)}"
+    out = [f"{_real(factor)} 0 0 {_real(factor)} {shift} cm 1 j\n".encode("ascii")]
+    for index, layer in enumerate(page.layers):
+        dash = style.dash(layer.visible)
+        pattern = " ".join(number(v) for v in dash) if dash else ""
+        # Round caps would lengthen each dash by the line width.
+        cap = 0 if dash else 1
+        width = number(style.width(layer.kind, layer.visible))
+        out.append(f"/OC /L{index} BDC {width} w {cap} J [{pattern}] 0 d\n".encode("ascii"))
+        out.extend(_paths(layer, page.places))
+        out.append(b"EMC\n")
+    return b"".join(out)
+
+
+def _paths(layer: Layer, places: int) -> list[bytes]:
+    """One painted path per stroke: a single path for a whole layer is slow in viewers."""
+    n = len(layer.points)
+    starts = layer.starts[:-1]
+    before = np.zeros((n, 2, 3), np.uint8)
+    before[:, 0] = np.frombuffer(b" l ", np.uint8)
+    before[starts + 1, 0] = np.frombuffer(b" m ", np.uint8)
+    before[starts, 0] = 0
+    before[:, 1, 0] = ord(" ")
+    text, ends = encode(layer.points.reshape(-1), places, before.reshape(2 * n, 3))
+    offsets = ends[2 * layer.starts].tolist()
+    spans = zip(offsets[:-1], offsets[1:], layer.closed.tolist(), strict=True)
+    return [text[start:end] + (b" l s\n" if closed else b" l S\n") for start, end, closed in spans]
+
+
+def _real(value: float) -> str:
+    """A number as PDF wants it: no exponent."""
+    return number(value, 9)

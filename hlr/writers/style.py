@@ -1,0 +1,35 @@
+"""Line types and the page: ISO 128 widths and dashes, and the frame around the lines."""
+
+from __future__ import annotations
+
+WIDE = 0.5
+"""Width of visible lines in millimetres (line group 0.5)."""
+
+NARROW = 0.25
+"""Width of hidden lines, tangent edges and seams: half of WIDE."""
+
+DASH = (12.0, 3.0)
+"""Dash and gap of hidden lines, in multiples of the line width."""
+
+MARGIN = 5.0
+"""Empty border around the drawing in millimetres; the width of a line is added."""
+
+KINDS = ("smooth", "seam", "boundary", "intersection", "sharp", "outline")
+"""Line classes in the order of drawing: the narrow ones first, so that wide lines end on top."""
+
+
+def width(kind: str, visible: bool) -> float:
+    """Line width in millimetres."""
+    return WIDE if visible and kind not in ("smooth", "seam") else NARROW
+
+
+def dash(visible: bool) -> tuple[float, float] | None:
+    """Dash and gap in millimetres; None for a continuous line."""
+    return None if visible else (DASH[0] * NARROW, DASH[1] * NARROW)
+
+
+def ratio(scale: float) -> str:
+    """A scale as a drawing states it: 0.5 is "1:2"."""
+    if scale >= 1.0:
+        return f"{scale:.6g}:1"
+    return f"1:{1.0 / scale:.6g}"
