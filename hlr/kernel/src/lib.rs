@@ -2,6 +2,7 @@
 
 pub mod bind;
 pub mod exact;
+pub mod lines;
 pub mod scan;
 
 use pyo3::prelude::*;
@@ -10,5 +11,7 @@ use pyo3::prelude::*;
 fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     Ok(())
 }

@@ -1,4 +1,5 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry.
 
+pub mod lines;
 pub mod running;
 pub mod scan;

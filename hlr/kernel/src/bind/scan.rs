@@ -25,18 +25,18 @@ pub fn rows<'a, T: numpy::Element, const N: usize>(
     Ok(rows)
 }
 
-fn flat<'a, T: numpy::Element>(array: &'a PyReadonlyArray1<'_, T>, name: &str) -> PyResult<&'a [T]> {
+pub fn flat<'a, T: numpy::Element>(array: &'a PyReadonlyArray1<'_, T>, name: &str) -> PyResult<&'a [T]> {
     array.as_slice().map_err(|_| PyValueError::new_err(format!("{name} must be contiguous")))
 }
 
-fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
+pub fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
     if found == wanted {
         return Ok(());
     }
     Err(PyValueError::new_err(format!("{name} has {found} entries, {wanted} are needed")))
 }
 
-fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize) -> PyResult<()> {
+pub fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize) -> PyResult<()> {
     for v in values {
         if v < 0 || v as usize >= limit {
             return Err(PyValueError::new_err(format!("{name} holds {v}, allowed are 0..{limit}")));

@@ -1,0 +1,257 @@
+//! Of lines that coincide on paper one is kept: the front view of a box is four lines, not eight.
+//!
+//! A line yields where a better one (lower rank: visible first, then kind, then nearer) runs within `width` of it in
+//! nearly its direction. Ranks are a strict order, so of two lines exactly one yields and nothing is lost.
+//!
+//! ```text
+//!   better  ===================
+//!   worse        - - - - - - - - - - - -      yields on the left, stays on the right
+//! ```
+
+use rayon::prelude::*;
+
+use super::{Polyline, distance};
+use crate::exact::Point;
+use crate::exact::snap::Grid;
+use crate::scan::bands::{Bands, clipped_x, y_range};
+
+/// Sine of the angle beyond which two lines cross rather than coincide. Generous: chords of one circle, cut
+/// differently, differ in direction; a mere crossing is told apart by the length it covers.
+const PARALLEL: f64 = 0.5;
+/// Covered stretches shorter than this many widths are crossings.
+const CROSSING: f64 = 6.0;
+
+struct Side {
+    line: u32,
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+struct Entry {
+    xmin: i32,
+    xmax: i32,
+    side: u32,
+}
+
+/// Remove what better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
+pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], width: f64) -> Vec<Polyline> {
+    let mut sides = Vec::new();
+    let mut first_side = Vec::with_capacity(lines.len());
+    for (i, line) in lines.iter().enumerate() {
+        first_side.push(sides.len());
+        for w in line.flat.windows(2) {
+            sides.push(Side { line: i as u32, from: w[0], to: w[1] });
+        }
+    }
+    let hits = coverings(&sides, rank, width);
+    let mut by_line: Vec<Vec<(f64, f64)>> = vec![Vec::new(); lines.len()];
+    let starts: Vec<f64> = lines
+        .iter()
+        .flat_map(|line| {
+            line.flat.windows(2).scan(0.0, |at, w| {
+                let start = *at;
+                *at += distance(&w[0], &w[1]);
+                Some(start)
+            })
+        })
+        .collect();
+    for (side, u0, u1) in hits {
+        let s = &sides[side as usize];
+        let length = distance(&s.from, &s.to);
+        let start = starts[side as usize];
+        by_line[s.line as usize].push((start + u0 * length, start + u1 * length));
+    }
+    lines
+        .into_par_iter()
+        .zip(by_line.into_par_iter())
+        .flat_map_iter(|(line, covered)| if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width) })
+        .collect()
+}
+
+/// (side, from, to): stretches of sides covered by sides of better lines.
+fn coverings(sides: &[Side], rank: &[u32], width: f64) -> Vec<(u32, f64, f64)> {
+    let corners: Vec<[f64; 3]> =
+        sides.iter().flat_map(|s| [[s.from[0], s.from[1], 0.0], [s.to[0], s.to[1], 0.0]]).collect();
+    let Some(grid) = Grid::around(&corners) else { return Vec::new() };
+    let snapped: Vec<Point> = corners.iter().map(|p| grid.snap(p)).collect();
+    let reach = (width * grid.scale_xy).ceil().min(f64::from(1 << 29)) as i32 + 1;
+    let grow = |(low, high): (i32, i32)| (low.saturating_sub(reach), high.saturating_add(reach));
+    let ranges: Vec<(i32, i32)> = snapped.chunks_exact(2).map(|p| grow(y_range(&p[0], &p[1]))).collect();
+    let bands = Bands::choose(&ranges, 2.0);
+    let (offsets, items) = bands.bucket(&ranges);
+    let mut found: Vec<(u32, f64, f64)> = (0..bands.count)
+        .into_par_iter()
+        .flat_map_iter(|k| {
+            let (y0, y1) = bands.limits(k);
+            let (y0, y1) = (y0 - i64::from(reach), y1 + i64::from(reach));
+            let mut entries: Vec<Entry> = items[offsets[k] as usize..offsets[k + 1] as usize]
+                .iter()
+                .map(|&i| {
+                    let i = i as usize;
+                    let (xmin, xmax) = grow(clipped_x(&snapped[2 * i], &snapped[2 * i + 1], y0, y1));
+                    Entry { xmin, xmax, side: i as u32 }
+                })
+                .collect();
+            entries.sort_unstable_by_key(|e| (e.xmin, e.side));
+            sweep(&entries, sides, &ranges, rank, width)
+        })
+        .collect();
+    found.par_sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+    found.dedup();
+    found
+}
+
+fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32], width: f64) -> Vec<(u32, f64, f64)> {
+    let mut active: Vec<&Entry> = Vec::new();
+    let mut found = Vec::new();
+    for e in entries {
+        let (s, range) = (&sides[e.side as usize], ranges[e.side as usize]);
+        let mut i = 0;
+        while i < active.len() {
+            let other = active[i];
+            if other.xmax < e.xmin {
+                active.swap_remove(i);
+                continue;
+            }
+            i += 1;
+            let o = ranges[other.side as usize];
+            if range.0 > o.1 || o.0 > range.1 {
+                continue;
+            }
+            let t = &sides[other.side as usize];
+            if s.line == t.line {
+                continue;
+            }
+            let (worse, better, id) =
+                if rank[s.line as usize] > rank[t.line as usize] { (s, t, e.side) } else { (t, s, other.side) };
+            if let Some((u0, u1)) = covered(worse, better, width) {
+                found.push((id, u0, u1));
+            }
+        }
+        active.push(e);
+    }
+    found
+}
+
+/// The stretch of `worse` within `width` of `better`, as parameters on `worse`.
+fn covered(worse: &Side, better: &Side, width: f64) -> Option<(f64, f64)> {
+    let (a, b, p, q) = (&worse.from, &worse.to, &better.from, &better.to);
+    let (vx, vy) = (q[0] - p[0], q[1] - p[1]);
+    let (ux, uy) = (b[0] - a[0], b[1] - a[1]);
+    let (m, l) = ((vx * vx + vy * vy).sqrt(), (ux * ux + uy * uy).sqrt());
+    if m == 0.0 || l == 0.0 || (vx * uy - vy * ux).abs() > PARALLEL * m * l {
+        return None;
+    }
+    let away = |x: &[f64; 2]| (vx * (x[1] - p[1]) - vy * (x[0] - p[0])) / m;
+    let along = |x: &[f64; 2]| (vx * (x[0] - p[0]) + vy * (x[1] - p[1])) / m;
+    let (mut u0, mut u1) = (0.0f64, 1.0f64);
+    for (start, end, low, high) in [(away(a), away(b), -width, width), (along(a), along(b), -width, m + width)] {
+        let slope = end - start;
+        if slope == 0.0 {
+            if start < low || start > high {
+                return None;
+            }
+            continue;
+        }
+        let (s, t) = ((low - start) / slope, (high - start) / slope);
+        u0 = u0.max(s.min(t));
+        u1 = u1.min(s.max(t));
+    }
+    (u1 > u0).then_some((u0, u1))
+}
+
+/// What is left of a line without the covered stretches (in arc length).
+fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64) -> Vec<Polyline> {
+    covered.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let total = line.length();
+    let mut merged: Vec<(f64, f64)> = Vec::new();
+    for (from, to) in covered {
+        match merged.last_mut() {
+            Some(last) if from <= last.1 + 2.0 * width => last.1 = last.1.max(to),
+            _ => merged.push((from, to)),
+        }
+    }
+    if let Some(first) = merged.first_mut()
+        && first.0 <= 2.0 * width
+    {
+        first.0 = 0.0;
+    }
+    if let Some(last) = merged.last_mut()
+        && last.1 >= total - 2.0 * width
+    {
+        last.1 = total;
+    }
+    merged.retain(|&(from, to)| to - from >= CROSSING * width || to - from >= total);
+    if merged.is_empty() {
+        return vec![line.clone()];
+    }
+    let mut out = Vec::new();
+    let mut from = 0.0;
+    for &(start, end) in merged.iter().chain([&(total, total)]) {
+        if start > from {
+            out.push(stretch(line, from, start));
+        }
+        from = end;
+    }
+    out.retain(|l| l.flat.len() > 1);
+    out
+}
+
+/// The part of a line between two arc lengths.
+fn stretch(line: &Polyline, from: f64, to: f64) -> Polyline {
+    let mut out = Polyline { chain: line.chain, visible: line.visible, ..Polyline::default() };
+    let mut at = 0.0;
+    for i in 1..line.flat.len() {
+        let (a, b) = (&line.flat[i - 1], &line.flat[i]);
+        let length = distance(a, b);
+        let (start, end) = (at, at + length);
+        at = end;
+        let is_last = i + 1 == line.flat.len();
+        if length == 0.0 || end < from || start > to {
+            continue;
+        }
+        let mut put = |u: f64| {
+            let mix = |x: f64, y: f64| x + (y - x) * u;
+            let flat = [mix(a[0], b[0]), mix(a[1], b[1])];
+            let (p, q) = (&line.space[i - 1], &line.space[i]);
+            if out.flat.last() != Some(&flat) {
+                out.flat.push(flat);
+                out.space.push([mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])]);
+            }
+        };
+        put(((from - start) / length).clamp(0.0, 1.0));
+        put(if is_last && to >= end { 1.0 } else { ((to - start) / length).clamp(0.0, 1.0) });
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(visible: bool, points: &[[f64; 2]]) -> Polyline {
+        let space = points.iter().map(|p| [p[0], p[1], 0.0]).collect();
+        Polyline { chain: 0, visible, flat: points.to_vec(), space }
+    }
+
+    #[test]
+    fn coincident_lines_are_drawn_once() {
+        let lines = vec![
+            line(true, &[[0.0, 0.0], [10.0, 0.0]]),
+            line(false, &[[10.0, 0.0], [4.0, 0.0], [4.0, 5.0]]),
+            line(false, &[[6.0, 0.001], [20.0, 0.001]]),
+        ];
+        let rest = uncovered(lines, &[0, 1, 2], 0.01);
+        assert_eq!(rest.len(), 3);
+        assert_eq!(rest[1].flat[1], [4.0, 5.0]);
+        assert!((rest[1].flat[0][1]).abs() < 0.05);
+        assert!((rest[2].flat[0][0] - 10.01).abs() < 0.05 && rest[2].flat[1][0] == 20.0);
+    }
+
+    #[test]
+    fn crossing_lines_are_left_alone() {
+        let lines = vec![line(true, &[[0.0, 0.0], [10.0, 0.0]]), line(false, &[[0.0, -2.0], [10.0, 2.0]])];
+        let rest = uncovered(lines.clone(), &[0, 1], 0.01);
+        assert_eq!(rest, lines);
+    }
+}

@@ -1,0 +1,33 @@
+//! From pieces of mesh edges to lines on paper:
+//!
+//! 1. `chain`     mesh edges that continue one another become chains (source edges come as chains already)
+//! 2. `runs`      along a chain: equal states join, doubtful and short ones are settled, lines are cut out
+//! 3. `cover`     of lines that coincide on paper one is kept; visible beats hidden
+//! 4. `specks`    what is shorter than the accuracy, even with all it connects to, is dropped
+//! 5. `simplify`  vertices that the accuracy does not need are left out
+
+pub mod chain;
+pub mod cover;
+pub mod runs;
+pub mod simplify;
+pub mod specks;
+
+/// A line on paper with its twin in space, point for point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polyline {
+    pub chain: u32,
+    pub visible: bool,
+    pub flat: Vec<[f64; 2]>,
+    pub space: Vec<[f64; 3]>,
+}
+
+pub fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    let (x, y) = (b[0] - a[0], b[1] - a[1]);
+    (x * x + y * y).sqrt()
+}
+
+impl Polyline {
+    pub fn length(&self) -> f64 {
+        self.flat.windows(2).map(|w| distance(&w[0], &w[1])).sum()
+    }
+}

@@ -1,0 +1,273 @@
+//! Along one chain: join equal states, settle the doubtful and the too short, cut out the lines.
+//!
+//! ```text
+//!   states   V V V W H H H W W W W W V     W: hidden by less than the contact tolerance
+//!   settled  V V V H H H H V V V V V V     a short W beside H is a stub of the tolerance; a long one is a contact
+//! ```
+
+use super::{Polyline, distance};
+use crate::scan::invisibility::State;
+
+/// A piece of one mesh edge; parameters run from the edge's first to its second vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    pub start: f64,
+    pub end: f64,
+    pub state: State,
+}
+
+pub struct Geometry<'a> {
+    /// Millimetres on paper.
+    pub flat: &'a [[f64; 2]],
+    /// Model coordinates.
+    pub space: &'a [[f64; 3]],
+    /// Distance from the eye plane for perspective views; empty for orthographic ones.
+    pub depth: &'a [f64],
+    pub edges: &'a [[i32; 2]],
+    /// Pieces of edge e: pieces[piece_offsets[e]..piece_offsets[e + 1]], ascending.
+    pub pieces: &'a [Piece],
+    pub piece_offsets: &'a [u32],
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// A run shorter than this takes the state of what lies beside it.
+    pub short: f64,
+    /// A contact run shorter than this beside a hidden one is hidden.
+    pub stub: f64,
+}
+
+/// A stretch of constant state between two stops, each (position in the chain, parameter along the walk).
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    state: State,
+    from: (usize, f64),
+    to: (usize, f64),
+    length: f64,
+}
+
+struct Chain<'a> {
+    geometry: &'a Geometry<'a>,
+    edges: &'a [i32],
+    reversed: &'a [bool],
+}
+
+impl Chain<'_> {
+    fn ends(&self, k: usize) -> (usize, usize) {
+        let [a, b] = self.geometry.edges[self.edges[k] as usize];
+        if self.reversed[k] { (b as usize, a as usize) } else { (a as usize, b as usize) }
+    }
+
+    fn at(&self, (k, t): (usize, f64)) -> ([f64; 2], [f64; 3]) {
+        let g = self.geometry;
+        let (a, b) = self.ends(k);
+        if t <= 0.0 {
+            return (g.flat[a], g.space[a]);
+        }
+        if t >= 1.0 {
+            return (g.flat[b], g.space[b]);
+        }
+        let mut u = t;
+        if !g.depth.is_empty() {
+            // Image-linear to space-linear: 1 / depth is what is linear on paper.
+            let (za, zb) = (g.depth[a], g.depth[b]);
+            u = t * za / (t * za + (1.0 - t) * zb);
+        }
+        let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
+        let flat = [mix(g.flat[a][0], g.flat[b][0], t), mix(g.flat[a][1], g.flat[b][1], t)];
+        let (p, q) = (&g.space[a], &g.space[b]);
+        (flat, [mix(p[0], q[0], u), mix(p[1], q[1], u), mix(p[2], q[2], u)])
+    }
+
+    /// Contiguous stretches, each a list of runs in alternating states.
+    fn stretches(&self) -> Vec<Vec<Run>> {
+        let g = self.geometry;
+        let mut out: Vec<Vec<Run>> = Vec::new();
+        let mut broken = true;
+        for k in 0..self.edges.len() {
+            let e = self.edges[k] as usize;
+            let pieces = &g.pieces[g.piece_offsets[e] as usize..g.piece_offsets[e + 1] as usize];
+            let (a, b) = self.ends(k);
+            if pieces.is_empty() {
+                // Seen end-on the chain goes on through it; anything longer was clipped away.
+                broken |= g.flat[a] != g.flat[b];
+                continue;
+            }
+            let whole = distance(&g.flat[a], &g.flat[b]);
+            for i in 0..pieces.len() {
+                let piece = if self.reversed[k] { &pieces[pieces.len() - 1 - i] } else { &pieces[i] };
+                let (s, t) =
+                    if self.reversed[k] { (1.0 - piece.end, 1.0 - piece.start) } else { (piece.start, piece.end) };
+                let run = Run { state: piece.state, from: (k, s), to: (k, t), length: whole * (t - s) };
+                match out.last_mut() {
+                    Some(last) if !broken => join(last, run),
+                    _ => out.push(vec![run]),
+                }
+                broken = false;
+            }
+        }
+        out
+    }
+
+    fn closed(&self) -> bool {
+        self.edges.len() > 1 && self.ends(0).0 == self.ends(self.edges.len() - 1).1
+    }
+
+    fn polyline(&self, runs: &[Run], id: u32) -> Polyline {
+        let mut line = Polyline { chain: id, visible: runs[0].state == State::Visible, ..Polyline::default() };
+        let mut put = |stop: (usize, f64)| {
+            let (flat, space) = self.at(stop);
+            if line.flat.last() != Some(&flat) {
+                line.flat.push(flat);
+                line.space.push(space);
+            }
+        };
+        for run in runs {
+            put(run.from);
+            for k in run.from.0..run.to.0 {
+                put((k, 1.0));
+            }
+            put(run.to);
+        }
+        line
+    }
+}
+
+fn join(runs: &mut Vec<Run>, run: Run) {
+    if let Some(last) = runs.last_mut()
+        && last.state == run.state
+    {
+        last.to = run.to;
+        last.length += run.length;
+        return;
+    }
+    runs.push(run);
+}
+
+/// Give run `i` the state `state` and join it with what lies beside it.
+fn rejoin(runs: Vec<Run>) -> Vec<Run> {
+    let mut out = Vec::with_capacity(runs.len());
+    for run in runs {
+        join(&mut out, run);
+    }
+    out
+}
+
+/// States beside run i; a closed chain goes round.
+fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
+    let n = runs.len();
+    let before = if i > 0 { Some(&runs[i - 1]) } else { (closed && n > 1).then(|| &runs[n - 1]) };
+    let after = if i + 1 < n { Some(&runs[i + 1]) } else { (closed && n > 1).then(|| &runs[0]) };
+    [before, after]
+}
+
+fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
+    let states: Vec<State> = (0..runs.len())
+        .map(|i| match runs[i].state {
+            State::Within => {
+                let stub = runs[i].length < limits.stub
+                    && beside(&runs, i, closed).iter().flatten().any(|r| r.state == State::Hidden);
+                if stub { State::Hidden } else { State::Visible }
+            }
+            known => known,
+        })
+        .collect();
+    for (run, state) in runs.iter_mut().zip(states) {
+        run.state = state;
+    }
+    runs = rejoin(runs);
+    // The shortest first: a run that grows by a merge may then be long enough.
+    while runs.len() > 1 {
+        let Some(i) = (0..runs.len()).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length)) else { break };
+        let wraps = closed && runs.len() > 2 && runs[0].state == runs[runs.len() - 1].state;
+        let ends = i == 0 || i + 1 == runs.len();
+        if runs[i].length >= limits.short {
+            break;
+        }
+        if wraps && ends && runs[0].length + runs[runs.len() - 1].length >= limits.short {
+            // The first and the last run are one, long enough; nothing shorter is left to look at beyond them.
+            let shortest_inner = (1..runs.len() - 1).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length));
+            match shortest_inner {
+                Some(k) if runs[k].length < limits.short => flip(&mut runs, k),
+                _ => break,
+            }
+        } else {
+            flip(&mut runs, i);
+        }
+        runs = rejoin(runs);
+    }
+    runs
+}
+
+fn flip(runs: &mut [Run], i: usize) {
+    runs[i].state = if runs[i].state == State::Visible { State::Hidden } else { State::Visible };
+}
+
+/// The lines of one chain.
+pub fn cut(geometry: &Geometry, edges: &[i32], reversed: &[bool], id: u32, limits: &Limits) -> Vec<Polyline> {
+    let chain = Chain { geometry, edges, reversed };
+    let mut out = Vec::new();
+    let stretches = chain.stretches();
+    let closed = stretches.len() == 1 && chain.closed();
+    for stretch in stretches {
+        let mut runs = settle(stretch, limits, closed);
+        let last = runs.len() - 1;
+        if closed && last > 0 && runs[0].state == runs[last].state {
+            // Start a closed chain where its state changes, so that no line is cut at an arbitrary vertex.
+            let tail = runs.remove(last);
+            let head = runs.remove(0);
+            for run in &runs {
+                out.push(chain.polyline(&[*run], id));
+            }
+            out.push(chain.polyline(&[tail, head], id));
+            continue;
+        }
+        for run in &runs {
+            out.push(chain.polyline(&[*run], id));
+        }
+    }
+    out.retain(|line| line.flat.len() > 1);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits { short: 0.5, stub: 2.0 };
+
+    /// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
+    fn lines(states: &[State]) -> Vec<(bool, f64, f64)> {
+        let n = states.len();
+        let flat: Vec<[f64; 2]> = (0..=n).map(|i| [i as f64, 0.0]).collect();
+        let space: Vec<[f64; 3]> = (0..=n).map(|i| [i as f64, 0.0, 0.0]).collect();
+        let edges: Vec<[i32; 2]> = (0..n as i32).map(|i| [i, i + 1]).collect();
+        let pieces: Vec<Piece> = states.iter().map(|&state| Piece { start: 0.0, end: 1.0, state }).collect();
+        let piece_offsets: Vec<u32> = (0..=n as u32).collect();
+        let g = Geometry {
+            flat: &flat,
+            space: &space,
+            depth: &[],
+            edges: &edges,
+            pieces: &pieces,
+            piece_offsets: &piece_offsets,
+        };
+        let ids: Vec<i32> = (0..n as i32).collect();
+        let found = cut(&g, &ids, &vec![false; n], 0, &LIMITS);
+        found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
+    }
+
+    #[test]
+    fn equal_states_join_across_mesh_edges() {
+        use State::{Hidden as H, Visible as V};
+        assert_eq!(lines(&[V, V, H, H, H]), [(true, 0.0, 2.0), (false, 2.0, 5.0)]);
+    }
+
+    #[test]
+    fn a_short_contact_beside_hidden_is_a_stub_and_a_long_one_is_seen() {
+        use State::{Hidden as H, Visible as V, Within as W};
+        assert_eq!(lines(&[V, W, H]), [(true, 0.0, 1.0), (false, 1.0, 3.0)]);
+        assert_eq!(lines(&[H, W, W, W]), [(false, 0.0, 1.0), (true, 1.0, 4.0)]);
+        assert_eq!(lines(&[W]), [(true, 0.0, 1.0)]);
+    }
+}
