@@ -20,13 +20,17 @@ class FormatError(ValueError):
 
 @dataclass(frozen=True)
 class Camera:
-    """Where the drawing was made from, in model coordinates; `direction` points toward the viewer."""
+    """Where the drawing was made from, in model coordinates; `direction` points toward the viewer.
+
+    eye, distance   perspective only: the eye, and how far before it the image plane lies
+    """
 
     name: str
     direction: Floats
     right: Floats
     up: Floats
     eye: Floats | None = None
+    distance: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -65,8 +69,10 @@ def _camera(view: Mapping[str, Any]) -> Camera:
             raise FormatError(f"view.{key} is not a unit vector: {axis}")
     if np.abs(np.cross(axes["right"], axes["up"]) - axes["direction"]).max() > 1e-6:
         raise FormatError("view: right x up is not the direction")
-    eye = _vector(view["eye"], "view.eye") if view["projection"] == "perspective" else None
-    return Camera(str(view["name"]), axes["direction"], axes["right"], axes["up"], eye)
+    if view["projection"] == "orthographic":
+        return Camera(str(view["name"]), axes["direction"], axes["right"], axes["up"])
+    eye, distance = _vector(view["eye"], "view.eye"), float(view["distance"])
+    return Camera(str(view["name"]), axes["direction"], axes["right"], axes["up"], eye, distance)
 
 
 def _line(number: int, entry: Mapping[str, Any], parts: int) -> DrawnLine:
@@ -102,7 +108,7 @@ def parse(document: Mapping[str, Any] | str | bytes) -> Exchange:
             parts=parts,
             scale=float(data["scale"]),
             origin=np.asarray(data["origin"], dtype=np.float64),
-            unit=float(data.get("unit", 1.0)),
+            unit=float(data["model"]["unit"]),
             document=data,
         )
     except KeyError as missing:

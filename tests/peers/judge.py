@@ -22,6 +22,8 @@ SHORTEST = 1 / 1000
 """Lines up to this are not judged; like the following in diagonals of the bounding box."""
 RADIUS = 1 / 3000
 DEPTH = 1 / 8000
+OFF = 1 / 10000
+"""Farthest that a point on paper may lie from the projection of its model position."""
 RING = 8
 CHUNK = 100_000
 
@@ -135,14 +137,19 @@ def _at(points: Floats, along: Floats) -> Floats:
 
 
 def _displaced(drawing: Exchange, diagonal: float) -> int:
-    """Vertices whose paper position is not (P.right, P.up) * unit * scale - origin. Orthographic only."""
-    if drawing.camera.eye is not None or not drawing.lines:
+    """Vertices that lie elsewhere on paper than where the format puts their model position."""
+    if not drawing.lines:
         return 0
+    camera = drawing.camera
     model = np.concatenate([line.points3 for line in drawing.lines])
     paper = np.concatenate([line.points for line in drawing.lines])
-    factor = drawing.unit * drawing.scale
-    expected = np.stack([model @ drawing.camera.right, model @ drawing.camera.up], axis=1) * factor - drawing.origin
-    return int((np.abs(expected - paper).max(axis=1) > 2e-4 * diagonal * factor).sum())
+    factor = np.full(len(model), drawing.unit * drawing.scale)
+    if camera.eye is not None:
+        model = model - camera.eye
+        factor *= camera.distance / -(model @ camera.direction)
+    flat = np.stack([model @ camera.right, model @ camera.up], axis=1)
+    off = np.abs(flat * factor[:, None] - drawing.origin - paper).max(axis=1)
+    return int((off > OFF * diagonal * factor).sum())
 
 
 def judge(drawing: Exchange, caster: RayCaster) -> Verdict:

@@ -156,6 +156,7 @@ def draw(shape: Any, method: str, camera: Camera, source: str = "shape") -> dict
         },
         "scale": 1.0,
         "origin": [0.0, 0.0],
+        "model": {"unit": 1.0, "up_axis": np.eye(3).tolist()},
         "parts": [{"name": source, "color": None, "transform": np.eye(4).tolist()}],
         "lines": [
             {

@@ -18,13 +18,14 @@ from peers.judge import FRACTIONS, RayCaster, judge, offenders
 def wall_document(lines: list[dict[str, Any]], eye: list[float] | None = None) -> dict[str, Any]:
     view = {"name": "front", "projection": "orthographic", "direction": [0, -1, 0], "right": [1, 0, 0], "up": [0, 0, 1]}
     if eye is not None:
-        view |= {"projection": "perspective", "eye": eye}
+        view |= {"projection": "perspective", "eye": eye, "distance": 1.0}
     return {
         "format": "hlr-drawing",
         "version": 1,
         "view": view,
         "scale": 1.0,
         "origin": [0.0, 0.0],
+        "model": {"unit": 1.0, "up_axis": np.eye(3).tolist()},
         "parts": [{"name": "wall", "color": None, "transform": np.eye(4).tolist()}],
         "lines": lines,
     }
@@ -100,6 +101,14 @@ def test_paper_position_must_be_the_projection(wall: RayCaster) -> None:
     moved = line([[1, -1, 5], [9, -1, 5]], True)
     moved["points"][1][0] += 0.5
     assert judge(exchange.parse(wall_document([moved])), wall).displaced == 1
+
+
+def test_paper_position_in_perspective(wall: RayCaster) -> None:
+    entry = line([[4, 0, 5], [8, 0, 7]], True)
+    entry["points"] = [[-0.1, 0.0], [0.3, 0.2]]  # the eye is 10 before the wall, the image plane 1 before the eye
+    assert judge(exchange.parse(wall_document([entry], eye=[5, -10, 5])), wall).displaced == 0
+    entry["points"][1][1] = 0.21
+    assert judge(exchange.parse(wall_document([entry], eye=[5, -10, 5])), wall).displaced == 1
 
 
 def test_offenders_name_part_edge_and_place(wall: RayCaster) -> None:

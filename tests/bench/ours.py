@@ -1,0 +1,89 @@
+"""Our own half of the benchmarks: the kernel alone, the visibility stage of a drawing, and shape to SVG file."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from bench.triangulation import Triangulation
+
+DIRECTION = (1.0, -1.0, 1.0)
+
+
+class Kernel:
+    """One isometric view of a triangulated shape, hidden lines on.
+
+    Timed is what OpenCASCADE's load, update and extraction are on the other side: from triangles and the names of the
+    edges to be drawn to visible and hidden pieces, with the edge table and the turn into view space.
+    """
+
+    def __init__(self, shape: Any, contact: float) -> None:
+        self._mesh = Triangulation(shape)
+        self._contact = contact
+        self.triangles = len(self._mesh.triangles)
+        self.counters: dict[str, int] = {}
+
+    def run(self, threads: int = 0) -> float:
+        from hlr import _kernel
+
+        mesh = self._mesh
+        start = time.perf_counter()
+        points = _view(mesh.points)
+        edges, offsets, incident = _kernel.edge_table(mesh.triangles, len(points))
+        keys = edges[:, 0].astype(np.int64) * len(points) + edges[:, 1]
+        role = np.where(_member(keys, mesh.drawn), 1, 2).astype(np.uint8)
+        edge_part = mesh.triangle_part[incident[offsets[:-1]]]
+        closed = np.full(mesh.parts, True)
+        found = _kernel.visibility(
+            points,
+            mesh.triangles,
+            mesh.triangle_part,
+            edges,
+            offsets,
+            incident,
+            edge_part,
+            role,
+            cull=closed,
+            sound=closed,
+            delta=np.full(mesh.parts, self._contact),
+            threads=threads,
+        )
+        seconds = time.perf_counter() - start
+        self.counters = {name: int(value) for name, value in found["counters"].items()}
+        self.counters["pieces"] = len(found["edge"])
+        return seconds
+
+
+def _view(points: np.ndarray) -> np.ndarray:
+    """x right, y up, z away from the viewer."""
+    toward = np.array(DIRECTION) / np.linalg.norm(DIRECTION)
+    right = np.cross((0.0, 0.0, 1.0), toward)
+    right /= np.linalg.norm(right)
+    return np.ascontiguousarray(points @ np.stack([right, np.cross(toward, right), -toward], axis=1))
+
+
+def _member(keys: np.ndarray, ascending: np.ndarray) -> np.ndarray:
+    if not len(ascending):
+        return np.zeros(len(keys), dtype=np.bool_)
+    place = np.minimum(np.searchsorted(ascending, keys), len(ascending) - 1)
+    return np.asarray(ascending[place] == keys)
+
+
+def draw(shape: Any, accuracy: float) -> tuple[float, dict[str, int]]:
+    """Seconds of the stage "visibility" of a whole drawing, which tessellates for itself; and its counters."""
+    import hlr
+    from hlr.plan.options import Options
+
+    (drawing,) = hlr.draw_views(shape, [DIRECTION], Options(accuracy=accuracy))
+    return float(drawing.timings["visibility"]), dict(drawing.counters)
+
+
+def svg(shape: Any, path: Path) -> float:
+    """Seconds from a shape without triangulation to an SVG file, hidden lines on, default accuracy."""
+    import hlr
+
+    start = time.perf_counter()
+    hlr.draw(shape, view=DIRECTION, hidden=True).save(path)
+    return time.perf_counter() - start
