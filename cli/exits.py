@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import sys
@@ -13,6 +14,7 @@ import click
 from hlr.errors import HlrError
 
 from . import signals
+from .streams import ReaderGoneError
 
 REFUSED = 2
 FAULT = 1
@@ -23,10 +25,9 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
     signals.at_once()
     try:
         result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
-        sys.stdout.flush()
         _leave(result if isinstance(result, int) else 0)
     except click.exceptions.NoArgsIsHelpError as error:
-        print(error.format_message(), file=sys.stderr)
+        _say(error.format_message())
         _leave(REFUSED)
     except click.UsageError as error:
         path = error.ctx.command_path if error.ctx else "hlr"
@@ -40,7 +41,7 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
         signals.die_by(stopped.number)
     except (KeyboardInterrupt, click.Abort):
         signals.die_by(signal.SIGINT)
-    except BrokenPipeError:
+    except ReaderGoneError:
         _broken_pipe()
     except MemoryError:
         _debug()
@@ -54,20 +55,19 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
 
 def warn(message: str) -> None:
     """A warning on standard error."""
-    print(f"hlr: warning: {_one_line(message)}", file=sys.stderr)
+    _say(f"hlr: warning: {_one_line(message)}")
 
 
 def _refuse(message: str) -> NoReturn:
-    print(f"hlr: {_one_line(message)}", file=sys.stderr)
+    _say(f"hlr: {_one_line(message)}")
     _leave(REFUSED)
 
 
 def _report(error: BaseException) -> NoReturn:
     text = _one_line(str(error)) or "no message"
-    print(
+    _say(
         f"hlr: internal error: {type(error).__name__}: {text}; this is a fault of hlr, please report it with the "
-        "command and, if you may share it, the model (HLR_DEBUG=1 shows the traceback)",
-        file=sys.stderr,
+        "command and, if you may share it, the model (HLR_DEBUG=1 shows the traceback)"
     )
     _leave(FAULT)
 
@@ -89,10 +89,19 @@ def _broken_pipe() -> NoReturn:
 
 def _leave(code: int) -> NoReturn:
     try:
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except BrokenPipeError:
         _broken_pipe()
     sys.exit(code)
+
+
+def _say(text: str) -> None:
+    """One line on standard error, if there is one."""
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):
+            sys.stderr.write(text + "\n")
+            sys.stderr.flush()
 
 
 def _sentence(message: str) -> str:

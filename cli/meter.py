@@ -21,7 +21,7 @@ _PERIOD = 0.05
 @contextlib.contextmanager
 def meter(quiet: bool) -> Iterator[Progress | None]:
     """Yield what the stages call with their name and the fraction done; None where nobody would see it."""
-    if quiet or not sys.stderr.isatty():
+    if quiet or sys.stderr is None or not sys.stderr.isatty():
         yield None
         return
     try:

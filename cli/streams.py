@@ -6,40 +6,68 @@ error; what was standard output is kept aside for the result.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import BinaryIO
 
 from hlr.errors import WriteError
 
 
-@contextmanager
-def result_only() -> Iterator[BinaryIO]:
-    """Yield standard output as a binary stream; within this block nothing else can write to it."""
-    sys.stdout.flush()
-    try:
-        kept = os.dup(1)
-    except OSError as error:
-        raise WriteError("cannot write to standard output: it is closed") from error
-    os.dup2(2, 1)
-    try:
-        with os.fdopen(kept, "wb", closefd=False) as stream:
-            yield stream
-    finally:
+class ReaderGoneError(Exception):
+    """Nobody reads standard output any more. (click would catch a BrokenPipeError.)"""
+
+
+class Output:
+    """Standard output, kept aside. descriptor: None where the process was started without one."""
+
+    def __init__(self, descriptor: int | None) -> None:
+        self._descriptor = descriptor
+
+    def put(self, data: bytes) -> None:
+        """Write all of it. Raises WriteError where the system refuses, ReaderGoneError where nobody reads it."""
+        if self._descriptor is None:
+            raise WriteError("cannot write to standard output: it is closed")
+        try:
+            left = memoryview(data)
+            while left:
+                left = left[os.write(self._descriptor, left) :]
+        except BrokenPipeError as error:
+            raise ReaderGoneError from error
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise WriteError(f"cannot write to standard output: {reason[:1].lower()}{reason[1:]}") from error
+
+
+@contextlib.contextmanager
+def result_only() -> Iterator[Output]:
+    """Within this block nothing but the yielded Output can write to standard output."""
+    if sys.stdout is not None:
         sys.stdout.flush()
-        os.dup2(kept, 1)
-        os.close(kept)
-
-
-def put(stream: BinaryIO, data: bytes) -> None:
-    """Write all of it. Raises WriteError where the system refuses, BrokenPipeError where the reader has gone."""
+    kept = _duplicate(1)
+    _send_to_errors(1)
     try:
-        stream.write(data)
-        stream.flush()
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise WriteError(f"cannot write to standard output: {reason[:1].lower()}{reason[1:]}") from error
+        with contextlib.redirect_stdout(sys.stderr):
+            yield Output(kept)
+    finally:
+        if kept is not None:
+            os.dup2(kept, 1)
+            os.close(kept)
+
+
+def _duplicate(descriptor: int) -> int | None:
+    try:
+        return os.dup(descriptor)
+    except OSError:
+        return None
+
+
+def _send_to_errors(descriptor: int) -> None:
+    """Never leave the number free: the next file to be opened would get it, and with it what libraries print."""
+    try:
+        os.dup2(2, descriptor)
+    except OSError:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        if nowhere != descriptor:
+            os.dup2(nowhere, descriptor)
+            os.close(nowhere)

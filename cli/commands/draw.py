@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -17,7 +16,7 @@ from ..meter import meter
 from ..outputs import STDOUT, plan
 from ..parameters import Scale, Size, Vector, Vector3, ViewName
 from ..signals import tidily
-from ..streams import put, result_only
+from ..streams import Output, result_only
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
@@ -99,18 +98,17 @@ def draw(
     options = _options(**wishes)
     targets = _targets(output, source, names, format, as_json)
 
-    with ExitStack() as stack:
-        # While anything runs that is not ours, standard output is out of its reach.
-        stream = stack.enter_context(result_only())
+    # While anything runs that is not ours, standard output is out of its reach.
+    with result_only() as out:
         with meter(quiet) as progress:
             import hlr
 
             drawings = hlr.draw_views(source, list(views), options, progress=progress)
         _warn(drawings, options.strict)
-        _write(drawings, targets, stream)
+        _write(drawings, targets, out)
         if as_json:
-            put(stream, json.dumps({"drawings": _summary(drawings, targets)}, indent=2).encode() + b"\n")
-    if not quiet and sys.stderr.isatty():
+            out.put(_summary(drawings, targets))
+    if not quiet and sys.stderr is not None and sys.stderr.isatty():
         for drawing, (path, _) in zip(drawings, targets, strict=True):
             _tell(drawing, path)
 
@@ -163,7 +161,7 @@ def _warn(drawings: list[Drawing], strict: bool) -> None:
         warn(note)
 
 
-def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], stream: BinaryIO) -> None:
+def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], out: Output) -> None:
     """All files or none."""
     from hlr.writers import files, render
 
@@ -171,15 +169,16 @@ def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], stre
     for drawing, (path, format) in zip(drawings, targets, strict=True):
         data = render(drawing, format)
         if path is None:
-            put(stream, data)
+            out.put(data)
         else:
             made[path] = data
     with tidily():
         files.place(made)
 
 
-def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) -> list[dict[str, Any]]:
-    return [
+def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) -> bytes:
+    """What was drawn, as JSON."""
+    entries = [
         {
             "file": str(path),
             "format": format,
@@ -194,6 +193,8 @@ def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) ->
         }
         for drawing, (path, format) in zip(drawings, targets, strict=True)
     ]
+    # Counters may be numbers of NumPy.
+    return json.dumps({"drawings": entries}, indent=2, default=lambda value: value.tolist()).encode("ascii") + b"\n"
 
 
 def _counts(drawing: Drawing) -> dict[str, int]:

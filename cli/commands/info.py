@@ -10,7 +10,7 @@ import click
 
 from ..exits import warn
 from ..meter import meter
-from ..streams import put, result_only
+from ..streams import result_only
 
 if TYPE_CHECKING:
     from hlr.scene.report import ModelInfo, PartReport
@@ -35,7 +35,8 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
 
     closed: every edge has a face on both sides, and the faces agree on what is outside.
     """
-    with result_only() as stream:
+    encoding = sys.stdout.encoding if sys.stdout is not None else "utf-8"
+    with result_only() as out:
         with meter(quiet) as progress:
             import hlr
 
@@ -46,8 +47,7 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
             text = _table(model)
             for note in model.notes:
                 warn(note)
-        encoding = sys.stdout.encoding or "utf-8"
-        put(stream, (text + "\n").encode(encoding, "replace"))
+        out.put((text + "\n").encode(encoding, "replace"))
 
 
 def _document(model: ModelInfo) -> dict[str, Any]:

@@ -1,0 +1,140 @@
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+posix = pytest.mark.skipif(os.name != "posix", reason="signals as in POSIX")
+
+
+@pytest.mark.parametrize(
+    ("source", "words"),
+    [("bug.step", "ZeroDivisionError: division by zero"), ("panic.step", "PanicException: index out of bounds")],
+)
+def test_a_fault_of_ours_asks_for_a_report(hlr_command, source, words, tmp_path):
+    result = hlr_command("draw", source)
+    assert result.code == 1
+    assert result.err.startswith(f"hlr: internal error: {words}; this is a fault of hlr, please report it")
+    assert result.err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("source", "code"), [("bug.step", 1), ("missing.step", 2)])
+def test_the_traceback_is_there_for_those_who_ask(hlr_command, monkeypatch, source, code):
+    monkeypatch.setenv("HLR_DEBUG", "1")
+    result = hlr_command("draw", source)
+    assert result.code == code
+    assert "Traceback" in result.err
+    assert result.err.splitlines()[-1].startswith("hlr: ")
+
+
+def test_out_of_memory_is_said(hlr_command):
+    result = hlr_command("draw", "memory.step")
+    assert (result.code, result.err) == (2, "hlr: out of memory; a larger --accuracy needs less\n")
+
+
+def test_an_unknown_verb(hlr_command):
+    result = hlr_command("drow")
+    assert result.code == 2
+    assert result.err.startswith("hlr: no such command 'drow'")
+    assert result.err.endswith("(see hlr --help)\n")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["-h"], ["draw", "--help"], ["info", "-h"], ["--version"]])
+def test_help_and_version(hlr_command, arguments):
+    result = hlr_command(*arguments)
+    assert result.code == 0
+    assert result.out.startswith("hlr 0." if arguments == ["--version"] else "Usage: hlr")
+    assert result.err == ""
+
+
+def test_no_arguments_show_the_help(hlr_command):
+    result = hlr_command()
+    assert result.code == 2
+    assert result.err.startswith("Usage: hlr")
+
+
+def test_as_a_module(tmp_path):
+    shown = subprocess.check_output([sys.executable, "-m", "hlr", "--help"], cwd=tmp_path, text=True)
+    assert shown.startswith("Usage: hlr ")
+
+
+@posix
+def test_ctrl_c_ends_the_process_at_once_while_the_interpreter_is_held(child, tmp_path):
+    process = child("draw", "forever.step", "-o", "a.svg", stderr=subprocess.PIPE)
+    assert process.stderr.readline() == b"computing\n"
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=0.5) == -signal.SIGINT
+    assert process.stderr.read() == b""
+    assert list(tmp_path.iterdir()) == []
+
+
+WRITE_SLOWLY = """
+import os, sys, time
+sys.path.insert(0, sys.argv.pop(1))
+import fake_pipeline as fake
+from hlr.cli import main
+from hlr.writers import files
+
+def fill(beside, data, target):
+    beside.write_bytes(data)
+    print("writing", file=sys.stderr, flush=True)
+    time.sleep(20)
+
+files._fill = fill
+fake.install()
+main()
+"""
+
+
+@posix
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_while_writing_leaves_no_partial_file(tmp_path, number):
+    (tmp_path / "a.svg").write_text("old")
+    command = [sys.executable, "-c", WRITE_SLOWLY, str(Path(__file__).parents[1]), "draw", "a.step", "-o", "a.svg"]
+    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
+    assert process.stderr.readline() == b"writing\n"
+    assert len(list(tmp_path.iterdir())) == 2
+    process.send_signal(number)
+    assert process.wait(timeout=2) == -number
+    assert process.stderr.read() == b""
+    assert [path.name for path in tmp_path.iterdir()] == ["a.svg"]
+    assert (tmp_path / "a.svg").read_text() == "old"
+
+
+@posix
+def test_an_ignored_ctrl_c_stays_ignored(child):
+    def ignore():
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    process = child("draw", "forever.step", stderr=subprocess.PIPE, preexec_fn=ignore)
+    process.stderr.readline()
+    process.send_signal(signal.SIGINT)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(timeout=0.5)
+
+
+@posix
+def test_a_reader_that_goes_away_is_no_error(child):
+    process = child("draw", "large.step", "-o", "-", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdout.read(10)
+    process.stdout.close()
+    assert process.wait(timeout=20) == -signal.SIGPIPE
+    assert process.stderr.read() == b""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+def test_a_full_standard_output_is_said(child):
+    with open("/dev/full", "wb") as full:
+        process = child("draw", "a.step", "-o", "-", stdout=full, stderr=subprocess.PIPE)
+        assert process.wait(timeout=20) == 2
+    assert process.stderr.read() == b"hlr: cannot write to standard output: no space left on device\n"
+
+
+@posix
+def test_a_closed_standard_output_is_said(child):
+    process = child("draw", "a.step", "-o", "-", stderr=subprocess.PIPE, preexec_fn=lambda: os.close(1))
+    assert process.wait(timeout=20) == 2
+    assert process.stderr.read() == b"hlr: cannot write to standard output: it is closed\n"

@@ -1,0 +1,103 @@
+"""Stand-ins for the pipeline: they answer by the source's name, so the command line is tested without any model.
+
+Run as a program, this file is the command line with those stand-ins in place of the pipeline.
+"""
+
+import sys
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parent))
+
+from writers.fakes import ISO, drawing, line, sample
+
+import hlr
+from hlr import errors
+
+
+@dataclass(frozen=True)
+class PartReport:
+    name: str
+    color: tuple | None
+    solids: int
+    faces: int
+    edges: int
+    triangles: int
+    closed: bool
+    oriented: bool
+    defects: tuple
+
+
+@dataclass(frozen=True)
+class ModelInfo:
+    source: str
+    kind: str
+    unit: float
+    bounds: tuple
+    parts: tuple
+    notes: tuple
+
+
+ASKED = []
+"""What draw_views was called with, last call last."""
+
+
+def draw_views(source, views, options, progress=None):
+    ASKED.append((source, views, options))
+    stem = Path(source).stem
+    if progress is not None:
+        progress("source", 0.0)
+    if stem == "missing":
+        raise errors.SourceError(f"cannot read {source}: there is no such file")
+    if stem == "bug":
+        raise ZeroDivisionError("division by\nzero")
+    if stem == "panic":
+        raise type("PanicException", (BaseException,), {})("index out of bounds")
+    if stem == "memory":
+        raise MemoryError
+    if stem == "prints":
+        print("printed by a script")
+    if stem == "forever":
+        print("computing", file=sys.stderr, flush=True)
+        _hold_the_interpreter(20)
+    if stem == "slow":
+        for i in range(30):
+            if progress is not None:
+                progress("visibility", i / 30)
+            time.sleep(0.1)
+    notes = ("part 3 could not be read", "part 4 is open") if stem == "notes" else ()
+    made = sample() if stem != "large" else drawing([line([[0, 0], [1, 1]], edge=i) for i in range(20_000)])
+    made = replace(made, source=Path(source).name, notes=notes)
+    return [replace(made, view=replace(ISO, name=v if isinstance(v, str) else "free")) for v in views]
+
+
+def info(source, *, crease=30.0, progress=None):
+    if Path(source).stem == "missing":
+        raise errors.SourceError(f"cannot read {source}: there is no such file")
+    parts = (
+        PartReport("housing", None, 1, 120, 340, 5600, True, True, ()),
+        PartReport("a name so long that no terminal could show all of it", (1, 0.5, 0), 0, 3, 9, 12, False, True,
+                   ("4 open edges", "1 duplicated face")),
+        PartReport("tw\x1bisted", None, 1, 6, 12, 12, True, False, ()),
+    )  # fmt: skip
+    return ModelInfo(Path(source).name, "step", 25.4, ((0, 0, 0), (1, 2, 3.5)), parts, ("part 9 could not be read",))
+
+
+def _hold_the_interpreter(seconds):
+    """What OpenCASCADE does: stay in C without releasing the interpreter, deaf to Python's signal handling."""
+    import ctypes
+
+    ctypes.PyDLL(None).usleep(int(seconds * 1e6))
+
+
+def install(target=hlr):
+    """Put the stand-ins where the command line looks for the pipeline."""
+    target.draw_views, target.info = draw_views, info
+
+
+if __name__ == "__main__":
+    from hlr.cli import main
+
+    install()
+    main()

@@ -1,0 +1,145 @@
+"""The shape of the project: what is packaged, what imports what, and what stays unloaded."""
+
+import ast
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+# The order in which a drawing passes through the stages: each imports only those before it.
+STAGES = ("source", "scene", "view", "plan", "visibility", "linework", "writers")
+
+# What every stage may import: no stage, and none of them imports one.
+COMMON = ("errors", "tolerance", "drawing", "_kernel")
+
+# Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
+RECORDS = ("hlr.source.model", "hlr.plan.options")
+
+
+def folders():
+    """Every folder of Python modules that is to be installed, as the package it becomes."""
+    found = {path.parent.relative_to(ROOT) for top in ("hlr", "cli") for path in (ROOT / top).rglob("__init__.py")}
+    return {".".join(("hlr", *path.parts) if path.parts[0] == "cli" else path.parts) for path in found}
+
+
+def imports(path, package):
+    """Absolute names of all that a module imports, at its top or anywhere inside: (line, name)."""
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from ((node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = package.split(".")
+            start = base[: len(base) - node.level + 1] if node.level else []
+            start += (node.module or "").split(".") if node.module else []
+            yield from ((node.lineno, ".".join([*start, alias.name])) for alias in node.names)
+
+
+def wrong_imports(path, stage, package):
+    """Imports of a stage module that go against the order, as sentences."""
+    allowed = tuple(f"hlr.{name}" for name in (*COMMON, *STAGES[: STAGES.index(stage) + 1])) + RECORDS
+    for line, name in imports(path, package):
+        ours = name == "hlr" or name.startswith(("hlr.", "cli."))
+        if ours and not any(name == good or name.startswith(good + ".") for good in allowed):
+            yield f"{path.name}:{line}: {stage} imports {name}"
+
+
+def loaded_by(code, *arguments):
+    """Top-level modules that a Python program has loaded when it ends."""
+    program = f"import atexit, sys; atexit.register(lambda: print(*sys.modules, file=sys.stderr)); {code}"
+    command = [sys.executable, "-P", "-c", program, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return {name.partition(".")[0] for name in done.stderr.split()}
+
+
+HEAVY = {"numpy", "scipy", "OCP", "cadquery", "build123d", "trimesh", "manifold3d", "rich", "pydyf", "lxml", "networkx"}
+COMMAND = "from hlr.cli import main; main()"
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["draw", "--help"], ["info", "--help"]])
+def test_help_loads_nothing_heavy(arguments):
+    loaded = loaded_by(COMMAND, *arguments)
+    assert "click" in loaded
+    assert not loaded & HEAVY
+
+
+def test_import_hlr_loads_nothing_heavy():
+    assert not loaded_by("import hlr") & HEAVY
+
+
+def test_a_refused_option_loads_nothing_heavy():
+    code = "import contextlib\nwith contextlib.suppress(SystemExit):\n    from hlr.cli import main; main()"
+    assert not loaded_by(f"exec({code!r})", "draw", "a.step", "-o", "a.dwg") & HEAVY
+
+
+def test_the_loaded_modules_are_seen():
+    assert "numpy" in loaded_by("import numpy")
+
+
+def test_every_folder_is_packaged():
+    with open(ROOT / "pyproject.toml", "rb") as file:
+        setup = tomllib.load(file)["tool"]["setuptools"]
+    listed = setup["packages"]
+    assert len(listed) == len(set(listed))
+    assert set(listed) == folders()
+    folder = {name: name.removeprefix("hlr.").replace(".", "/") for name in listed if name.startswith("hlr.cli")}
+    assert setup["package-dir"] == folder
+
+
+def test_every_folder_with_modules_has_an_init():
+    for top in ("hlr", "cli"):
+        for path in (ROOT / top).rglob("*.py"):
+            assert (path.parent / "__init__.py").exists(), f"{path.parent.relative_to(ROOT)} would not be packaged"
+
+
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_stage_imports_only_the_stages_before_it(stage):
+    paths = sorted((ROOT / "hlr" / stage).rglob("*.py"))
+    assert paths
+    wrong = [text for path in paths for text in wrong_imports(path, stage, f"hlr.{stage}")]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize("name", ["errors", "tolerance", "drawing"])
+def test_what_is_common_imports_no_stage(name):
+    path = ROOT / "hlr" / f"{name}.py"
+    if not path.exists():
+        pytest.skip(f"there is no hlr/{name}.py")
+    # Only at the top: a method may reach for a stage when it is called.
+    at_top = [node for node in ast.parse(path.read_text("utf-8")).body if isinstance(node, ast.ImportFrom)]
+    assert not {node.module.split(".")[1] for node in at_top if node.module.startswith("hlr.")} & set(STAGES)
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_records_import_no_stage(name):
+    path = ROOT / f"{name.replace('.', '/')}.py"
+    assert not [found for _, found in imports(path, name.rpartition(".")[0]) if found.startswith("hlr")]
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "cli").rglob("*.py")), ids=lambda path: path.stem)
+def test_the_command_line_knows_itself_only_relatively(path):
+    # It is installed as hlr.cli: an absolute `cli` would be another package.
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and not node.level:
+            assert (node.module or "").split(".")[0] != "cli"
+            assert not (node.module or "").startswith("hlr.cli")
+
+
+def test_the_order_is_checked(tmp_path):
+    path = tmp_path / "bad.py"
+    path.write_text(
+        "from hlr.errors import HlrError\n"
+        "from hlr.source.model import PartMesh\n"
+        "def f():\n"
+        "    from ..writers import svg\n"
+        "    import hlr.linework.chain\n"
+        "    from hlr import draw\n"
+    )
+    assert list(wrong_imports(path, "scene", "hlr.scene")) == [
+        "bad.py:4: scene imports hlr.writers.svg",
+        "bad.py:5: scene imports hlr.linework.chain",
+        "bad.py:6: scene imports hlr.draw",
+    ]

@@ -1,0 +1,74 @@
+import numpy as np
+from writers.fakes import drawing, line, sample
+
+from hlr.source.model import EdgeClass
+from hlr.writers import style
+from hlr.writers.strokes import strokes
+
+
+def only(layers):
+    (layer,) = layers
+    return layer
+
+
+def test_every_edge_class_has_a_line_type():
+    assert set(style.KINDS) == {kind.name.lower() for kind in EdgeClass}
+
+
+def test_hidden_layers_come_first_and_wide_ones_last():
+    layers = [(layer.visible, layer.kind) for layer in strokes(sample()).layers]
+    assert layers == sorted(layers, key=lambda entry: (entry[0], style.KINDS.index(entry[1])))
+    assert {visible for visible, _ in layers} == {False, True}
+
+
+def test_pieces_of_an_edge_that_touch_become_one_stroke():
+    layer = only(strokes(drawing([line([[0, 0], [1, 0]], edge=3), line([[1, 0], [1, 1]], edge=3)])).layers)
+    assert layer.points.tolist() == [[0, 0], [1000, 0], [1000, 1000]]
+    assert layer.starts.tolist() == [0, 3]
+    assert layer.edge == [3]
+
+
+def test_pieces_of_different_edges_or_parts_stay_apart():
+    for other in ({"edge": 4}, {"edge": 3, "part": 1}, {"edge": 3, "visible": False}, {"edge": 3, "kind": "seam"}):
+        lines = [line([[0, 0], [1, 0]], edge=3), line([[1, 0], [1, 1]], **other)]
+        assert sum(len(layer.closed) for layer in strokes(drawing(lines)).layers) == 2, other
+
+
+def test_pieces_that_do_not_touch_stay_apart():
+    layer = only(strokes(drawing([line([[0, 0], [1, 0]], edge=3), line([[1.001, 0], [2, 1]], edge=3)])).layers)
+    assert layer.starts.tolist() == [0, 2, 4]
+
+
+def test_a_loop_in_one_line_or_in_two_is_closed():
+    square = [[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]]
+    for lines in ([line(square)], [line(square[:3]), line(square[2:])]):
+        layer = only(strokes(drawing(lines)).layers)
+        assert layer.closed.tolist() == [True]
+        assert len(layer.points) == 4
+
+
+def test_there_and_back_is_not_a_loop():
+    layer = only(strokes(drawing([line([[0, 0], [1, 0], [0, 0]])])).layers)
+    assert layer.closed.tolist() == [False]
+    assert len(layer.points) == 3
+
+
+def test_points_below_the_grid_are_left_out():
+    lines = [line([[0, 0], [0.0001, 0], [5, 0]]), line([[3, 3], [3.0001, 3]]), line([[7, 7], [8, 8]], edge=1)]
+    layer = only(strokes(drawing(lines)).layers)
+    assert layer.points.tolist() == [[0, 0], [5000, 0], [7000, 7000], [8000, 8000]]
+    assert layer.edge == [None, 1]
+
+
+def test_a_layer_with_nothing_left_is_no_layer():
+    assert strokes(drawing([line([[3, 3], [3.0001, 3]])])).layers == ()
+
+
+def test_the_page_is_the_drawing_and_a_margin():
+    page = strokes(drawing([line([[-10, 20], [30, 50]])]))
+    assert np.array([page.left, page.bottom, page.width, page.height]).tolist() == [-15500, 14500, 51000, 41000]
+
+
+def test_an_empty_drawing_is_an_empty_page():
+    page = strokes(drawing([]))
+    assert (page.layers, page.width, page.height) == ((), 11000, 11000)
