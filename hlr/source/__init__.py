@@ -1,0 +1,103 @@
+"""Sources: from a file, a script or an object in memory to parts that can be meshed."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from hlr.errors import SourceError
+from hlr.source.model import Source
+
+__all__ = ["ENDINGS", "open_source"]
+
+ENDINGS = {
+    ".step": "step",
+    ".stp": "step",
+    ".iges": "iges",
+    ".igs": "iges",
+    ".brep": "brep",
+    ".brp": "brep",
+    ".py": "script",
+    ".stl": "stl",
+    ".obj": "obj",
+    ".ply": "ply",
+    ".off": "off",
+    ".3mf": "3mf",
+    ".glb": "glb",
+}
+"""What is read, by file ending."""
+
+
+def open_source(thing: Any) -> Source:
+    """Open anything that can be drawn.
+
+    Args:
+        thing: the name of a file (see `ENDINGS`), a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a
+            list of CAD objects, or a pair (vertices (n, 3), faces (m, 3)).
+
+    Raises:
+        SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
+    """
+    if isinstance(thing, str | os.PathLike):
+        return _open_path(Path(os.fspath(thing)))
+    from hlr.source.objects import family
+
+    root = family(thing)
+    if root == "trimesh":
+        from hlr.source.meshes import open_trimesh
+
+        return open_trimesh(thing)
+    if root == "manifold3d":
+        from hlr.source.meshes import open_manifold
+
+        return open_manifold(thing)
+    if _is_arrays(thing):
+        from hlr.source.meshes import open_arrays
+
+        return open_arrays(*thing)
+    from hlr.source.objects import is_shape_like, open_object
+
+    if is_shape_like(thing):
+        return open_object(thing)
+    raise SourceError(
+        f"An object of type {type(thing).__name__} cannot be drawn: pass a CadQuery, build123d, OpenCASCADE, trimesh "
+        "or manifold3d object, (vertices, faces), or the name of a file."
+    )
+
+
+def _is_arrays(thing: Any) -> bool:
+    """Whether this is a pair of number tables, without asking CAD objects to become arrays."""
+    if not isinstance(thing, tuple | list) or len(thing) != 2:
+        return False
+    return all(hasattr(item, "dtype") or (isinstance(item, list | tuple) and _is_rows(item)) for item in thing)
+
+
+def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
+    return bool(item) and all(isinstance(row, list | tuple) or hasattr(row, "dtype") for row in item)
+
+
+def _open_path(path: Path) -> Source:
+    from hlr.source.files import check_readable
+
+    kind = ENDINGS.get(path.suffix.lower())
+    check_readable(path)
+    if kind is None:
+        known = " ".join(ENDINGS)
+        ending = f'the ending "{path.suffix}"' if path.suffix else "no ending"
+        raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {known}.")
+    if kind == "script":
+        from hlr.source.script import open_script
+
+        return open_script(path)
+    if kind in ("step", "iges"):
+        from hlr.source.step import open_iges, open_step
+
+        return open_step(path) if kind == "step" else open_iges(path)
+    if kind == "brep":
+        from hlr.source.brepfile import open_brep
+
+        return open_brep(path)
+    from hlr.source.meshfile import open_mesh_file
+
+    return open_mesh_file(path, kind)

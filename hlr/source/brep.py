@@ -1,0 +1,183 @@
+"""A B-rep source: parts with names, colours and placements, tessellated as finely as asked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from hlr.errors import SourceError
+from hlr.source.locations import determinant_sign, moved
+from hlr.source.model import Floats, Frame, Meshed, PartInfo, PartMesh, Progress
+from hlr.source.parts import Leaf, Part, Parts
+from hlr.source.tessellate import Tessellator
+from hlr.source.topology import Meshes
+
+
+class BrepSource:
+    """Leaves of an assembly as a source.
+
+    Lengths are millimetres, z is up. The caller's shapes are not copied: as with every OpenCASCADE mesher, their
+    triangulation is replaced by ours.
+    """
+
+    def __init__(self, name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[str] = ()) -> None:
+        """Split the leaves into parts.
+
+        Raises:
+            SourceError: nothing to draw: no shapes, or none with faces.
+        """
+        self._name, self._kind = name, kind
+        found = Parts()
+        for leaf in leaves:
+            found.add(leaf)
+        self._notes = [*notes, *found.notes]
+        self._parts, self._roots = found.parts, found.roots
+        counts = [_counts(root) for root in self._roots]
+        self._counts = counts
+        if not self._parts:
+            raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
+        if not any(faces for faces, _, _ in counts):
+            edges = sum(counts[part.root][1] for part in self._parts)
+            raise SourceError(
+                f"{name} holds {edges} edges but no faces: a hidden-line drawing needs surfaces "
+                "(export solids or shells instead of wires)."
+            )
+        self._bounds: Floats | None = None
+        self._tessellator: Tessellator | None = None
+
+    @property
+    def name(self) -> str:
+        """Base name."""
+        return self._name
+
+    @property
+    def kind(self) -> str:
+        """step, iges, brep, script or object."""
+        return self._kind
+
+    @property
+    def frame(self) -> Frame:
+        """Millimetres, z up."""
+        return Frame()
+
+    @property
+    def notes(self) -> list[str]:
+        """Warnings met while reading."""
+        return list(self._notes)
+
+    def infos(self) -> list[PartInfo]:
+        """Counts of every part's index maps."""
+        return [PartInfo(part.name, *self._counts[part.root]) for part in self._parts]
+
+    def bounds(self) -> Floats:
+        """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
+        if self._bounds is None:
+            boxes = [_box(root) for root in self._roots]
+            corners = [moved(boxes[part.root], part.transform) for part in self._parts if len(boxes[part.root])]
+            if not corners:
+                raise SourceError(f"{self._name}: no part has any extent.")
+            every = np.concatenate(corners)
+            self._bounds = np.stack((every.min(axis=0), every.max(axis=0)))
+        return self._bounds.copy()
+
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
+        """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).
+
+        Raises:
+            SourceError: no part could be meshed.
+        """
+        if self._tessellator is None:
+            low, high = self.bounds()
+            self._tessellator = Tessellator(self._roots, float(np.sqrt(((high - low) ** 2).sum())))
+        meshes, notes = self._tessellator.mesh(deflection, angle, progress)
+        meshed = Meshed(parts=[], notes=notes)
+        shared = [_Shared(meshes, number) for number in range(len(self._roots))]
+        for part in self._parts:
+            mesh = shared[part.root]
+            if mesh.missing:
+                meshed.notes.append(f'Part "{part.name}": {mesh.missing} faces could not be meshed.')
+            if len(mesh.triangles) or len(mesh.edge_nodes):
+                meshed.parts.append(mesh.placed(part))
+            else:
+                meshed.notes.append(f'Part "{part.name}" has no triangles and was left out.')
+        if not any(len(part.triangles) for part in meshed.parts):
+            raise SourceError(f"{self._name}: none of its faces could be meshed.")
+        return meshed
+
+
+class _Shared:
+    """One root's arrays, shared by all its placements."""
+
+    def __init__(self, meshes: Meshes, number: int) -> None:
+        a, b = meshes.point_start[number : number + 2]
+        c, d = meshes.triangle_start[number : number + 2]
+        e, f = meshes.edge_start[number : number + 2]
+        g, h = meshes.face_start[number : number + 2]
+        self.points = meshes.points[a:b]
+        self.triangles = meshes.triangles[c:d] - a
+        self.triangle_face = meshes.triangle_face[c:d]
+        self.face_planar = meshes.face_planar[g:h]
+        offsets = meshes.edge_offsets[e : f + 1]
+        self.edge_nodes = meshes.edge_nodes[offsets[0] : offsets[-1]] - a
+        self.edge_offsets = offsets - offsets[0]
+        self.edge_index = meshes.edge_index[e:f]
+        self.edge_class = meshes.edge_class[e:f]
+        self.missing = int(meshes.missing_faces[number])
+
+    def placed(self, part: Part) -> PartMesh:
+        triangles = self.triangles
+        points = self.points
+        if not _is_identity(part.transform):
+            points = moved(points, part.transform)
+            if determinant_sign(part.transform) < 0:
+                triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
+        return PartMesh(
+            name=part.name,
+            color=part.color,
+            transform=part.transform,
+            points=points,
+            triangles=triangles,
+            triangle_face=self.triangle_face,
+            face_planar=self.face_planar,
+            edge_nodes=self.edge_nodes,
+            edge_offsets=self.edge_offsets,
+            edge_index=self.edge_index,
+            edge_class=self.edge_class,
+            brep=True,
+        )
+
+
+def _is_identity(transform: Floats) -> bool:
+    return bool((transform == _IDENTITY).all())
+
+
+_IDENTITY = np.eye(4)
+
+
+def _counts(root: Any) -> tuple[int, int, int]:
+    """(faces, edges, solids) of the index maps of a shape."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopExp import TopExp
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    counts = []
+    for kind in (Kind.TopAbs_FACE, Kind.TopAbs_EDGE, Kind.TopAbs_SOLID):
+        found = TopTools_IndexedMapOfShape()
+        TopExp.MapShapes_s(root, kind, found)
+        counts.append(found.Extent())
+    return counts[0], counts[1], counts[2]
+
+
+def _box(root: Any) -> Floats:
+    """(8, 3) corners of a shape's box, or none where it has no extent."""
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+
+    box = Bnd_Box()
+    BRepBndLib.Add_s(root, box, True)
+    if box.IsVoid():
+        return np.empty((0, 3))
+    x0, y0, z0, x1, y1, z1 = box.Get()
+    return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])

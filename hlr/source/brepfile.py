@@ -1,0 +1,40 @@
+"""BREP files, text and binary: one shape, no names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hlr.errors import SourceError
+from hlr.source.brep import BrepSource
+from hlr.source.occt import ready
+from hlr.source.parts import Leaf
+
+
+def open_brep(path: Path) -> BrepSource:
+    """A BREP file.
+
+    Raises:
+        SourceError: not a BREP file, broken, or holding nothing to draw.
+    """
+    with path.open("rb") as file:
+        head = file.read(200)
+    binary = b"Open CASCADE Topology V" in head
+    if not binary and b"DBRep_DrawableShape" not in head and b"CASCADE Topology V" not in head:
+        raise SourceError(f"{path.name} is not a BREP file (it does not begin with its header): check the file.")
+    ready()
+    from OCP.BinTools import BinTools
+    from OCP.BRep import BRep_Builder
+    from OCP.BRepTools import BRepTools
+    from OCP.TopoDS import TopoDS_Shape
+
+    shape = TopoDS_Shape()
+    try:
+        if binary:
+            BinTools.Read_s(shape, str(path))
+        else:
+            BRepTools.Read_s(shape, str(path), BRep_Builder())
+    except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
+        raise SourceError(f"{path.name} cannot be read as BREP ({type(error).__name__}): the file is broken.") from None
+    if shape.IsNull():
+        raise SourceError(f"{path.name} cannot be read as BREP: the file is broken or incomplete.")
+    return BrepSource(path.name, "brep", [Leaf(shape, path.stem)])

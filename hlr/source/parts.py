@@ -1,0 +1,187 @@
+"""From the leaves of an assembly to parts: one per solid, loose faces together, underlying shapes shared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from hlr.source.locations import chained
+from hlr.source.model import Color, Floats
+
+
+@dataclass(slots=True)
+class Leaf:
+    """A shape as an assembly, a file or a caller names it.
+
+    shape: TopoDS_Shape with its placement; colors: by underlying shape of a solid or face, where a file says so.
+    """
+
+    shape: Any
+    name: str
+    color: Color | None = None
+    colors: dict[Any, Color] = field(default_factory=dict)
+
+
+@dataclass(slots=True)
+class Part:
+    """A part to draw: the number of its root (a shape without placement), and where it stands."""
+
+    name: str
+    color: Color | None
+    root: int
+    transform: Floats
+
+
+@dataclass(slots=True)
+class _Piece:
+    root: int
+    place: Floats
+    solid: bool
+    color: Color | None
+
+
+class Parts:
+    """Collects leaves into `parts` over distinct `roots`; `notes` says what was left out."""
+
+    def __init__(self) -> None:
+        self.parts: list[Part] = []
+        self.roots: list[Any] = []
+        self.notes: list[str] = []
+        self.has_edges = False
+        self._numbers: dict[Any, int] = {}
+        self._pieces: dict[Any, list[_Piece]] = {}
+        self._names: set[str] = set()
+        self._counts: dict[str, int] = {}
+
+    def add(self, leaf: Leaf) -> None:
+        """Split a leaf; an empty one becomes a note."""
+        if leaf.shape is None or leaf.shape.IsNull():
+            self.notes.append(f'Part "{leaf.name}" is empty and was left out.')
+            return
+        key = (leaf.shape.TShape(), leaf.shape.Orientation(), id(leaf.colors) if leaf.colors else 0)
+        pieces = self._pieces.get(key)
+        if pieces is None:
+            pieces = self._pieces[key] = self._split(leaf)
+        if not pieces:
+            self.notes.append(f'Part "{leaf.name}" has neither faces nor edges and was left out.')
+        place = matrix(leaf.shape.Location())
+        several = sum(piece.solid for piece in pieces) > 1
+        for piece in pieces:
+            suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
+            self.parts.append(
+                Part(
+                    name=self._unique(leaf.name + suffix, several and piece.solid),
+                    color=piece.color or leaf.color,
+                    root=piece.root,
+                    transform=_four(place if piece.place is _HERE else chained(place, piece.place)),
+                )
+            )
+
+    def _unique(self, name: str, numbered: bool) -> str:
+        while True:
+            count = self._counts[name] = self._counts.get(name, 0) + 1
+            unique = name if count == 1 and not numbered else f"{name}:{count}"
+            if unique not in self._names:
+                self._names.add(unique)
+                return unique
+
+    def _split(self, leaf: Leaf) -> list[_Piece]:
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+        bare = located(leaf.shape, None)
+        if bare.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE):
+            return [self._piece(bare, leaf)]
+        solids = explored(bare, Kind.TopAbs_SOLID)
+        shells = explored(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
+        faces = explored(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
+        edges = explored(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
+        self.has_edges |= bool(edges)
+        pieces = [self._piece(solid, leaf) for solid in solids]
+        loose = shells + faces
+        if loose or edges:
+            # What is not a solid stays together: the leaf itself where it holds nothing else.
+            pieces.append(self._piece(compound(loose + edges) if solids else bare, leaf))
+        return pieces
+
+    def _piece(self, shape: Any, leaf: Leaf) -> _Piece:
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+        key = (shape.TShape(), shape.Orientation())
+        number = self._numbers.get(key)
+        if number is None:
+            number = self._numbers[key] = len(self.roots)
+            self.roots.append(located(shape, None))
+        place = shape.Location()
+        return _Piece(
+            number,
+            _HERE if place.IsIdentity() else matrix(place),
+            shape.ShapeType() == Kind.TopAbs_SOLID,
+            _majority(shape, leaf) if leaf.colors else None,
+        )
+
+
+def _majority(shape: Any, leaf: Leaf) -> Color | None:
+    """The colour a file gives to the solid, else the one most of its faces have."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    own = leaf.colors.get(shape.TShape())
+    if own is not None:
+        return own
+    counts: dict[Color | None, int] = {}
+    for face in explored(shape, Kind.TopAbs_FACE):
+        color = leaf.colors.get(face.TShape(), leaf.color)
+        counts[color] = counts.get(color, 0) + 1
+    return max(counts, key=lambda color: counts[color]) if counts else None
+
+
+def explored(shape: Any, kind: Any, avoid: Any = None) -> list[Any]:
+    """Sub-shapes of a kind in TopExp order, each once, outside those of the kind `avoid`."""
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    found = TopTools_IndexedMapOfShape()
+    explorer = TopExp_Explorer(shape, kind, TopAbs_ShapeEnum.TopAbs_SHAPE if avoid is None else avoid)
+    while explorer.More():
+        found.Add(explorer.Current())
+        explorer.Next()
+    return [found.FindKey(i) for i in range(1, found.Extent() + 1)]
+
+
+def compound(shapes: list[Any]) -> Any:
+    """A TopoDS_Compound of the shapes, in order."""
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound
+
+    result = TopoDS_Compound()
+    builder = BRep_Builder()
+    builder.MakeCompound(result)
+    for shape in shapes:
+        builder.Add(result, shape)
+    return result
+
+
+def located(shape: Any, location: Any) -> Any:
+    """The shape at a location (None: at the origin)."""
+    from OCP.TopLoc import TopLoc_Location
+
+    return shape.Located(TopLoc_Location() if location is None else location, False)
+
+
+_HERE = np.eye(3, 4)
+
+
+def matrix(location: Any) -> Floats:
+    """(3, 4) matrix of a TopLoc_Location."""
+    if location.IsIdentity():
+        return _HERE
+    move = location.Transformation()
+    return np.array([[move.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
+
+
+def _four(rows: Floats) -> Floats:
+    result = np.eye(4)
+    result[:3] = rows
+    return result

@@ -1,0 +1,165 @@
+"""STEP and IGES: products with names, colours and placements, read through OpenCASCADE's document (XCAF)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from hlr.errors import SourceError
+from hlr.source.brep import BrepSource
+from hlr.source.files import check_head
+from hlr.source.model import Color
+from hlr.source.occt import ready
+from hlr.source.parts import Leaf
+
+_DEPTH = 200
+"""Assemblies nest no deeper than this; a file that refers to itself would never end."""
+
+
+def open_step(path: Path) -> BrepSource:
+    """A STEP file.
+
+    Raises:
+        SourceError: not a STEP file, broken, empty, or holding nothing to draw.
+    """
+    check_head(path, b"ISO-10303-21", "a STEP file (they begin with ISO-10303-21)")
+    ready()
+    from OCP.STEPCAFControl import STEPCAFControl_Reader
+
+    reader = STEPCAFControl_Reader()
+    reader.SetGDTMode(False)
+    reader.SetMatMode(False)
+    reader.SetPropsMode(False)
+    return _read(path, "step", reader)
+
+
+def open_iges(path: Path) -> BrepSource:
+    """An IGES file.
+
+    Raises:
+        SourceError: not an IGES file, broken, empty, or holding nothing to draw.
+    """
+    head = path.open("rb").read(240)
+    if len(head) < 80 or head[72:73] not in b"SBC":
+        raise SourceError(f"{path.name} is not an IGES file (column 73 of its first line is not S): check the file.")
+    ready()
+    from OCP.IGESCAFControl import IGESCAFControl_Reader
+
+    return _read(path, "iges", IGESCAFControl_Reader())
+
+
+def _read(path: Path, kind: str, reader: Any) -> BrepSource:
+    from OCP.IFSelect import IFSelect_ReturnStatus
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    reader.SetNameMode(True)
+    reader.SetColorMode(True)
+    reader.SetLayerMode(False)
+    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    try:
+        status = reader.ReadFile(str(path))
+        read = status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.Transfer(document)
+    except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
+        raise SourceError(f"{path.name} cannot be read as {kind.upper()} ({type(error).__name__}).") from None
+    if not read:
+        raise SourceError(f"{path.name} cannot be read as {kind.upper()}: the file is broken or incomplete.")
+    tree = _Tree(XCAFDoc_DocumentTool.ShapeTool_s(document.Main()), XCAFDoc_DocumentTool.ColorTool_s(document.Main()))
+    tree.walk(path.stem)
+    if not tree.leaves:
+        raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
+    return BrepSource(path.name, kind, tree.leaves, tree.notes)
+
+
+class _Tree:
+    """The document's assembly tree, flattened."""
+
+    def __init__(self, shapes: Any, colors: Any) -> None:
+        self.shapes, self.colors = shapes, colors
+        self.leaves: list[Leaf] = []
+        self.notes: list[str] = []
+        self._details: dict[str, dict[Any, Color]] = {}
+
+    def walk(self, fallback: str) -> None:
+        from OCP.TDF import TDF_LabelSequence
+        from OCP.TopLoc import TopLoc_Location
+
+        free = TDF_LabelSequence()
+        self.shapes.GetFreeShapes(free)
+        for i in range(1, free.Length() + 1):
+            self._visit(free.Value(i), TopLoc_Location(), None, fallback, 0)
+
+    def _visit(self, label: Any, place: Any, inherited: Color | None, fallback: str, depth: int) -> None:
+        from OCP.TDF import TDF_Label, TDF_LabelSequence
+
+        product, color = label, self._color(label)
+        if self.shapes.IsReference_s(label):
+            product = TDF_Label()
+            self.shapes.GetReferredShape_s(label, product)
+            place = place.Multiplied(self.shapes.GetLocation_s(label))
+        # A colour set on the instance wins over the assembly's, which wins over the product's own.
+        color = color or inherited or (self._color(product) if product is not label else None)
+        name = _name(product) or _name(label) or fallback
+        if self.shapes.IsAssembly_s(product) and depth < _DEPTH:
+            children = TDF_LabelSequence()
+            self.shapes.GetComponents_s(product, children)
+            for i in range(1, children.Length() + 1):
+                self._visit(children.Value(i), place, color, name, depth + 1)
+            return
+        shape = self.shapes.GetShape_s(product)
+        if shape is None or shape.IsNull():
+            self.notes.append(f'Part "{name}" is empty and was left out.')
+            return
+        # A free shape carries its own placement; a product's stands in the reference.
+        self.leaves.append(Leaf(shape.Moved(place, False), name, color, self._detail(product)))
+
+    def _detail(self, product: Any) -> dict[Any, Color]:
+        """Colours of the solids and faces of a product, by underlying shape."""
+        from OCP.TCollection import TCollection_AsciiString
+        from OCP.TDF import TDF_LabelSequence, TDF_Tool
+
+        entry = TCollection_AsciiString()
+        TDF_Tool.Entry_s(product, entry)
+        known = self._details.get(entry.ToCString())
+        if known is None:
+            known = self._details[entry.ToCString()] = {}
+            children = TDF_LabelSequence()
+            self.shapes.GetSubShapes_s(product, children)
+            for i in range(1, children.Length() + 1):
+                color = self._color(children.Value(i))
+                if color is not None:
+                    known[self.shapes.GetShape_s(children.Value(i)).TShape()] = color
+        return known
+
+    def _color(self, label: Any) -> Color | None:
+        from OCP.Quantity import Quantity_Color
+        from OCP.XCAFDoc import XCAFDoc_ColorType
+
+        color = Quantity_Color()
+        for kind in (XCAFDoc_ColorType.XCAFDoc_ColorSurf, XCAFDoc_ColorType.XCAFDoc_ColorGen):
+            if self.colors.GetColor_s(label, kind, color):
+                return srgb(color)
+        return None
+
+
+def srgb(color: Any) -> Color:
+    """(red, green, blue) from 0 to 1, as screens show them, of a Quantity_Color."""
+    from OCP.Quantity import Quantity_TypeOfColor
+
+    red, green, blue = color.Values(Quantity_TypeOfColor.Quantity_TOC_sRGB)
+    return round(red, 6), round(green, 6), round(blue, 6)
+
+
+def _name(label: Any) -> str:
+    from OCP.TDataStd import TDataStd_Name
+
+    name = TDataStd_Name()
+    if not label.FindAttribute(TDataStd_Name.GetID_s(), name):
+        return ""
+    text = " ".join(str(name.Get().ToExtString()).split())
+    # What OpenCASCADE's own writers put where nobody gave a name says nothing.
+    return "" if text.startswith("Open CASCADE") or text in _EMPTY_NAMES else text
+
+
+_EMPTY_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO", "=>"}

@@ -1,0 +1,151 @@
+"""OpenCASCADE's mesher, and the way from its result to arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from hlr.source.dump import DumpError, read_dump
+from hlr.source.model import Progress
+from hlr.source.parts import compound, explored
+from hlr.source.tables import FACE, Tables
+from hlr.source.topology import Meshes, build
+
+BATCH_FACES = 3000
+"""So many faces are meshed in one call: enough to fill the cores, few enough to report progress in between."""
+
+FLAT = 1e-7
+"""A free-form surface is planar where it departs from a plane by less than this share of the model's size."""
+
+
+class Tessellator:
+    """Meshes a list of roots (shapes without placement), each underlying face once."""
+
+    def __init__(self, roots: list[Any], size: float) -> None:
+        """`size`: the model's diagonal, to judge planarity."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopoDS import TopoDS
+
+        self._roots = roots
+        self._faces: list[Any] = []
+        self._flat: list[bool] = []
+        self._batches: list[list[int]] = [[]]
+        seen: set[Any] = set()
+        filled = 0
+        for number, root in enumerate(roots):
+            faces = explored(root, Kind.TopAbs_FACE)
+            if filled and filled + len(faces) > BATCH_FACES:
+                self._batches.append([])
+                filled = 0
+            self._batches[-1].append(number)
+            filled += len(faces)
+            for face in faces:
+                underlying = face.TShape()
+                if underlying not in seen:
+                    seen.add(underlying)
+                    self._faces.append(TopoDS.Face_s(face))
+        self._flat = [_is_flat(face, FLAT * size) for face in self._faces]
+
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> tuple[Meshes, list[str]]:
+        """All roots at this chord error and turning angle (radians), and notes on what failed."""
+        from OCP.BRepTools import BRepTools
+
+        notes: list[str] = []
+        # A triangulation from earlier, ours or the caller's, would be kept where it is finer: the result would depend
+        # on history. Faces that are nothing but a triangulation keep it.
+        everything = compound(self._roots)
+        BRepTools.Clean_s(everything)
+        for done, batch in enumerate(self._batches):
+            if progress is not None:
+                progress("tessellate", done / len(self._batches))
+            for failed in self._mesh_batch(batch, deflection, angle):
+                notes.append(failed)
+        carriers = self._normal_carriers()
+        tables = read_tables(compound([compound(carriers), *self._roots]))
+        faces = np.flatnonzero(tables.kind == FACE)[len(carriers) :]
+        planar = np.zeros(len(tables.kind), dtype=bool)
+        # The dump lists each underlying face once, in the order in which an explorer meets them: so do we.
+        planar[faces] = self._flat
+        result = build(tables, planar)
+        if progress is not None:
+            progress("tessellate", 1.0)
+        return result, notes
+
+    def _mesh_batch(self, batch: list[int], deflection: float, angle: float) -> Iterator[str]:
+        try:
+            _run_mesher(compound([self._roots[i] for i in batch]), deflection, angle)
+        except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
+            if len(batch) == 1:
+                yield f"Part {batch[0]} could not be meshed completely ({type(error).__name__})."
+                return
+            for number in batch:
+                yield from self._mesh_batch([number], deflection, angle)
+
+    def _normal_carriers(self) -> list[Any]:
+        """Bare faces that make the dump hold surface normals beside the nodes of curved faces.
+
+        The normals tell creases from tangent edges. The dump writes them where a triangulation is first met through a
+        face, not where it is first met through an edge: hence faces without edges, ahead of the parts.
+        """
+        from OCP.BRep import BRep_Builder, BRep_Tool
+        from OCP.BRepLib import BRepLib_ToolTriangulatedShape
+        from OCP.TopLoc import TopLoc_Location
+        from OCP.TopoDS import TopoDS_Face
+
+        place, builder = TopLoc_Location(), BRep_Builder()
+        carriers = []
+        for face, flat in zip(self._faces, self._flat, strict=True):
+            triangulation = None if flat else BRep_Tool.Triangulation_s(face, place)
+            if triangulation is not None:
+                BRepLib_ToolTriangulatedShape.ComputeNormals_s(face, triangulation)
+                carrier = TopoDS_Face()
+                builder.MakeFace(carrier, triangulation)
+                carriers.append(carrier)
+        return carriers
+
+
+def read_tables(everything: Any) -> Tables:
+    """Tables of a meshed compound (normal carriers first, then the roots): through the dump, or item by item where its layout is not the known one."""
+    try:
+        return read_dump(everything)
+    except DumpError:
+        from hlr.source.walk import walk
+
+        return walk(everything)
+
+
+def _run_mesher(shape: Any, deflection: float, angle: float) -> None:
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.IMeshTools import IMeshTools_MeshAlgoType, IMeshTools_Parameters
+
+    parameters = IMeshTools_Parameters()
+    parameters.MeshAlgo = IMeshTools_MeshAlgoType.IMeshTools_MeshAlgoType_Delabella
+    parameters.Deflection = deflection
+    parameters.Angle = angle
+    parameters.InParallel = True
+    BRepMesh_IncrementalMesh(shape, parameters)
+
+
+_CURVED = {"Geom_CylindricalSurface", "Geom_ConicalSurface", "Geom_SphericalSurface", "Geom_ToroidalSurface"}
+
+
+def _is_flat(face: Any, tolerance: float) -> bool:
+    from OCP.BRep import BRep_Tool
+    from OCP.GeomLib import GeomLib_IsPlanarSurface
+    from OCP.TopLoc import TopLoc_Location
+
+    surface = BRep_Tool.Surface_s(face, TopLoc_Location())
+    name = type(surface).__name__
+    while name == "Geom_RectangularTrimmedSurface":
+        surface = surface.BasisSurface()
+        name = type(surface).__name__
+    if name == "Geom_Plane":
+        return True
+    if surface is None or name in _CURVED:
+        return False
+    try:
+        return bool(GeomLib_IsPlanarSurface(surface, tolerance).IsPlanar())
+    except Exception:  # a surface OpenCASCADE cannot judge is taken as curved
+        return False
