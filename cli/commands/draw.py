@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -163,15 +164,17 @@ def _warn(drawings: list[Drawing], strict: bool) -> None:
 
 def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], out: Output) -> None:
     """All files or none."""
-    from hlr.writers import files, render
+    from hlr.writers import files, note_time, render
 
     made: dict[Path, bytes] = {}
     for drawing, (path, format) in zip(drawings, targets, strict=True):
+        begin = time.perf_counter()
         data = render(drawing, format)
         if path is None:
             out.put(data)
         else:
             made[path] = data
+        note_time(drawing, time.perf_counter() - begin)
     with tidily():
         files.place(made)
 

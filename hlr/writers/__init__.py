@@ -11,7 +11,7 @@ from hlr.errors import WriteError
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
 
-__all__ = ["FORMATS", "format_of", "render", "write"]
+__all__ = ["FORMATS", "format_of", "note_time", "render", "write"]
 
 FORMATS = ("svg", "pdf", "json")
 
@@ -57,8 +57,12 @@ def write(drawing: Drawing, path: str | Path) -> Path:
     kind = format_of(path)
     files.check(path)
     files.place({path: render(drawing, kind)})
-    seconds = time.perf_counter() - begin
+    note_time(drawing, time.perf_counter() - begin)
+    return path
+
+
+def note_time(drawing: Drawing, seconds: float) -> None:
+    """Put the time of writing into a drawing's timings, and into their total; a later one replaces it."""
     timings = drawing.timings
     timings["total"] = timings.get("total", 0.0) - timings.get("write", 0.0) + seconds
     timings["write"] = seconds
-    return path

@@ -163,6 +163,7 @@ def test_a_summary_for_machines(hlr_command):
     assert (first["file"], first["format"], first["view"]) == ("top.pdf", "pdf", "top")
     assert second["lines"] == {"visible": 6, "hidden": 4}
     assert second["counters"] == {"segments": 10}
+    assert second["timings"]["total"] == pytest.approx(0.75 + second["timings"]["write"])
 
 
 def test_format_wins_over_the_ending(hlr_command, tmp_path):

@@ -20,8 +20,8 @@ def content_of(data):
 
 
 def image(made, dots_per_mm=4):
-    """The page as grey values (h, w), through a PDF reader that is not ours."""
-    page = pypdfium2.PdfDocument(pdf(made))[0]
+    """The page as grey values (h, w), through a PDF reader that is not ours. made: a drawing, or the file's content."""
+    page = pypdfium2.PdfDocument(made if isinstance(made, bytes) else pdf(made))[0]
     return np.asarray(page.render(scale=dots_per_mm / MM).to_pil().convert("L")).astype(int)
 
 
@@ -76,6 +76,12 @@ def test_one_layer_per_class_and_visibility():
     content = content_of(data)
     assert content.count("BDC") == content.count("EMC") == len(names)
     assert b"/OCProperties" in data
+
+
+def test_layers_can_be_switched_off():
+    data = pdf(sample())
+    assert (image(data) < 128).any()
+    assert (image(data.replace(b"/ON [", b"/OFF[")) == 255).all()
 
 
 def test_the_title_says_what_is_drawn():
