@@ -7,10 +7,10 @@ chance to tidy the terminal. A child does both: it draws for as long as its inpu
 from __future__ import annotations
 
 import contextlib
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from typing import IO
 
 Progress = Callable[[str, float], None]
 
@@ -24,6 +24,8 @@ def meter(quiet: bool) -> Iterator[Progress | None]:
     if quiet or sys.stderr is None or not sys.stderr.isatty():
         yield None
         return
+    import subprocess  # here, because the help text has no use for it
+
     try:
         # -P: the folder that hlr was started in must not provide modules.
         child = subprocess.Popen(
@@ -34,16 +36,16 @@ def meter(quiet: bool) -> Iterator[Progress | None]:
     except OSError:  # drawing matters more than showing progress
         yield None
         return
+    assert child.stdin is not None
     try:
-        yield _sender(child)
+        yield _sender(child.stdin)
     finally:
         with contextlib.suppress(OSError):
-            if child.stdin is not None:
-                child.stdin.close()
+            child.stdin.close()
         child.wait()
 
 
-def _sender(child: subprocess.Popen[bytes]) -> Progress:
+def _sender(pipe: IO[bytes]) -> Progress:
     shown, at = "", 0.0
 
     def report(stage: str, fraction: float) -> None:
@@ -53,8 +55,7 @@ def _sender(child: subprocess.Popen[bytes]) -> Progress:
             return
         shown, at = stage, now
         with contextlib.suppress(OSError, ValueError):
-            if child.stdin is not None:
-                child.stdin.write(f"{fraction:.4f} {stage}\n".encode())
-                child.stdin.flush()
+            pipe.write(f"{fraction:.4f} {stage}\n".encode())
+            pipe.flush()
 
     return report

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 import time
 from pathlib import Path
@@ -181,6 +180,8 @@ def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], out:
 
 def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) -> bytes:
     """What was drawn, as JSON."""
+    import json
+
     entries = [
         {
             "file": str(path),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -42,6 +41,8 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
 
             model = hlr.info(source, crease=crease, progress=progress)
         if as_json:
+            import json
+
             text = json.dumps(_document(model), indent=2)
         else:
             text = _table(model)
