@@ -76,10 +76,14 @@ class RayCaster:
 
     def blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.int64]:
         """For each point the number of blocked rays among its own and those of the ring."""
-        parts = [self._blocked(points[i : i + CHUNK], camera) for i in range(0, len(points), CHUNK)]
-        return np.concatenate(parts) if parts else np.zeros(0, dtype=np.int64)
+        return np.asarray(self.blocked_each(points, camera).sum(axis=1), dtype=np.int64)
 
-    def _blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.int64]:
+    def blocked_each(self, points: Floats, camera: Camera) -> npt.NDArray[np.bool_]:
+        """(n, 9): the point's own ray first, then the ring."""
+        parts = [self._blocked(points[i : i + CHUNK], camera) for i in range(0, len(points), CHUNK)]
+        return np.concatenate(parts) if parts else np.zeros((0, RING + 1), dtype=np.bool_)
+
+    def _blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.bool_]:
         starts = (points - self._centre) / self.diagonal
         if camera.eye is None:
             toward = np.broadcast_to(camera.direction, starts.shape)
@@ -92,7 +96,7 @@ class RayCaster:
         origins = (origins + (toward * DEPTH)[:, None, :]).reshape(-1, 3)
         toward = np.repeat(toward, RING + 1, axis=0)
         limit = np.repeat(np.minimum(reach - DEPTH, 1e30), RING + 1)
-        return self._hit(origins, toward, limit).reshape(-1, RING + 1).sum(axis=1)
+        return self._hit(origins, toward, limit).reshape(-1, RING + 1)
 
     @staticmethod
     def _ring(camera: Camera) -> Floats:

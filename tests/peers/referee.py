@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -25,13 +26,46 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from peers import exchange, reference, report
 from peers.judge import RayCaster, Verdict, judge, offenders
+from peers.missing import Edges, Missing, missing
 
 VIEWS = "front,top,right,iso"
 PEERS = ("hlr", "occt-exact", "occt-poly")
 View = str | tuple[float, float, float]
 Drawn = tuple[str, exchange.Exchange | str, float]
 """View name, the drawing or why there is none, seconds."""
-Judged = tuple[report.Row, exchange.Exchange | None, Verdict | None]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One drawing and all that is known of it; only the row where there is no drawing."""
+
+    row: report.Row
+    drawing: exchange.Exchange | None = None
+    verdict: Verdict | None = None
+    gaps: Missing | None = None
+
+    def why(self) -> Iterator[str]:
+        """The wrong lines, worst first, and then where lines are missing."""
+        if self.drawing is not None and self.verdict is not None:
+            yield from offenders(self.drawing, self.verdict)
+        for x, y, z in self.gaps.places if self.gaps else ():
+            yield f"no visible line at ({x:.6g}, {y:.6g}, {z:.6g})"
+
+
+class Referee:
+    """An independent mesh of one model, ready to judge drawings of it."""
+
+    def __init__(self, model: reference.Reference) -> None:
+        self._caster = RayCaster(model)
+        self._edges = Edges(model)
+
+    def judge(self, file: str, drawer: str, drawing: exchange.Exchange, seconds: float = 0.0) -> Judged:
+        start = time.perf_counter()
+        verdict = judge(drawing, self._caster)
+        gaps = missing(drawing, self._edges, self._caster) if drawing.camera.eye is None else None
+        spent = time.perf_counter() - start
+        row = report.row(file, drawer, drawing, verdict, gaps=gaps, draw=seconds, judge=spent)
+        return Judged(row, drawing, verdict, gaps)
 
 
 def random_views(count: int, seed: int = 1) -> list[View]:
@@ -110,9 +144,9 @@ def judge_file(path: Path, views: Sequence[View], peers: Sequence[str], timeout:
     try:
         model = reference.load(path)
     except Exception as error:
-        yield report.Row(path.name, "all", "referee", failure=f"no reference mesh: {error}"), None, None
+        yield Judged(report.Row(path.name, "all", "referee", failure=f"no reference mesh: {error}"))
         return
-    caster = RayCaster(model)
+    judging = Referee(model)
     print(
         f"{path.name}: {len(model.triangles)} triangles, diagonal {model.diagonal:.6g}, "
         f"{model.unmeshed} faces unmeshed, {time.perf_counter() - start:.1f} s",
@@ -121,24 +155,16 @@ def judge_file(path: Path, views: Sequence[View], peers: Sequence[str], timeout:
     for peer in peers:
         for name, drawing, seconds in drawings(path, views, peer, model, timeout):
             if isinstance(drawing, str):
-                yield report.Row(path.name, name, peer, failure=drawing), None, None
-                continue
-            start = time.perf_counter()
-            verdict = judge(drawing, caster)
-            spent = time.perf_counter() - start
-            row = report.row(path.name, peer, drawing, verdict, draw=seconds, judge=spent)
-            yield row, drawing, verdict
+                yield Judged(report.Row(path.name, name, peer, failure=drawing))
+            else:
+                yield judging.judge(path.name, peer, drawing, seconds)
 
 
 def judge_drawings(paths: Sequence[Path], model: Path) -> Iterator[Judged]:
     """Drawings that exist already, all of one model."""
-    caster = RayCaster(reference.load(model))
+    judging = Referee(reference.load(model))
     for path in paths:
-        drawing = exchange.read(path)
-        start = time.perf_counter()
-        verdict = judge(drawing, caster)
-        row = report.row(path.name, "file", drawing, verdict, draw=0.0, judge=time.perf_counter() - start)
-        yield row, drawing, verdict
+        yield judging.judge(path.name, "file", exchange.read(path))
 
 
 def judge_models(given: argparse.Namespace) -> Iterator[Judged]:
@@ -162,16 +188,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--svg", type=Path, help="folder for pictures with the wrong samples marked")
     given = parser.parse_args(arguments)
     rows: list[report.Row] = []
-    for row, drawing, verdict in judge_drawings(given.paths, given.against) if given.against else judge_models(given):
+    for judged in judge_drawings(given.paths, given.against) if given.against else judge_models(given):
+        row = judged.row
         rows.append(row)
         print("  " + " ".join(row.cells()).strip(), flush=True)
-        if drawing is None or verdict is None:
-            continue
-        for text in itertools.islice(offenders(drawing, verdict), given.why):
+        for text in itertools.islice(judged.why(), given.why):
             print("    " + text)
-        if given.svg:
+        if given.svg and judged.drawing and judged.verdict:
             given.svg.mkdir(parents=True, exist_ok=True)
-            report.save_picture(given.svg / f"{Path(row.file).stem}-{row.drawer}-{row.view}.svg", drawing, verdict)
+            picture = given.svg / f"{Path(row.file).stem}-{row.drawer}-{row.view}.svg"
+            report.save_picture(picture, judged.drawing, judged.verdict, judged.gaps)
     if not rows:
         print("no model files found", file=sys.stderr)
         return 2

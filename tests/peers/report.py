@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from peers.exchange import Exchange
 from peers.judge import Verdict
+from peers.missing import Missing
 
 HEADINGS = (
     "file",
@@ -22,6 +23,8 @@ HEADINGS = (
     "wrong",
     "%",
     "displaced",
+    "asked",
+    "missing",
     "draw s",
     "judge s",
 )
@@ -40,13 +43,15 @@ class Row:
     hidden: int = 0
     wrong_hidden: int = 0
     displaced: int = 0
+    asked: int = 0
+    missing: int = 0
     draw: float = 0.0
     judge: float = 0.0
     failure: str = ""
 
     @property
     def bad(self) -> bool:
-        return bool(self.wrong_visible or self.wrong_hidden or self.displaced or self.failure)
+        return bool(self.wrong_visible or self.wrong_hidden or self.displaced or self.missing or self.failure)
 
     def cells(self) -> list[str]:
         if self.failure:
@@ -63,12 +68,16 @@ class Row:
             str(self.wrong_hidden),
             _percent(self.wrong_hidden, self.hidden),
             str(self.displaced),
+            str(self.asked),
+            str(self.missing),
             f"{self.draw:.2f}",
             f"{self.judge:.2f}",
         ]
 
 
-def row(file: str, drawer: str, drawing: Exchange, verdict: Verdict, *, draw: float, judge: float) -> Row:
+def row(
+    file: str, drawer: str, drawing: Exchange, verdict: Verdict, *, gaps: Missing | None, draw: float, judge: float
+) -> Row:
     visible = verdict.samples.visible
     return Row(
         file=file,
@@ -80,6 +89,8 @@ def row(file: str, drawer: str, drawing: Exchange, verdict: Verdict, *, draw: fl
         hidden=int((~visible).sum()),
         wrong_hidden=int(verdict.wrong_hidden.sum()),
         displaced=verdict.displaced,
+        asked=gaps.asked if gaps else 0,
+        missing=len(gaps.places) if gaps else 0,
         draw=draw,
         judge=judge,
     )
@@ -88,7 +99,18 @@ def row(file: str, drawer: str, drawing: Exchange, verdict: Verdict, *, draw: fl
 def total(rows: Sequence[Row]) -> Row:
     sums = {
         name: sum(getattr(each, name) for each in rows)
-        for name in ("lines", "visible", "wrong_visible", "hidden", "wrong_hidden", "displaced", "draw", "judge")
+        for name in (
+            "lines",
+            "visible",
+            "wrong_visible",
+            "hidden",
+            "wrong_hidden",
+            "displaced",
+            "asked",
+            "missing",
+            "draw",
+            "judge",
+        )
     }
     failures = sum(bool(each.failure) for each in rows)
     return Row(file="total", view=f"{len(rows)} views, {failures} failed", drawer="", **sums)
@@ -108,8 +130,8 @@ def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join([lines[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *lines[1:]])
 
 
-def save_picture(path: Path, drawing: Exchange, verdict: Verdict) -> None:
-    """Visible black, hidden grey; wrong samples as red (visible) and orange (hidden) rings."""
+def save_picture(path: Path, drawing: Exchange, verdict: Verdict, gaps: Missing | None = None) -> None:
+    """Visible black, hidden grey; red rings: wrongly visible, orange: wrongly hidden, blue: missing."""
     axes = np.stack([drawing.camera.right, drawing.camera.up], axis=1)
     every = np.concatenate([line.points3 @ axes for line in drawing.lines] or [np.zeros((1, 2))])
     low, high = every.min(axis=0), every.max(axis=0)
@@ -131,7 +153,11 @@ def save_picture(path: Path, drawing: Exchange, verdict: Verdict) -> None:
             if line.visible == visible
         )
         out.append(f'<path d="{data}" fill="none" stroke="{color}" stroke-width="{stroke}"/>')
-    for wrong, color in ((verdict.wrong_visible, "#e00"), (verdict.wrong_hidden, "#f80")):
-        for x, y in place(verdict.samples.points[wrong]):
+    samples = verdict.samples.points
+    marks = [(samples[verdict.wrong_visible], "#e00"), (samples[verdict.wrong_hidden], "#f80")]
+    if gaps is not None:
+        marks.append((gaps.places, "#00f"))
+    for places, color in marks:
+        for x, y in place(places):
             out.append(f'<circle cx="{x:.2f}" cy="{y:.2f}" r="5" fill="none" stroke="{color}" stroke-width="1.5"/>')
     path.write_text("\n".join([*out, "</svg>\n"]))

@@ -44,9 +44,8 @@ def test_perspective(name: str, tmp_path: Path) -> None:
 
 def expect_faultless(path: Path) -> None:
     drawn = 0
-    for row, document, verdict in referee.judge_file(path, VIEWS, ["hlr"]):
-        assert document is not None and verdict is not None, row.failure
-        assert row.visible, "a drawing with nothing visible proves nothing"
-        assert not row.bad, f"{row}\n" + "\n".join(offenders(document, verdict))
+    for judged in referee.judge_file(path, VIEWS, ["hlr"]):
+        assert not judged.row.bad, f"{judged.row}\n" + "\n".join(judged.why())
+        assert judged.row.visible and judged.row.asked, "a drawing with nothing visible proves nothing"
         drawn += 1
     assert drawn == len(VIEWS)

@@ -175,8 +175,8 @@ def test_command_judges_a_peer_and_writes_the_table(tmp_path: Path) -> None:
 
 def test_command_says_when_a_peer_does_not_end(tmp_path: Path) -> None:
     path = models.save("box", tmp_path)
-    rows = [row for row, _, _ in referee.judge_file(path, ["iso"], ["occt-exact"], timeout=0.05)]
-    assert rows[0].bad and "no end" in rows[0].failure
+    (judged,) = referee.judge_file(path, ["iso"], ["occt-exact"], timeout=0.05)
+    assert judged.row.bad and "no end" in judged.row.failure
 
 
 def test_meshes_load_in_their_own_units(tmp_path: Path) -> None:
@@ -205,3 +205,19 @@ def test_command_judges_a_finished_drawing(tmp_path: Path, capsys: pytest.Captur
     (tmp_path / "a.json").write_text(json.dumps(document))
     assert referee.main([str(tmp_path / "a.json"), "--against", str(model), "--why"]) == 1
     assert f"line {deep} at" in capsys.readouterr().out
+
+
+def test_missing_and_wrongly_hidden_outlines_are_noticed() -> None:
+    """What rays from drawn lines cannot see: a contour called hidden, and no line at all."""
+    shape = models.shape("bracket")
+    judging = referee.Referee(reference.from_shape(shape))
+    document = occt.draw(shape, "exact", occt.camera_of("iso"))
+    whole = judging.judge("bracket", "occt", exchange.parse(document))
+    assert whole.gaps is not None and whole.gaps.asked > 200 and not whole.row.bad, list(whole.why())
+    outlines = [entry for entry in document["lines"] if entry["class"] == "outline" and entry["visible"]]
+    seen = max(outlines, key=lambda entry: float(np.ptp(entry["points"], axis=0).max()))
+    seen["visible"] = False
+    called_hidden = judging.judge("bracket", "occt", exchange.parse(document)).row
+    assert called_hidden.missing and not called_hidden.wrong_hidden
+    document["lines"] = []
+    assert judging.judge("bracket", "occt", exchange.parse(document)).row.missing == whole.gaps.asked
