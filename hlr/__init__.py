@@ -1,1 +1,64 @@
-"""Hidden-line drawings of CAD models."""
+"""Hidden-line drawings of CAD models: exact visible and hidden edges.
+
+>>> import hlr
+>>> hlr.draw("part.step", view="iso").save("part.svg")
+
+Names are loaded when first used: `import hlr` costs nothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from hlr.drawing import Drawing, Line
+    from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
+    from hlr.pipeline import draw, draw_views, info
+    from hlr.plan.options import Options, Perspective
+    from hlr.scene.report import ModelInfo, PartReport
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "Drawing": "hlr.drawing",
+    "HlrError": "hlr.errors",
+    "Line": "hlr.drawing",
+    "ModelInfo": "hlr.scene.report",
+    "OptionError": "hlr.errors",
+    "Options": "hlr.plan.options",
+    "PartReport": "hlr.scene.report",
+    "Perspective": "hlr.plan.options",
+    "SourceError": "hlr.errors",
+    "StrictError": "hlr.errors",
+    "ViewError": "hlr.errors",
+    "WriteError": "hlr.errors",
+    "draw": "hlr.pipeline",
+    "draw_views": "hlr.pipeline",
+    "info": "hlr.pipeline",
+}
+
+__all__ = [
+    "Drawing",
+    "HlrError",
+    "Line",
+    "ModelInfo",
+    "OptionError",
+    "Options",
+    "PartReport",
+    "Perspective",
+    "SourceError",
+    "StrictError",
+    "ViewError",
+    "WriteError",
+    "draw",
+    "draw_views",
+    "info",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME:
+        from importlib import import_module
+
+        return getattr(import_module(_HOME[name]), name)
+    raise AttributeError(f"module 'hlr' has no attribute '{name}'")

@@ -62,6 +62,41 @@ pub fn edge_table<'py>(
 }
 
 #[pyfunction]
+pub fn edge_balance<'py>(
+    py: Python<'py>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    edges: PyReadonlyArray2<'py, i32>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    incident: PyReadonlyArray1<'py, i32>,
+) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    let (triangles, edges) = (rows::<i32, 3>(&triangles, "triangles")?, rows::<i32, 2>(&edges, "edges")?);
+    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
+    check_incidence(edges, offsets, incident, triangles.len())?;
+    Ok(run(py, 0, |_| topology::balance(triangles, edges, offsets, incident))?.into_pyarray(py))
+}
+
+#[pyfunction]
+pub fn components<'py>(
+    py: Python<'py>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    n_points: usize,
+) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+    expect_below("triangles", triangles.iter().flatten().copied(), n_points)?;
+    Ok(topology::components(triangles, n_points).into_pyarray(py))
+}
+
+fn check_incidence(edges: &[[i32; 2]], offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
+    expect_len("offsets", offsets.len(), edges.len() + 1)?;
+    expect_below("incident", incident.iter().copied(), triangles)?;
+    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
+    if offsets.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("offsets must ascend"));
+    }
+    Ok(())
+}
+
+#[pyfunction]
 #[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array of the scene: the stub names them
 pub fn visibility<'py>(
@@ -89,18 +124,13 @@ pub fn visibility<'py>(
     expect_len("triangle_part", triangle_part.len(), triangles.len())?;
     expect_len("edge_part", edge_part.len(), edges.len())?;
     expect_len("role", role.len(), edges.len())?;
-    expect_len("offsets", offsets.len(), edges.len() + 1)?;
     expect_len("sound", sound.len(), cull.len())?;
     expect_len("delta", delta.len(), cull.len())?;
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
     expect_below("edges", edges.iter().flatten().copied(), points.len())?;
     expect_below("triangle_part", triangle_part.iter().copied(), cull.len())?;
     expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
-    expect_below("incident", incident.iter().copied(), triangles.len())?;
-    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
-    if offsets.windows(2).any(|w| w[0] > w[1]) {
-        return Err(PyValueError::new_err("offsets must ascend"));
-    }
+    check_incidence(edges, offsets, incident, triangles.len())?;
     let outcome = run(py, threads, |stopped| {
         let grid = Grid::around(points)?;
         let mesh = Mesh {

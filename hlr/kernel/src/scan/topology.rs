@@ -38,6 +38,55 @@ pub fn topology(triangles: &[[i32; 3]]) -> Topology {
     out
 }
 
+/// Per edge, triangles that run along it minus triangles that run against it: zero everywhere on a closed, consistently
+/// oriented surface.
+pub fn balance(triangles: &[[i32; 3]], edges: &[[i32; 2]], offsets: &[i32], incident: &[i32]) -> Vec<i32> {
+    edges
+        .par_iter()
+        .enumerate()
+        .map(|(e, &[lo, hi])| {
+            let around = &incident[offsets[e] as usize..offsets[e + 1] as usize];
+            let along = |&t: &i32| {
+                let [p, q, r] = triangles[t as usize];
+                if (p == lo && q == hi) || (q == lo && r == hi) || (r == lo && p == hi) { 1 } else { -1 }
+            };
+            around.iter().map(along).sum()
+        })
+        .collect()
+}
+
+/// A label per triangle: triangles that share vertices have the same; labels count up in order of appearance.
+pub fn components(triangles: &[[i32; 3]], n_points: usize) -> Vec<i32> {
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    let mut parent: Vec<u32> = (0..n_points as u32).collect();
+    for t in triangles {
+        let a = root(&mut parent, t[0] as u32);
+        for &v in &t[1..] {
+            let b = root(&mut parent, v as u32);
+            parent[b as usize] = a;
+        }
+    }
+    let mut label = vec![-1; n_points];
+    let mut next = 0;
+    triangles
+        .iter()
+        .map(|t| {
+            let r = root(&mut parent, t[0] as u32) as usize;
+            if label[r] < 0 {
+                label[r] = next;
+                next += 1;
+            }
+            label[r]
+        })
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,5 +96,19 @@ mod tests {
         let t = topology(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
         assert_eq!(t.edges, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]);
         assert!(t.offsets.windows(2).all(|w| w[1] - w[0] == 2));
+    }
+
+    #[test]
+    fn two_tetrahedra_are_two_components_and_balanced() {
+        let one = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let two: Vec<[i32; 3]> = one.iter().chain(&one.map(|t| t.map(|v| v + 4))).copied().collect();
+        assert_eq!(components(&two, 8), [0, 0, 0, 0, 1, 1, 1, 1]);
+        let t = topology(&two);
+        assert!(balance(&two, &t.edges, &t.offsets, &t.incident).iter().all(|&b| b == 0));
+        let open = topology(&two[1..]);
+        assert_eq!(
+            balance(&two[1..], &open.edges, &open.offsets, &open.incident).iter().filter(|&&b| b != 0).count(),
+            3
+        );
     }
 }

@@ -1,0 +1,51 @@
+"""The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int32]
+Bools = npt.NDArray[np.bool_]
+Bytes = npt.NDArray[np.uint8]
+
+def edge_table(triangles: Ints, n_points: int) -> tuple[Ints, Ints, Ints]: ...
+def edge_balance(triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Ints: ...
+def components(triangles: Ints, n_points: int) -> Ints: ...
+def visibility(
+    points: Floats,
+    triangles: Ints,
+    triangle_part: Ints,
+    edges: Ints,
+    offsets: Ints,
+    incident: Ints,
+    edge_part: Ints,
+    role: Bytes,
+    cull: Bools,
+    sound: Bools,
+    delta: Floats,
+    threads: int = 0,
+) -> dict[str, Any]: ...
+def chain(edges: Ints, key: Ints) -> tuple[Ints, Ints, Bools]: ...
+def linework(
+    flat_points: Floats,
+    space_points: Floats,
+    depth: Floats,
+    perspective: bool,
+    edges: Ints,
+    piece_edge: Ints,
+    piece_t0: Floats,
+    piece_t1: Floats,
+    piece_state: Bytes,
+    chain_offsets: Ints,
+    chain_edges: Ints,
+    chain_reversed: Bools,
+    chain_rank: Bytes,
+    short: float,
+    stub: float,
+    width: float,
+    flat_tolerance: float,
+    space_tolerance: float,
+    threads: int = 0,
+) -> dict[str, Any]: ...

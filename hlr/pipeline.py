@@ -1,0 +1,181 @@
+"""The stages in order: source -> tessellate -> scene -> plan -> visibility -> linework -> drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from time import perf_counter
+from typing import Any
+
+from hlr.drawing import Drawing, DrawnPart, DrawnView
+from hlr.errors import StrictError
+from hlr.linework.lines import draw_lines
+from hlr.plan.options import Options, View
+from hlr.plan.plan import decide
+from hlr.plan.request import checked
+from hlr.scene.build import build
+from hlr.scene.report import ModelInfo, PartReport
+from hlr.scene.scene import Scene
+from hlr.source import open_source
+from hlr.source.model import Progress, Source
+from hlr.tolerance import SMALL_DRAWING, Tolerances
+from hlr.view.camera import Camera, resolve
+from hlr.view.clip import clip, planes
+from hlr.view.scale import Placed, place
+from hlr.visibility.segments import solve
+
+Clock = dict[str, float]
+
+
+def draw_views(
+    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+) -> list[Drawing]:
+    """One drawing per view; the source is read and meshed once.
+
+    source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
+    Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
+    """
+    options = checked(options or Options())
+    tell = progress or (lambda _stage, _done: None)
+    clock: Clock = {}
+    started = perf_counter()
+
+    tell("source", 0.0)
+    opened = open_source(source)
+    bounds = opened.bounds()
+    cameras = [resolve(view, options, opened.frame, bounds) for view in views]
+    started = _lap(clock, "source", started)
+
+    tell("tessellate", 0.0)
+    placed = [place(c, options, opened, bounds) for c in cameras]
+    scene, placed = _meshed(opened, cameras, placed, options, tell, clock)
+    started = perf_counter()
+
+    out = []
+    for i, (camera, at) in enumerate(zip(cameras, placed, strict=True)):
+        tell("visibility", i / len(cameras))
+        out.append(_drawing(opened, scene, camera, at, options, dict(clock)))
+    tell("linework", 1.0)
+    if options.strict and out and out[0].notes:
+        raise StrictError(out[0].notes[0])
+    return out
+
+
+def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Drawing:
+    """One view of a source; the keywords are the fields of `Options`."""
+    return draw_views(source, [view], Options(**options), progress)[0]
+
+
+def info(source: Any, *, crease: float = 30.0, progress: Progress | None = None) -> ModelInfo:
+    """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size."""
+    tell = progress or (lambda _stage, _done: None)
+    tell("source", 0.0)
+    opened = open_source(source)
+    bounds = opened.bounds()
+    size = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5)
+    tell("tessellate", 0.0)
+    scene = build(opened.mesh(size / SMALL_DRAWING, 0.5, progress), crease)
+    solids = {i.name: i.solids for i in opened.infos()}
+    parts = tuple(
+        PartReport(
+            name=p.name,
+            color=p.color,
+            solids=solids.get(p.name, 0),
+            faces=p.faces,
+            edges=p.edges,
+            triangles=p.triangles,
+            closed=p.closed,
+            oriented=p.oriented,
+            defects=p.defects,
+        )
+        for p in scene.parts
+    )
+    low, high = ((float(c[0]), float(c[1]), float(c[2])) for c in bounds)
+    notes = (*opened.notes, *scene.notes)
+    return ModelInfo(opened.name, opened.kind, opened.frame.unit, (low, high), parts, notes)
+
+
+def _lap(clock: Clock, stage: str, started: float) -> float:
+    now = perf_counter()
+    clock[stage] = clock.get(stage, 0.0) + now - started
+    return now
+
+
+def _meshed(
+    opened: Source,
+    cameras: list[Camera],
+    placed: list[Placed],
+    options: Options,
+    tell: Progress,
+    clock: Clock,
+) -> tuple[Scene, list[Placed]]:
+    """The scene, meshed finely enough for every view; with --fit the true scale is known only afterwards."""
+    for _ in range(2):
+        started = perf_counter()
+        finest = min(at.tolerances.deflection for at in placed)
+        meshed = opened.mesh(finest, placed[0].tolerances.angle, tell)
+        started = _lap(clock, "tessellate", started)
+        tell("scene", 0.0)
+        scene = build(meshed, options.crease)
+        _lap(clock, "scene", started)
+        final = [at.fitted(c, options, scene.points) for c, at in zip(cameras, placed, strict=True)]
+        if min(at.tolerances.deflection for at in final) > 0.8 * finest:
+            break
+        placed = final
+    return scene, final
+
+
+def _drawing(opened: Source, scene: Scene, camera: Camera, at: Placed, options: Options, clock: Clock) -> Drawing:
+    started = perf_counter()
+    seen, cuts = clip(scene, planes(camera, at.aspect))
+    tolerances: Tolerances = at.tolerances
+    plan = decide(seen, camera, options, tolerances)
+    projected = camera.project(seen.points)
+    started = _lap(clock, "plan", started)
+    segments = solve(seen, plan, projected, options.threads)
+    started = _lap(clock, "visibility", started)
+    lines, origin = draw_lines(
+        seen, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads
+    )
+    _lap(clock, "linework", started)
+    clock["write"] = 0.0
+    clock["total"] = sum(clock.values())
+    return Drawing(
+        source=opened.name,
+        view=_drawn_view(camera),
+        scale=at.scale,
+        origin=origin,
+        accuracy={
+            "asked": options.accuracy,
+            "used": tolerances.accuracy,
+            "deflection": tolerances.deflection,
+            "contact": tolerances.contact,
+        },
+        unit=opened.frame.unit,
+        up_axis=opened.frame.up,
+        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in scene.parts),
+        lines=lines,
+        notes=tuple(dict.fromkeys((*opened.notes, *scene.notes, *at.notes, *_empty(lines)))),
+        counters={**segments.counters, "lines": len(lines), "clipping_planes": cuts},
+        timings=clock,
+    )
+
+
+def _empty(lines: Sequence[object]) -> tuple[str, ...]:
+    return () if lines else ("nothing of the model lies in this view",)
+
+
+def _drawn_view(camera: Camera) -> DrawnView:
+    return DrawnView(
+        name=camera.name,
+        projection="orthographic" if camera.eye is None else "perspective",
+        direction=camera.direction,
+        right=camera.right,
+        up=camera.up,
+        eye=camera.eye,
+        target=camera.target,
+        fov=camera.fov,
+        distance=camera.distance,
+    )
+
+
+__all__ = ["draw", "draw_views", "info"]

@@ -1,0 +1,70 @@
+"""What this scene and this request call for: which edges are drawn, where culling is safe, what needs tolerance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.plan.options import Options
+from hlr.scene.scene import INTERIOR, Scene
+from hlr.source.model import EdgeClass, Floats
+from hlr.tolerance import Tolerances
+from hlr.view.camera import Camera
+
+DRAWN = 1
+OUTLINE = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The kernel's instructions.
+
+    role    (e,) uint8: DRAWN, OUTLINE (drawn where it is a contour), both, or 0
+    cull    (g,) bool: faces turned away are not looked at
+    sound   (g,) bool: no piercing search of a group against itself
+    delta   (g,) float64: contact tolerance in view depth
+    drawn_kind (6,) bool: per EdgeClass, whether source edges of that class are drawn as such
+    """
+
+    role: npt.NDArray[np.uint8]
+    cull: npt.NDArray[np.bool_]
+    sound: npt.NDArray[np.bool_]
+    delta: Floats
+    drawn_kind: npt.NDArray[np.bool_]
+
+
+def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerances) -> Plan:
+    """Instructions for one view of a scene."""
+    kind = scene.edge_kind
+    role = np.zeros(len(kind), np.uint8)
+    drawn_kind = np.zeros(len(EdgeClass), bool)
+    drawn_kind[[EdgeClass.SHARP, EdgeClass.BOUNDARY]] = True
+    drawn_kind[EdgeClass.SMOOTH] = options.smooth
+    drawn_kind[EdgeClass.SEAM] = options.seam
+    tied = kind != INTERIOR
+    role[tied] = np.where(drawn_kind[kind[tied]], DRAWN, 0)
+    may_fold = scene.edge_curved & ((kind == INTERIOR) | (kind == EdgeClass.SMOOTH) | (kind == EdgeClass.SEAM))
+    role[may_fold] |= OUTLINE
+    return Plan(
+        role=role,
+        cull=scene.groups.cull,
+        sound=scene.groups.sound,
+        delta=_delta(scene, camera, tolerances),
+        drawn_kind=drawn_kind,
+    )
+
+
+def _delta(scene: Scene, camera: Camera, tolerances: Tolerances) -> Floats:
+    groups = scene.groups
+    delta = np.where(groups.planar, tolerances.contact_planar, tolerances.contact)
+    # Half a part's thickness at most, or the far side of a thin sheet would show through.
+    delta = np.where(groups.closed, np.minimum(delta, 0.5 * groups.extent), delta)
+    if camera.eye is None or camera.distance is None:
+        return delta
+    # Depth in perspective is -distance^2 / z: its slope at the group's centre.
+    centre = np.where(np.isfinite(groups.low), (groups.low + groups.high) * 0.5, 0.0)
+    ahead = np.maximum(camera.ahead(centre), camera.distance * 1e-3)
+    slope = camera.distance / ahead
+    return np.asarray(delta * slope * slope)

@@ -1,0 +1,91 @@
+"""The scene: all parts in one set of arrays, every mesh edge tied to its triangles, every drawn edge to its source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.source.model import Color, Floats, Ints
+
+INTERIOR = 255
+"""Kind of a mesh edge that no source edge runs along."""
+
+
+@dataclass(frozen=True, slots=True)
+class Groups:
+    """Surfaces that the visibility pass may treat as one: a B-rep part, or a connected piece of a mesh.
+
+    closed   (g,) bool: every edge is used as often in one direction as in the other
+    cull     (g,) bool: closed, and turned outward: faces turned away need not be looked at
+    sound    (g,) bool: does not pass through itself, as far as its source vouches for it
+    planar   (g,) bool: nothing but planar faces: exact, but for what the file rounds
+    extent   (g,) float64: the smallest side of its box, model units
+    low, high (g, 3) float64: its box
+    """
+
+    closed: npt.NDArray[np.bool_]
+    cull: npt.NDArray[np.bool_]
+    sound: npt.NDArray[np.bool_]
+    planar: npt.NDArray[np.bool_]
+    extent: Floats
+    low: Floats
+    high: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Chains:
+    """Source edges as walks over mesh edges, sorted by part, then source edge.
+
+    offsets (c+1,), edges (k,) mesh edges, reversed (k,) bool: walked from second to first vertex
+    kind (c,) uint8 EdgeClass, part (c,) int32, index (c,) int32 in the part's TopExp edge map, -1 for meshes
+    """
+
+    offsets: Ints
+    edges: Ints
+    reversed: npt.NDArray[np.bool_]
+    kind: npt.NDArray[np.uint8]
+    part: Ints
+    index: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class ScenePart:
+    """A part's identity and what was found out about it."""
+
+    name: str
+    color: Color | None
+    transform: Floats
+    faces: int
+    edges: int
+    triangles: int
+    closed: bool
+    oriented: bool
+    defects: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """points (n, 3) model coordinates; triangles (t, 3); edges (e, 2), lower vertex first.
+
+    incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. edge_kind is an EdgeClass or INTERIOR;
+    edge_curved tells the edges at which a curved surface may show its outline.
+    """
+
+    points: Floats
+    triangles: Ints
+    triangle_part: Ints
+    triangle_group: Ints
+    triangle_face: Ints
+    edges: Ints
+    offsets: Ints
+    incident: Ints
+    edge_part: Ints
+    edge_group: Ints
+    edge_kind: npt.NDArray[np.uint8]
+    edge_curved: npt.NDArray[np.bool_]
+    groups: Groups
+    chains: Chains
+    parts: tuple[ScenePart, ...]
+    notes: tuple[str, ...]

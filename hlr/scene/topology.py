@@ -1,0 +1,149 @@
+"""Which mesh edges a source edge runs along, and which edges of a bare mesh are creases."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.source.model import EdgeClass, Floats, Ints, PartMesh
+
+Keys = npt.NDArray[np.int64]
+
+
+@dataclass(slots=True)
+class Walks:
+    """Source edges as walks over mesh edges; see scene.Chains."""
+
+    offsets: Ints
+    edges: Ints
+    reversed: npt.NDArray[np.bool_]
+    kind: npt.NDArray[np.uint8]
+    part: Ints
+    index: Ints
+
+
+def keys(edges: Ints, n: int) -> Keys:
+    """(e, 2) -> (e,) one sortable number per edge, lower vertex first."""
+    return np.asarray(edges[:, 0], np.int64) * np.int64(n) + edges[:, 1]
+
+
+def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tuple[Walks, Ints]:
+    """Walks of all B-rep edges, and the mesh edges (m, 2) that no triangle has and that had to be added.
+
+    firsts[i] is the number of part i's first vertex among all; `edges` are ascending. Steps between one and the same
+    vertex vanish.
+    """
+    nodes: list[Ints] = []
+    counts: list[Ints] = []
+    part_of: list[Ints] = []
+    for i, part in enumerate(parts):
+        if len(part.edge_index) == 0:
+            continue
+        nodes.append(part.edge_nodes + firsts[i])
+        counts.append(np.diff(part.edge_offsets).astype(np.int32))
+        part_of.append(np.full(len(part.edge_index), i, np.int32))
+    if not nodes:
+        none = np.zeros(0, np.int32)
+        return Walks(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none), none.reshape(0, 2)
+    node = np.concatenate(nodes)
+    count = np.concatenate(counts)
+    walk = np.repeat(np.arange(len(count), dtype=np.int32), count)
+    step = (walk[1:] == walk[:-1]) & (node[1:] != node[:-1])
+    a, b, owner = node[:-1][step], node[1:][step], walk[:-1][step]
+    backward = a > b
+    steps = np.stack([np.minimum(a, b), np.maximum(a, b)], axis=1).astype(np.int32)
+    key, known = keys(steps, n), keys(edges, n)
+    at = np.searchsorted(known, key)
+    found = (at < len(known)) & (known[np.minimum(at, max(len(known) - 1, 0))] == key) if len(known) else at < 0
+    loose, which = np.unique(key[~found], return_inverse=True)
+    extra = np.stack([loose // n, loose % n], axis=1).astype(np.int32)
+    edge = at.astype(np.int32)
+    edge[~found] = len(edges) + which.ravel().astype(np.int32)
+    offsets = np.zeros(len(count) + 1, np.int32)
+    np.cumsum(np.bincount(owner, minlength=len(count)), out=offsets[1:])
+    walks = Walks(
+        offsets=offsets,
+        edges=edge,
+        reversed=backward,
+        kind=np.concatenate([p.edge_class for p in parts]).astype(np.uint8),
+        part=np.concatenate(part_of),
+        index=np.concatenate([p.edge_index for p in parts]).astype(np.int32),
+    )
+    return walks, extra
+
+
+def normals(points: Floats, triangles: Ints) -> Floats:
+    """(t, 3) unit normals; zero for triangles without area. Element by element: no BLAS."""
+    p, q, r = (points[triangles[:, k]] for k in range(3))
+    u, v = q - p, r - p
+    n = np.stack(
+        [
+            u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
+            u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
+            u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
+        ],
+        axis=1,
+    )
+    length = np.sqrt(n[:, 0] * n[:, 0] + n[:, 1] * n[:, 1] + n[:, 2] * n[:, 2])
+    n /= np.where(length > 0.0, length, 1.0)[:, None]
+    return n
+
+
+def creases(
+    points: Floats, triangles: Ints, edges: Ints, offsets: Ints, incident: Ints, balance: Ints, crease: float
+) -> npt.NDArray[np.uint8]:
+    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
+    kind = np.full(len(edges), 255, np.uint8)
+    count = np.diff(offsets)
+    kind[count == 1] = EdgeClass.BOUNDARY
+    kind[count > 2] = EdgeClass.SHARP
+    two = np.flatnonzero(count == 2)
+    normal = normals(points, triangles)
+    m, n = normal[incident[offsets[two]]], normal[incident[offsets[two] + 1]]
+    cosine = m[:, 0] * n[:, 0] + m[:, 1] * n[:, 1] + m[:, 2] * n[:, 2]
+    # Two triangles that run along the edge the same way are oriented against each other: the fold is the supplement.
+    cosine = np.where(balance[two] == 0, cosine, -cosine)
+    # A triangle without area has no say: its neighbours beyond it decide elsewhere.
+    flat = (np.abs(m).max(axis=1, initial=0.0) == 0.0) | (np.abs(n).max(axis=1, initial=0.0) == 0.0)
+    kind[two[(cosine < math.cos(math.radians(crease))) & ~flat]] = EdgeClass.SHARP
+    return kind
+
+
+def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]) -> Walks:
+    """Creases and borders of bare meshes, joined where exactly two of a kind meet."""
+    chosen = np.flatnonzero(candidates & (kind != 255)).astype(np.int32)
+    key = part[chosen].astype(np.int32) * 8 + kind[chosen]
+    offsets, order, backward = _kernel.chain(np.ascontiguousarray(edges[chosen]), np.ascontiguousarray(key))
+    member = chosen[order]
+    head = member[offsets[:-1]]
+    return Walks(
+        offsets=offsets,
+        edges=member,
+        reversed=backward,
+        kind=kind[head],
+        part=part[head].astype(np.int32),
+        index=np.full(len(head), -1, np.int32),
+    )
+
+
+def joined(a: Walks, b: Walks) -> Walks:
+    """All walks, sorted by part; within a part in the order given."""
+    count = np.concatenate([np.diff(a.offsets), np.diff(b.offsets)])
+    part = np.concatenate([a.part, b.part])
+    order = np.argsort(part, kind="stable")
+    start = np.concatenate([a.offsets[:-1], b.offsets[:-1] + len(a.edges)])[order]
+    offsets = np.zeros(len(count) + 1, np.int32)
+    np.cumsum(count[order], out=offsets[1:])
+    member = np.arange(offsets[-1], dtype=np.int64) + np.repeat(start - offsets[:-1], count[order])
+    return Walks(
+        offsets=offsets,
+        edges=np.concatenate([a.edges, b.edges])[member],
+        reversed=np.concatenate([a.reversed, b.reversed])[member],
+        kind=np.concatenate([a.kind, b.kind])[order],
+        part=part[order],
+        index=np.concatenate([a.index, b.index])[order],
+    )

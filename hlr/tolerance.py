@@ -1,0 +1,94 @@
+"""Every tolerance, derived from one accuracy: millimetres on paper.
+
+The accuracy is shared out so that the parts of an emitted line's error add up to less than it:
+half for tessellation, a quarter for leaving out vertices, a tenth for printed digits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hlr.errors import OptionError
+
+DEFAULT_ACCURACY = 0.05
+"""A tenth of the wide ISO 128 line: no eye sees it on paper."""
+
+SMALL_DRAWING = 2000.0
+"""Without a wish of the caller's, a small drawing is at least this many accuracies in diagonal."""
+
+ANGLE = 0.5
+"""Radians between neighbouring tessellation chords: 13 for a full circle, however small it is on paper."""
+
+FINEST_BREP = 1e-7
+FINEST_MESH = 4e-9
+"""Of the drawing's diagonal. Finer tessellations do not fit into memory; finer meshes do not fit the integer grid."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """Lengths on paper (millimetres) and in the model (model units).
+
+    accuracy       what is promised, on paper
+    deflection     chord error of the tessellation, in the model
+    angle          turning per chord, radians
+    contact        depth within which two curved things count as touching, in the model: the tessellations of both may
+                   be off by one deflection each, obliquely seen
+    contact_planar the same for planar parts, which are off only by what their files round
+    short          no piece shorter than this is drawn on its own, on paper
+    stub           a doubtful piece shorter than this beside a hidden one is the contact tolerance's own, on paper
+    width          lines this close coincide, on paper
+    thin_paper     vertices this close to their line are left out, on paper
+    thin_model     the same in the model
+    """
+
+    accuracy: float
+    deflection: float
+    angle: float
+    contact: float
+    contact_planar: float
+    short: float
+    stub: float
+    width: float
+    thin_paper: float
+    thin_model: float
+
+
+def choose(asked: float | None, diagonal: float) -> float:
+    """The accuracy used for a drawing of this diagonal, both in millimetres on paper."""
+    if asked is not None:
+        return asked
+    return min(DEFAULT_ACCURACY, diagonal / SMALL_DRAWING) if diagonal > 0.0 else DEFAULT_ACCURACY
+
+
+def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) -> Tolerances:
+    """Tolerances for an accuracy on paper, `per_model` millimetres on paper per model unit.
+
+    diagonal: of the drawing on paper, to refuse what cannot be kept.
+
+    Raises OptionError where the accuracy is not positive, as coarse as the drawing, or beyond what can be computed.
+    """
+    if not accuracy > 0.0 or accuracy == float("inf"):
+        raise OptionError(f"accuracy {accuracy:g} mm cannot be kept: give a positive length, such as 0.05")
+    if diagonal > 0.0 and accuracy > diagonal / 4.0:
+        raise OptionError(
+            f"accuracy {accuracy:g} mm is too coarse for a drawing of {diagonal:.3g} mm: "
+            f"give at most {diagonal / 4.0:.3g}, or a larger scale"
+        )
+    finest = diagonal * (FINEST_BREP if brep else FINEST_MESH)
+    if accuracy < finest:
+        raise OptionError(
+            f"accuracy {accuracy:g} mm is too fine for a drawing of {diagonal:.3g} mm: give at least {finest:.1g}"
+        )
+    model = accuracy / per_model
+    return Tolerances(
+        accuracy=accuracy,
+        deflection=0.5 * model,
+        angle=ANGLE,
+        contact=2.5 * model,
+        contact_planar=model / 50.0,
+        short=accuracy,
+        stub=10.0 * accuracy,
+        width=0.5 * accuracy,
+        thin_paper=0.25 * accuracy,
+        thin_model=0.25 * model,
+    )

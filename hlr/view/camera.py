@@ -1,0 +1,191 @@
+"""The camera: from model coordinates to the image plane and depth.
+
+One convention everywhere: x right, y up, z (depth) away from the viewer. Only additions, multiplications, divisions and
+square roots, element by element: they round alike on every machine, which BLAS and trigonometry do not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.errors import OptionError, ViewError
+from hlr.plan.options import Options, Perspective, View
+from hlr.source.model import Frame
+from hlr.view.names import NAMED
+
+Floats = npt.NDArray[np.float64]
+Vector = tuple[float, float, float]
+
+NEAR = 1e-3
+"""Of the eye's distance to its target: nothing nearer to the eye plane is drawn."""
+WIDEST = 120.0
+"""Degrees: the field of view where none is given, at most."""
+MARGIN = 1.05
+"""How much wider than the model's bounding sphere a field of view is chosen."""
+
+
+def dot(points: Floats, v: Vector) -> Floats:
+    """(n, 3) . (3,), element by element."""
+    return np.asarray(points[:, 0] * v[0] + points[:, 1] * v[1] + points[:, 2] * v[2])
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """a x b."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalized(v: Sequence[float], what: str) -> Vector:
+    """v / |v|; raises ViewError where it has no direction."""
+    if len(v) != 3 or not all(math.isfinite(float(c)) for c in v):
+        raise ViewError(f"{what} needs three finite numbers, not {', '.join(str(c) for c in v)}")
+    x, y, z = (float(c) for c in v)
+    # Scaled first, so that neither 1e-200 nor 1e200 is lost in the squares.
+    largest = max(abs(x), abs(y), abs(z))
+    if largest == 0.0:
+        raise ViewError(f"{what} is zero: give a direction such as 1,-1,1")
+    x, y, z = x / largest, y / largest, z / largest
+    length = math.sqrt(x * x + y * y + z * z)
+    return (x / length, y / length, z / length)
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """All vectors in model coordinates; direction points from the object toward the viewer.
+
+    Perspective where eye is not None; `distance` is that of the image plane, through the target.
+    """
+
+    name: str
+    direction: Vector
+    right: Vector
+    up: Vector
+    eye: Vector | None = None
+    target: Vector | None = None
+    fov: float | None = None
+    distance: float | None = None
+    framed: bool = False
+
+    def project(self, points: Floats) -> Floats:
+        """(n, 3) model coordinates -> (n, 3) x right, y up, depth; perspective: z maps to -distance^2 / z."""
+        if self.eye is None or self.distance is None:
+            return np.stack([dot(points, self.right), dot(points, self.up), -dot(points, self.direction)], axis=1)
+        z = self.ahead(points)
+        away = points - np.asarray(self.eye)
+        factor = self.distance / z
+        return np.stack(
+            [dot(away, self.right) * factor, dot(away, self.up) * factor, -self.distance * factor], axis=1
+        )
+
+    def ahead(self, points: Floats) -> Floats:
+        """(n,) distance from the eye's plane, positive before the eye; depth along the view for parallel views."""
+        if self.eye is None:
+            return -dot(points, self.direction)
+        return -dot(points - np.asarray(self.eye), self.direction)
+
+
+def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camera:
+    """The camera for a named view or a direction; `bounds` (2, 3) in model coordinates.
+
+    Raises ViewError for an unknown name, a zero direction, or up parallel to the direction.
+    """
+    perspective = options.perspective
+    up_hint: Vector | None = options.up
+    if isinstance(view, str):
+        if view not in NAMED:
+            raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
+        world, named_up = NAMED[view]
+        up_hint = up_hint or named_up
+        name = view
+        direction = normalized(world, "the view direction")
+    else:
+        direction = normalized(tuple(view), "the view direction")
+        name = ",".join(f"{float(c):g}" for c in view)
+    eye = target = None
+    if perspective is not None:
+        eye, target, direction = _eye(perspective, direction, frame, bounds)
+    if up_hint is None:
+        # Looking along z, y points up: the top view turned by nothing.
+        along_z = abs(direction[2]) > 1.0 - 1e-12
+        up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
+    up_hint = normalized(up_hint, "up")
+    side = cross(up_hint, direction)
+    if max(abs(c) for c in side) < 1e-9:
+        raise ViewError("up is parallel to the view direction: give an --up that crosses it")
+    right = normalized(side, "right")
+    # The cross product of unit vectors is a unit vector up to rounding.
+    up = normalized(cross(direction, right), "up")
+    model = [_to_model(frame, v) for v in (direction, right, up)]
+    if eye is None or target is None:
+        return Camera(name, *model)
+    return _framed(Camera(name, *model, eye=eye, target=target), perspective, bounds)
+
+
+def _to_model(frame: Frame, v: Vector) -> Vector:
+    """World (z up) to model axes: the transpose of `up`, which is a rotation."""
+    u = frame.up
+    x, y, z = (u[0][k] * v[0] + u[1][k] * v[1] + u[2][k] * v[2] + 0.0 for k in range(3))
+    return (x, y, z)
+
+
+def _eye(
+    perspective: Perspective, direction: Vector, frame: Frame, bounds: Floats
+) -> tuple[Vector, Vector, Vector]:
+    """Eye and target in model coordinates, and the direction between them in world axes."""
+    centre = [float(c) for c in (bounds[0] + bounds[1]) * 0.5]
+    radius = 0.5 * math.sqrt(sum(float(c) * float(c) for c in bounds[1] - bounds[0])) or 1.0
+    to_world = Frame(up=tuple(zip(*frame.up, strict=True)))
+    target = _given(perspective.target, frame) or (centre[0], centre[1], centre[2])
+    eye = _given(perspective.eye, frame)
+    if eye is None:
+        half = math.radians((perspective.fov or 45.0) * 0.5)
+        if not 0.0 < half < math.pi / 2:
+            raise OptionError(f"a field of view of {perspective.fov:g} degrees cannot be drawn: give 1 to 170")
+        away = MARGIN * radius / math.sin(half)
+        d = _to_model(frame, direction)
+        eye = (target[0] + away * d[0], target[1] + away * d[1], target[2] + away * d[2])
+        return eye, target, direction
+    toward = normalized([e - t for e, t in zip(eye, target, strict=True)], "the way from target to eye")
+    return eye, target, _to_model(to_world, toward)
+
+
+def _given(point: Vector | None, frame: Frame) -> Vector | None:
+    """A point the caller gave in world millimetres, in model coordinates."""
+    if point is None:
+        return None
+    if not all(math.isfinite(c) for c in point):
+        raise ViewError("eye and target need three finite numbers each")
+    return _to_model(frame, (point[0] / frame.unit, point[1] / frame.unit, point[2] / frame.unit))
+
+
+def _framed(camera: Camera, perspective: Perspective | None, bounds: Floats) -> Camera:
+    """The camera with its image plane through the target and its field of view settled."""
+    assert camera.eye is not None and camera.target is not None and perspective is not None
+    distance = math.sqrt(sum((e - t) * (e - t) for e, t in zip(camera.eye, camera.target, strict=True)))
+    fov = perspective.fov
+    if fov is None:
+        corners = np.array([[bounds[i][0], bounds[j][1], bounds[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+        ahead = camera.ahead(corners)
+        if float(ahead.min()) <= 0.0:
+            fov = WIDEST
+        else:
+            away = corners - np.asarray(camera.eye)
+            reach = max(float(np.max(np.abs(dot(away, v)) / ahead)) for v in (camera.right, camera.up))
+            fov = min(WIDEST, 2.0 * math.degrees(math.atan(MARGIN * reach)))
+    if not 0.0 < fov < 180.0:
+        raise OptionError(f"a field of view of {fov:g} degrees cannot be drawn: give 1 to 170")
+    return Camera(
+        camera.name,
+        camera.direction,
+        camera.right,
+        camera.up,
+        camera.eye,
+        camera.target,
+        fov,
+        distance,
+        framed=perspective.eye is not None,
+    )

@@ -1,0 +1,186 @@
+"""Cut the scene by planes before a perspective view: the near plane, and the frame where the eye is given.
+
+Done only where something crosses a plane. A cut surface is open, so culling is switched off for it: through the cut one
+may see a face from behind.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.scene.scene import INTERIOR, Chains, Groups, Scene
+from hlr.scene.topology import keys
+from hlr.source.model import Floats, Ints
+from hlr.view.camera import NEAR, Camera, Vector, dot
+
+ASPECT = 4.0 / 3.0
+"""Width to height of the frame that a field of view spans."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """Kept: points with normal . p >= offset."""
+
+    normal: Vector
+    offset: float
+
+    def height(self, points: Floats) -> Floats:
+        """(n,) signed distance times |normal|."""
+        return np.asarray(dot(points, self.normal) - self.offset)
+
+
+def planes(camera: Camera, aspect: float) -> list[Plane]:
+    """The planes that bound what a perspective camera may see; none for parallel views."""
+    if camera.eye is None or camera.distance is None or camera.fov is None:
+        return []
+    eye = camera.eye
+    d = camera.direction
+
+    def through(normal: Vector, ahead: float = 0.0) -> Plane:
+        offset = sum(n * e for n, e in zip(normal, eye, strict=True)) + ahead
+        return Plane(normal, offset)
+
+    out = [through((-d[0], -d[1], -d[2]), camera.distance * NEAR)]
+    if camera.framed:
+        tangent = math.tan(math.radians(camera.fov) * 0.5)
+        for axis, reach in ((camera.right, tangent * aspect), (camera.up, tangent)):
+            for sign in (1.0, -1.0):
+                n = [sign * a - reach * c for a, c in zip(axis, d, strict=True)]
+                out.append(through((n[0], n[1], n[2])))
+    return out
+
+
+def clip(scene: Scene, cuts: list[Plane]) -> tuple[Scene, int]:
+    """The part of the scene that all planes keep, and how many of them cut anything."""
+    used = 0
+    for plane in cuts:
+        height = plane.height(scene.points)
+        # Only points that something uses count; earlier cuts leave unused ones behind.
+        corner = np.zeros(len(height), bool)
+        corner[scene.edges.ravel()] = True
+        if (height[corner] >= 0.0).all():
+            continue
+        used += 1
+        scene = _cut(scene, height)
+    return scene, used
+
+
+def _cut(scene: Scene, height: Floats) -> Scene:
+    inside = height >= 0.0
+    a, b = scene.edges[:, 0], scene.edges[:, 1]
+    crossing = inside[a] != inside[b]
+    n = len(scene.points)
+    new_vertex = np.full(len(scene.edges), -1, np.int32)
+    new_vertex[crossing] = n + np.arange(np.count_nonzero(crossing), dtype=np.int32)
+    # From the lower to the higher vertex always: both triangles at an edge get the same point.
+    t = (height[a[crossing]] / (height[a[crossing]] - height[b[crossing]]))[:, None]
+    pa, pb = scene.points[a[crossing]], scene.points[b[crossing]]
+    points = np.concatenate([scene.points, pa + (pb - pa) * t])
+
+    triangles, parent = _cut_triangles(scene, inside, new_vertex, n)
+    edges, offsets, incident = _kernel.edge_table(triangles, len(points))
+    # Where each old edge went: kept whole, shortened to its new vertex, or gone.
+    keep = inside[a] | inside[b]
+    ends = scene.edges.copy()
+    ends[crossing & ~inside[a], 0] = new_vertex[crossing & ~inside[a]]
+    ends[crossing & ~inside[b], 1] = new_vertex[crossing & ~inside[b]]
+    low_first = np.stack([ends.min(axis=1), ends.max(axis=1)], axis=1).astype(np.int32)
+    swapped = ends[:, 0] > ends[:, 1]
+    key, known = keys(low_first, len(points)), keys(edges, len(points))
+    at = np.searchsorted(known, key)
+    there = keep & (at < len(known))
+    there[there] = known[at[there]] == key[there]
+    # Edges without triangles (free wires) live on behind the others.
+    loose = keep & ~there
+    target = np.full(len(scene.edges), -1, np.int32)
+    target[there] = at[there]
+    target[loose] = len(edges) + np.arange(np.count_nonzero(loose), dtype=np.int32)
+    edges = np.concatenate([edges, low_first[loose]])
+    offsets = np.concatenate([offsets, np.full(np.count_nonzero(loose), offsets[-1], np.int32)])
+
+    def moved(old: np.ndarray, fill: int) -> np.ndarray:  # type: ignore[type-arg]
+        out = np.full(len(edges), fill, old.dtype)
+        out[target[keep]] = old[keep]
+        return out
+
+    tied = np.diff(offsets) > 0
+    first = incident[offsets[:-1][tied]]
+    edge_part, edge_group = moved(scene.edge_part, 0), moved(scene.edge_group, 0)
+    edge_part[tied] = scene.triangle_part[parent][first]
+    edge_group[tied] = scene.triangle_group[parent][first]
+    open_now = np.zeros(len(scene.groups.cull), bool)
+    open_now[scene.edge_group[crossing]] = True
+    return replace(
+        scene,
+        points=points,
+        triangles=triangles,
+        triangle_part=scene.triangle_part[parent],
+        triangle_group=scene.triangle_group[parent],
+        triangle_face=scene.triangle_face[parent],
+        edges=np.ascontiguousarray(edges),
+        offsets=offsets,
+        incident=incident,
+        edge_part=edge_part,
+        edge_group=edge_group,
+        edge_kind=moved(scene.edge_kind, INTERIOR),
+        edge_curved=moved(scene.edge_curved, 0),
+        groups=_opened(scene.groups, open_now),
+        chains=_moved_chains(scene.chains, target, swapped),
+    )
+
+
+def _opened(groups: Groups, opened: np.ndarray) -> Groups:  # type: ignore[type-arg]
+    return replace(groups, closed=groups.closed & ~opened, cull=groups.cull & ~opened)
+
+
+def _cut_triangles(
+    scene: Scene,
+    inside: np.ndarray,  # type: ignore[type-arg]
+    new_vertex: Ints,
+    n: int,
+) -> tuple[Ints, Ints]:
+    """Triangles of the kept side and the triangle each came from.
+
+    ::
+
+            2 inside            1 inside
+          p-------q               p
+           \\  / |              / \\
+          .r-------- plane --- x---y --
+    """
+    tri = scene.triangles
+    side = inside[tri]
+    count = side.sum(axis=1)
+    whole = np.flatnonzero(count == 3).astype(np.int32)
+    known = keys(scene.edges[: np.count_nonzero(np.diff(scene.offsets) > 0)], n)
+
+    def between(u: Ints, v: Ints) -> Ints:
+        key = np.minimum(u, v).astype(np.int64) * n + np.maximum(u, v)
+        return new_vertex[np.searchsorted(known, key)]
+
+    one = np.flatnonzero(count == 1).astype(np.int32)
+    k = np.argmax(side[one], axis=1)
+    p, q, r = (tri[one, (k + i) % 3] for i in range(3))
+    tips = np.stack([p, between(p, q), between(p, r)], axis=1)
+    two = np.flatnonzero(count == 2).astype(np.int32)
+    k = np.argmin(side[two], axis=1)
+    r, p, q = (tri[two, (k + i) % 3] for i in range(3))
+    x, y = between(q, r), between(p, r)
+    first, second = np.stack([p, q, x], axis=1), np.stack([p, x, y], axis=1)
+    triangles = np.ascontiguousarray(np.concatenate([tri[whole], tips, first, second]), np.int32)
+    return triangles, np.concatenate([whole, one, two, two])
+
+
+def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:  # type: ignore[type-arg]
+    edge = target[chains.edges]
+    keep = edge >= 0
+    owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))
+    offsets = np.zeros(len(chains.offsets), np.int32)
+    np.cumsum(np.bincount(owner[keep], minlength=len(chains.kind)), out=offsets[1:])
+    return replace(
+        chains, offsets=offsets, edges=edge[keep], reversed=(chains.reversed ^ swapped[chains.edges])[keep]
+    )

@@ -1,0 +1,60 @@
+"""The kernel call: scene, view and plan in, visible and hidden segments of mesh edges out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.plan.plan import Plan
+from hlr.scene.scene import Scene
+from hlr.source.model import Floats, Ints
+
+VISIBLE, HIDDEN, WITHIN = 0, 1, 2
+
+
+@dataclass(frozen=True, slots=True)
+class Segments:
+    """Pieces of mesh edges, sorted by edge and parameter.
+
+    edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,) VISIBLE, HIDDEN or
+    WITHIN (hidden by less than the contact tolerance); facing (t,) int8 of every triangle.
+    """
+
+    edge: Ints
+    t0: Floats
+    t1: Floats
+    state: npt.NDArray[np.uint8]
+    facing: npt.NDArray[np.int8]
+    counters: dict[str, int]
+
+
+def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments:
+    """Visibility of all edges that the plan draws; projected (n, 3) as Camera.project gives it.
+
+    Raises KeyboardInterrupt within milliseconds of Ctrl-C.
+    """
+    found = _kernel.visibility(
+        np.ascontiguousarray(projected),
+        scene.triangles,
+        scene.triangle_group,
+        scene.edges,
+        scene.offsets,
+        scene.incident,
+        scene.edge_group,
+        plan.role,
+        plan.cull,
+        plan.sound,
+        np.ascontiguousarray(plan.delta),
+        threads,
+    )
+    return Segments(
+        edge=found["edge"],
+        t0=found["t0"],
+        t1=found["t1"],
+        state=found["state"],
+        facing=found["facing"],
+        counters=found["counters"],
+    )
