@@ -29,9 +29,13 @@ class ViewName(click.ParamType[str | Vector3]):
     name = "NAME|X,Y,Z"
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str | Vector3:
-        """A vector where there is a comma; any other text is a name, which the view stage knows."""
+        """A vector where there is a comma; any other text must be a name. Names are checked before a long reading."""
+        from hlr.view.names import NAMED
+
         text = str(value).strip()
         if "," not in text:
+            if text not in NAMED:
+                self.fail(f"{text!r} is none of {', '.join(NAMED)}, nor three numbers such as 1,-1,1", param, ctx)
             return text
         vector = vector_of(text)
         if vector is None:

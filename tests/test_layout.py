@@ -4,6 +4,7 @@ import ast
 import subprocess
 import sys
 import tomllib
+from importlib.metadata import version
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,13 @@ def test_a_refused_option_loads_nothing_heavy():
 
 def test_the_loaded_modules_are_seen():
     assert "numpy" in loaded_by("import numpy")
+
+
+def test_there_is_one_version():
+    import hlr
+
+    with open(ROOT / "pyproject.toml", "rb") as file:
+        assert tomllib.load(file)["project"]["version"] == hlr.__version__ == version("hlr-drawing")
 
 
 def test_every_folder_is_packaged():

@@ -75,6 +75,7 @@ def test_every_option_arrives(hlr_command):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
+        (["--view", "isso"], "'isso' is none of front, back, left"),
         (["--view", "1,2"], "three numbers"),
         (["--view", "1,2,x"], "three numbers"),
         (["--view", "1,nan,1"], "three numbers"),
@@ -124,8 +125,8 @@ def test_a_source_that_cannot_be_read(hlr_command, tmp_path):
 
 
 def test_names_of_several_views(hlr_command, tmp_path):
-    views(hlr_command, "--view", "top", "--view", "-1,1,1", "--view", "../x", "-o", "{n}-{stem}-{view}.json")
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["1-a-top.json", "2-a--1_1_1.json", "3-a-.._x.json"]
+    views(hlr_command, "--view", "top", "--view", "-1,1,1", "--view", "iso-nw", "-o", "{n}-{stem}-{view}.json")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["1-a-top.json", "2-a--1_1_1.json", "3-a-iso-nw.json"]
 
 
 @pytest.mark.parametrize(("format", "start"), [(None, "<?xml"), ("svg", "<?xml"), ("json", '{"format"')])
