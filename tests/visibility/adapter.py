@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,9 +9,29 @@ from visibility.scenes import Edge, Scene
 
 from hlr import _kernel
 
-Piece = tuple[float, float, bool]
-"""t0, t1, hidden."""
+Piece = tuple[float, float, int]
+"""t0, t1, state."""
+VISIBLE, HIDDEN, WITHIN = 0, 1, 2
 DRAWN = 1
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a scene is put to the kernel.
+
+    parts     every part by itself, and the wires as one more; else all is one part
+    trusted   the parts are closed, oriented and sound: faces turned away may be culled
+    bias      contact tolerance: what other parts hide by no more than this is neither visible nor hidden but WITHIN
+    """
+
+    parts: bool = False
+    trusted: bool = False
+    bias: int = 0
+
+
+ONE = Way()
+PARTS = Way(parts=True)
+TRUSTED = Way(parts=True, trusted=True)
 
 
 @dataclass(frozen=True)
@@ -29,14 +48,12 @@ def edge_table(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return edges, offsets, incident
 
 
-def visibility(scene: Scene, threads: int = 1, *, solids: bool = False) -> Found:
-    """Every edge and wire of the scene, drawn.
-
-    solids   False: all is one part of which nothing is assumed.
-             True: every solid is a part, closed, oriented and sound; wires are a part of their own.
-    """
+def visibility(scene: Scene, way: Way, threads: int = 1) -> Found:
+    """Every edge and wire of the scene, drawn."""
     points, triangles = scene.arrays()
     edges, offsets, incident = edge_table(scene)
+    if way.bias:  # the kernel caps the tolerance at a fraction of the depth of all points; these two make room
+        points = np.concatenate([points, [[0.0, 0.0, -64.0 * way.bias], [0.0, 0.0, 64.0 * way.bias]]])
     known = {(int(lo), int(hi)) for lo, hi in edges}
     extra = [edge for edge in scene.edges() if edge not in known]
     if extra:
@@ -45,16 +62,10 @@ def visibility(scene: Scene, threads: int = 1, *, solids: bool = False) -> Found
     triangle_part = np.zeros(len(triangles), dtype=np.int32)
     edge_part = np.zeros(len(edges), dtype=np.int32)
     parts = 1
-    if solids:
-        triangle_part = np.array(scene.solids, dtype=np.int32)
-        parts = int(triangle_part.max(initial=-1)) + 2
-        edge_part = np.array(
-            [
-                triangle_part[incident[start]] if start < end else parts - 1
-                for start, end in itertools.pairwise(offsets)
-            ],
-            dtype=np.int32,
-        )
+    if way.parts:
+        triangle_part = np.array(scene.parts, dtype=np.int32)
+        parts = max(scene.parts, default=-1) + 2
+        edge_part = np.array([scene.part_of((int(i), int(j))) % parts for i, j in edges], dtype=np.int32)
     found = _kernel.visibility(
         points,
         triangles,
@@ -64,15 +75,13 @@ def visibility(scene: Scene, threads: int = 1, *, solids: bool = False) -> Found
         incident,
         edge_part,
         role=np.full(len(edges), DRAWN, dtype=np.uint8),
-        cull=np.full(parts, solids),
-        sound=np.full(parts, solids),
-        delta=np.zeros(parts),
+        cull=np.full(parts, way.trusted),
+        sound=np.full(parts, way.trusted),
+        delta=np.full(parts, float(way.bias)),
         threads=threads,
     )
     pieces: dict[Edge, list[Piece]] = {}
     for number, t0, t1, state in zip(found["edge"], found["t0"], found["t1"], found["state"], strict=True):
         edge = (int(edges[number][0]), int(edges[number][1]))
-        if state not in (0, 1):
-            raise AssertionError(f"edge {edge}: state {state} without a depth bias")
-        pieces.setdefault(edge, []).append((float(t0), float(t1), bool(state)))
+        pieces.setdefault(edge, []).append((float(t0), float(t1), int(state)))
     return Found(pieces, {name: int(value) for name, value in found["counters"].items()})

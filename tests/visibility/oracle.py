@@ -108,19 +108,26 @@ def hidden_part(segment: Segment, triangle: Triangle, side: int = 1) -> tuple[Fr
     return Fraction(*low), Fraction(*high)
 
 
-def intervals(segment: Segment, triangles: Iterable[Triangle], side: int = 1) -> list[Interval]:
-    """The segment from 0 to 1, cut where the number of triangles in front changes."""
+def hidden_parts(segment: Segment, triangles: Iterable[Triangle], side: int = 1) -> list[tuple[Fraction, Fraction]]:
+    """For each triangle that hides some of the segment, what it hides."""
     (ax, ay, _), (bx, by, _) = segment
     left, right, bottom, top = min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)
-    changes: dict[Fraction, int] = {ZERO: 0, ONE: 0}
+    parts = []
     for triangle in triangles:
         (px, py, _), (qx, qy, _), (rx, ry, _) = triangle
-        if max(px, qx, rx) < left or min(px, qx, rx) > right or max(py, qy, ry) < bottom or min(py, qy, ry) > top:
-            continue
-        part = hidden_part(segment, triangle, side)
+        apart = max(px, qx, rx) < left or min(px, qx, rx) > right or max(py, qy, ry) < bottom or min(py, qy, ry) > top
+        part = None if apart else hidden_part(segment, triangle, side)
         if part is not None:
-            changes[part[0]] = changes.get(part[0], 0) + 1
-            changes[part[1]] = changes.get(part[1], 0) - 1
+            parts.append(part)
+    return parts
+
+
+def intervals(segment: Segment, triangles: Iterable[Triangle], side: int = 1) -> list[Interval]:
+    """The segment from 0 to 1, cut where the number of triangles in front changes."""
+    changes: dict[Fraction, int] = {ZERO: 0, ONE: 0}
+    for start, end in hidden_parts(segment, triangles, side):
+        changes[start] = changes.get(start, 0) + 1
+        changes[end] = changes.get(end, 0) - 1
     result: list[Interval] = []
     count = 0
     ends = sorted(changes)

@@ -18,13 +18,15 @@ BOX_QUADS = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2
 class Scene:
     """Points, triangles, and lines that belong to no triangle; drawn are the triangles' edges and those lines.
 
-    solids   per triangle the number of its solid, where all of them are closed and wound outward; else empty
+    parts    per triangle the number of its part; empty: all are one
+    closed   every part is a closed solid of some volume, wound outward
     """
 
     points: tuple[Point, ...]
     faces: tuple[Face, ...]
     wires: tuple[Edge, ...] = ()
-    solids: tuple[int, ...] = ()
+    parts: tuple[int, ...] = ()
+    closed: bool = False
 
     def arrays(self) -> tuple[np.ndarray, np.ndarray]:
         return (
@@ -42,17 +44,36 @@ class Scene:
     def segment(self, edge: Edge) -> Segment:
         return self.points[edge[0]], self.points[edge[1]]
 
+    def part_of(self, edge: Edge) -> int:
+        """The part of its first triangle; -1 for a wire."""
+        inside = (number for number, face in enumerate(self.faces) if edge[0] in face and edge[1] in face)
+        first = next(inside, None)
+        return -1 if first is None else self.parts[first] if self.parts else 0
+
+    def apart(self) -> Scene:
+        """The same with no point shared between parts, nor with wires: the kernel's contract for parts."""
+        numbers: dict[tuple[int, int], int] = {}
+
+        def own(part: int, point: int) -> int:
+            return numbers.setdefault((part, point), len(numbers))
+
+        faces = [(own(p, i), own(p, j), own(p, k)) for p, (i, j, k) in zip(self.parts, self.faces, strict=True)]
+        wires = [(own(-1, i), own(-1, j)) for i, j in self.wires]
+        wires = sorted((min(i, j), max(i, j)) for i, j in wires)
+        return replace(self, points=tuple(self.points[i] for _, i in numbers), faces=tuple(faces), wires=tuple(wires))
+
     def without_face(self, number: int) -> Scene:
         """Drop a triangle but go on drawing its edges, so that shrinking keeps the segment that fails."""
         f = self.faces[number]
         sides = {(min(i, j), max(i, j)) for i, j in ((f[0], f[1]), (f[1], f[2]), (f[2], f[0])) if i != j}
         faces = self.faces[:number] + self.faces[number + 1 :]
-        return Scene(self.points, faces, tuple(sorted(set(self.wires) | sides)))
+        parts = self.parts[:number] + self.parts[number + 1 :]
+        return Scene(self.points, faces, tuple(sorted(set(self.wires) | sides)), parts)
 
-    def without_solid(self, number: int) -> Scene:
-        """Drop a whole solid: the rest stay closed."""
-        keep = [index for index, solid in enumerate(self.solids) if solid != number]
-        return replace(self, faces=tuple(self.faces[i] for i in keep), solids=tuple(self.solids[i] for i in keep))
+    def without_part(self, number: int) -> Scene:
+        """Drop a whole part: the rest stay closed."""
+        keep = [index for index, part in enumerate(self.parts) if part != number]
+        return replace(self, faces=tuple(self.faces[i] for i in keep), parts=tuple(self.parts[i] for i in keep))
 
 
 class Builder:
@@ -64,7 +85,7 @@ class Builder:
         self.points: list[Point] = []
         self.faces: list[Face] = []
         self.wires: list[Edge] = []
-        self.solids: list[int] = []
+        self.parts: list[int] = []
 
     def point(self, point: Point) -> int:
         if self._weld and point in self._known:
@@ -76,11 +97,11 @@ class Builder:
     def solid(self, corners: Sequence[Point], faces: Sequence[Face]) -> None:
         numbers = [self.point(corner) for corner in corners]
         self.faces += [(numbers[i], numbers[j], numbers[k]) for i, j, k in faces]
-        self.solids += [self.solids[-1] + 1 if self.solids else 0] * len(faces)
+        self.parts += [self.parts[-1] + 1 if self.parts else 0] * len(faces)
 
-    def scene(self, *, solid: bool = False) -> Scene:
+    def scene(self, *, closed: bool = False) -> Scene:
         wires = {(min(i, j), max(i, j)) for i, j in self.wires if i != j}
-        return Scene(tuple(self.points), tuple(self.faces), tuple(sorted(wires)), tuple(self.solids) if solid else ())
+        return Scene(tuple(self.points), tuple(self.faces), tuple(sorted(wires)), tuple(self.parts), closed)
 
 
 def _point(rng: random.Random, size: int) -> Point:
@@ -193,7 +214,7 @@ def wires(rng: random.Random, size: int) -> Scene:
 def solids(rng: random.Random, size: int) -> Scene:
     """Parts that are all sound: closed, wound outward, of some volume; and free lines among them."""
     builder = Builder(weld=False)
-    while len(builder.solids) < 4 or rng.random() < 0.4:
+    while len(builder.parts) < 4 or rng.random() < 0.4:
         corner = _point(rng, size)
         axes = [(rng.randint(-size, size), rng.randint(-size, size), rng.randint(-size, size)) for _ in range(3)]
         if rng.random() < 0.4:
@@ -211,7 +232,7 @@ def solids(rng: random.Random, size: int) -> Scene:
     for _ in range(rng.randint(0, 2)):
         ends = [rng.choice(builder.points) if rng.random() < 0.3 else _point(rng, size) for _ in range(2)]
         builder.wires.append((builder.point(ends[0]), builder.point(ends[1])))
-    return builder.scene(solid=True)
+    return builder.scene(closed=True)
 
 
 def _volume(a: Point, b: Point, c: Point) -> int:

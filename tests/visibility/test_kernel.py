@@ -2,34 +2,46 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from visibility import adapter, compare, scenes
+from visibility import adapter, compare, oracle, scenes
 from visibility.scenes import Scene
 
 SEEDS_PER_KIND = 40
+WAYS = {
+    "one part": adapter.ONE,
+    "parts": adapter.PARTS,
+    "parts, contact tolerance 1": adapter.Way(parts=True, bias=1),
+    "parts, contact tolerance 2": adapter.Way(parts=True, bias=2),
+}
 
 
+@pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("kind", range(len(scenes.KINDS)), ids=[kind.__name__ for kind in scenes.KINDS])
-def test_random_scenes(kind: int) -> None:
-    for seed in range(kind, kind + SEEDS_PER_KIND * len(scenes.KINDS), len(scenes.KINDS)):
-        expect_agreement(scenes.scene(seed))
+def test_random_scenes(kind: int, way: str) -> None:
+    first = kind + 1000 * len(scenes.KINDS) * list(WAYS).index(way)
+    for seed in range(first, first + SEEDS_PER_KIND * len(scenes.KINDS), len(scenes.KINDS)):
+        expect_agreement(scenes.scene(seed), WAYS[way])
 
 
-def test_parts_may_be_culled_and_need_no_search_inside_themselves() -> None:
-    solid = [seed for seed in range(8 * 60) if scenes.scene(seed).solids]
-    assert len(solid) >= 40
-    for seed in solid:
-        expect_agreement(scenes.scene(seed), solids=True)
+@pytest.mark.parametrize("bias", [0, 1])
+def test_trusted_parts(bias: int) -> None:
+    """Culling what is turned away, and no search for piercings inside a part, change nothing where they are allowed."""
+    closed = [scene for scene in map(scenes.scene, range(8 * 60)) if scene.closed]
+    assert len(closed) >= 40
+    for scene in closed:
+        expect_agreement(scene, replace(adapter.TRUSTED, bias=bias))
 
 
-def expect_agreement(scene: Scene, *, solids: bool = False) -> None:
-    problem = compare.difference(scene, solids=solids)
+def expect_agreement(scene: Scene, way: adapter.Way) -> None:
+    problem = compare.difference(scene, way)
     if problem:
-        small = compare.shrink(scene, lambda smaller: compare.difference(smaller, solids=solids) is not None)
-        pytest.fail(f"{problem}\nmade small: {compare.difference(small, solids=solids)}\n{small!r}")
+        small = compare.shrink(scene, lambda smaller: compare.difference(smaller, way) is not None)
+        pytest.fail(f"{problem}\nmade small: {compare.difference(small, way)}\n{small!r}\n{way}")
 
 
 coordinate = st.integers(0, 3)
@@ -49,7 +61,7 @@ def soups(draw: st.DrawFn) -> Scene:
 @settings(max_examples=300, deadline=None)
 @given(soups())
 def test_any_soup(scene: Scene) -> None:
-    assert compare.difference(scene) is None
+    assert compare.difference(scene, adapter.ONE) is None
 
 
 @settings(max_examples=50, deadline=None)
@@ -57,8 +69,8 @@ def test_any_soup(scene: Scene) -> None:
 def test_size_and_place_do_not_matter(scene: Scene, factor: int, offset: tuple[int, int, int]) -> None:
     """Exactness is relative to the scene's own extent: integers up to 2^22 or so are still kept as they are."""
     moved = [tuple(factor * c + o for c, o in zip(p, offset, strict=True)) for p in scene.points]
-    there = adapter.visibility(Scene(tuple(moved), scene.faces, scene.wires))  # type: ignore[arg-type]
-    assert there.pieces == adapter.visibility(scene).pieces
+    there = adapter.visibility(Scene(tuple(moved), scene.faces, scene.wires), adapter.ONE)  # type: ignore[arg-type]
+    assert there.pieces == adapter.visibility(scene, adapter.ONE).pieces
 
 
 @settings(max_examples=60, deadline=None)
@@ -67,7 +79,7 @@ def test_order_of_triangles_does_not_matter(scene: Scene, rng: np.random.Generat
     faces = [tuple(face[(i + turn) % 3] for i in range(3)) for face, turn in zip(scene.faces, range(9), strict=False)]
     rng.shuffle(faces)  # type: ignore[arg-type]
     shuffled = Scene(scene.points, tuple(faces), scene.wires)  # type: ignore[arg-type]
-    assert adapter.visibility(shuffled).pieces == adapter.visibility(scene).pieces
+    assert adapter.visibility(shuffled, adapter.ONE).pieces == adapter.visibility(scene, adapter.ONE).pieces
 
 
 def merged(copies: int) -> Scene:
@@ -88,10 +100,10 @@ def merged(copies: int) -> Scene:
 def test_a_large_scene_and_any_number_of_threads() -> None:
     scene = merged(60)
     assert len(scene.edges()) > 1000
-    expect_agreement(scene)
-    one = adapter.visibility(scene, threads=1)
+    expect_agreement(scene, adapter.ONE)
+    one = adapter.visibility(scene, adapter.ONE, threads=1)
     for threads in (2, 3, 5):
-        assert adapter.visibility(scene, threads=threads) == one
+        assert adapter.visibility(scene, adapter.ONE, threads=threads) == one
 
 
 def test_edge_table() -> None:
@@ -111,9 +123,9 @@ def test_a_wrong_answer_would_be_noticed() -> None:
     """The comparison can fail: hold the kernel's answer for one scene against another's."""
     behind = Scene(((0, 0, 0), (4, 0, 0), (0, 4, 0), (1, 1, 1), (2, 1, 1)), ((0, 1, 2),), ((3, 4),))
     before = Scene((*behind.points[:3], (1, 1, -1), (2, 1, -1)), behind.faces, behind.wires)
-    assert adapter.visibility(behind).pieces[3, 4] == [(0.0, 1.0, True)]
-    assert adapter.visibility(before).pieces[3, 4] == [(0.0, 1.0, False)]
-    assert not compare.agree([(0.0, 1.0, True)], [(compare.oracle.ZERO, compare.oracle.ONE, False)])
+    assert adapter.visibility(behind, adapter.ONE).pieces[3, 4] == [(0.0, 1.0, adapter.HIDDEN)]
+    assert adapter.visibility(before, adapter.ONE).pieces[3, 4] == [(0.0, 1.0, adapter.VISIBLE)]
+    assert not compare.agree([(0.0, 1.0, adapter.HIDDEN)], [(oracle.ZERO, oracle.ONE, adapter.VISIBLE)])
 
 
 def test_shrinking_leaves_what_matters() -> None:
