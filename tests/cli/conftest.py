@@ -17,15 +17,11 @@ class Result(NamedTuple):
 
 
 @pytest.fixture
-def hlr_command(monkeypatch, capfd, tmp_path):
-    """Run the command line in this process, in an empty folder, on the stand-in pipeline."""
+def hlr_real(monkeypatch, capfd, tmp_path):
+    """Run the command line in this process, in an empty folder."""
     from hlr.cli import main
 
-    import hlr
-
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(hlr, "draw_views", fake.draw_views, raising=False)
-    monkeypatch.setattr(hlr, "info", fake.info, raising=False)
     before = signal.getsignal(signal.SIGINT)
 
     def run(*arguments):
@@ -36,6 +32,16 @@ def hlr_command(monkeypatch, capfd, tmp_path):
 
     yield run
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
+def hlr_command(hlr_real, monkeypatch):
+    """The same on the stand-in pipeline."""
+    import hlr
+
+    monkeypatch.setattr(hlr, "draw_views", fake.draw_views, raising=False)
+    monkeypatch.setattr(hlr, "info", fake.info, raising=False)
+    return hlr_real
 
 
 @pytest.fixture
