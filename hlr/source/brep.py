@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from hlr.errors import SourceError
-from hlr.source.locations import determinant_sign, moved
+from hlr.source.locations import determinant_sign, moved, moved_each
 from hlr.source.model import Floats, Frame, Meshed, PartInfo, PartMesh, Progress
 from hlr.source.parts import Leaf, Part, Parts
 from hlr.source.tessellate import Tessellator
 from hlr.source.topology import Meshes
+from hlr.source.weld import clean
 
 
 class BrepSource:
@@ -33,17 +34,21 @@ class BrepSource:
         for leaf in leaves:
             found.add(leaf)
         self._notes = [*notes, *found.notes]
-        self._parts, self._roots = found.parts, found.roots
-        counts = [_counts(root) for root in self._roots]
-        self._counts = counts
-        if not self._parts:
+        self._roots = found.roots
+        self._counts = [_counts(root) for root in self._roots]
+        self._parts = [part for part in found.parts if self._counts[part.root][0]]
+        wires = [part for part in found.parts if not self._counts[part.root][0]]
+        edges = sum(self._counts[part.root][1] for part in wires)
+        if not found.parts:
             raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
-        if not any(faces for faces, _, _ in counts):
-            edges = sum(counts[part.root][1] for part in self._parts)
+        if not self._parts:
             raise SourceError(
                 f"{name} holds {edges} edges but no faces: a hidden-line drawing needs surfaces "
                 "(export solids or shells instead of wires)."
             )
+        if wires:
+            # Sketches, axes and annotation come along with many files; they are no part of the product's surface.
+            self._notes.append(f"{_some(wires)} without faces ({edges} edges) left out.")
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
 
@@ -94,12 +99,15 @@ class BrepSource:
         meshes, notes = self._tessellator.mesh(deflection, angle, progress)
         meshed = Meshed(parts=[], notes=notes)
         shared = [_Shared(meshes, number) for number in range(len(self._roots))]
-        for part in self._parts:
+        places = _placed_points([(part, shared[part.root].points) for part in self._parts])
+        for part, points in zip(self._parts, places, strict=True):
             mesh = shared[part.root]
             if mesh.missing:
-                meshed.notes.append(f'Part "{part.name}": {mesh.missing} faces could not be meshed.')
-            if len(mesh.triangles) or len(mesh.edge_nodes):
-                meshed.parts.append(mesh.placed(part))
+                meshed.notes.append(
+                    f'Part "{part.name}": {mesh.missing} of {self._counts[part.root][0]} faces could not be meshed.'
+                )
+            if len(mesh.triangles):
+                meshed.parts.append(mesh.placed(part, points))
             else:
                 meshed.notes.append(f'Part "{part.name}" has no triangles and was left out.')
         if not any(len(part.triangles) for part in meshed.parts):
@@ -126,13 +134,19 @@ class _Shared:
         self.edge_class = meshes.edge_class[e:f]
         self.missing = int(meshes.missing_faces[number])
 
-    def placed(self, part: Part) -> PartMesh:
+        self.brep = True
+        if len(self.triangles) and not len(self.edge_index):
+            # Tessellated geometry: faces are loose triangles, and what they share must be found by position.
+            joined = clean(self.points, self.triangles)
+            self.points, self.triangles = joined.points, joined.triangles
+            self.triangle_face = np.zeros(len(self.triangles), dtype=np.int32)
+            self.face_planar = np.zeros(1, dtype=bool)
+            self.brep = False
+
+    def placed(self, part: Part, points: Floats) -> PartMesh:
         triangles = self.triangles
-        points = self.points
-        if not _is_identity(part.transform):
-            points = moved(points, part.transform)
-            if determinant_sign(part.transform) < 0:
-                triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
+        if determinant_sign(part.transform) < 0:
+            triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
         return PartMesh(
             name=part.name,
             color=part.color,
@@ -145,15 +159,33 @@ class _Shared:
             edge_offsets=self.edge_offsets,
             edge_index=self.edge_index,
             edge_class=self.edge_class,
-            brep=True,
+            brep=self.brep,
         )
 
 
-def _is_identity(transform: Floats) -> bool:
-    return bool((transform == _IDENTITY).all())
+def _placed_points(parts: list[tuple[Part, Floats]]) -> list[Floats]:
+    """Points of every part where it stands; thousands of small parts are moved in one go."""
+    transforms = np.array([part.transform for part, _ in parts])
+    result = [points for _, points in parts]
+    away = np.flatnonzero((transforms != np.eye(4)).any(axis=(1, 2)))
+    small = [i for i in away if len(result[i]) <= SMALL_PART]
+    for i in away:
+        if len(result[i]) > SMALL_PART:
+            result[i] = moved(result[i], transforms[i])
+    if small:
+        sizes = np.array([len(result[i]) for i in small])
+        together = moved_each(np.concatenate([result[i] for i in small]), np.repeat(transforms[small], sizes, axis=0))
+        for i, points in zip(small, np.split(together, np.cumsum(sizes)[:-1]), strict=True):
+            result[i] = points
+    return result
 
 
-_IDENTITY = np.eye(4)
+SMALL_PART = 1000
+"""Points: up to here moving part by part costs more in calls than in arithmetic."""
+
+
+def _some(parts: list[Part]) -> str:
+    return f'Part "{parts[0].name}"' if len(parts) == 1 else f"{len(parts)} parts"
 
 
 def _counts(root: Any) -> tuple[int, int, int]:

@@ -5,9 +5,9 @@ The dump (BinTools_ShapeSet, "Topology V4") is a sequence of sections with a tex
 
     Locations, Curve2ds, Curves, Polygon3D, PolygonOnTriangulations, Surfaces, Triangulations, TShapes
 
-Curves and surfaces are skipped: the wanted sections are found by their headers, and a wrong hit is noticed because every
-section parsed must end exactly where the next header stands. Anything unexpected raises `DumpError`; the caller then
-walks the shape through the bindings (`hlr.source.walk`).
+Curves and surfaces are skipped: the wanted sections are found by their headers, and a wrong hit is noticed because
+every section parsed must end exactly where the next header stands. Anything unexpected raises `DumpError`; the caller
+then walks the shape through the bindings (`hlr.source.walk`).
 """
 
 from __future__ import annotations
@@ -261,7 +261,8 @@ def _int32(buffer: Bytes, where: Any) -> Ints:
     value = buffer[where].astype(np.uint32)
     for k in (1, 2, 3):
         value |= buffer[where + k].astype(np.uint32) << np.uint32(8 * k)
-    return value.view(np.int32)
+    result: Ints = value.view(np.int32)
+    return result
 
 
 def _representations(buffer: Bytes, edges: Any, at: Any) -> tuple[dict[int, Any], Any]:

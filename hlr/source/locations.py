@@ -1,8 +1,8 @@
 """Placements of sub-shapes: composed, compared and cancelled exactly as TopLoc_Location does.
 
-OpenCASCADE says that two sub-shapes are the same when their underlying shape and their *location* agree, and a location
-is not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may differ; a chain
-times its inverse vanishes. The index maps of a part depend on this, so the chains are kept and composed here.
+OpenCASCADE says that two sub-shapes are the same when their underlying shape and their *location* agree, and a
+location is not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may
+differ; a chain times its inverse vanishes. The index maps of a part depend on this, so chains are composed here.
 """
 
 from __future__ import annotations

@@ -97,7 +97,8 @@ class Source(Protocol):
         """step, iges, brep, script, object, stl, obj, ply, off, 3mf, glb, mesh."""
 
     @property
-    def frame(self) -> Frame: ...
+    def frame(self) -> Frame:
+        """Unit and up axis of the model's coordinates: world = unit * up * model."""
 
     @property
     def notes(self) -> list[str]:
@@ -106,7 +107,8 @@ class Source(Protocol):
     def bounds(self) -> Floats:
         """(2, 3) lower and upper corner in model coordinates; cheap, may be a little too large."""
 
-    def infos(self) -> list[PartInfo]: ...
+    def infos(self) -> list[PartInfo]:
+        """Every part's counts, in the order of the parts."""
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""

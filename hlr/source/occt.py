@@ -28,7 +28,7 @@ def explain(error: ImportError) -> str:
     for library, package in (("libGL.so", "libgl1"), ("libX11", "libx11-6"), ("libXrender", "libxrender1")):
         if library in text:
             return (
-                f"OpenCASCADE needs the system library {text.split(':')[0]}: "
+                f"OpenCASCADE needs the system library {text.split(':', maxsplit=1)[0]}: "
                 f"install it (Debian and Ubuntu: apt-get install {package})."
             )
     if isinstance(error, ModuleNotFoundError):

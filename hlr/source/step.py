@@ -154,12 +154,14 @@ def srgb(color: Any) -> Color:
 def _name(label: Any) -> str:
     from OCP.TDataStd import TDataStd_Name
 
-    name = TDataStd_Name()
-    if not label.FindAttribute(TDataStd_Name.GetID_s(), name):
+    # FindAttribute alone crashes the interpreter where there is no such attribute.
+    if not label.IsAttribute(TDataStd_Name.GetID_s()):
         return ""
+    name = TDataStd_Name()
+    label.FindAttribute(TDataStd_Name.GetID_s(), name)
     text = " ".join(str(name.Get().ToExtString()).split())
     # What OpenCASCADE's own writers put where nobody gave a name says nothing.
-    return "" if text.startswith("Open CASCADE") or text in _EMPTY_NAMES else text
+    return "" if text.startswith(("Open CASCADE", "=>[")) or text in _EMPTY_NAMES else text
 
 
-_EMPTY_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO", "=>"}
+_EMPTY_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO"}

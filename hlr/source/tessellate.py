@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -62,6 +63,7 @@ class Tessellator:
                 progress("tessellate", done / len(self._batches))
             for failed in self._mesh_batch(batch, deflection, angle):
                 notes.append(failed)
+        self._retry(deflection, angle)
         carriers = self._normal_carriers()
         tables = read_tables(compound([compound(carriers), *self._roots]))
         faces = np.flatnonzero(tables.kind == FACE)[len(carriers) :]
@@ -82,6 +84,17 @@ class Tessellator:
                 return
             for number in batch:
                 yield from self._mesh_batch([number], deflection, angle)
+
+    def _retry(self, deflection: float, angle: float) -> None:
+        """Faces that Delabella cannot triangulate go to the older Watson algorithm, along the same edge polygons."""
+        from OCP.BRep import BRep_Tool
+        from OCP.TopLoc import TopLoc_Location
+
+        place = TopLoc_Location()
+        lost = [face for face in self._faces if BRep_Tool.Triangulation_s(face, place) is None]
+        if lost:
+            with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the faces are counted
+                _run_mesher(compound(lost), deflection, angle, delabella=False)
 
     def _normal_carriers(self) -> list[Any]:
         """Bare faces that make the dump hold surface normals beside the nodes of curved faces.
@@ -107,7 +120,10 @@ class Tessellator:
 
 
 def read_tables(everything: Any) -> Tables:
-    """Tables of a meshed compound (normal carriers first, then the roots): through the dump, or item by item where its layout is not the known one."""
+    """Tables of a meshed compound (normal carriers first, then the roots).
+
+    They come from the dump, or item by item where its layout is not the known one.
+    """
     try:
         return read_dump(everything)
     except DumpError:
@@ -116,12 +132,13 @@ def read_tables(everything: Any) -> Tables:
         return walk(everything)
 
 
-def _run_mesher(shape: Any, deflection: float, angle: float) -> None:
+def _run_mesher(shape: Any, deflection: float, angle: float, delabella: bool = True) -> None:
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
     from OCP.IMeshTools import IMeshTools_MeshAlgoType, IMeshTools_Parameters
 
     parameters = IMeshTools_Parameters()
-    parameters.MeshAlgo = IMeshTools_MeshAlgoType.IMeshTools_MeshAlgoType_Delabella
+    kinds = IMeshTools_MeshAlgoType
+    parameters.MeshAlgo = kinds.IMeshTools_MeshAlgoType_Delabella if delabella else kinds.IMeshTools_MeshAlgoType_Watson
     parameters.Deflection = deflection
     parameters.Angle = angle
     parameters.InParallel = True
