@@ -15,11 +15,11 @@ import numpy.typing as npt
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from peers.exchange import Camera, DrawnLine, Exchange
-from peers.reference import Floats, Reference
+from peers.reference import FINENESS, Floats, Reference
 
 FRACTIONS = (0.1, 0.3, 0.5, 0.7, 0.9)
 SHORTEST = 1 / 1000
-"""Lines up to this are not judged; like the following in diagonals of the bounding box."""
+"""Lines up to this are not judged; like the following in diagonals of the bounding box, for a mesh of full fineness."""
 RADIUS = 1 / 3000
 DEPTH = 1 / 8000
 OFF = 1 / 10000
@@ -69,10 +69,16 @@ class RayCaster:
     def __init__(self, reference: Reference) -> None:
         corners = reference.points[reference.triangles]
         self.diagonal = reference.diagonal
+        self._coarseness = FINENESS / reference.fineness
         self._centre = (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2
         self._corners = (corners - self._centre) / self.diagonal
         self._scene = EmbreeScene(robust=True)
         TriangleMesh(self._scene, np.ascontiguousarray(self._corners, dtype=np.float32))
+
+    @property
+    def measure(self) -> float:
+        """What the rules' lengths are fractions of: the diagonal, or more where the mesh is coarser."""
+        return self.diagonal * self._coarseness
 
     def blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.int64]:
         """For each point the number of blocked rays among its own and those of the ring."""
@@ -84,6 +90,7 @@ class RayCaster:
         return np.concatenate(parts) if parts else np.zeros((0, RING + 1), dtype=np.bool_)
 
     def _blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.bool_]:
+        depth = DEPTH * self._coarseness
         starts = (points - self._centre) / self.diagonal
         if camera.eye is None:
             toward = np.broadcast_to(camera.direction, starts.shape)
@@ -93,30 +100,31 @@ class RayCaster:
             reach = np.linalg.norm(toward, axis=1)
             toward = toward / reach[:, None]
         origins = starts[:, None, :] + np.concatenate([np.zeros((1, 3)), self._ring(camera)])[None]
-        origins = (origins + (toward * DEPTH)[:, None, :]).reshape(-1, 3)
+        origins = (origins + (toward * depth)[:, None, :]).reshape(-1, 3)
         toward = np.repeat(toward, RING + 1, axis=0)
-        limit = np.repeat(np.minimum(reach - DEPTH, 1e30), RING + 1)
+        limit = np.repeat(np.minimum(reach - depth, 1e30), RING + 1)
         return self._hit(origins, toward, limit).reshape(-1, RING + 1)
 
-    @staticmethod
-    def _ring(camera: Camera) -> Floats:
+    def _ring(self, camera: Camera) -> Floats:
         angles = np.arange(RING) * (2 * np.pi / RING)
-        return RADIUS * (np.cos(angles)[:, None] * camera.right + np.sin(angles)[:, None] * camera.up)
+        return (
+            RADIUS * self._coarseness * (np.cos(angles)[:, None] * camera.right + np.sin(angles)[:, None] * camera.up)
+        )
 
     def _hit(self, origins: Floats, toward: Floats, limit: Floats) -> npt.NDArray[np.bool_]:
         result = self._scene.run(
             np.ascontiguousarray(origins, dtype=np.float32), np.ascontiguousarray(toward, dtype=np.float32), output=True
         )
-        return (result["primID"] >= 0) & (result["tfar"] < limit)
+        return np.asarray((result["primID"] >= 0) & (result["tfar"] < limit))
 
 
-def sample(drawing: Exchange, diagonal: float) -> tuple[Samples, int]:
+def sample(drawing: Exchange, measure: float) -> tuple[Samples, int]:
     """Five points on each line that is long enough, at fixed fractions of its length in the image."""
     points: list[Floats] = []
     numbers: list[int] = []
     for number, line in enumerate(drawing.lines):
         along = _image_length(line, drawing.camera)
-        if along[-1] <= diagonal * SHORTEST:
+        if along[-1] <= measure * SHORTEST:
             continue
         points.append(_at(line.points3, along))
         numbers.append(number)
@@ -140,7 +148,7 @@ def _at(points: Floats, along: Floats) -> Floats:
     return np.stack([np.interp(wanted, along, points[:, axis]) for axis in range(3)], axis=1)
 
 
-def _displaced(drawing: Exchange, diagonal: float) -> int:
+def _displaced(drawing: Exchange, measure: float) -> int:
     """Vertices that lie elsewhere on paper than where the format puts their model position."""
     if not drawing.lines:
         return 0
@@ -153,13 +161,13 @@ def _displaced(drawing: Exchange, diagonal: float) -> int:
         factor *= camera.distance / -(model @ camera.direction)
     flat = np.stack([model @ camera.right, model @ camera.up], axis=1)
     off = np.abs(flat * factor[:, None] - drawing.origin - paper).max(axis=1)
-    return int((off > OFF * diagonal * factor).sum())
+    return int((off > OFF * measure * factor).sum())
 
 
 def judge(drawing: Exchange, caster: RayCaster) -> Verdict:
-    samples, judged = sample(drawing, caster.diagonal)
+    samples, judged = sample(drawing, caster.measure)
     blocked = caster.blocked(samples.points, drawing.camera)
-    return Verdict(samples, blocked, judged, _displaced(drawing, caster.diagonal))
+    return Verdict(samples, blocked, judged, _displaced(drawing, caster.measure))
 
 
 def offenders(drawing: Exchange, verdict: Verdict) -> Iterator[str]:

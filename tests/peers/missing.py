@@ -76,7 +76,7 @@ class Edges:
 
 def missing(drawing: Exchange, edges: Edges, caster: RayCaster) -> Missing:
     """Orthographic views only."""
-    camera, size = drawing.camera, caster.diagonal
+    camera, size = drawing.camera, caster.measure
     axes = np.stack([camera.right, camera.up], axis=1)
     chosen = np.flatnonzero(edges.to_be_drawn(camera.direction))
     start, end = edges.start[chosen], edges.end[chosen]

@@ -78,7 +78,13 @@ def clash() -> cq.Workplane:
 def horn() -> cq.Workplane:
     """A circle swept along a curve in space: outlines on a freeform face that hides itself."""
     path = cq.Workplane("XZ").spline([(0, 0), (4, 10), (12, 8), (10, -2)], tangents=[(0, 1), (-1, -1)])
-    return cq.Workplane("XY").circle(2.5).sweep(path)
+    return cq.Workplane("XY").circle(1.8).sweep(path)
+
+
+def spindle() -> cq.Workplane:
+    """A valid solid whose one face passes through itself: no check of topology finds that."""
+    path = cq.Workplane("XZ").spline([(0, 0), (4, 10), (12, 8), (10, -2)], tangents=[(0, 1), (-1, -1)])
+    return cq.Workplane("XY").circle(2.8).sweep(path)
 
 
 def vase() -> cq.Workplane:
@@ -104,6 +110,7 @@ MODELS: dict[str, Callable[[], cq.Workplane]] = {
         touching_boxes,
         clash,
         horn,
+        spindle,
         vase,
         thin_walls,
     )

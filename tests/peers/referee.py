@@ -85,7 +85,7 @@ def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference)
     from hlr.plan.options import Options
     from hlr.writers import render
 
-    options = Options(hidden=True, scale=1.0, accuracy=model.diagonal * model.unit / reference.FINENESS)
+    options = Options(hidden=True, scale=1.0, accuracy=model.accuracy)
     start = time.perf_counter()
     try:
         drawings = hlr.draw_views(path, list(views), options)
@@ -138,11 +138,19 @@ def files(given: Sequence[Path]) -> list[Path]:
     return found
 
 
-def judge_file(path: Path, views: Sequence[View], peers: Sequence[str], timeout: float = 120.0) -> Iterator[Judged]:
+def judge_file(
+    path: Path,
+    views: Sequence[View],
+    peers: Sequence[str] = ("hlr",),
+    *,
+    timeout: float = 120.0,
+    fineness: float = reference.FINENESS,
+    cache: Path | None = None,
+) -> Iterator[Judged]:
     """Judge one file; a file that cannot be meshed here is reported, not raised."""
     start = time.perf_counter()
     try:
-        model = reference.load(path)
+        model = reference.load(path, fineness, cache)
     except Exception as error:
         yield Judged(report.Row(path.name, "all", "referee", failure=f"no reference mesh: {error}"))
         return
@@ -160,10 +168,10 @@ def judge_file(path: Path, views: Sequence[View], peers: Sequence[str], timeout:
                 yield judging.judge(path.name, peer, drawing, seconds)
 
 
-def judge_drawings(paths: Sequence[Path], model: Path) -> Iterator[Judged]:
+def judge_drawings(given: argparse.Namespace) -> Iterator[Judged]:
     """Drawings that exist already, all of one model."""
-    judging = Referee(reference.load(model))
-    for path in paths:
+    judging = Referee(reference.load(given.against, given.fineness, given.cache))
+    for path in given.paths:
         yield judging.judge(path.name, "file", exchange.read(path))
 
 
@@ -171,7 +179,9 @@ def judge_models(given: argparse.Namespace) -> Iterator[Judged]:
     views: list[View] = [name for name in given.views.split(",") if name]
     views += random_views(given.random, given.seed)
     for path in files(given.paths):
-        yield from judge_file(path, views, given.peer or ["hlr"], given.timeout)
+        yield from judge_file(
+            path, views, given.peer or ["hlr"], timeout=given.timeout, fineness=given.fineness, cache=given.cache
+        )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -186,9 +196,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--table", type=Path, help="write the table here as Markdown too")
     parser.add_argument("--why", type=int, nargs="?", const=10, default=0, help="list the N worst lines of each view")
     parser.add_argument("--svg", type=Path, help="folder for pictures with the wrong samples marked")
+    parser.add_argument("--fineness", type=float, default=reference.FINENESS, help="coarser rules for a quick look")
+    parser.add_argument("--cache", type=Path, help="folder that keeps the reference meshes of B-rep files")
     given = parser.parse_args(arguments)
     rows: list[report.Row] = []
-    for judged in judge_drawings(given.paths, given.against) if given.against else judge_models(given):
+    for judged in judge_drawings(given) if given.against else judge_models(given):
         row = judged.row
         rows.append(row)
         print("  " + " ".join(row.cells()).strip(), flush=True)

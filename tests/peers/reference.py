@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ BREP = {".step", ".stp", ".iges", ".igs", ".brep", ".brp"}
 MESH = {".stl", ".obj", ".ply", ".off", ".3mf", ".glb", ".gltf"}
 SUFFIXES = BREP | MESH
 FINENESS = 20000
-"""The mesh deviates from the model by at most the diagonal divided by this."""
+"""The mesh deviates from the model by at most the diagonal divided by this; quick tests ask for less."""
 
 
 @dataclass(frozen=True)
@@ -26,6 +27,7 @@ class Reference:
     diagonal   of the bounding box, model units
     unit       millimetres per model unit
     unmeshed   faces OpenCASCADE could not triangulate: nothing hides behind them here
+    fineness   the deflection asked for is diagonal / fineness
     """
 
     points: Floats
@@ -33,23 +35,41 @@ class Reference:
     diagonal: float
     unit: float = 1.0
     unmeshed: int = 0
+    fineness: float = FINENESS
+
+    @property
+    def accuracy(self) -> float:
+        """What to ask of a drawing at scale 1, in millimetres."""
+        return self.diagonal * self.unit / self.fineness
 
 
-def from_arrays(points: npt.ArrayLike, triangles: npt.ArrayLike, unit: float = 1.0, unmeshed: int = 0) -> Reference:
+def from_arrays(points: npt.ArrayLike, triangles: npt.ArrayLike, unit: float = 1.0) -> Reference:
     points = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     triangles = np.asarray(triangles, dtype=np.int32).reshape(-1, 3)
     used = points[triangles.ravel()]
     if not len(used):
         raise ValueError("no triangles")
     diagonal = float(np.linalg.norm(used.max(axis=0) - used.min(axis=0)))
-    return Reference(points, triangles, diagonal, unit, unmeshed)
+    return Reference(points, triangles, diagonal, unit)
 
 
-def load(path: str | Path) -> Reference:
+def load(path: str | Path, fineness: float = FINENESS, cache: Path | None = None) -> Reference:
+    """Mesh a file, or take the mesh of the same file from `cache`: some need minutes."""
     path = Path(path)
-    if path.suffix.lower() in BREP:
-        return from_shape(read_shape(path))
-    return from_mesh_file(path)
+    if path.suffix.lower() not in BREP:
+        return replace(from_mesh_file(path), fineness=fineness)
+    if cache is None:
+        return from_shape(read_shape(path), fineness)
+    name = hashlib.sha256(path.read_bytes() + f"{fineness}".encode()).hexdigest()[:24]
+    kept = cache / f"{path.stem}-{name}.npz"
+    if kept.exists():
+        with np.load(kept) as arrays:
+            model = from_arrays(arrays["points"], arrays["triangles"])
+            return replace(model, unmeshed=int(arrays["unmeshed"]), fineness=fineness)
+    model = from_shape(read_shape(path), fineness)
+    cache.mkdir(parents=True, exist_ok=True)
+    np.savez(kept, points=model.points, triangles=model.triangles, unmeshed=model.unmeshed)
+    return model
 
 
 def read_shape(path: str | Path) -> Any:
@@ -96,7 +116,7 @@ def shape_diagonal(shape: Any) -> float:
     return float(np.sqrt(box.SquareExtent()))
 
 
-def from_shape(shape: Any, angle: float = 0.5) -> Reference:
+def from_shape(shape: Any, fineness: float = FINENESS, angle: float = 0.5) -> Reference:
     """Mesh a shape afresh with OpenCASCADE's default triangulator."""
     from OCP.BRep import BRep_Tool
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
@@ -107,7 +127,7 @@ def from_shape(shape: Any, angle: float = 0.5) -> Reference:
     from OCP.TopoDS import TopoDS
 
     BRepTools.Clean_s(shape)
-    BRepMesh_IncrementalMesh(shape, shape_diagonal(shape) / FINENESS, False, angle, True)
+    BRepMesh_IncrementalMesh(shape, shape_diagonal(shape) / fineness, False, angle, True)
     points: list[Floats] = []
     triangles: list[Ints] = []
     count = unmeshed = 0
@@ -133,7 +153,8 @@ def from_shape(shape: Any, angle: float = 0.5) -> Reference:
         count += len(nodes)
     if not points:
         raise ValueError("the shape has no faces that can be meshed")
-    return from_arrays(np.concatenate(points), np.concatenate(triangles), unmeshed=unmeshed)
+    model = from_arrays(np.concatenate(points), np.concatenate(triangles))
+    return replace(model, unmeshed=unmeshed, fineness=fineness)
 
 
 def from_mesh_file(path: Path) -> Reference:

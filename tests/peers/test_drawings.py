@@ -8,10 +8,10 @@ import pytest
 from peers import exchange, models, referee, reference
 from peers.judge import RayCaster, judge, offenders
 
-hlr = pytest.importorskip("hlr")
-if not hasattr(hlr, "draw_views"):
-    pytest.skip("the pipeline is not there yet", allow_module_level=True)
+import hlr
 
+QUICK = 4000
+"""Fineness of the tests: the same rules at five times the lengths. The command line judges at the full one."""
 VIEWS: list[referee.View] = ["front", "top", "right", "iso", *referee.random_views(1)]
 
 
@@ -32,9 +32,9 @@ def test_perspective(name: str, tmp_path: Path) -> None:
     from hlr.writers import render
 
     path = models.save(name, tmp_path)
-    model = reference.load(path)
+    model = reference.load(path, QUICK)
     for fov in (30.0, 90.0):
-        options = Options(accuracy=model.diagonal / reference.FINENESS, perspective=Perspective(fov=fov))
+        options = Options(accuracy=model.accuracy, perspective=Perspective(fov=fov))
         (drawing,) = hlr.draw_views(path, ["iso"], options)
         document = exchange.parse(render(drawing, "json"))
         assert document.camera.eye is not None
@@ -44,7 +44,7 @@ def test_perspective(name: str, tmp_path: Path) -> None:
 
 def expect_faultless(path: Path) -> None:
     drawn = 0
-    for judged in referee.judge_file(path, VIEWS, ["hlr"]):
+    for judged in referee.judge_file(path, VIEWS, fineness=QUICK):
         assert not judged.row.bad, f"{judged.row}\n" + "\n".join(judged.why())
         assert judged.row.visible and judged.row.asked, "a drawing with nothing visible proves nothing"
         drawn += 1
