@@ -12,7 +12,9 @@ pty = pytest.importorskip("pty")
 def run(child, *arguments, seconds=20.0, interrupt=None):
     """The command with a terminal as standard error: what it shows there, and its exit code."""
     control, terminal = pty.openpty()
-    process = child(*arguments, stderr=terminal, env=os.environ | {"TERM": "xterm", "COLUMNS": "80"})
+    process = child(
+        *arguments, stderr=terminal, start_new_session=True, env=os.environ | {"TERM": "xterm", "COLUMNS": "80"}
+    )
     os.close(terminal)
     shown, end = b"", time.monotonic() + seconds
     while time.monotonic() < end:
@@ -25,7 +27,7 @@ def run(child, *arguments, seconds=20.0, interrupt=None):
                 break
             shown += piece
             if interrupt and interrupt.encode() in shown:
-                process.send_signal(signal.SIGINT)
+                os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the whole group
                 interrupt = None
     os.close(control)
     return shown.decode(), process.wait(timeout=5)
@@ -52,10 +54,11 @@ def test_quiet(child):
 
 
 def test_a_pipe_sees_no_progress(hlr_command):
-    assert hlr_command("draw", "prints.step").err == "printed by a script\n"
+    assert hlr_command("draw", "prints.step").err == "printed by a script\nprinted by a library\n"
 
 
 def test_ctrl_c_gives_the_cursor_back(child):
     shown, code = run(child, "draw", "forever.step", "-o", "a.svg", interrupt="source")
     assert code == -signal.SIGINT
     assert shown.count("\x1b[?25h") == shown.count("\x1b[?25l") > 0
+    assert "Traceback" not in shown

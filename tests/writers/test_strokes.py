@@ -47,6 +47,14 @@ def test_a_loop_in_one_line_or_in_two_is_closed():
         assert len(layer.points) == 4
 
 
+def test_a_loop_stays_closed_where_another_line_goes_on_from_it():
+    square = line([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]])
+    tail = line([[0, 0], [-1, -1]])
+    assert only(strokes(drawing([square, tail])).layers).closed.tolist() == [True, False]
+    head = line([[-1, -1], [0, 0]])
+    assert only(strokes(drawing([head, square])).layers).closed.tolist() == [False, True]
+
+
 def test_there_and_back_is_not_a_loop():
     layer = only(strokes(drawing([line([[0, 0], [1, 0], [0, 0]])])).layers)
     assert layer.closed.tolist() == [False]

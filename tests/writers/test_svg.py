@@ -112,6 +112,21 @@ def test_an_empty_drawing_is_a_valid_file():
     assert not root.findall(".//s:path", NS)
 
 
+@pytest.mark.parametrize(
+    ("points", "d"),
+    [
+        ([[12, -0.5], [12.5, -1]], "M12 .5l.5.5"),
+        ([[0.5, -0.5], [1, -12]], "M.5.5l.5 11.5"),
+        ([[-0.5, 0.5], [-1, 12]], "M-.5-.5l-.5-11.5"),
+        ([[0, 0], [5, 0], [9, 0], [9, 1], [9, 2], [8, 3], [7, 5]], "M0 0h5 4v-1-1l-1-1-1-2"),
+        ([[0, 0], [0.25, 0], [0.5, 0], [3.5, -0.25]], "M0 0h.25.25l3 .25"),
+        ([[100, -0.001], [100.001, 0]], "M100 .001l.001-.001"),
+    ],
+)
+def test_no_character_too_many_and_none_too_few(points, d):
+    assert tree(drawing([line(points)])).find(".//s:path", NS).get("d") == d
+
+
 coordinate = st.one_of(st.integers(-3, 3).map(float), st.floats(-500, 500))
 polyline = st.lists(st.tuples(coordinate, coordinate), min_size=2, max_size=8)
 
