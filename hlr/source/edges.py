@@ -17,7 +17,10 @@ TANGENT = 0.01
 """Radians: surfaces that meet at less are tangent; what STEP and IGES readers assume as well."""
 
 NEARLY_TANGENT = 0.1
-"""Radians: an edge recorded as tangent is believed up to here."""
+"""Radians: an edge recorded as tangent is believed where its sides come as close as this somewhere.
+
+Where a fillet runs out to a point its surface has no normal, so not every place along the edge can be asked to agree.
+"""
 
 
 @dataclass(slots=True)
@@ -114,10 +117,10 @@ def classify(laid: Laid) -> Bytes:
     result[(faces == 1) & ~inner] = EdgeClass.BOUNDARY
     seam = (faces == 1) & twice
     result[seam] = EdgeClass.SEAM
-    bend = _bends(laid)
-    result[seam & (bend > _squared_sine(NEARLY_TANGENT))] = EdgeClass.SHARP
+    worst, least = _bends(laid)
+    result[seam & (worst > _squared_sine(NEARLY_TANGENT))] = EdgeClass.SHARP
     recorded = tables.smooth[topo.edge_shape] >= t.G1
-    tangent = (bend <= _squared_sine(TANGENT)) | (recorded & (bend <= _squared_sine(NEARLY_TANGENT)))
+    tangent = (worst <= _squared_sine(TANGENT)) | (recorded & (least <= _squared_sine(NEARLY_TANGENT)))
     result[(faces == 2) & tangent] = EdgeClass.SMOOTH
     return result
 
@@ -126,8 +129,8 @@ def _squared_sine(angle: float) -> float:
     return float(np.sin(angle) ** 2)
 
 
-def _bends(laid: Laid) -> Floats:
-    """(edges,) the largest squared sine between the normals of the two sides; 4 beyond a right angle.
+def _bends(laid: Laid) -> tuple[Floats, Floats]:
+    """(edges,) largest and least squared sine between the normals of the two sides; 4 beyond a right angle.
 
     Edges without exactly two polygons of equal length, and edges without any usable normal, get 0 where they are
     recorded as tangent and 4 otherwise.
@@ -142,25 +145,33 @@ def _bends(laid: Laid) -> Floats:
     even = sizes[one] == sizes[two]
     pair, one, two = pair[even], one[even], two[even]
     if not len(pair):
-        return bend
+        return bend, bend
     lengths = sizes[one]
     normals = _normals(laid)
-    left = normals.at(polygons.nodes[ranges(polygons.start[one], lengths)], np.repeat(polygons.face[one], lengths))
-    right = normals.at(polygons.nodes[ranges(polygons.start[two], lengths)], np.repeat(polygons.face[two], lengths))
+    left_node = polygons.nodes[ranges(polygons.start[one], lengths)]
+    right_node = polygons.nodes[ranges(polygons.start[two], lengths)]
+    left = normals.at(left_node, np.repeat(polygons.face[one], lengths))
+    right = normals.at(right_node, np.repeat(polygons.face[two], lengths))
     squares = _dot(left, left) * _dot(right, right)
     cross = np.stack(
         [left[:, i - 2] * right[:, i - 1] - left[:, i - 1] * right[:, i - 2] for i in range(3)],
         axis=1,
     )
-    usable = squares > 1e-60
+    # At a pole, the apex of a cone above all, a surface has no normal, and what stands there is a guess.
+    pole = np.zeros(len(laid.positions), dtype=bool)
+    pole[polygons.nodes[np.repeat(tables.degenerated[topo.edge_shape[polygons.edge]], sizes)]] = True
+    usable = (squares > 1e-60) & ~pole[left_node] & ~pole[right_node]
     ratio = np.zeros(len(squares))
     np.divide(_dot(cross, cross), squares, out=ratio, where=usable)
     ratio[_dot(left, right) < 0] = 4.0
-    ratio[~usable] = -1.0
-    worst = np.maximum.reduceat(ratio, starts(lengths)[:-1])
-    known = worst >= 0
-    bend[pair[known]] = worst[known]
-    return bend
+    first = starts(lengths)[:-1]
+    worst, least = bend.copy(), bend
+    for result, reduce, unknown in ((worst, np.maximum, -1.0), (least, np.minimum, 5.0)):
+        ratio[~usable] = unknown
+        extreme = reduce.reduceat(ratio, first)
+        known = extreme != unknown
+        result[pair[known]] = extreme[known]
+    return worst, least
 
 
 def _dot(a: Floats, b: Floats) -> Floats:

@@ -2,8 +2,8 @@
 
 The file is executed with the caller's rights, because the caller asked to draw it. As in CQ-editor and cq-cli the
 script finds `show_object(obj, name=None, options=None)` and `debug(obj)`, and its `__name__` is "__cq_main__";
-`show(...)` is there for scripts written for viewers. If nothing was shown, the variable `result` counts, then the names other tools
-look for, then the last shape that was assigned.
+`show(...)` is there for scripts written for viewers. If nothing was shown, the variable `result` counts, then the
+names other tools look for, then the last shape that was assigned.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
 from hlr.source.model import Color
 from hlr.source.occt import ready
-from hlr.source.parts import Leaf
+from hlr.source.parts import Leaf, explored, located
 
 _DEPTH = 200
 """Assemblies nest no deeper than this; a file that refers to itself would never end."""
@@ -67,6 +67,8 @@ def _read(path: Path, kind: str, reader: Any) -> BrepSource:
         raise SourceError(f"{path.name} cannot be read as {kind.upper()}: the file is broken or incomplete.")
     tree = _Tree(XCAFDoc_DocumentTool.ShapeTool_s(document.Main()), XCAFDoc_DocumentTool.ColorTool_s(document.Main()))
     tree.walk(path.stem)
+    if kind == "iges":
+        tree.leaves = [_sewn(leaf) for leaf in tree.leaves]
     if not tree.leaves:
         raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
     return BrepSource(path.name, kind, tree.leaves, tree.notes)
@@ -141,6 +143,37 @@ class _Tree:
             if self.colors.GetColor_s(label, kind, color):
                 return srgb(color)
         return None
+
+
+SEWING = 5e-6
+"""Share of a leaf's diagonal up to which the rims of two loose faces count as one edge."""
+
+
+def _sewn(leaf: Leaf) -> Leaf:
+    """IGES knows faces only, each with rims of its own: joined, they have edges with a face on either side."""
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    bare = located(leaf.shape, None)
+    faces = explored(bare, Kind.TopAbs_FACE)
+    if len(faces) < 2 or explored(bare, Kind.TopAbs_SHELL):
+        return leaf
+    box = Bnd_Box()
+    BRepBndLib.Add_s(bare, box)
+    sewing = BRepBuilderAPI_Sewing(max(1e-7, SEWING * box.SquareExtent() ** 0.5))
+    sewing.Add(bare)
+    sewing.Perform()
+    sewn = sewing.SewedShape()
+    if sewn is None or sewn.IsNull() or len(explored(sewn, Kind.TopAbs_FACE)) != len(faces):
+        return leaf
+    colors = {}
+    for face in faces:
+        if face.TShape() in leaf.colors:
+            after = sewing.ModifiedSubShape(face) if sewing.IsModifiedSubShape(face) else face
+            colors[after.TShape()] = leaf.colors[face.TShape()]
+    return Leaf(sewn.Moved(leaf.shape.Location(), False), leaf.name, leaf.color, colors)
 
 
 def srgb(color: Any) -> Color:

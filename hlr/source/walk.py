@@ -1,7 +1,7 @@
 """Read a meshed B-rep item by item through the bindings: slow, and independent of any file layout.
 
-It delivers the same tables as `hlr.source.dump`, which is used instead wherever the dump's layout is the known one; each
-is the other's test.
+It delivers the same tables as `hlr.source.dump`, which is used instead wherever the dump's layout is the known one;
+each is the other's test.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ class _Walker:
         kind = np.array([int(shape.ShapeType()) for shape in self.shapes], dtype=np.uint8)
         degenerated = np.zeros(len(kind), dtype=bool)
         smooth = np.full(len(kind), -1, dtype=np.int32)
-        for number in np.flatnonzero(kind == EDGE):
+        for number in np.flatnonzero(kind == EDGE).tolist():
             edge = TopoDS.Edge_s(self.shapes[number])
             degenerated[number] = BRep_Tool.Degenerated_s(edge)
             if BRep_Tool.HasContinuity_s(edge):

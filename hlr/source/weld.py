@@ -33,7 +33,7 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
     out_of_range = int(len(faces) - inside.sum())
     if out_of_range:
         faces = faces[inside]
-    finite_points: npt.NDArray[np.bool_] = np.isfinite(points).all(axis=1)
+    finite_points = np.logical_and.reduce(np.isfinite(points), axis=1)
     not_finite = 0
     if not finite_points.all():
         finite = finite_points[faces].all(axis=1)
