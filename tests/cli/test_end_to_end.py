@@ -112,6 +112,23 @@ def test_a_mesh_never_loads_the_cad_kernel(tmp_path):
     assert loaded & {"OCP", "cadquery", "build123d", "rich", "pydyf"} == set()
 
 
+@pytest.mark.parametrize("ending", ["stl", "obj", "ply", "off", "glb", "3mf"])
+def test_mesh_files(run, tmp_path, ending):
+    import trimesh
+
+    trimesh.creation.box().export(tmp_path / f"cube.{ending}")
+    run("draw", f"cube.{ending}", "-o", "cube.json", "--view", "top")
+    (box,) = {tuple(part["name"] for part in read(tmp_path, "cube.json")["parts"])}
+    assert len(box) == 1
+    assert json.loads(run("info", f"cube.{ending}", "--json")[0])["parts"][0]["triangles"] == 12
+
+
+def test_text_that_is_not_utf_8(run, tmp_path):
+    mesh = "# Größe\no Gehäuse\nv 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    (tmp_path / "latin.obj").write_bytes(mesh.encode("latin-1"))
+    assert run("draw", "latin.obj", "-o", "-")[0].startswith("<?xml")
+
+
 def test_several_views_in_several_formats(run, tmp_path):
     for ending in ("svg", "pdf", "json"):
         run("draw", "box.off", "-o", "{stem}-{view}." + ending, "--view", "top", "--view", "1,2,3")
