@@ -45,6 +45,7 @@ def linework(
     short: float,
     stub: float,
     width: float,
+    under: float,
     flat_tolerance: float,
     space_tolerance: float,
     threads: int = 0,

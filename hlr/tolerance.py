@@ -19,6 +19,10 @@ SMALL_DRAWING = 2000.0
 ANGLE = 0.5
 """Radians between neighbouring tessellation chords: 13 for a full circle, however small it is on paper."""
 
+MESH_CONTACT = 1.0 / 8000.0
+"""Of the model's diagonal. A mesh was tessellated by someone else, at a deflection it does not tell: within this depth its
+pieces count as touching."""
+
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9
 """Of the drawing's diagonal. Finer tessellations do not fit into memory; finer meshes do not fit the integer grid."""
@@ -36,7 +40,8 @@ class Tolerances:
     contact_planar the same for planar parts, which are off only by what their files round
     short          no piece shorter than this is drawn on its own, on paper
     stub           a doubtful piece shorter than this beside a hidden one is the contact tolerance's own, on paper
-    width          lines this close coincide, on paper
+    width          lines of one visibility this close coincide, on paper
+    under          a hidden line this close to a visible one lies under its ink, on paper
     thin_paper     vertices this close to their line are left out, on paper
     thin_model     the same in the model
     """
@@ -49,6 +54,7 @@ class Tolerances:
     short: float
     stub: float
     width: float
+    under: float
     thin_paper: float
     thin_model: float
 
@@ -89,6 +95,7 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         short=accuracy,
         stub=10.0 * accuracy,
         width=0.5 * accuracy,
+        under=3.0 * accuracy,
         thin_paper=0.25 * accuracy,
         thin_model=0.25 * model,
     )

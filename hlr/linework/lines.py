@@ -72,6 +72,7 @@ def draw_lines(
         tolerances.short,
         tolerances.stub,
         tolerances.width,
+        tolerances.under,
         tolerances.thin_paper,
         tolerances.thin_model,
         threads,

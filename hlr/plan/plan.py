@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy.typing as npt
 from hlr.plan.options import Options
 from hlr.scene.scene import INTERIOR, Scene
 from hlr.source.model import EdgeClass, Floats
-from hlr.tolerance import Tolerances
+from hlr.tolerance import MESH_CONTACT, Tolerances
 from hlr.view.camera import Camera
 
 DRAWN = 1
@@ -59,6 +60,11 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
 def _delta(scene: Scene, camera: Camera, tolerances: Tolerances) -> Floats:
     groups = scene.groups
     delta = np.where(groups.planar, tolerances.contact_planar, tolerances.contact)
+    used = np.isfinite(groups.low).all(axis=1)
+    if groups.bare.any():
+        size = groups.high[used].max(axis=0) - groups.low[used].min(axis=0)
+        diagonal = math.sqrt(sum(float(s) * float(s) for s in size))
+        delta = np.where(groups.bare, np.maximum(delta, diagonal * MESH_CONTACT), delta)
     # Half a part's thickness at most, or the far side of a thin sheet would show through.
     delta = np.where(groups.closed, np.minimum(delta, 0.5 * groups.extent), delta)
     if camera.eye is None or camera.distance is None:

@@ -20,6 +20,7 @@ class Groups:
     closed   (g,) bool: every edge is used as often in one direction as in the other
     cull     (g,) bool: closed, and turned outward: faces turned away need not be looked at
     sound    (g,) bool: does not pass through itself, as far as its source vouches for it
+    bare     (g,) bool: a piece of a mesh without B-rep
     planar   (g,) bool: nothing but planar faces: exact, but for what the file rounds
     extent   (g,) float64: the smallest side of its box, model units
     low, high (g, 3) float64: its box
@@ -28,6 +29,7 @@ class Groups:
     closed: npt.NDArray[np.bool_]
     cull: npt.NDArray[np.bool_]
     sound: npt.NDArray[np.bool_]
+    bare: npt.NDArray[np.bool_]
     planar: npt.NDArray[np.bool_]
     extent: Floats
     low: Floats

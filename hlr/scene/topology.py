@@ -107,10 +107,35 @@ def creases(
     cosine = m[:, 0] * n[:, 0] + m[:, 1] * n[:, 1] + m[:, 2] * n[:, 2]
     # Two triangles that run along the edge the same way are oriented against each other: the fold is the supplement.
     cosine = np.where(balance[two] == 0, cosine, -cosine)
-    # A triangle without area has no say: its neighbours beyond it decide elsewhere.
-    flat = (np.abs(m).max(axis=1, initial=0.0) == 0.0) | (np.abs(n).max(axis=1, initial=0.0) == 0.0)
-    kind[two[(cosine < math.cos(math.radians(crease))) & ~flat]] = EdgeClass.SHARP
+    # A triangle without area has no normal: its edges are judged below, by what lies beyond it.
+    flat = ~normal.any(axis=1)
+    kind[two[(cosine < math.cos(math.radians(crease))) & m.any(axis=1) & n.any(axis=1)]] = EdgeClass.SHARP
+    if flat.any():
+        _across_flat(kind, normal, flat, offsets, incident, math.cos(math.radians(crease)))
     return kind
+
+
+def _across_flat(
+    kind: npt.NDArray[np.uint8],
+    normal: Floats,
+    flat: npt.NDArray[np.bool_],
+    offsets: Ints,
+    incident: Ints,
+    cosine: float,
+) -> None:
+    """Creases along triangles without area, which fill T-junctions: the fold is that between the faces around them."""
+    edge_of = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    at_flat = flat[incident]
+    around: dict[int, list[int]] = {}
+    for t, e in zip(incident[at_flat].tolist(), edge_of[at_flat].tolist(), strict=True):
+        around.setdefault(t, []).append(e)
+    for edges in around.values():
+        faces = {e: [t for t in incident[offsets[e] : offsets[e + 1]].tolist() if not flat[t]] for e in edges}
+        for e in edges:
+            others = [t for f in edges if f != e for t in faces[f]]
+            folds = [abs(float((normal[s] * normal[t]).sum())) < cosine for s in faces[e] for t in others]
+            if any(folds) and kind[e] == 255:
+                kind[e] = EdgeClass.SHARP
 
 
 def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]) -> Walks:

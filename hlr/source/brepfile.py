@@ -6,7 +6,7 @@ from pathlib import Path
 
 from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
-from hlr.source.occt import ready
+from hlr.source.occt import quiet, ready
 from hlr.source.parts import Leaf
 
 
@@ -29,10 +29,11 @@ def open_brep(path: Path) -> BrepSource:
 
     shape = TopoDS_Shape()
     try:
-        if binary:
-            BinTools.Read_s(shape, str(path))
-        else:
-            BRepTools.Read_s(shape, str(path), BRep_Builder())
+        with quiet():
+            if binary:
+                BinTools.Read_s(shape, str(path))
+            else:
+                BRepTools.Read_s(shape, str(path), BRep_Builder())
     except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
         raise SourceError(f"{path.name} cannot be read as BREP ({type(error).__name__}): the file is broken.") from None
     if shape.IsNull():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 import struct
 import warnings
@@ -43,9 +44,13 @@ def _load(path: Path, kind: str) -> Any:
     if kind == "obj":
         # Materials would be looked up in other files; objects keep their names.
         more |= {"skip_materials": True, "split_object": True, "group_material": False, "maintain_order": True}
-    with path.open("rb") as file, warnings.catch_warnings():
+    # From memory, not from the folder: a file cannot make the reader open its neighbours.
+    data = path.read_bytes()
+    if kind == "obj":
+        data = data.removeprefix(b"\xef\xbb\xbf")
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return trimesh.load_scene(file, file_type="gltf" if kind == "gltf" else kind, **more)
+        return trimesh.load_scene(io.BytesIO(data), file_type=kind, **more)
 
 
 def _frame(kind: str, scene: Any) -> Frame:
@@ -57,8 +62,9 @@ def _frame(kind: str, scene: Any) -> Frame:
 
 
 def _detail(error: Exception) -> str:
+    """What the reader says, where it says it in words."""
     text = " ".join(str(error).split())
-    return f" ({text[:100]})" if text else ""
+    return f" ({text[:100]})" if isinstance(error, ValueError) and " " in text else ""
 
 
 def _refuse(path: Path, kind: str, head: bytes) -> SourceError:
@@ -70,6 +76,10 @@ def _check_stl(path: Path, head: bytes, size: int) -> None:
     if len(head) >= 84 and size >= 84 + 50 * count and count:
         return
     if head.lstrip()[:5].lower() == b"solid" and (b"facet" in head or b"endsolid" in head):
+        with path.open("rb") as file:
+            file.seek(max(0, size - 4096))
+            if b"endsolid" not in file.read().lower():
+                raise SourceError(f"{path.name} is cut short (endsolid is missing): export or download it again.")
         return
     if b"\0" in head[:84] and len(head) >= 84:
         held = max(0, (size - 84) // 50)
@@ -175,11 +185,21 @@ def _check_3mf(path: Path, head: bytes, size: int) -> None:
                 raise SourceError(f"{path.name} is a ZIP archive without 3D/3dmodel.model: it is no 3MF file.")
             for entry in models:
                 with archive.open(entry) as file:
-                    start = file.read(65536)
-                if b"<!DOCTYPE" in start or b"<!ENTITY" in start:
+                    prolog = _prolog(file.read(1 << 20))
+                if "<!DOCTYPE" in prolog or "<!ENTITY" in prolog:
                     raise SourceError(f"{path.name} declares XML entities, which no 3MF file needs: it is refused.")
+                if "<" not in prolog:
+                    raise SourceError(f"{path.name} cannot be read as 3MF: {entry.filename} does not begin as XML.")
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError) as error:
         raise SourceError(f"{path.name} cannot be read as 3MF: the archive is broken or encrypted ({error}).") from None
+
+
+def _prolog(start: bytes) -> str:
+    """What stands before the root element <model>; all of it where there is none."""
+    wide = start[:2] in (b"\xff\xfe", b"\xfe\xff")
+    text = start.decode("utf-16" if wide else "latin-1", errors="replace").replace("\0", "")
+    root = re.search(r"<(?:\w+:)?model[\s>]", text)
+    return text[: root.end()] if root else text
 
 
 _CHECKS = {

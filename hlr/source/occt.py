@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 
 from hlr.errors import SourceError
@@ -20,6 +24,24 @@ def ready() -> None:
         raise SourceError(explain(error)) from None
     # Readers report to standard output, where our own drawing may go.
     Message.DefaultMessenger_s().ChangePrinters().Clear()
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Keep what C++ writes straight to standard output out of it, for as long as a file is being read."""
+    try:
+        sys.stdout.flush()
+        kept = os.dup(1)
+    except (OSError, ValueError, AttributeError):
+        yield
+        return
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), 1)
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
 
 
 def explain(error: ImportError) -> str:

@@ -9,7 +9,7 @@ from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
 from hlr.source.model import Color
-from hlr.source.occt import ready
+from hlr.source.occt import quiet, ready
 from hlr.source.parts import Leaf, explored, located
 
 _DEPTH = 200
@@ -59,8 +59,9 @@ def _read(path: Path, kind: str, reader: Any) -> BrepSource:
     reader.SetLayerMode(False)
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     try:
-        status = reader.ReadFile(str(path))
-        read = status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.Transfer(document)
+        with quiet():
+            status = reader.ReadFile(str(path))
+            read = status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.Transfer(document)
     except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
         raise SourceError(f"{path.name} cannot be read as {kind.upper()} ({type(error).__name__}).") from None
     if not read:

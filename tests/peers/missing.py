@@ -23,8 +23,8 @@ SPACING = 1 / 2000
 WELD = 1e-7
 FREE = 3
 """Rays that must be free besides the point's own: an outline has about half of its ring before its own body."""
-MOST = 20000
-"""Places asked at most, picked at random by length."""
+PLACES = 5000
+"""Places asked, picked at random by length; most of them will not be free."""
 GRAZING = 1e-3
 """Triangles nearer to edge-on than this face neither way."""
 
@@ -83,10 +83,10 @@ def missing(drawing: Exchange, edges: Edges, caster: RayCaster) -> Missing:
     length = np.linalg.norm((end - start) @ axes, axis=1)
     start, end, length = (each[length > 0] for each in (start, end, length))
     rng = np.random.default_rng(1)
-    if len(length) > MOST:
-        picked = rng.choice(len(length), MOST, p=length / length.sum())
-        start, end = start[picked], end[picked]
-    places = start + rng.uniform(0.2, 0.8, len(start))[:, None] * (end - start)
+    if not len(length):
+        return Missing(0, np.zeros((0, 3)))
+    picked = rng.choice(len(length), PLACES, p=length / length.sum())
+    places = start[picked] + rng.uniform(0.0, 1.0, PLACES)[:, None] * (end - start)[picked]
     blocked = caster.blocked_each(places, camera)
     places = places[~blocked[:, 0] & (blocked.sum(axis=1) <= RING - FREE)]
     drawn = _dense(drawing, axes, size * SPACING)

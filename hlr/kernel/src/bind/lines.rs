@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::lines::chain::chain as chain_edges;
-use crate::lines::cover::uncovered;
+use crate::lines::cover::{Widths, uncovered};
 use crate::lines::runs::{Geometry, Limits, Piece, cut};
 use crate::lines::simplify::simplify;
 use crate::lines::specks::drop_specks;
@@ -32,7 +32,7 @@ pub fn chain<'py>(
 
 #[pyfunction]
 #[pyo3(signature = (flat_points, space_points, depth, perspective, edges, piece_edge, piece_t0, piece_t1, piece_state,
-    chain_offsets, chain_edges, chain_reversed, chain_rank, short, stub, width, flat_tolerance, space_tolerance,
+    chain_offsets, chain_edges, chain_reversed, chain_rank, short, stub, width, under, flat_tolerance, space_tolerance,
     threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
 pub fn linework<'py>(
@@ -53,6 +53,7 @@ pub fn linework<'py>(
     short: f64,
     stub: f64,
     width: f64,
+    under: f64,
     flat_tolerance: f64,
     space_tolerance: f64,
     threads: usize,
@@ -128,7 +129,7 @@ pub fn linework<'py>(
             })
             .collect();
         let ranks = ranked(&lines, rank, &nearest);
-        let mut lines = uncovered(lines, &ranks, width);
+        let mut lines = uncovered(lines, &ranks, Widths { same: width, under });
         drop_specks(&mut lines, short);
         lines.par_iter_mut().for_each(|line| simplify(line, flat_tolerance, space_tolerance));
         Some(lines)

@@ -1,7 +1,8 @@
 //! Of lines that coincide on paper one is kept: the front view of a box is four lines, not eight.
 //!
-//! A line yields where a better one (lower rank: visible first, then kind, then nearer) runs within `width` of it in
-//! nearly its direction. Ranks are a strict order, so of two lines exactly one yields and nothing is lost.
+//! A line yields where a better one (lower rank: visible first, then kind, then nearer) runs close to it in nearly its
+//! direction. Ranks are a strict order, so of two lines exactly one yields and nothing is lost. Close means two things:
+//! lines of one visibility must coincide; a hidden line yields already where it would lie under a visible line's ink.
 //!
 //! ```text
 //!   better  ===================
@@ -21,7 +22,17 @@ const PARALLEL: f64 = 0.5;
 /// Covered stretches shorter than this many widths are crossings.
 const CROSSING: f64 = 6.0;
 
+/// How close is close, on paper.
+#[derive(Clone, Copy, Debug)]
+pub struct Widths {
+    /// Lines of one visibility.
+    pub same: f64,
+    /// A hidden line beside a visible one.
+    pub under: f64,
+}
+
 struct Side {
+    visible: bool,
     line: u32,
     from: [f64; 2],
     to: [f64; 2],
@@ -34,16 +45,16 @@ struct Entry {
 }
 
 /// Remove what better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
-pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], width: f64) -> Vec<Polyline> {
+pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths) -> Vec<Polyline> {
     let mut sides = Vec::new();
     let mut first_side = Vec::with_capacity(lines.len());
     for (i, line) in lines.iter().enumerate() {
         first_side.push(sides.len());
         for w in line.flat.windows(2) {
-            sides.push(Side { line: i as u32, from: w[0], to: w[1] });
+            sides.push(Side { visible: line.visible, line: i as u32, from: w[0], to: w[1] });
         }
     }
-    let hits = coverings(&sides, rank, width);
+    let hits = coverings(&sides, rank, widths);
     let mut by_line: Vec<Vec<(f64, f64)>> = vec![Vec::new(); lines.len()];
     let starts: Vec<f64> = lines
         .iter()
@@ -64,17 +75,20 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], width: f64) -> Vec<Polyline
     lines
         .into_par_iter()
         .zip(by_line.into_par_iter())
-        .flat_map_iter(|(line, covered)| if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width) })
+        .flat_map_iter(|(line, covered)| {
+            let width = if line.visible { widths.same } else { widths.under };
+            if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width) }
+        })
         .collect()
 }
 
 /// (side, from, to): stretches of sides covered by sides of better lines.
-fn coverings(sides: &[Side], rank: &[u32], width: f64) -> Vec<(u32, f64, f64)> {
+fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<(u32, f64, f64)> {
     let corners: Vec<[f64; 3]> =
         sides.iter().flat_map(|s| [[s.from[0], s.from[1], 0.0], [s.to[0], s.to[1], 0.0]]).collect();
     let Some(grid) = Grid::around(&corners) else { return Vec::new() };
     let snapped: Vec<Point> = corners.iter().map(|p| grid.snap(p)).collect();
-    let reach = (width * grid.scale_xy).ceil().min(f64::from(1 << 29)) as i32 + 1;
+    let reach = (widths.under.max(widths.same) * grid.scale_xy).ceil().min(f64::from(1 << 29)) as i32 + 1;
     let grow = |(low, high): (i32, i32)| (low.saturating_sub(reach), high.saturating_add(reach));
     let ranges: Vec<(i32, i32)> = snapped.chunks_exact(2).map(|p| grow(y_range(&p[0], &p[1]))).collect();
     let bands = Bands::choose(&ranges, 2.0);
@@ -93,7 +107,7 @@ fn coverings(sides: &[Side], rank: &[u32], width: f64) -> Vec<(u32, f64, f64)> {
                 })
                 .collect();
             entries.sort_unstable_by_key(|e| (e.xmin, e.side));
-            sweep(&entries, sides, &ranges, rank, width)
+            sweep(&entries, sides, &ranges, rank, widths)
         })
         .collect();
     found.par_sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
@@ -101,7 +115,13 @@ fn coverings(sides: &[Side], rank: &[u32], width: f64) -> Vec<(u32, f64, f64)> {
     found
 }
 
-fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32], width: f64) -> Vec<(u32, f64, f64)> {
+fn sweep(
+    entries: &[Entry],
+    sides: &[Side],
+    ranges: &[(i32, i32)],
+    rank: &[u32],
+    widths: Widths,
+) -> Vec<(u32, f64, f64)> {
     let mut active: Vec<&Entry> = Vec::new();
     let mut found = Vec::new();
     for e in entries {
@@ -124,6 +144,7 @@ fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32],
             }
             let (worse, better, id) =
                 if rank[s.line as usize] > rank[t.line as usize] { (s, t, e.side) } else { (t, s, other.side) };
+            let width = if worse.visible == better.visible { widths.same } else { widths.under };
             if let Some((u0, u1)) = covered(worse, better, width) {
                 found.push((id, u0, u1));
             }
@@ -241,7 +262,7 @@ mod tests {
             line(false, &[[10.0, 0.0], [4.0, 0.0], [4.0, 5.0]]),
             line(false, &[[6.0, 0.001], [20.0, 0.001]]),
         ];
-        let rest = uncovered(lines, &[0, 1, 2], 0.01);
+        let rest = uncovered(lines, &[0, 1, 2], Widths { same: 0.01, under: 0.01 });
         assert_eq!(rest.len(), 3);
         assert_eq!(rest[1].flat[1], [4.0, 5.0]);
         assert!((rest[1].flat[0][1]).abs() < 0.05);
@@ -251,7 +272,7 @@ mod tests {
     #[test]
     fn crossing_lines_are_left_alone() {
         let lines = vec![line(true, &[[0.0, 0.0], [10.0, 0.0]]), line(false, &[[0.0, -2.0], [10.0, 2.0]])];
-        let rest = uncovered(lines.clone(), &[0, 1], 0.01);
+        let rest = uncovered(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 });
         assert_eq!(rest, lines);
     }
 }
