@@ -105,6 +105,15 @@ class RayCaster:
         limit = np.repeat(np.minimum(reach - depth, 1e30), RING + 1)
         return self._hit(origins, toward, limit).reshape(-1, RING + 1)
 
+    def open_around(self, points: Floats, camera: Camera, step: float) -> npt.NDArray[np.int64]:
+        """For each point the number of ring places with no surface as deep as the point, give or take `step`."""
+        step /= self.diagonal
+        starts = ((points - self._centre) / self.diagonal)[:, None, :] + self._ring(camera)[None]
+        origins = (starts + step * camera.direction).reshape(-1, 3)
+        away = np.broadcast_to(-camera.direction, origins.shape)
+        met = self._hit(origins, away, np.full(len(origins), 2 * step)).reshape(-1, RING)
+        return np.asarray(RING - met.sum(axis=1), dtype=np.int64)
+
     def _ring(self, camera: Camera) -> Floats:
         angles = np.arange(RING) * (2 * np.pi / RING)
         return (

@@ -22,9 +22,11 @@ NEAR = 1 / 500
 SPACING = 1 / 2000
 WELD = 1e-7
 FREE = 3
-"""Rays that must be free besides the point's own: an outline has about half of its ring before its own body."""
+"""Rays that must be free besides the point's own: an outline has half of its ring before its own body."""
 PLACES = 5000
 """Places asked, picked at random by length; most of them will not be free."""
+STEP = 1 / 200
+"""Beside an outline there is no surface within this depth."""
 GRAZING = 1e-3
 """Triangles nearer to edge-on than this face neither way."""
 
@@ -52,43 +54,50 @@ class Edges:
             points[corners[:, 2]] - points[corners[:, 0]],
         )
         length = np.linalg.norm(normals, axis=1)
-        kept = length > 0
-        corners, normals = corners[kept], normals[kept] / length[kept, None]
+        flat = length <= size**2 * 1e-14
+        normals = normals / np.where(flat, 1.0, length)[:, None]
         sides = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
         owner = np.tile(np.arange(len(corners)), 3)
         order = np.lexsort((sides[:, 1], sides[:, 0]))
         sides, owner = sides[order], owner[order]
         starts = np.flatnonzero(np.r_[True, (sides[1:] != sides[:-1]).any(axis=1)])
         counts = np.diff(np.r_[starts, len(sides)])
-        plain = counts <= 2  # where three meet, what an outline is is a matter of opinion
+        # Where three meet, or one has no area, what is an outline or a border is a matter of opinion.
+        plain = (counts <= 2) & ~flat[owner[starts]] & ~flat[owner[starts + counts - 1]]
         starts, counts = starts[plain], counts[plain]
         self.start, self.end = points[sides[starts, 0]], points[sides[starts, 1]]
         self.left, self.right = normals[owner[starts]], normals[owner[starts + counts - 1]]
         self.border = counts == 1
 
-    def to_be_drawn(self, direction: Floats) -> np.ndarray:
-        """Sharp edges, borders, and outlines seen from this direction."""
+    def fixed(self) -> np.ndarray:
+        """Sharp edges and borders: drawn from everywhere."""
+        return np.asarray(self.border | (np.sum(self.left * self.right, axis=1) < SHARP))
+
+    def outlines(self, direction: Floats) -> np.ndarray:
+        """One side turned to the viewer, the other away."""
         one, other = self.left @ direction, self.right @ direction
-        outline = (one * other < 0) & (np.minimum(abs(one), abs(other)) > GRAZING)
-        sharp = np.sum(self.left * self.right, axis=1) < SHARP
-        return np.asarray(self.border | sharp | outline)
+        return np.asarray((one * other < 0) & (np.minimum(abs(one), abs(other)) > GRAZING))
 
 
 def missing(drawing: Exchange, edges: Edges, caster: RayCaster) -> Missing:
     """Orthographic views only."""
     camera, size = drawing.camera, caster.measure
     axes = np.stack([camera.right, camera.up], axis=1)
-    chosen = np.flatnonzero(edges.to_be_drawn(camera.direction))
+    fixed = edges.fixed()
+    chosen = np.flatnonzero(fixed | edges.outlines(camera.direction))
     start, end = edges.start[chosen], edges.end[chosen]
     length = np.linalg.norm((end - start) @ axes, axis=1)
-    start, end, length = (each[length > 0] for each in (start, end, length))
+    start, end, fixed, length = (each[length > 0] for each in (start, end, fixed[chosen], length))
     rng = np.random.default_rng(1)
     if not len(length):
         return Missing(0, np.zeros((0, 3)))
     picked = rng.choice(len(length), PLACES, p=length / length.sum())
     places = start[picked] + rng.uniform(0.0, 1.0, PLACES)[:, None] * (end - start)[picked]
     blocked = caster.blocked_each(places, camera)
-    places = places[~blocked[:, 0] & (blocked.sum(axis=1) <= RING - FREE)]
+    asked = ~blocked[:, 0] & (blocked.sum(axis=1) <= RING - FREE)
+    # A dent of the tessellation faces away too, but there the surface goes on beside it.
+    asked &= fixed[picked] | (caster.open_around(places, camera, size * STEP) >= FREE)
+    places = places[asked]
     drawn = _dense(drawing, axes, size * SPACING)
     if not len(places) or not len(drawn):
         return Missing(len(places), places)
