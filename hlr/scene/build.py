@@ -9,7 +9,7 @@ from hlr import _kernel
 from hlr.errors import SourceError
 from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR, Chains, Groups, Scene, ScenePart
-from hlr.scene.topology import crease_walks, creases, joined, source_walks
+from hlr.scene.topology import crease_walks, creases, folded_back, joined, source_walks
 from hlr.source.model import EdgeClass, Floats, Ints, Meshed, PartMesh
 
 MOST_TRIANGLES = 2**31 // 3 - 1
@@ -51,7 +51,8 @@ def build(meshed: Meshed, crease: float) -> Scene:
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]
 
-    group_of, group_part = _groups(parts, triangles, part_of, brep, len(points))
+    whole = brep & (np.bincount(edge_part[balance != 0], minlength=len(parts)) == 0)
+    group_of, group_part = _groups(whole, triangles, part_of, len(points))
     groups = _checked(points, triangles, group_of, group_part, edges, offsets, incident, balance, brep, curved)
     if len(loose):
         # Wires of no face: edges without triangles, in a group of their own part.
@@ -67,6 +68,7 @@ def build(meshed: Meshed, crease: float) -> Scene:
         groups, edge_group[~tied] = _with_loose(groups, points, loose, loose_part)
     edge_curved = np.zeros(len(edges), bool)
     edge_curved[tied] = np.logical_or.reduceat(curved[incident], offsets[:-1][tied])
+    edge_curved[: len(balance)] &= ~folded_back(points, triangles, offsets, incident, balance)
     if len(points) == 0 or len(edges) == 0:
         raise SourceError("nothing to draw: no part has a face or an edge")
     # Triangle-less meshes still need arrays of the right shape downstream.
@@ -110,14 +112,17 @@ def _curved(parts: list[PartMesh], part_of: Ints, face: Ints) -> npt.NDArray[np.
 
 
 def _groups(
-    parts: list[PartMesh], triangles: Ints, part_of: Ints, brep: npt.NDArray[np.bool_], n_points: int
+    whole: npt.NDArray[np.bool_], triangles: Ints, part_of: Ints, n_points: int
 ) -> tuple[Ints, Ints]:
-    """Per triangle its group, per group its part: B-rep parts whole, meshes by connected piece."""
-    if brep.all():
-        return part_of.copy(), np.arange(len(parts), dtype=np.int32)
+    """Per triangle its group, per group its part: closed B-rep parts whole, everything else by connected piece.
+
+    Faces of an IGES file that nobody sewed together touch like strangers do, and need the same tolerance.
+    """
+    if whole.all():
+        return part_of.copy(), np.arange(len(whole), dtype=np.int32)
     piece = _kernel.components(triangles, n_points)
-    # B-rep parts first, numbered as they are; then the pieces of the meshes.
-    label = np.where(brep[part_of], part_of, piece + len(parts)).astype(np.int64)
+    # Whole parts first, numbered as they are; then the pieces of the others.
+    label = np.where(whole[part_of], part_of, piece + len(whole)).astype(np.int64)
     used, group = np.unique(label, return_inverse=True)
     group = group.ravel().astype(np.int32)
     first = np.zeros(len(used), np.int64)

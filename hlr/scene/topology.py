@@ -115,6 +115,23 @@ def creases(
     return kind
 
 
+def folded_back(
+    points: Floats, triangles: Ints, offsets: Ints, incident: Ints, balance: Ints
+) -> npt.NDArray[np.bool_]:
+    """(e,) bool: the two triangles lie on top of one another, folded by more than a right angle.
+
+    No smooth surface does that between two chords: where edge curve and surface differ by the file's own tolerance, the
+    tessellation laps over itself in slivers. Such an edge is a contour to be counted, but not an outline to be drawn.
+    """
+    folded = np.zeros(len(balance), bool)
+    count = np.diff(offsets[: len(balance) + 1])
+    two = np.flatnonzero((count == 2) & (balance == 0))
+    normal = normals(points, triangles)
+    m, n = normal[incident[offsets[two]]], normal[incident[offsets[two] + 1]]
+    folded[two] = m[:, 0] * n[:, 0] + m[:, 1] * n[:, 1] + m[:, 2] * n[:, 2] < 0.0
+    return folded
+
+
 def _across_flat(
     kind: npt.NDArray[np.uint8],
     normal: Floats,

@@ -56,14 +56,15 @@ impl Mesh<'_> {
 
     /// How far a drawn edge is moved toward the viewer before it is compared with another part.
     ///
-    /// Contacts between parts are equal only up to snapping and tessellation. Inside one part neighbours share their
-    /// vertices, ties are exact, and nothing is moved: so no stub appears where an edge dives behind its own face. One
-    /// constant per pair of parts keeps the counts consistent.
+    /// Contacts between parts are equal only up to snapping and tessellation. Inside one sound part neighbours share
+    /// their vertices, ties are exact, and nothing is moved: so no stub appears where an edge dives behind its own
+    /// face. One constant per pair of parts keeps the counts consistent.
     #[inline(always)]
     pub fn delta(&self, drawn_part: i32, polygon_part: i32) -> i64 {
+        let own = &self.parts[drawn_part as usize];
         if drawn_part == polygon_part {
-            return 0;
+            return if own.sound || own.cull { 0 } else { own.delta };
         }
-        self.parts[drawn_part as usize].delta.max(self.parts[polygon_part as usize].delta)
+        own.delta.max(self.parts[polygon_part as usize].delta)
     }
 }
