@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.drawing import Line
-from hlr.plan.plan import DRAWN, OUTLINE, Plan
+from hlr.linework.outlines import LineChains, outlines
+from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.tolerance import Tolerances
@@ -25,17 +23,6 @@ KIND_RANK = {
     EdgeClass.SEAM: 5,
 }
 """Of coincident lines the lower rank is drawn: an outline on top of a tangent edge is drawn as an outline."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Chains:
-    offsets: Ints
-    edges: Ints
-    reversed: npt.NDArray[np.bool_]
-    kind: npt.NDArray[np.uint8]
-    part: Ints
-    edge: Ints
-    face: Ints
 
 
 def draw_lines(
@@ -105,15 +92,15 @@ def draw_lines(
     return lines, (float(low[0]), float(low[1]))
 
 
-def _identity(chains: _Chains, chain: Ints) -> tuple[Ints, Ints, Ints, Ints]:
+def _identity(chains: LineChains, chain: Ints) -> tuple[Ints, Ints, Ints, Ints]:
     """Sort keys, least significant first."""
     return chains.face[chain], chains.edge[chain], chains.kind[chain], chains.part[chain]
 
 
-def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> _Chains:
+def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
     """Source edges, then outlines."""
     source = scene.chains
-    outline = _outlines(scene, plan, segments)
+    outline = outlines(scene, plan, segments)
     # Chains of a kind that was not asked for may still hold contours: those are drawn as outlines instead.
     asked = np.flatnonzero(plan.drawn_kind[source.kind])
     count = np.diff(source.offsets)[asked]
@@ -121,7 +108,7 @@ def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> _Chains:
     np.cumsum(count, out=offsets[1:])
     member = np.arange(offsets[-1]) + np.repeat(source.offsets[asked] - offsets[:-1], count)
     none = np.full(len(asked), -1, np.int32)
-    return _Chains(
+    return LineChains(
         offsets=np.concatenate([offsets, outline.offsets[1:] + offsets[-1]]).astype(np.int32),
         edges=np.concatenate([source.edges[member], outline.edges]).astype(np.int32),
         reversed=np.concatenate([source.reversed[member], outline.reversed]),
@@ -129,38 +116,4 @@ def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> _Chains:
         part=np.concatenate([source.part[asked], outline.part]),
         edge=np.concatenate([source.index[asked], outline.edge]),
         face=np.concatenate([none, outline.face]),
-    )
-
-
-def _outlines(scene: Scene, plan: Plan, segments: Segments) -> _Chains:
-    """Contour edges of curved faces, chained face by face."""
-    found = np.unique(segments.edge)
-    candidate = found[(plan.role[found] & OUTLINE) != 0].astype(np.int32)
-    first, last = scene.offsets[candidate], scene.offsets[candidate + 1]
-    # The face toward the viewer owns the outline.
-    owner = scene.incident[first]
-    farthest = segments.facing[owner]
-    for k in range(1, int((last - first).max(initial=0))):
-        other = scene.incident[np.minimum(first + k, last - 1)]
-        owner = np.where(segments.facing[other] > segments.facing[owner], other, owner)
-        farthest = np.minimum(farthest, segments.facing[other])
-    # Edges drawn anyway (tangent ones) are outlines too where the surface folds there.
-    drawn = (plan.role[candidate] & DRAWN) != 0
-    keep = ~drawn | ((segments.facing[owner] > 0) & (farthest <= 0))
-    contour, owner = candidate[keep], owner[keep]
-    part, face = scene.triangle_part[owner], scene.triangle_face[owner]
-    _, key = np.unique(part.astype(np.int64) << 32 | face.astype(np.int64), return_inverse=True)
-    offsets, order, backward = _kernel.chain(
-        np.ascontiguousarray(scene.edges[contour]), np.ascontiguousarray(key.ravel().astype(np.int32))
-    )
-    head = order[offsets[:-1]]
-    has_faces = np.array([p.faces > 0 for p in scene.parts], bool)
-    return _Chains(
-        offsets=offsets,
-        edges=contour[order],
-        reversed=backward,
-        kind=np.full(len(head), EdgeClass.OUTLINE, np.uint8),
-        part=part[head].astype(np.int32),
-        edge=np.full(len(head), -1, np.int32),
-        face=np.where(has_faces[part[head]], face[head], -1).astype(np.int32),
     )

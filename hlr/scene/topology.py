@@ -11,6 +11,10 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.source.model import EdgeClass, Floats, Ints, PartMesh
 
+LONE_EDGES = 4
+CLEAR_FOLD = 1.5
+"""Fewer connected crease edges than this, none folded by more than so many crease angles, are not drawn."""
+
 Keys = npt.NDArray[np.int64]
 
 
@@ -109,7 +113,11 @@ def creases(
     cosine = np.where(balance[two] == 0, cosine, -cosine)
     # A triangle without area has no normal: its edges are judged below, by what lies beyond it.
     flat = ~normal.any(axis=1)
-    kind[two[(cosine < math.cos(math.radians(crease))) & m.any(axis=1) & n.any(axis=1)]] = EdgeClass.SHARP
+    fold = two[(cosine < math.cos(math.radians(crease))) & m.any(axis=1) & n.any(axis=1)]
+    kind[fold] = EdgeClass.SHARP
+    clear = np.ones(len(edges), bool)
+    clear[two] = cosine < math.cos(math.radians(min(CLEAR_FOLD * crease, 180.0)))
+    kind[_lone_folds(kind, edges, clear, len(points))] = 255
     if flat.any():
         _across_flat(kind, normal, flat, offsets, incident, math.cos(math.radians(crease)))
     return kind
@@ -130,6 +138,18 @@ def folded_back(
     m, n = normal[incident[offsets[two]]], normal[incident[offsets[two] + 1]]
     folded[two] = m[:, 0] * n[:, 0] + m[:, 1] * n[:, 1] + m[:, 2] * n[:, 2] < 0.0
     return folded
+
+
+def _lone_folds(
+    kind: npt.NDArray[np.uint8], edges: Ints, clear: npt.NDArray[np.bool_], n: int
+) -> Ints:
+    """Edges of figures of a few slight folds that begin and end nowhere: a scan's roughness, no edge of the shape."""
+    chosen = np.flatnonzero(kind != 255).astype(np.int32)
+    if len(chosen) == 0:
+        return chosen
+    figure = _kernel.edge_components(np.ascontiguousarray(edges[chosen]), n)
+    slight = (np.bincount(figure) < LONE_EDGES) & (np.bincount(figure, weights=clear[chosen]) == 0)
+    return chosen[slight[figure]]
 
 
 def _across_flat(

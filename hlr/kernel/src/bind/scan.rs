@@ -86,6 +86,17 @@ pub fn components<'py>(
     Ok(topology::components(triangles, n_points).into_pyarray(py))
 }
 
+#[pyfunction]
+pub fn edge_components<'py>(
+    py: Python<'py>,
+    edges: PyReadonlyArray2<'py, i32>,
+    n_points: usize,
+) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    let edges = rows::<i32, 2>(&edges, "edges")?;
+    expect_below("edges", edges.iter().flatten().copied(), n_points)?;
+    Ok(topology::components(edges, n_points).into_pyarray(py))
+}
+
 fn check_incidence(edges: &[[i32; 2]], offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
     expect_len("offsets", offsets.len(), edges.len() + 1)?;
     expect_below("incident", incident.iter().copied(), triangles)?;

@@ -55,8 +55,8 @@ pub fn balance(triangles: &[[i32; 3]], edges: &[[i32; 2]], offsets: &[i32], inci
         .collect()
 }
 
-/// A label per triangle: triangles that share vertices have the same; labels count up in order of appearance.
-pub fn components(triangles: &[[i32; 3]], n_points: usize) -> Vec<i32> {
+/// A label per cell (edge or triangle): cells that share vertices have the same; labels count up in order of appearance.
+pub fn components<const N: usize>(cells: &[[i32; N]], n_points: usize) -> Vec<i32> {
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
         while parent[v as usize] != v {
             parent[v as usize] = parent[parent[v as usize] as usize];
@@ -65,7 +65,7 @@ pub fn components(triangles: &[[i32; 3]], n_points: usize) -> Vec<i32> {
         v
     }
     let mut parent: Vec<u32> = (0..n_points as u32).collect();
-    for t in triangles {
+    for t in cells {
         let a = root(&mut parent, t[0] as u32);
         for &v in &t[1..] {
             let b = root(&mut parent, v as u32);
@@ -74,7 +74,7 @@ pub fn components(triangles: &[[i32; 3]], n_points: usize) -> Vec<i32> {
     }
     let mut label = vec![-1; n_points];
     let mut next = 0;
-    triangles
+    cells
         .iter()
         .map(|t| {
             let r = root(&mut parent, t[0] as u32) as usize;

@@ -1,0 +1,93 @@
+"""Outlines of curved faces: the contour of their mesh, cleaned of noise and chained face by face."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.plan.plan import DRAWN, OUTLINE, Plan
+from hlr.scene.scene import Scene
+from hlr.source.model import EdgeClass, Ints
+from hlr.visibility.segments import Segments
+
+NOISE_EDGES = 12
+"""A contour of fewer mesh edges that hangs on no other is the mesh's roughness, not the shape's: a closed curve of so few
+chords is coarser than any tessellation that turns by half a radian."""
+
+
+@dataclass(frozen=True, slots=True)
+class LineChains:
+    """Walks over mesh edges that become lines.
+
+    offsets (c+1,), edges (k,), reversed (k,) bool; kind (c,) EdgeClass, part (c,), edge (c,) and face (c,) in the part's
+    TopExp maps, -1 where there is none.
+    """
+
+    offsets: Ints
+    edges: Ints
+    reversed: npt.NDArray[np.bool_]
+    kind: npt.NDArray[np.uint8]
+    part: Ints
+    edge: Ints
+    face: Ints
+
+
+def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
+    """Chains of the contour edges among the segments' edges."""
+    found = np.unique(segments.edge).astype(np.int32)
+    found = found[scene.offsets[found + 1] > scene.offsets[found]]
+    owner, folds = _facing(scene, segments, found)
+    role = plan.role[found]
+    # What the kernel drew only as a contour is one; edges drawn anyway are one where the surface folds there.
+    contour = ((role & DRAWN) == 0) | folds
+    found, owner, role = found[contour], owner[contour], role[contour]
+    keep = ((role & OUTLINE) != 0) & ~_noise(scene, found)
+    return _chained(scene, found[keep], owner[keep])
+
+
+def _facing(scene: Scene, segments: Segments, edges: Ints) -> tuple[Ints, npt.NDArray[np.bool_]]:
+    """Per edge the incident triangle that faces the viewer most, and whether another one faces away."""
+    first, last = scene.offsets[edges], scene.offsets[edges + 1]
+    owner = scene.incident[first]
+    farthest = segments.facing[owner]
+    for k in range(1, int((last - first).max(initial=0))):
+        other = scene.incident[np.minimum(first + k, last - 1)]
+        owner = np.where(segments.facing[other] > segments.facing[owner], other, owner)
+        farthest = np.minimum(farthest, segments.facing[other])
+    return owner, (segments.facing[owner] > 0) & (farthest <= 0)
+
+
+def _noise(scene: Scene, contour: Ints) -> npt.NDArray[np.bool_]:
+    """(k,) bool: the contour edge belongs to a figure of a few edges, apart from its surface's main outline."""
+    if len(contour) == 0:
+        return np.zeros(0, bool)
+    figure = _kernel.edge_components(np.ascontiguousarray(scene.edges[contour]), len(scene.points))
+    size = np.bincount(figure)
+    group = np.zeros(len(size), np.int32)
+    group[figure] = scene.edge_group[contour]
+    largest = np.zeros(len(scene.groups.closed), np.int64)
+    np.maximum.at(largest, group, size)
+    return np.asarray(((size < NOISE_EDGES) & (size < largest[group]))[figure])
+
+
+def _chained(scene: Scene, contour: Ints, owner: Ints) -> LineChains:
+    """The face toward the viewer owns the outline; it is chained within that face."""
+    part, face = scene.triangle_part[owner], scene.triangle_face[owner]
+    _, key = np.unique(part.astype(np.int64) << 32 | face.astype(np.int64), return_inverse=True)
+    offsets, order, backward = _kernel.chain(
+        np.ascontiguousarray(scene.edges[contour]), np.ascontiguousarray(key.ravel().astype(np.int32))
+    )
+    head = order[offsets[:-1]]
+    has_faces = np.array([p.faces > 0 for p in scene.parts], bool)
+    return LineChains(
+        offsets=offsets,
+        edges=contour[order],
+        reversed=backward,
+        kind=np.full(len(head), EdgeClass.OUTLINE, np.uint8),
+        part=part[head].astype(np.int32),
+        edge=np.full(len(head), -1, np.int32),
+        face=np.where(has_faces[part[head]], face[head], -1).astype(np.int32),
+    )
