@@ -69,9 +69,9 @@ class Edges:
         self.left, self.right = normals[owner[starts]], normals[owner[starts + counts - 1]]
         self.border = counts == 1
 
-    def fixed(self) -> np.ndarray:
-        """Sharp edges and borders: drawn from everywhere."""
-        return np.asarray(self.border | (np.sum(self.left * self.right, axis=1) < SHARP))
+    def sharp(self) -> np.ndarray:
+        """Drawn from everywhere."""
+        return np.asarray(np.sum(self.left * self.right, axis=1) < SHARP)
 
     def outlines(self, direction: Floats) -> np.ndarray:
         """One side turned to the viewer, the other away."""
@@ -83,11 +83,11 @@ def missing(drawing: Exchange, edges: Edges, caster: RayCaster) -> Missing:
     """Orthographic views only."""
     camera, size = drawing.camera, caster.measure
     axes = np.stack([camera.right, camera.up], axis=1)
-    fixed = edges.fixed()
-    chosen = np.flatnonzero(fixed | edges.outlines(camera.direction))
+    sharp = edges.sharp()
+    chosen = np.flatnonzero(sharp | edges.border | edges.outlines(camera.direction))
     start, end = edges.start[chosen], edges.end[chosen]
     length = np.linalg.norm((end - start) @ axes, axis=1)
-    start, end, fixed, length = (each[length > 0] for each in (start, end, fixed[chosen], length))
+    start, end, sharp, length = (each[length > 0] for each in (start, end, sharp[chosen], length))
     rng = np.random.default_rng(1)
     if not len(length):
         return Missing(0, np.zeros((0, 3)))
@@ -95,8 +95,9 @@ def missing(drawing: Exchange, edges: Edges, caster: RayCaster) -> Missing:
     places = start[picked] + rng.uniform(0.0, 1.0, PLACES)[:, None] * (end - start)[picked]
     blocked = caster.blocked_each(places, camera)
     asked = ~blocked[:, 0] & (blocked.sum(axis=1) <= RING - FREE)
-    # A dent of the tessellation faces away too, but there the surface goes on beside it.
-    asked &= fixed[picked] | (caster.open_around(places, camera, size * STEP) >= FREE)
+    # A dent of the tessellation faces away too, and faces that were never joined have borders; but beside these the
+    # surface goes on.
+    asked &= sharp[picked] | (caster.open_around(places, camera, size * STEP) >= FREE)
     places = places[asked]
     drawn = _dense(drawing, axes, size * SPACING)
     if not len(places) or not len(drawn):
