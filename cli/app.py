@@ -7,7 +7,10 @@ from typing import Any
 
 import click
 
-VERBS = ("draw", "info")
+VERBS = {
+    "draw": "Draw a model as SVG, PDF or JSON.",
+    "info": "Parts, faces, edges, triangles and defects of a model.",
+}
 
 
 class Verbs(click.Group):
@@ -23,6 +26,11 @@ class Verbs(click.Group):
             return None
         command: click.Command = getattr(import_module(f".commands.{cmd_name}", __package__), cmd_name)
         return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the verbs without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(VERBS.items()))
 
 
 def _version(ctx: click.Context, parameter: click.Parameter, wanted: Any) -> None:

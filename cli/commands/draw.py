@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from hlr.plan.options import Options
 
 
-@click.command(short_help="Draw a model as SVG, PDF or JSON.")
+@click.command()
 @click.argument("source")
 @click.option(
     "-o",
@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     type=ViewName(),
     metavar="NAME|X,Y,Z",
     multiple=True,
-    help="front, back, left, right, top, bottom, iso, ... or a direction toward the viewer. May be repeated. "
-    "Default: iso.",
+    help="front, back, left, right, top, bottom, iso, iso-sw, iso-ne, iso-nw, or a direction toward the viewer. "
+    "May be repeated. Default: iso.",
 )
 @click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on.")
 @click.option("--smooth", is_flag=True, help="Also tangent edges, thin.")

@@ -18,7 +18,7 @@ _HEADINGS = ("part", "solids", "faces", "edges", "triangles", "closed", "defects
 _LONGEST_NAME = 40
 
 
-@click.command(short_help="Parts, faces, edges, triangles and defects of a model.")
+@click.command()
 @click.argument("source")
 @click.option(
     "--crease",

@@ -1,10 +1,13 @@
 import os
+import re
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals as in POSIX")
 
@@ -48,6 +51,12 @@ def test_help_and_version(hlr_command, arguments):
     assert result.code == 0
     assert result.out.startswith("hlr 0." if arguments == ["--version"] else "Usage: hlr")
     assert result.err == ""
+
+
+def test_every_verb_is_listed_and_there(hlr_command):
+    shown = hlr_command("--help").out
+    for verb in sorted(path.stem for path in (ROOT / "cli" / "commands").glob("[a-z]*.py")):
+        assert re.search(rf"^  {verb}  +[A-Z].*\.$", shown, re.MULTILINE), verb
 
 
 def test_no_arguments_show_the_help(hlr_command):
