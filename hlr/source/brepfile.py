@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
 from hlr.source.occt import quiet, ready
 from hlr.source.parts import Leaf
+
+_ROOT = re.compile(rb"\*\s+[-+ie]\d+ \d+\s*(?:\d+\s*)?\0?\s*$")
+"""The end of the last list of sub-shapes, and the root shape: orientation and number, then its location."""
 
 
 def open_brep(path: Path) -> BrepSource:
@@ -21,6 +25,11 @@ def open_brep(path: Path) -> BrepSource:
     binary = b"Open CASCADE Topology V" in head
     if not binary and b"DBRep_DrawableShape" not in head and b"CASCADE Topology V" not in head:
         raise SourceError(f"{path.name} is not a BREP file (it does not begin with its header): check the file.")
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 200))
+        # OpenCASCADE's text reader never returns from a file whose last line, the root shape, is missing.
+        if not binary and _ROOT.search(file.read()) is None:
+            raise SourceError(f"{path.name} cannot be read as BREP: it is cut short; export or download it again.")
     ready()
     from OCP.BinTools import BinTools
     from OCP.BRep import BRep_Builder

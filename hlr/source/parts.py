@@ -183,5 +183,5 @@ def matrix(location: Any) -> Floats:
 
 def _four(rows: Floats) -> Floats:
     result = np.eye(4)
-    result[:3] = rows
+    result[:3] = rows + 0.0  # no minus zeros in records
     return result

@@ -1,0 +1,91 @@
+"""Objects in memory: CadQuery, build123d, bare shapes, and what is none of these."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hlr.errors import SourceError
+from hlr.source import open_source
+
+cq = pytest.importorskip("cadquery")
+
+
+def centres(thing):
+    parts = open_source(thing).mesh(0.1, 0.3).parts
+    return {part.name: np.round((part.points.min(axis=0) + part.points.max(axis=0)) / 2, 3).tolist() for part in parts}
+
+
+def test_shapes_of_all_kinds():
+    block = cq.Workplane().box(1, 2, 3)
+    for thing in (block, block.val(), block.val().wrapped, [block], (block.val(),), cq.Sketch().rect(1, 2)):
+        assert list(centres(thing)) == ["part"]
+    assert len(centres([block, block])) == 2
+    assert len(centres(block.faces())) == 6
+
+
+def test_a_cadquery_assembly():
+    block = cq.Workplane().box(1, 2, 3)
+    inner = cq.Assembly(name="inner", loc=cq.Location((10, 0, 0)), color=cq.Color("red"))
+    inner.add(block, name="turned", loc=cq.Location((0, 5, 0), (0, 0, 1), 90)).add(block)
+    outer = cq.Assembly(name="outer").add(inner).add(block, name="green", color=cq.Color(0, 1, 0))
+    parts = open_source(outer).mesh(0.1, 0.3).parts
+    assert {part.name: part.color for part in parts} == {"turned": (1, 0, 0), "inner": (1, 0, 0), "green": (0, 1, 0)}
+    assert centres(outer) == {"turned": [10, 5, 0], "inner": [10, 0, 0], "green": [0, 0, 0]}
+
+
+def test_build123d():
+    bd = pytest.importorskip("build123d")
+    box = bd.Box(1, 2, 3)
+    box.label, box.color = "box", bd.Color("blue")
+    group = bd.Pos(0, 0, 7) * bd.Compound(label="group", children=[box, bd.Pos(5, 0, 0) * bd.Cylinder(1, 2)])
+    assert centres(group) == {"box": [0, 0, 7], "group": [5, 0, 7]}
+    assert open_source(box).mesh(0.1, 0.3).parts[0].color == (0, 0, 1)
+    with bd.BuildPart() as builder:
+        bd.Box(1, 1, 1)
+    assert len(centres(builder)) == len(centres(builder.part)) == 1
+    assert len(centres(box.faces())) == 6
+
+
+@pytest.mark.parametrize("thing", [5, None, [], {}, (1, 2), np.zeros((3, 3)), object(), [cq, cq]])
+def test_anything_else_is_one_sentence(thing):
+    with pytest.raises(SourceError, match="cannot be drawn"):
+        open_source(thing)
+
+
+def test_nothing_to_draw():
+    with pytest.raises(SourceError, match="no shapes"):
+        open_source(cq.Workplane())
+    with pytest.raises(SourceError, match="no shapes"):
+        open_source(cq.Assembly())
+    with pytest.raises(SourceError, match="12 edges but no faces"):
+        open_source(cq.Workplane().box(1, 1, 1).edges())
+
+
+def test_one_bad_part_does_not_stop_the_others():
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Solid
+
+    hollow = TopoDS_Solid()
+    BRep_Builder().MakeSolid(hollow)
+    source = open_source([cq.Workplane().box(1, 1, 1), hollow])
+    assert len(source.mesh(0.1, 0.3).parts) == 1
+    assert any("left out" in note for note in source.notes)
+
+
+def test_a_mesher_that_fails_on_one_part(monkeypatch):
+    from hlr.source import tessellate
+
+    run = tessellate._run_mesher
+    seen = []
+
+    def failing(shape, *rest, **more):
+        seen.append(shape)
+        if len(seen) in (1, 3, 4):
+            raise RuntimeError("no")
+        run(shape, *rest, **more)
+
+    monkeypatch.setattr(tessellate, "_run_mesher", failing)
+    meshed = open_source([cq.Workplane().box(1, 1, 1), cq.Workplane().sphere(1)]).mesh(0.1, 0.3)
+    assert len(meshed.parts) == 1
+    assert any('"part:2"' in note and "1 of 1 faces could not be meshed" in note for note in meshed.notes)
