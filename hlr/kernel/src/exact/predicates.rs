@@ -130,22 +130,23 @@ impl Cover {
     /// Whether the triangle hides the inward-moved end `here` of the segment here -> there, for f as it lies and
     /// for f moved toward the viewer by `delta`.
     pub fn hides_end(&self, here: &Point, there: &Point, delta: i64) -> (bool, bool) {
-        let oh = self.sides(here);
-        if oh.iter().any(|&o| o < 0) {
-            return (false, false);
-        }
-        let ot = self.sides(there);
+        let mut oh = [0; 3];
         for k in 0..3 {
             let (p, q) = self.edge(k);
-            if end_side(oh[k], ot[k], p, q) < 0 {
+            oh[k] = orient2d(p, q, here);
+            // Mostly a triangle around the vertex itself, away from the direction in which f leaves: out at once.
+            if oh[k] < 0 || (oh[k] == 0 && end_side(0, orient2d(p, q, there), p, q) < 0) {
                 return (false, false);
             }
         }
         let gh = self.beneath(here, &oh);
-        let gt = self.beneath(there, &ot);
         let shift = i128::from(delta) * i128::from(self.area);
-        let behind = |s: i128| if gh != s { gh > s } else { gt > s };
-        (behind(0), behind(shift))
+        let mut gt = None;
+        let mut behind = |s: i128| {
+            if gh != s { gh > s } else { *gt.get_or_insert_with(|| self.beneath(there, &self.sides(there))) > s }
+        };
+        let plain = behind(0);
+        (plain, if shift == 0 { plain } else { behind(shift) })
     }
 }
 

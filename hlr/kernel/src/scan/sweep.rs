@@ -65,7 +65,6 @@ pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Ou
     }
     // 5. edges that culling decided
     let whole = Segment { start: 0.0, end: 1.0, state: State::Hidden };
-    let mut pieces: Vec<Piece> = edges.hidden.iter().map(|&edge| Piece { edge, segment: whole }).collect();
     let mut counters = Counters {
         triangles: mesh.triangles.len() as u64,
         culled: table.culled as u64,
@@ -82,12 +81,20 @@ pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Ou
         piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
         ..Counters::default()
     };
+    let mut pieces = Vec::with_capacity(edges.hidden.len() + walked.iter().map(|w| w.pieces.len()).sum::<usize>());
+    let mut hidden = edges.hidden.iter().peekable();
+    // Both lists ascend by edge: merge them.
     for chunk in walked {
-        pieces.extend(chunk.pieces);
         counters.failed_checks += chunk.failed;
         counters.contradictions += chunk.contradictions;
+        for piece in chunk.pieces {
+            while let Some(&edge) = hidden.next_if(|&&e| e < piece.edge) {
+                pieces.push(Piece { edge, segment: whole });
+            }
+            pieces.push(piece);
+        }
     }
-    pieces.par_sort_by_key(|p| p.edge);
+    pieces.extend(hidden.map(|&edge| Piece { edge, segment: whole }));
     Some(Outcome { pieces, facing: table.facing, counters })
 }
 
