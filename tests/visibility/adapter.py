@@ -21,7 +21,8 @@ class Way:
 
     parts     every part by itself, and the wires as one more; else all is one part
     trusted   the parts are closed, oriented and sound: faces turned away may be culled
-    bias      contact tolerance: what other parts hide by no more than this is neither visible nor hidden but WITHIN
+    bias      contact tolerance: what is hidden by no more than this is neither visible nor hidden but WITHIN; what a
+              trusted part hides of itself is hidden
     """
 
     parts: bool = False

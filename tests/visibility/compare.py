@@ -49,16 +49,16 @@ def difference(scene: Scene, way: Way, threads: int = 1) -> str | None:
 def expected(scene: Scene, edge: Edge, way: Way) -> list[State]:
     """What the oracle says, in the kernel's states.
 
-    Within: hidden, but not if the edge were nearer to the viewer by the bias, its own part keeping its distance.
+    Within: hidden, but not if the edge were nearer to the viewer by the bias. A part that can be trusted keeps its
+    distance from its own edges: they share its vertices, and what they touch they touch exactly.
     """
     segment, triangles = scene.segment(edge), scene.triangles()
     plain = oracle.hidden_parts(segment, triangles)
     moved = plain
     if way.bias:
-        own = scene.part_of(edge)
-        one_part = not way.parts
-        near = [t for t, part in zip(triangles, scene.parts, strict=True) if one_part or part == own]
-        far = [t for t, part in zip(triangles, scene.parts, strict=True) if not one_part and part != own]
+        own = scene.part_of(edge) if way.trusted else None
+        near = [t for t, part in zip(triangles, scene.parts, strict=True) if part == own]
+        far = [t for t, part in zip(triangles, scene.parts, strict=True) if part != own]
         (ax, ay, az), (bx, by, bz) = segment
         shifted = ((ax, ay, az - way.bias), (bx, by, bz - way.bias))
         moved = oracle.hidden_parts(segment, near) + oracle.hidden_parts(shifted, far)
