@@ -79,7 +79,7 @@ class Drawing:
     origin: tuple[float, float]
     accuracy: Mapping[str, Any]
     unit: float
-    up_axis: Points
+    up_axis: tuple[tuple[float, float, float], ...]
     parts: tuple[DrawnPart, ...]
     lines: tuple[Line, ...]
     notes: tuple[str, ...] = ()
@@ -90,8 +90,8 @@ class Drawing:
         """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""
         if not self.lines:
             return (0.0, 0.0, 0.0, 0.0)
-        low = np.min([line.points.min(axis=0) for line in self.lines], axis=0)
-        high = np.max([line.points.max(axis=0) for line in self.lines], axis=0)
+        points = np.concatenate([line.points for line in self.lines])
+        low, high = points.min(axis=0), points.max(axis=0)
         return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
     def save(self, path: str | Path) -> Path:

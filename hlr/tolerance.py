@@ -20,8 +20,8 @@ ANGLE = 0.5
 """Radians between neighbouring tessellation chords: 13 for a full circle, however small it is on paper."""
 
 MESH_CONTACT = 1.0 / 8000.0
-"""Of the model's diagonal. A mesh was tessellated by someone else, at a deflection it does not tell: within this depth its
-pieces count as touching."""
+"""Of the model's diagonal. A mesh was tessellated by someone else, at a deflection it does not tell: within this depth
+its pieces count as touching."""
 
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9

@@ -1,0 +1,1 @@
+"""Segments become lines: chained, merged, cleaned, tied to part, edge and face."""

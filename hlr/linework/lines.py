@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.drawing import Line
@@ -92,7 +95,7 @@ def draw_lines(
     return lines, (float(low[0]), float(low[1]))
 
 
-def _identity(chains: LineChains, chain: Ints) -> tuple[Ints, Ints, Ints, Ints]:
+def _identity(chains: LineChains, chain: Ints) -> tuple[npt.NDArray[Any], ...]:
     """Sort keys, least significant first."""
     return chains.face[chain], chains.edge[chain], chains.kind[chain], chains.part[chain]
 

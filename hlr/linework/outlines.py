@@ -14,16 +14,16 @@ from hlr.source.model import EdgeClass, Ints
 from hlr.visibility.segments import Segments
 
 NOISE_EDGES = 12
-"""A contour of fewer mesh edges that hangs on no other is the mesh's roughness, not the shape's: a closed curve of so few
-chords is coarser than any tessellation that turns by half a radian."""
+"""A contour of fewer mesh edges that hangs on no other is the mesh's roughness, not the shape's: a closed curve of so
+few chords is coarser than any tessellation that turns by half a radian."""
 
 
 @dataclass(frozen=True, slots=True)
 class LineChains:
     """Walks over mesh edges that become lines.
 
-    offsets (c+1,), edges (k,), reversed (k,) bool; kind (c,) EdgeClass, part (c,), edge (c,) and face (c,) in the part's
-    TopExp maps, -1 where there is none.
+    offsets (c+1,), edges (k,), reversed (k,) bool; kind (c,) EdgeClass, part (c,), edge (c,) and face (c,) in the
+    part's TopExp maps, -1 where there is none.
     """
 
     offsets: Ints

@@ -1,0 +1,1 @@
+"""The request, and what scene and request call for."""

@@ -1,0 +1,1 @@
+"""All parts in one set of arrays, checked and repaired."""

@@ -9,8 +9,8 @@ from hlr import _kernel
 from hlr.errors import SourceError
 from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR, Chains, Groups, Scene, ScenePart
-from hlr.scene.topology import crease_walks, creases, folded_back, joined, source_walks
-from hlr.source.model import EdgeClass, Floats, Ints, Meshed, PartMesh
+from hlr.scene.topology import crease_walks, creases, folded_back, joined, mesh_facts, source_walks
+from hlr.source.model import Floats, Ints, Meshed, PartMesh
 
 MOST_TRIANGLES = 2**31 // 3 - 1
 """Indices are 32 bits wide; three sides a triangle."""
@@ -30,14 +30,14 @@ def build(meshed: Meshed, crease: float) -> Scene:
     if sum(len(p.triangles) for p in parts) > MOST_TRIANGLES:
         raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
     firsts = _firsts([len(p.points) for p in parts])
-    points = _joined([p.points for p in parts], np.float64, 3)
+    points: Floats = np.concatenate([np.zeros((0, 3)), *[p.points for p in parts]])
     if not np.isfinite(points).all():
         raise SourceError("the tessellation holds coordinates that are not finite: repair the model")
-    triangles = _joined([p.triangles + firsts[i] for i, p in enumerate(parts)], np.int32, 3)
-    face = _joined([p.triangle_face for p in parts], np.int32)
+    triangles = np.concatenate([np.zeros((0, 3), np.int32), *[p.triangles + firsts[i] for i, p in enumerate(parts)]])
+    face = np.concatenate([np.zeros(0, np.int32), *[p.triangle_face for p in parts]])
     part_of = np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts])
-    edges, offsets, incident = _kernel.edge_table(triangles, len(points))
-    balance = _kernel.edge_balance(triangles, edges, offsets, incident)
+    mesh = mesh_facts(points, triangles)
+    edges, offsets, incident, balance = mesh.edges, mesh.offsets, mesh.incident, mesh.balance
 
     brep = np.array([p.brep for p in parts], bool)
     curved = _curved(parts, part_of, face)
@@ -46,7 +46,7 @@ def build(meshed: Meshed, crease: float) -> Scene:
     walks, loose = source_walks(parts, firsts, edges, len(points))
     kind = np.full(len(edges) + len(loose), INTERIOR, np.uint8)
     if bare.any():
-        kind[: len(edges)][bare] = creases(points, triangles, edges, offsets, incident, balance, crease)[bare]
+        kind[: len(edges)] = creases(mesh, bare, crease, len(points))
         walks = joined(walks, crease_walks(edges, kind[: len(edges)], edge_part, bare))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]
@@ -68,7 +68,7 @@ def build(meshed: Meshed, crease: float) -> Scene:
         groups, edge_group[~tied] = _with_loose(groups, points, loose, loose_part)
     edge_curved = np.zeros(len(edges), bool)
     edge_curved[tied] = np.logical_or.reduceat(curved[incident], offsets[:-1][tied])
-    edge_curved[: len(balance)] &= ~folded_back(points, triangles, offsets, incident, balance)
+    edge_curved[: len(balance)] &= ~folded_back(mesh)
     if len(points) == 0 or len(edges) == 0:
         raise SourceError("nothing to draw: no part has a face or an edge")
     # Triangle-less meshes still need arrays of the right shape downstream.
@@ -99,11 +99,6 @@ def _firsts(counts: list[int]) -> Ints:
     return out
 
 
-def _joined(arrays: list[npt.NDArray[np.generic]], dtype: npt.DTypeLike, width: int = 0) -> npt.NDArray[np.generic]:
-    shape = (0, width) if width else (0,)
-    return np.ascontiguousarray(np.concatenate([np.zeros(shape, dtype), *arrays]), dtype)
-
-
 def _curved(parts: list[PartMesh], part_of: Ints, face: Ints) -> npt.NDArray[np.bool_]:
     """(t,) bool: the triangle lies on a face that may show an outline."""
     firsts = _firsts([len(p.face_planar) for p in parts])
@@ -111,9 +106,7 @@ def _curved(parts: list[PartMesh], part_of: Ints, face: Ints) -> npt.NDArray[np.
     return np.asarray(~planar[firsts[part_of] + face])
 
 
-def _groups(
-    whole: npt.NDArray[np.bool_], triangles: Ints, part_of: Ints, n_points: int
-) -> tuple[Ints, Ints]:
+def _groups(whole: npt.NDArray[np.bool_], triangles: Ints, part_of: Ints, n_points: int) -> tuple[Ints, Ints]:
     """Per triangle its group, per group its part: closed B-rep parts whole, everything else by connected piece.
 
     Faces of an IGES file that nobody sewed together touch like strangers do, and need the same tolerance.
@@ -127,7 +120,7 @@ def _groups(
     group = group.ravel().astype(np.int32)
     first = np.zeros(len(used), np.int64)
     first[group[::-1]] = np.arange(len(triangles))[::-1]
-    return group, part_of[first]
+    return np.asarray(group, np.int32), part_of[first]
 
 
 def _checked(
@@ -249,6 +242,3 @@ def _reports(
             )
         )
     return tuple(out), ()
-
-
-__all__ = ["EdgeClass", "build"]

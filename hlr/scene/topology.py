@@ -52,7 +52,9 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         part_of.append(np.full(len(part.edge_index), i, np.int32))
     if not nodes:
         none = np.zeros(0, np.int32)
-        return Walks(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none), none.reshape(0, 2)
+        return Walks(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none), none.reshape(
+            0, 2
+        )
     node = np.concatenate(nodes)
     count = np.concatenate(counts)
     walk = np.repeat(np.arange(len(count), dtype=np.int32), count)
@@ -80,89 +82,78 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
     return walks, extra
 
 
-def normals(points: Floats, triangles: Ints) -> Floats:
-    """(t, 3) unit normals; zero for triangles without area. Element by element: no BLAS."""
-    p, q, r = (points[triangles[:, k]] for k in range(3))
-    u, v = q - p, r - p
-    n = np.stack(
-        [
-            u[:, 1] * v[:, 2] - u[:, 2] * v[:, 1],
-            u[:, 2] * v[:, 0] - u[:, 0] * v[:, 2],
-            u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0],
-        ],
-        axis=1,
-    )
-    length = np.sqrt(n[:, 0] * n[:, 0] + n[:, 1] * n[:, 1] + n[:, 2] * n[:, 2])
-    n /= np.where(length > 0.0, length, 1.0)[:, None]
-    return n
+@dataclass(frozen=True, slots=True)
+class MeshFacts:
+    """Edges of the whole scene's mesh, view-independent.
+
+    edges (e, 2), offsets (e+1,), incident (k,); balance (e,) triangles along minus triangles against the edge;
+    fold (e,) cosine of the fold, NaN where there are not two triangles with area; normals (t, 3), zero without area.
+    """
+
+    edges: Ints
+    offsets: Ints
+    incident: Ints
+    balance: Ints
+    fold: Floats
+    normals: Floats
 
 
-def creases(
-    points: Floats, triangles: Ints, edges: Ints, offsets: Ints, incident: Ints, balance: Ints, crease: float
-) -> npt.NDArray[np.uint8]:
-    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
-    kind = np.full(len(edges), 255, np.uint8)
-    count = np.diff(offsets)
-    kind[count == 1] = EdgeClass.BOUNDARY
-    kind[count > 2] = EdgeClass.SHARP
-    two = np.flatnonzero(count == 2)
-    normal = normals(points, triangles)
-    m, n = normal[incident[offsets[two]]], normal[incident[offsets[two] + 1]]
-    cosine = m[:, 0] * n[:, 0] + m[:, 1] * n[:, 1] + m[:, 2] * n[:, 2]
-    # Two triangles that run along the edge the same way are oriented against each other: the fold is the supplement.
-    cosine = np.where(balance[two] == 0, cosine, -cosine)
-    # A triangle without area has no normal: its edges are judged below, by what lies beyond it.
-    flat = ~normal.any(axis=1)
-    fold = two[(cosine < math.cos(math.radians(crease))) & m.any(axis=1) & n.any(axis=1)]
-    kind[fold] = EdgeClass.SHARP
-    clear = np.ones(len(edges), bool)
-    clear[two] = cosine < math.cos(math.radians(min(CLEAR_FOLD * crease, 180.0)))
-    kind[_lone_folds(kind, edges, clear, len(points))] = 255
-    if flat.any():
-        _across_flat(kind, normal, flat, offsets, incident, math.cos(math.radians(crease)))
-    return kind
+def mesh_facts(points: Floats, triangles: Ints) -> MeshFacts:
+    """What can be said of a mesh before any part or edge has a meaning."""
+    edges, offsets, incident = _kernel.edge_table(triangles, len(points))
+    balance = _kernel.edge_balance(triangles, edges, offsets, incident)
+    fold, normals = _kernel.edge_folds(points, triangles, offsets, incident, balance)
+    return MeshFacts(edges, offsets, incident, balance, fold, normals)
 
 
-def folded_back(
-    points: Floats, triangles: Ints, offsets: Ints, incident: Ints, balance: Ints
-) -> npt.NDArray[np.bool_]:
+def folded_back(mesh: MeshFacts) -> npt.NDArray[np.bool_]:
     """(e,) bool: the two triangles lie on top of one another, folded by more than a right angle.
 
     No smooth surface does that between two chords: where edge curve and surface differ by the file's own tolerance, the
     tessellation laps over itself in slivers. Such an edge is a contour to be counted, but not an outline to be drawn.
     """
-    folded = np.zeros(len(balance), bool)
-    count = np.diff(offsets[: len(balance) + 1])
-    two = np.flatnonzero((count == 2) & (balance == 0))
-    normal = normals(points, triangles)
-    m, n = normal[incident[offsets[two]]], normal[incident[offsets[two] + 1]]
-    folded[two] = m[:, 0] * n[:, 0] + m[:, 1] * n[:, 1] + m[:, 2] * n[:, 2] < 0.0
-    return folded
+    return np.asarray((mesh.fold < 0.0) & (mesh.balance == 0))
 
 
-def _lone_folds(
-    kind: npt.NDArray[np.uint8], edges: Ints, clear: npt.NDArray[np.bool_], n: int
-) -> Ints:
+def creases(mesh: MeshFacts, bare: npt.NDArray[np.bool_], crease: float, n_points: int) -> npt.NDArray[np.uint8]:
+    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
+    kind = np.full(len(mesh.edges), 255, np.uint8)
+    count = np.diff(mesh.offsets)
+    kind[bare & (count == 1)] = EdgeClass.BOUNDARY
+    kind[bare & (count > 2)] = EdgeClass.SHARP
+    limit = math.cos(math.radians(crease))
+    kind[bare & (mesh.fold < limit)] = EdgeClass.SHARP
+    clear = ~(mesh.fold >= math.cos(math.radians(min(CLEAR_FOLD * crease, 180.0))))
+    kind[_lone_folds(kind, mesh.edges, clear, n_points)] = 255
+    # A triangle without area has no normal: its edges are judged by what lies beyond it.
+    flat = np.abs(mesh.normals).max(axis=1, initial=0.0) == 0.0
+    if flat.any():
+        _across_flat(kind, mesh, flat, bare, limit)
+    return kind
+
+
+def _lone_folds(kind: npt.NDArray[np.uint8], edges: Ints, clear: npt.NDArray[np.bool_], n: int) -> Ints:
     """Edges of figures of a few slight folds that begin and end nowhere: a scan's roughness, no edge of the shape."""
     chosen = np.flatnonzero(kind != 255).astype(np.int32)
     if len(chosen) == 0:
         return chosen
     figure = _kernel.edge_components(np.ascontiguousarray(edges[chosen]), n)
     slight = (np.bincount(figure) < LONE_EDGES) & (np.bincount(figure, weights=clear[chosen]) == 0)
-    return chosen[slight[figure]]
+    lone: Ints = chosen[slight[figure]]
+    return lone
 
 
 def _across_flat(
     kind: npt.NDArray[np.uint8],
-    normal: Floats,
+    mesh: MeshFacts,
     flat: npt.NDArray[np.bool_],
-    offsets: Ints,
-    incident: Ints,
-    cosine: float,
+    bare: npt.NDArray[np.bool_],
+    limit: float,
 ) -> None:
     """Creases along triangles without area, which fill T-junctions: the fold is that between the faces around them."""
+    incident, offsets, normals = mesh.incident, mesh.offsets, mesh.normals
     edge_of = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
-    at_flat = flat[incident]
+    at_flat = flat[incident] & bare[edge_of]
     around: dict[int, list[int]] = {}
     for t, e in zip(incident[at_flat].tolist(), edge_of[at_flat].tolist(), strict=True):
         around.setdefault(t, []).append(e)
@@ -170,7 +161,7 @@ def _across_flat(
         faces = {e: [t for t in incident[offsets[e] : offsets[e + 1]].tolist() if not flat[t]] for e in edges}
         for e in edges:
             others = [t for f in edges if f != e for t in faces[f]]
-            folds = [abs(float((normal[s] * normal[t]).sum())) < cosine for s in faces[e] for t in others]
+            folds = [abs(float((normals[s] * normals[t]).sum())) < limit for s in faces[e] for t in others]
             if any(folds) and kind[e] == 255:
                 kind[e] = EdgeClass.SHARP
 

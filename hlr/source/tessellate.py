@@ -11,6 +11,7 @@ import numpy as np
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
+from hlr.source.quality import coarse_faces
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build
 
@@ -63,10 +64,17 @@ class Tessellator:
                 progress("tessellate", done / len(self._batches))
             for failed in self._mesh_batch(batch, deflection, angle):
                 notes.append(failed)
-        self._retry(deflection, angle)
-        carriers = self._normal_carriers()
-        tables = read_tables(compound([compound(carriers), *self._roots]))
-        faces = np.flatnonzero(tables.kind == FACE)[len(carriers) :]
+        self._retry(self._lost(), deflection, angle)
+        tables, first = self._tables()
+        coarse = coarse_faces(tables, deflection)
+        coarse = coarse[coarse >= first] - first
+        if len(coarse):
+            for i in coarse:
+                BRepTools.Clean_s(self._faces[i])
+            # With all the others, which keep their triangulation: alone, a face would get edges cut anew.
+            self._retry(self._roots, deflection, angle)
+            tables, first = self._tables()
+        faces = np.flatnonzero(tables.kind == FACE)[first:]
         planar = np.zeros(len(tables.kind), dtype=bool)
         # The dump lists each underlying face once, in the order in which an explorer meets them: so do we.
         planar[faces] = self._flat
@@ -85,16 +93,24 @@ class Tessellator:
             for number in batch:
                 yield from self._mesh_batch([number], deflection, angle)
 
-    def _retry(self, deflection: float, angle: float) -> None:
-        """Faces that Delabella cannot triangulate go to the older Watson algorithm, along the same edge polygons."""
+    def _tables(self) -> tuple[Tables, int]:
+        """Tables of all roots, and how many faces that only carry normals come first."""
+        carriers = self._normal_carriers()
+        return read_tables(compound([compound(carriers), *self._roots])), len(carriers)
+
+    def _lost(self) -> list[Any]:
+        """Faces that Delabella could not triangulate at all."""
         from OCP.BRep import BRep_Tool
         from OCP.TopLoc import TopLoc_Location
 
         place = TopLoc_Location()
-        lost = [face for face in self._faces if BRep_Tool.Triangulation_s(face, place) is None]
-        if lost:
+        return [face for face in self._faces if BRep_Tool.Triangulation_s(face, place) is None]
+
+    def _retry(self, shapes: list[Any], deflection: float, angle: float) -> None:
+        """What has no triangulation in these shapes goes to the older Watson algorithm, along the same edge polygons."""
+        if shapes:
             with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the faces are counted
-                _run_mesher(compound(lost), deflection, angle, delabella=False)
+                _run_mesher(compound(shapes), deflection, angle, delabella=False)
 
     def _normal_carriers(self) -> list[Any]:
         """Bare faces that make the dump hold surface normals beside the nodes of curved faces.

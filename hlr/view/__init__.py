@@ -1,0 +1,1 @@
+"""Cameras, named views, clipping and scale."""

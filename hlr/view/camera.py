@@ -77,9 +77,7 @@ class Camera:
         z = self.ahead(points)
         away = points - np.asarray(self.eye)
         factor = self.distance / z
-        return np.stack(
-            [dot(away, self.right) * factor, dot(away, self.up) * factor, -self.distance * factor], axis=1
-        )
+        return np.stack([dot(away, self.right) * factor, dot(away, self.up) * factor, -self.distance * factor], axis=1)
 
     def ahead(self, points: Floats) -> Floats:
         """(n,) distance from the eye's plane, positive before the eye; depth along the view for parallel views."""
@@ -119,10 +117,10 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
     right = normalized(side, "right")
     # The cross product of unit vectors is a unit vector up to rounding.
     up = normalized(cross(direction, right), "up")
-    model = [_to_model(frame, v) for v in (direction, right, up)]
-    if eye is None or target is None:
-        return Camera(name, *model)
-    return _framed(Camera(name, *model, eye=eye, target=target), perspective, bounds)
+    camera = Camera(
+        name, _to_model(frame, direction), _to_model(frame, right), _to_model(frame, up), eye=eye, target=target
+    )
+    return camera if eye is None else _framed(camera, perspective, bounds)
 
 
 def _to_model(frame: Frame, v: Vector) -> Vector:
@@ -132,9 +130,7 @@ def _to_model(frame: Frame, v: Vector) -> Vector:
     return (x, y, z)
 
 
-def _eye(
-    perspective: Perspective, direction: Vector, frame: Frame, bounds: Floats
-) -> tuple[Vector, Vector, Vector]:
+def _eye(perspective: Perspective, direction: Vector, frame: Frame, bounds: Floats) -> tuple[Vector, Vector, Vector]:
     """Eye and target in model coordinates, and the direction between them in world axes."""
     centre = [float(c) for c in (bounds[0] + bounds[1]) * 0.5]
     radius = 0.5 * math.sqrt(sum(float(c) * float(c) for c in bounds[1] - bounds[0])) or 1.0

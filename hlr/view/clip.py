@@ -102,7 +102,7 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     edges = np.concatenate([edges, low_first[loose]])
     offsets = np.concatenate([offsets, np.full(np.count_nonzero(loose), offsets[-1], np.int32)])
 
-    def moved(old: np.ndarray, fill: int) -> np.ndarray:  # type: ignore[type-arg]
+    def moved(old: np.ndarray, fill: int) -> np.ndarray:
         out = np.full(len(edges), fill, old.dtype)
         out[target[keep]] = old[keep]
         return out
@@ -133,13 +133,13 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     )
 
 
-def _opened(groups: Groups, opened: np.ndarray) -> Groups:  # type: ignore[type-arg]
+def _opened(groups: Groups, opened: np.ndarray) -> Groups:
     return replace(groups, closed=groups.closed & ~opened, cull=groups.cull & ~opened)
 
 
 def _cut_triangles(
     scene: Scene,
-    inside: np.ndarray,  # type: ignore[type-arg]
+    inside: np.ndarray,
     new_vertex: Ints,
     n: int,
 ) -> tuple[Ints, Ints]:
@@ -175,12 +175,10 @@ def _cut_triangles(
     return triangles, np.concatenate([whole, one, two, two])
 
 
-def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:  # type: ignore[type-arg]
+def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
     edge = target[chains.edges]
     keep = edge >= 0
     owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))
     offsets = np.zeros(len(chains.offsets), np.int32)
     np.cumsum(np.bincount(owner[keep], minlength=len(chains.kind)), out=offsets[1:])
-    return replace(
-        chains, offsets=offsets, edges=edge[keep], reversed=(chains.reversed ^ swapped[chains.edges])[keep]
-    )
+    return replace(chains, offsets=offsets, edges=edge[keep], reversed=(chains.reversed ^ swapped[chains.edges])[keep])

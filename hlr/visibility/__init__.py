@@ -1,0 +1,1 @@
+"""Scene, view and plan become visible and hidden segments."""

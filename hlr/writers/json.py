@@ -29,7 +29,7 @@ def document(drawing: Drawing) -> bytes:
         "view": _view(drawing),
         "scale": drawing.scale,
         "origin": [x + 0.0 for x in drawing.origin],
-        "model": {"unit": drawing.unit, "up_axis": _matrix(drawing.up_axis)},
+        "model": {"unit": drawing.unit, "up_axis": _matrix(np.asarray(drawing.up_axis))},
     }
     parts = [{"name": part.name, "color": part.color, "transform": _matrix(part.transform)} for part in drawing.parts]
     tail = {"notes": list(drawing.notes), "counters": dict(drawing.counters), "timings": dict(drawing.timings)}

@@ -12,6 +12,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_balance, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::components, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::scan::edge_folds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;

@@ -45,6 +45,7 @@ pub fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize)
     Ok(())
 }
 
+type FoldArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
 type EdgeArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>);
 
 #[pyfunction]
@@ -71,8 +72,30 @@ pub fn edge_balance<'py>(
 ) -> PyResult<Bound<'py, PyArray1<i32>>> {
     let (triangles, edges) = (rows::<i32, 3>(&triangles, "triangles")?, rows::<i32, 2>(&edges, "edges")?);
     let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
-    check_incidence(edges, offsets, incident, triangles.len())?;
+    check_incidence(edges.len(), offsets, incident, triangles.len())?;
     Ok(run(py, 0, |_| topology::balance(triangles, edges, offsets, incident))?.into_pyarray(py))
+}
+
+#[pyfunction]
+pub fn edge_folds<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    incident: PyReadonlyArray1<'py, i32>,
+    balance: PyReadonlyArray1<'py, i32>,
+) -> PyResult<FoldArrays<'py>> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
+    let balance = flat(&balance, "balance")?;
+    check_incidence(balance.len(), offsets, incident, triangles.len())?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    let (folds, normals) = run(py, 0, |_| {
+        let normals = topology::normals(points, triangles);
+        (topology::folds(&normals, offsets, incident, balance), normals)
+    })?;
+    let n = normals.len();
+    Ok((folds.into_pyarray(py), normals.into_flattened().into_pyarray(py).reshape([n, 3])?))
 }
 
 #[pyfunction]
@@ -97,8 +120,8 @@ pub fn edge_components<'py>(
     Ok(topology::components(edges, n_points).into_pyarray(py))
 }
 
-fn check_incidence(edges: &[[i32; 2]], offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
-    expect_len("offsets", offsets.len(), edges.len() + 1)?;
+fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
+    expect_len("offsets", offsets.len(), edges + 1)?;
     expect_below("incident", incident.iter().copied(), triangles)?;
     expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
     if offsets.windows(2).any(|w| w[0] > w[1]) {
@@ -141,7 +164,7 @@ pub fn visibility<'py>(
     expect_below("edges", edges.iter().flatten().copied(), points.len())?;
     expect_below("triangle_part", triangle_part.iter().copied(), cull.len())?;
     expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
-    check_incidence(edges, offsets, incident, triangles.len())?;
+    check_incidence(edges.len(), offsets, incident, triangles.len())?;
     let outcome = run(py, threads, |stopped| {
         let grid = Grid::around(points)?;
         let mesh = Mesh {

@@ -131,11 +131,11 @@ impl Cover {
     /// for f moved toward the viewer by `delta`.
     pub fn hides_end(&self, here: &Point, there: &Point, delta: i64) -> (bool, bool) {
         let mut oh = [0; 3];
-        for k in 0..3 {
+        for (k, side) in oh.iter_mut().enumerate() {
             let (p, q) = self.edge(k);
-            oh[k] = orient2d(p, q, here);
+            *side = orient2d(p, q, here);
             // Mostly a triangle around the vertex itself, away from the direction in which f leaves: out at once.
-            if oh[k] < 0 || (oh[k] == 0 && end_side(0, orient2d(p, q, there), p, q) < 0) {
+            if *side < 0 || (*side == 0 && end_side(0, orient2d(p, q, there), p, q) < 0) {
                 return (false, false);
             }
         }

@@ -55,6 +55,37 @@ pub fn balance(triangles: &[[i32; 3]], edges: &[[i32; 2]], offsets: &[i32], inci
         .collect()
 }
 
+/// Unit normals; zero for triangles without area.
+pub fn normals(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> Vec<[f64; 3]> {
+    triangles
+        .par_iter()
+        .map(|t| {
+            let [p, q, r] = t.map(|v| points[v as usize]);
+            let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
+            let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+            let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
+            if length > 0.0 { n.map(|c| c / length) } else { [0.0; 3] }
+        })
+        .collect()
+}
+
+/// Cosine of the fold at every edge of two triangles: 1 flat, -1 lapped over. NaN where there are not two, or where one has
+/// no area. Triangles oriented against each other fold by the supplement.
+pub fn folds(normals: &[[f64; 3]], offsets: &[i32], incident: &[i32], balance: &[i32]) -> Vec<f64> {
+    (0..balance.len())
+        .into_par_iter()
+        .map(|e| {
+            let &[s, t] = &incident[offsets[e] as usize..offsets[e + 1] as usize] else { return f64::NAN };
+            let (m, n) = (&normals[s as usize], &normals[t as usize]);
+            if m == &[0.0; 3] || n == &[0.0; 3] {
+                return f64::NAN;
+            }
+            let cosine = m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
+            if balance[e] == 0 { cosine } else { -cosine }
+        })
+        .collect()
+}
+
 /// A label per cell (edge or triangle): cells that share vertices have the same; labels count up in order of appearance.
 pub fn components<const N: usize>(cells: &[[i32; N]], n_points: usize) -> Vec<i32> {
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
@@ -96,6 +127,20 @@ mod tests {
         let t = topology(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
         assert_eq!(t.edges, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]);
         assert!(t.offsets.windows(2).all(|w| w[1] - w[0] == 2));
+    }
+
+    #[test]
+    fn folds_of_a_roof_and_of_a_sliver() {
+        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [2.0, 0.0, 0.0]];
+        let triangles = [[0, 1, 2], [1, 0, 3], [0, 4, 1]];
+        let t = topology(&triangles);
+        let balance = balance(&triangles, &t.edges, &t.offsets, &t.incident);
+        let normals = normals(&points, &triangles);
+        assert_eq!((normals[0], normals[2]), ([0.0, 0.0, 1.0], [0.0; 3]));
+        let roof = topology(&triangles[..2]);
+        let folds = folds(&normals[..2], &roof.offsets, &roof.incident, &balance[..roof.edges.len()]);
+        assert_eq!(folds[0], 0.0);
+        assert!(folds[1..].iter().all(|f| f.is_nan()));
     }
 
     #[test]
