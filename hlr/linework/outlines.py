@@ -13,9 +13,9 @@ from hlr.scene.scene import Scene
 from hlr.source.model import EdgeClass, Ints
 from hlr.visibility.segments import Segments
 
-NOISE_EDGES = 12
-"""A contour of fewer mesh edges that hangs on no other is the mesh's roughness, not the shape's: a closed curve of so
-few chords is coarser than any tessellation that turns by half a radian."""
+NOISE_EDGES = 6
+"""A contour of fewer mesh edges that hangs on no other line is the mesh's roughness, not the shape's: a closed curve of
+so few chords is coarser than any tessellation that turns by half a radian."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +43,7 @@ def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
     role = plan.role[found]
     # What the kernel drew only as a contour is one; edges drawn anyway are one where the surface folds there.
     contour = ((role & DRAWN) == 0) | folds
-    found, owner, role = found[contour], owner[contour], role[contour]
-    keep = ((role & OUTLINE) != 0) & ~_noise(scene, found)
+    keep = contour & ((role & OUTLINE) != 0) & ~_noise(scene, found)
     return _chained(scene, found[keep], owner[keep])
 
 
@@ -60,14 +59,14 @@ def _facing(scene: Scene, segments: Segments, edges: Ints) -> tuple[Ints, npt.ND
     return owner, (segments.facing[owner] > 0) & (farthest <= 0)
 
 
-def _noise(scene: Scene, contour: Ints) -> npt.NDArray[np.bool_]:
-    """(k,) bool: the contour edge belongs to a figure of a few edges, apart from its surface's main outline."""
-    if len(contour) == 0:
+def _noise(scene: Scene, found: Ints) -> npt.NDArray[np.bool_]:
+    """(k,) bool: the edge belongs to a figure of a few edges, apart from all other lines of its surface."""
+    if len(found) == 0:
         return np.zeros(0, bool)
-    figure = _kernel.edge_components(np.ascontiguousarray(scene.edges[contour]), len(scene.points))
+    figure = _kernel.edge_components(np.ascontiguousarray(scene.edges[found]), len(scene.points))
     size = np.bincount(figure)
     group = np.zeros(len(size), np.int32)
-    group[figure] = scene.edge_group[contour]
+    group[figure] = scene.edge_group[found]
     largest = np.zeros(len(scene.groups.closed), np.int64)
     np.maximum.at(largest, group, size)
     return np.asarray(((size < NOISE_EDGES) & (size < largest[group]))[figure])

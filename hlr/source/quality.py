@@ -11,6 +11,10 @@ surface normals at the nodes tell:
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
 import numpy as np
 
 from hlr.source.model import Ints
@@ -39,3 +43,39 @@ def coarse_faces(tables: Tables, deflection: float) -> Ints:
     tri = tables.face_tri[face]
     coarse = (tri >= 0) & (worst[np.maximum(tri, 0)] > EXCESS * deflection)
     return np.flatnonzero(coarse).astype(np.int32)
+
+
+@contextmanager
+def tightened(faces: list[Any]) -> Iterator[list[Any]]:
+    """The faces with the least tolerance that OpenCASCADE knows, for as long as this lasts.
+
+    The mesher refines nothing below the tolerance of a face's vertices, and sewn faces have generous ones.
+    """
+    from OCP.BRep import BRep_Builder, BRep_Tool
+    from OCP.Precision import Precision
+    from OCP.ShapeFix import ShapeFix_ShapeTolerance
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopExp import TopExp
+    from OCP.TopoDS import TopoDS
+    from OCP.TopTools import TopTools_IndexedMapOfShape
+
+    builder, tool = BRep_Builder(), ShapeFix_ShapeTolerance()
+    restore = []
+    for kind, cast, update in (
+        (Kind.TopAbs_VERTEX, TopoDS.Vertex_s, builder.UpdateVertex),
+        (Kind.TopAbs_EDGE, TopoDS.Edge_s, builder.UpdateEdge),
+    ):
+        found = TopTools_IndexedMapOfShape()
+        for face in faces:
+            TopExp.MapShapes_s(face, kind, found)
+        for i in range(1, found.Extent() + 1):
+            shape = cast(found.FindKey(i))
+            restore.append((update, shape, BRep_Tool.Tolerance_s(shape)))
+    for face in faces:
+        tool.SetTolerance(face, Precision.Confusion_s())
+    try:
+        yield faces
+    finally:
+        for update, shape, tolerance in restore:
+            # Updating only ever raises a tolerance: this brings back what was there.
+            update(shape, tolerance)

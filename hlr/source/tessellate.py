@@ -11,7 +11,7 @@ import numpy as np
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
-from hlr.source.quality import coarse_faces
+from hlr.source.quality import coarse_faces, tightened
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build
 
@@ -69,10 +69,11 @@ class Tessellator:
         coarse = coarse_faces(tables, deflection)
         coarse = coarse[coarse >= first] - first
         if len(coarse):
-            for i in coarse:
-                BRepTools.Clean_s(self._faces[i])
-            # With all the others, which keep their triangulation: alone, a face would get edges cut anew.
-            self._retry(self._roots, deflection, angle)
+            with tightened([self._faces[i] for i in coarse]) as faces:
+                for face in faces:
+                    BRepTools.Clean_s(face)
+                # With all the others, which keep their triangulation: alone, a face would get edges cut anew.
+                self._retry(self._roots, deflection, angle)
             tables, first = self._tables()
         faces = np.flatnonzero(tables.kind == FACE)[first:]
         planar = np.zeros(len(tables.kind), dtype=bool)
