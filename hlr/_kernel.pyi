@@ -37,6 +37,8 @@ def linework(
     space_points: Floats,
     depth: Floats,
     perspective: bool,
+    eye: tuple[float, float, float],
+    away: tuple[float, float, float],
     edges: Ints,
     piece_edge: Ints,
     piece_t0: Floats,

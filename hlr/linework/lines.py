@@ -19,13 +19,14 @@ from hlr.visibility.segments import Segments
 
 KIND_RANK = {
     EdgeClass.SHARP: 0,
-    EdgeClass.BOUNDARY: 1,
-    EdgeClass.INTERSECTION: 2,
-    EdgeClass.OUTLINE: 3,
-    EdgeClass.SMOOTH: 4,
-    EdgeClass.SEAM: 5,
+    EdgeClass.BOUNDARY: 0,
+    EdgeClass.INTERSECTION: 0,
+    EdgeClass.OUTLINE: 0,
+    EdgeClass.SMOOTH: 1,
+    EdgeClass.SEAM: 2,
 }
-"""Of coincident lines the lower rank is drawn: an outline on top of a tangent edge is drawn as an outline."""
+"""Of coincident lines the lower rank is drawn, of equal ranks the nearer: what one would see. A tangent edge or a seam
+never lies on top of an outline."""
 
 
 def draw_lines(
@@ -50,6 +51,8 @@ def draw_lines(
         scene.points,
         camera.ahead(scene.points),
         camera.eye is not None,
+        camera.eye or (0.0, 0.0, 0.0),
+        (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
         scene.edges,
         segments.edge,
         segments.t0,

@@ -16,6 +16,12 @@ use crate::lines::specks::drop_specks;
 use crate::lines::{Polyline, distance};
 use crate::scan::invisibility::State;
 
+/// Where depth is measured from, and along what.
+struct View {
+    origin: [f64; 3],
+    away: [f64; 3],
+}
+
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
 
 #[pyfunction]
@@ -31,7 +37,7 @@ pub fn chain<'py>(
 }
 
 #[pyfunction]
-#[pyo3(signature = (flat_points, space_points, depth, perspective, edges, piece_edge, piece_t0, piece_t1, piece_state,
+#[pyo3(signature = (flat_points, space_points, depth, perspective, eye, away, edges, piece_edge, piece_t0, piece_t1, piece_state,
     chain_offsets, chain_edges, chain_reversed, chain_rank, short, stub, width, under, flat_tolerance, space_tolerance,
     threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
@@ -41,6 +47,8 @@ pub fn linework<'py>(
     space_points: PyReadonlyArray2<'py, f64>,
     depth: PyReadonlyArray1<'py, f64>,
     perspective: bool,
+    eye: [f64; 3],
+    away: [f64; 3],
     edges: PyReadonlyArray2<'py, i32>,
     piece_edge: PyReadonlyArray1<'py, i32>,
     piece_t0: PyReadonlyArray1<'py, f64>,
@@ -110,6 +118,7 @@ pub fn linework<'py>(
             pieces: &pieces,
             piece_offsets: &piece_offsets,
         };
+        let toward = View { origin: eye, away };
         let limits = Limits { short, stub };
         let lines: Vec<Polyline> = (0..rank.len())
             .into_par_iter()
@@ -121,13 +130,7 @@ pub fn linework<'py>(
         if stopped() {
             return None;
         }
-        let nearest: Vec<f64> = (0..rank.len())
-            .map(|c| {
-                let run = offsets[c] as usize..offsets[c + 1] as usize;
-                let ends = members[run].iter().flat_map(|&e| edges[e as usize]);
-                ends.map(|v| depth[v as usize]).fold(f64::INFINITY, f64::min)
-            })
-            .collect();
+        let nearest: Vec<f64> = lines.par_iter().map(|line| nearest(line, &toward)).collect();
         let ranks = ranked(&lines, rank, &nearest);
         let mut lines = uncovered(lines, &ranks, Widths { same: width, under });
         drop_specks(&mut lines, short);
@@ -138,26 +141,35 @@ pub fn linework<'py>(
     export(py, &lines)
 }
 
-/// A strict order of lines: visible before hidden, then by kind, then nearer, then by geometry; order in the input
+/// Least depth of a line.
+fn nearest(line: &Polyline, view: &View) -> f64 {
+    let depth = |p: &[f64; 3]| {
+        let q = [0, 1, 2].map(|k| p[k] - view.origin[k]);
+        q[0] * view.away[0] + q[1] * view.away[1] + q[2] * view.away[2]
+    };
+    line.space.iter().map(depth).fold(f64::INFINITY, f64::min)
+}
+
+/// A strict order of lines: visible before hidden, then by rank, then nearer, then by geometry; order in the input
 /// decides only between lines that are the same in every coordinate.
-fn ranked(lines: &[Polyline], kind: &[u8], nearest: &[f64]) -> Vec<u32> {
+fn ranked(lines: &[Polyline], rank: &[u8], nearest: &[f64]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..lines.len() as u32).collect();
     order.par_sort_by(|&i, &j| {
         let (a, b) = (&lines[i as usize], &lines[j as usize]);
         b.visible
             .cmp(&a.visible)
-            .then_with(|| kind[a.chain as usize].cmp(&kind[b.chain as usize]))
-            .then_with(|| nearest[a.chain as usize].total_cmp(&nearest[b.chain as usize]))
+            .then_with(|| rank[a.chain as usize].cmp(&rank[b.chain as usize]))
+            .then_with(|| nearest[i as usize].total_cmp(&nearest[j as usize]))
             .then_with(|| {
                 let (x, y) = (a.space.iter().flatten(), b.space.iter().flatten());
                 x.zip(y).map(|(p, q)| p.total_cmp(q)).find(|o| o.is_ne()).unwrap_or(a.space.len().cmp(&b.space.len()))
             })
     });
-    let mut rank = vec![0; lines.len()];
+    let mut out = vec![0; lines.len()];
     for (r, &i) in order.iter().enumerate() {
-        rank[i as usize] = r as u32;
+        out[i as usize] = r as u32;
     }
-    rank
+    out
 }
 
 fn export<'py>(py: Python<'py>, lines: &[Polyline]) -> PyResult<Bound<'py, PyDict>> {
