@@ -17,32 +17,65 @@ from typing import Any
 
 import numpy as np
 
-from hlr.source.model import Ints
-from hlr.source.tables import FACE, Tables
+from hlr.source.model import Floats, Ints
+from hlr.source.tables import FACE, Tables, ranges
 
 EXCESS = 4.0
 """How many deflections a chord may be off before its face is meshed again. Sound faces stay below 2 (measured over some
 3,000 faces of real models), the others lie far beyond."""
 
 
-def coarse_faces(tables: Tables, deflection: float) -> Ints:
-    """Numbers, among the faces of `tables`, of those with a chord far beyond the deflection."""
+FINE = 2.0
+"""How many deflections a chord may be off before its face is refined in place, which costs little."""
+
+
+def heights(points: Floats, normals: Floats, p: Ints, q: Ints) -> Floats:
+    """Height of the surface above the chords from nodes p to nodes q; 0 where neither end has a normal.
+
+    At a node without one (an apex, a pole) the other end's speaks for both, as on a circle: c . n / 4. A generator that
+    ends in the apex of a cone is exact by that, and an arc that ends in the pole of a sphere has its height.
+    """
+    chord = points[p] - points[q]
+    one, other = ((chord * normals[i]).sum(axis=1) for i in (p, q))
+    bare, empty = (~normals[i].any(axis=1) for i in (p, q))
+    result: Floats = np.abs(np.where(bare, -other, one) - np.where(empty, -one, other)) / 8.0
+    return result
+
+
+def coarse_faces(tables: Tables, deflection: float, excess: float = EXCESS) -> Ints:
+    """Numbers, among the faces of `tables`, of those with a chord more than `excess` deflections high."""
     counts = np.diff(tables.tri_start)
     owner = np.repeat(np.arange(len(counts)), counts)
     corner = tables.triangles + tables.node_start[owner][:, None]
+    normals = tables.normals.astype(np.float64)
+    normals[_poles(tables)] = 0.0
     worst = np.zeros(len(counts))
     for a, b in ((0, 1), (1, 2), (2, 0)):
-        p, q = corner[:, a], corner[:, b]
-        chord = tables.nodes[p] - tables.nodes[q]
-        turn = tables.normals[p] - tables.normals[q]
-        # Nodes without a normal (poles, planar faces) say nothing.
-        known = tables.normals[p].any(axis=1) & tables.normals[q].any(axis=1)
-        height = np.abs((chord * turn).sum(axis=1)) / 8.0
-        np.maximum.at(worst, owner[known], height[known])
+        np.maximum.at(worst, owner, heights(tables.nodes, normals, corner[:, a], corner[:, b]))
     face = np.flatnonzero(tables.kind == FACE)
     tri = tables.face_tri[face]
-    coarse = (tri >= 0) & (worst[np.maximum(tri, 0)] > EXCESS * deflection)
+    coarse = (tri >= 0) & (worst[np.maximum(tri, 0)] > excess * deflection)
     return np.flatnonzero(coarse).astype(np.int32)
+
+
+def _poles(tables: Tables) -> Ints:
+    """Nodes on degenerated edges: OpenCASCADE invents a normal for an apex."""
+    rep = np.flatnonzero(tables.degenerated[tables.rep_edge])
+    poly = tables.rep_poly[rep]
+    counts = tables.poly_start[poly + 1] - tables.poly_start[poly]
+    nodes = tables.poly_nodes[ranges(tables.poly_start[poly], counts)]
+    result: Ints = nodes + np.repeat(tables.node_start[tables.rep_tri[rep]], counts)
+    return result
+
+
+def edge_pairs(tables: Tables, triangulation: int) -> Ints:
+    """(n, 2) neighbouring nodes in the polygons of edges on a triangulation, counted from its first node."""
+    rep = np.flatnonzero(tables.rep_tri == triangulation)
+    poly = np.concatenate((tables.rep_poly[rep], tables.rep_poly2[rep]))
+    poly = poly[poly >= 0]
+    counts = np.maximum(tables.poly_start[poly + 1] - tables.poly_start[poly] - 1, 0)
+    first = ranges(tables.poly_start[poly], counts)
+    return np.stack((tables.poly_nodes[first], tables.poly_nodes[first + 1]), axis=1)
 
 
 @contextmanager

@@ -11,7 +11,8 @@ import numpy as np
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
-from hlr.source.quality import coarse_faces, tightened
+from hlr.source.quality import FINE, coarse_faces, edge_pairs, tightened
+from hlr.source.refine import refine
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build
 
@@ -65,16 +66,7 @@ class Tessellator:
             for failed in self._mesh_batch(batch, deflection, angle):
                 notes.append(failed)
         self._retry(self._lost(), deflection, angle)
-        tables, first = self._tables()
-        coarse = coarse_faces(tables, deflection)
-        coarse = coarse[coarse >= first] - first
-        if len(coarse):
-            with tightened([self._faces[i] for i in coarse]) as faces:
-                for face in faces:
-                    BRepTools.Clean_s(face)
-                # With all the others, which keep their triangulation: alone, a face would get edges cut anew.
-                self._retry(self._roots, deflection, angle)
-            tables, first = self._tables()
+        tables, first = self._sound(deflection, angle)
         faces = np.flatnonzero(tables.kind == FACE)[first:]
         planar = np.zeros(len(tables.kind), dtype=bool)
         # The dump lists each underlying face once, in the order in which an explorer meets them: so do we.
@@ -99,6 +91,29 @@ class Tessellator:
         carriers = self._normal_carriers()
         return read_tables(compound([compound(carriers), *self._roots])), len(carriers)
 
+    def _sound(self, deflection: float, angle: float) -> tuple[Tables, int]:
+        """The tables of `_tables`, after faces that came out coarse were meshed again and what is left was refined."""
+        from OCP.BRepTools import BRepTools
+
+        tables, first = self._tables()
+        coarse = coarse_faces(tables, deflection)
+        coarse = coarse[coarse >= first] - first
+        if len(coarse):
+            with tightened([self._faces[i] for i in coarse]) as faces:
+                for face in faces:
+                    BRepTools.Clean_s(face)
+                # With all the others, which keep their triangulation: alone, a face would get edges cut anew.
+                self._retry(self._roots, deflection, angle)
+            tables, first = self._tables()
+        triangulation = tables.face_tri[tables.kind == FACE]
+        changed = False
+        for i in coarse_faces(tables, deflection, FINE).tolist():
+            if i >= first:
+                number = int(triangulation[i])
+                triangles = tables.triangles[tables.tri_start[number] : tables.tri_start[number + 1]]
+                changed |= refine(self._faces[i - first], triangles, edge_pairs(tables, number), deflection)
+        return self._tables() if changed else (tables, first)
+
     def _lost(self) -> list[Any]:
         """Faces that Delabella could not triangulate at all."""
         from OCP.BRep import BRep_Tool
@@ -108,7 +123,7 @@ class Tessellator:
         return [face for face in self._faces if BRep_Tool.Triangulation_s(face, place) is None]
 
     def _retry(self, shapes: list[Any], deflection: float, angle: float) -> None:
-        """What has no triangulation in these shapes goes to the older Watson algorithm, along the same edge polygons."""
+        """What has no triangulation in these shapes goes to the older Watson algorithm; edges keep their polygons."""
         if shapes:
             with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the faces are counted
                 _run_mesher(compound(shapes), deflection, angle, delabella=False)
