@@ -1,0 +1,221 @@
+"""From parts to the scene: the tables agree, groups are what they are called, and defects are counted."""
+
+from dataclasses import replace
+
+import cadquery as cq
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from linework.models import box, parts, sheet, turned
+from scene.invariants import check
+
+from hlr import SourceError
+from hlr.scene.build import build
+from hlr.scene.repair import without_duplicates
+from hlr.scene.scene import INTERIOR
+from hlr.source import open_source
+from hlr.source.model import EdgeClass, Meshed
+
+
+def scene_of(thing, crease=30.0, deflection=0.05):
+    return build(open_source(thing).mesh(deflection, 0.5), crease)
+
+
+def part_of(thing):
+    return open_source(thing).mesh(0.05, 0.5).parts[0]
+
+
+def hollow():
+    return trimesh.util.concatenate([box((20, 20, 20)), turned(box((10, 10, 10)))])
+
+
+def lidless():
+    mesh = box((20, 20, 20))
+    mesh.update_faces(mesh.face_normals[:, 2] < 0.5)
+    return mesh
+
+
+def fin():
+    """Three faces at one edge."""
+    points = [[0, 0, 0], [0, 0, 9], [9, 0, 0], [-9, 5, 0], [-9, -5, 0]]
+    return np.array(points, float), np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+
+
+MODELS = {
+    "box": lambda: cq.Workplane().box(10, 20, 30),
+    "ball": lambda: cq.Workplane().sphere(10),
+    "cylinder": lambda: cq.Workplane().cylinder(20, 5),
+    "fillet": lambda: cq.Workplane().box(20, 20, 20).edges().fillet(4),
+    "face": lambda: cq.Workplane().add(cq.Face.makePlane(10, 10)),
+    "assembly": lambda: cq.Assembly().add(cq.Workplane().box(9, 9, 9)).add(cq.Workplane().sphere(3)),
+    "face and wire": lambda: cq.Compound.makeCompound(
+        [cq.Solid.makeBox(5, 5, 5), cq.Edge.makeCircle(9), cq.Edge.makeLine(cq.Vector(0, 0, 9), cq.Vector(0, 9, 9))]
+    ),
+    "torus": lambda: cq.Solid.makeTorus(20, 5),
+    "mesh box": lambda: box((10, 20, 30)),
+    "mesh parts": lambda: parts(box((1, 2, 3)), trimesh.creation.icosphere(2), box((3, 2, 1), (9, 0, 0))),
+    "turned": lambda: turned(box((10, 20, 30))),
+    "hollow": hollow,
+    "lidless": lidless,
+    "sheet": lambda: sheet(10, 0),
+    "fin": fin,
+}
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_tables_agree(name):
+    check(scene_of(MODELS[name]()))
+
+
+@given(
+    st.lists(st.tuples(*[st.integers(0, 2)] * 3), min_size=3, max_size=9, unique=True).flatmap(
+        lambda points: st.tuples(
+            st.just(points),
+            st.lists(
+                st.lists(st.integers(0, len(points) - 1), min_size=3, max_size=3, unique=True), min_size=1, max_size=14
+            ),
+        )
+    ),
+    st.sampled_from([0.0, 30.0, 180.0]),
+)
+@settings(max_examples=150, deadline=None)
+def test_the_tables_of_any_soup_agree(soup, crease):
+    points, faces = soup
+    check(scene_of((np.array(points, float), np.array(faces)), crease))
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda s: replace(s, edges=s.edges[:, ::-1].copy()),
+        lambda s: replace(s, incident=np.roll(s.incident, 1)),
+        lambda s: replace(s, edge_kind=np.full_like(s.edge_kind, INTERIOR)),
+        lambda s: replace(s, triangle_group=np.roll(s.triangle_group, 1)),
+        lambda s: replace(s, chains=replace(s.chains, reversed=~s.chains.reversed)),
+        lambda s: replace(s, chains=replace(s.chains, edges=s.chains.edges[::-1].copy())),
+        lambda s: replace(s, groups=replace(s.groups, closed=~s.groups.closed)),
+        lambda s: replace(s, points=s.points * 2),
+        lambda s: replace(s, triangles=s.triangles + 1),
+    ],
+)
+def test_the_check_notices(spoil):
+    scene = scene_of(cq.Assembly().add(cq.Workplane().cylinder(9, 9)).add(cq.Workplane().sphere(3)))
+    check(scene)
+    with pytest.raises(AssertionError):
+        check(spoil(scene))
+
+
+def flags(scene):
+    g = scene.groups
+    return sorted(zip(g.closed.tolist(), g.cull.tolist(), g.bare.tolist(), strict=True))
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("box", [(True, True, False)]),
+        ("face", [(False, False, False)]),
+        ("mesh box", [(True, True, True)]),
+        ("turned", [(True, False, True)]),
+        ("hollow", [(True, False, True), (True, True, True)]),
+        ("lidless", [(False, False, True)]),
+        ("mesh parts", [(True, True, True)] * 3),
+    ],
+)
+def test_only_what_is_closed_and_outward_may_be_culled(name, expected):
+    assert flags(scene_of(MODELS[name]())) == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "closed", "oriented", "defects"),
+    [
+        ("mesh box", True, True, ()),
+        ("lidless", False, True, ("open: 4 border edges",)),
+        ("turned", True, True, ("1 closed pieces turned inside out or hollow",)),
+        ("hollow", True, True, ("1 closed pieces turned inside out or hollow",)),
+        ("fin", False, True, ("open: 6 border edges", "1 non-manifold edges")),
+        ("box", True, True, ()),
+        ("ball", True, True, ()),
+        ("face", False, True, ("open: ",)),
+    ],
+)
+def test_reports(name, closed, oriented, defects):
+    part = scene_of(MODELS[name]()).parts[0]
+    assert (part.closed, part.oriented, len(part.defects)) == (closed, oriented, len(defects))
+    for said, start in zip(part.defects, defects, strict=True):
+        assert said.startswith(start)
+
+
+def test_one_face_turned_over_is_reported_and_stops_culling():
+    mesh = box((10, 10, 10))
+    mesh.faces[0] = mesh.faces[0][::-1]
+    scene = scene_of((mesh.vertices, mesh.faces))
+    check(scene)
+    (part,) = scene.parts
+    assert (part.closed, part.oriented) == (False, False)
+    assert part.defects == ("3 edges between faces of opposite orientation",)
+    assert not scene.groups.cull.any()
+
+
+def test_repeated_triangles_are_dropped_and_counted():
+    mesh = box((10, 10, 10))
+    faces = np.concatenate([mesh.faces, mesh.faces[:5], mesh.faces[5:8, ::-1], np.roll(mesh.faces[8:9], 1, axis=1)])
+    part = part_of((mesh.vertices, faces))
+    kept, count = without_duplicates(part)
+    assert count == 9
+    assert (kept.triangles == part.triangles[:12]).all()
+    assert len(kept.triangle_face) == 12
+    again, none = without_duplicates(kept)
+    assert none == 0 and again is kept
+    scene = scene_of((mesh.vertices, faces))
+    assert scene.parts[0].defects == ("9 duplicated triangles",)
+    assert scene.groups.cull.all()
+
+
+@pytest.mark.parametrize(("crease", "sharp"), [(30.0, 12), (89.0, 12), (91.0, 0), (180.0, 0)])
+def test_the_crease_angle_decides(crease, sharp):
+    scene = scene_of(box((10, 20, 30)), crease)
+    assert (scene.edge_kind == EdgeClass.SHARP).sum() == sharp
+    check(scene)
+
+
+def test_creases_of_a_bare_mesh_never_touch_a_brep_part():
+    # 6 diagonals, one per face, are no edges of the box, whatever the angle.
+    scene = scene_of(cq.Workplane().box(10, 10, 10), crease=0.0)
+    assert (scene.edge_kind == EdgeClass.SHARP).sum() == 12
+    assert (scene.edge_kind == INTERIOR).sum() == 6
+
+
+def test_classes_of_a_cylinder_and_its_curved_edges():
+    scene = scene_of(MODELS["cylinder"]())
+    assert sorted(scene.chains.kind.tolist()) == [EdgeClass.SHARP, EdgeClass.SHARP, EdgeClass.SEAM]
+    inside = (scene.edge_kind == INTERIOR) & scene.edge_curved
+    # Only edges of the curved face may be outlines: never one within a cap.
+    z = scene.points[scene.edges[inside]][:, :, 2]
+    assert (np.ptp(z, axis=1) > 0).all()
+    assert not scene.groups.planar.any()
+    assert scene_of(MODELS["box"]()).groups.planar.all()
+
+
+def test_wires_of_no_face_get_a_group_of_their_own():
+    scene = scene_of(MODELS["face and wire"]())
+    loose = np.diff(scene.offsets) == 0
+    if loose.any():
+        assert not set(scene.edge_group[loose].tolist()) & set(scene.triangle_group.tolist())
+
+
+def test_nothing_to_draw():
+    part = part_of(box((1, 1, 1)))
+    empty = replace(part, triangles=part.triangles[:0], triangle_face=part.triangle_face[:0])
+    with pytest.raises(SourceError, match="nothing to draw"):
+        build(Meshed([empty]), 30.0)
+
+
+def test_a_part_that_is_not_finite_is_refused():
+    part = part_of(box((1, 1, 1)))
+    broken = part.points.copy()
+    broken[0, 0] = np.nan
+    with pytest.raises(SourceError, match="not finite"):
+        build(Meshed([replace(part, points=broken)]), 30.0)
