@@ -45,17 +45,43 @@ def heights(points: Floats, normals: Floats, p: Ints, q: Ints) -> Floats:
 def coarse_faces(tables: Tables, deflection: float, excess: float = EXCESS) -> Ints:
     """Numbers, among the faces of `tables`, of those with a chord more than `excess` deflections high."""
     counts = np.diff(tables.tri_start)
-    owner = np.repeat(np.arange(len(counts)), counts)
+    owner = np.repeat(np.arange(len(counts), dtype=np.int32), counts)
     corner = tables.triangles + tables.node_start[owner][:, None]
     normals = tables.normals.astype(np.float64)
     normals[_poles(tables)] = 0.0
-    worst = np.zeros(len(counts))
-    for a, b in ((0, 1), (1, 2), (2, 0)):
-        np.maximum.at(worst, owner, heights(tables.nodes, normals, corner[:, a], corner[:, b]))
-    face = np.flatnonzero(tables.kind == FACE)
-    tri = tables.face_tri[face]
-    coarse = (tri >= 0) & (worst[np.maximum(tri, 0)] > excess * deflection)
-    return np.flatnonzero(coarse).astype(np.int32)
+    limit = excess * deflection
+    coarse = _worst(tables.nodes, normals, corner, owner, len(counts)) > limit
+    if coarse.any():
+        # A second look, at these only: readers do not always mark an apex.
+        among = coarse[owner]
+        corner, owner = corner[among], owner[among]
+        normals[_apexes(tables.nodes, normals, corner)] = 0.0
+        coarse = _worst(tables.nodes, normals, corner, owner, len(counts)) > limit
+    tri = tables.face_tri[tables.kind == FACE]
+    return np.flatnonzero((tri >= 0) & np.append(coarse, False)[tri]).astype(np.int32)
+
+
+_SIDES = ((0, 1), (1, 2), (2, 0))
+
+
+def _worst(points: Floats, normals: Floats, corner: Ints, owner: Ints, count: int) -> Floats:
+    """The highest chord of every triangulation."""
+    worst = np.zeros(count)
+    for a, b in _SIDES:
+        np.maximum.at(worst, owner, heights(points, normals, corner[:, a], corner[:, b]))
+    return worst
+
+
+def _apexes(points: Floats, normals: Floats, corner: Ints) -> Ints:
+    """Nodes whose normal all chords are oblique to, though they are tangent to the surface at their other ends."""
+    here, there = np.zeros(len(points)), np.zeros(len(points))
+    for a, b in (*_SIDES, *((b, a) for a, b in _SIDES)):
+        p, q = corner[:, a], corner[:, b]
+        chord = points[p] - points[q]
+        here += np.bincount(p, np.abs((chord * normals[p]).sum(axis=1)), len(points))
+        there += np.bincount(p, np.abs((chord * normals[q]).sum(axis=1)), len(points))
+    # On a circle both are equal; where curvature grows along the chord from nothing, one is half the other.
+    return np.flatnonzero(there < 0.2 * here).astype(np.int32)
 
 
 def _poles(tables: Tables) -> Ints:

@@ -96,6 +96,8 @@ class Tessellator:
         from OCP.BRepTools import BRepTools
 
         tables, first = self._tables()
+        if not len(coarse_faces(tables, deflection, FINE)):
+            return tables, first
         coarse = coarse_faces(tables, deflection)
         coarse = coarse[coarse >= first] - first
         if len(coarse):
