@@ -8,8 +8,8 @@ from hlr.scene.scene import INTERIOR, Scene
 from hlr.source.model import EdgeClass
 
 
-def check(scene: Scene) -> None:
-    """Raises AssertionError with the first table that contradicts another one."""
+def check(scene: Scene, *, gaps: bool = False) -> None:
+    """Raises AssertionError with the first table that contradicts another one; gaps: chains may have some."""
     n, t, e = len(scene.points), len(scene.triangles), len(scene.edges)
     groups, parts = len(scene.groups.closed), len(scene.parts)
     assert np.isfinite(scene.points).all(), "points are finite"
@@ -34,6 +34,8 @@ def check(scene: Scene) -> None:
     _edges(scene, n, t)
     _groups(scene)
     _chains(scene, e, parts)
+    if not gaps:
+        _walks(scene)
 
 
 def _within(name: str, values: np.ndarray, end: int) -> None:
@@ -92,12 +94,17 @@ def _chains(scene: Scene, e: int, parts: int) -> None:
     _within("chains", chains.edges, e)
     _within("chains.part", chains.part, parts)
     assert (np.diff(chains.part) >= 0).all(), "chains are sorted by part"
-    ends = scene.edges[chains.edges].copy()
-    ends[chains.reversed] = ends[chains.reversed][:, ::-1]
     of = np.repeat(np.arange(count), np.diff(chains.offsets))
-    next_too = of[1:] == of[:-1]
-    assert (ends[:-1, 1][next_too] == ends[1:, 0][next_too]).all(), "a chain is a walk without gaps"
     assert (scene.edge_part[chains.edges] == chains.part[of]).all(), "a chain's edges are of its part"
     on_chain = np.zeros(e, bool)
     on_chain[chains.edges] = True
     assert (on_chain == (scene.edge_kind != INTERIOR)).all(), "an edge has a kind where a chain runs, and only there"
+
+
+def _walks(scene: Scene) -> None:
+    chains = scene.chains
+    ends = scene.edges[chains.edges].copy()
+    ends[chains.reversed] = ends[chains.reversed][:, ::-1]
+    of = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))
+    next_too = of[1:] == of[:-1]
+    assert (ends[:-1, 1][next_too] == ends[1:, 0][next_too]).all(), "a chain is a walk without gaps"

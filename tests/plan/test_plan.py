@@ -1,0 +1,124 @@
+"""Requests are checked before any work, and the plan says what is drawn and with which tolerances."""
+
+import math
+from dataclasses import FrozenInstanceError, fields, replace
+
+import cadquery as cq
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from linework.models import box, parts
+
+from hlr.errors import OptionError
+from hlr.plan.options import Options, Perspective
+from hlr.plan.plan import DRAWN, OUTLINE, decide
+from hlr.plan.request import checked
+from hlr.scene.build import build
+from hlr.scene.scene import INTERIOR
+from hlr.source import open_source
+from hlr.source.model import EdgeClass
+from hlr.tolerance import DEFAULT_ACCURACY, choose, derive
+from hlr.view.camera import resolve
+
+
+def test_options_are_frozen_and_their_defaults_pass():
+    options = Options()
+    assert checked(options) is options
+    with pytest.raises(FrozenInstanceError):
+        options.scale = 2.0
+    assert len({f.name for f in fields(Options)}) == 11
+
+
+@pytest.mark.parametrize(
+    ("wish", "words"),
+    [
+        ({"scale": 0.0}, "scale 0 cannot be drawn: give a positive number"),
+        ({"scale": -1.0}, "scale -1"),
+        ({"scale": math.nan}, "scale nan"),
+        ({"scale": math.inf}, "scale inf"),
+        ({"fit": (0.0, 10.0)}, "fit needs a positive width and height"),
+        ({"fit": (10.0, math.nan)}, "fit needs"),
+        ({"fit": (-1.0, 10.0)}, "fit needs"),
+        ({"accuracy": 0.0}, "accuracy 0 mm"),
+        ({"accuracy": math.nan}, "accuracy nan mm"),
+        ({"accuracy": -0.1}, "accuracy -0.1 mm"),
+        ({"crease": -1.0}, "crease -1"),
+        ({"crease": 180.5}, "crease 180.5"),
+        ({"crease": math.nan}, "crease nan"),
+        ({"threads": -1}, "-1 threads"),
+    ],
+)
+def test_options_out_of_range(wish, words):
+    with pytest.raises(OptionError, match=words) as caught:
+        checked(replace(Options(), **wish))
+    assert "\n" not in str(caught.value)
+
+
+@given(st.floats(1e-6, 10), st.floats(1e-3, 1e3), st.floats(1, 1e4))
+def test_the_shares_of_the_accuracy_add_up_to_less(accuracy, per_model, diagonal):
+    if diagonal * 1e-7 <= accuracy <= diagonal / 4:
+        t = derive(accuracy, per_model, diagonal, brep=True)
+        assert t.accuracy == accuracy
+        assert t.deflection * per_model + t.thin_paper <= 0.75 * accuracy * (1 + 1e-12)
+        assert t.thin_model * per_model <= t.thin_paper * (1 + 1e-12)
+        # Two tessellations, both off, at a slant.
+        assert t.contact >= 2 * t.deflection
+        assert t.contact_planar < t.contact / 10
+        assert t.width < t.accuracy <= t.short < t.stub
+
+
+def test_the_accuracy_of_those_who_do_not_ask():
+    assert choose(0.3, 10.0) == 0.3
+    assert choose(None, 1e6) == DEFAULT_ACCURACY
+    assert choose(None, 10.0) == 10.0 / 2000
+    assert choose(None, 0.0) == DEFAULT_ACCURACY
+
+
+def planned(thing, view="iso", **options):
+    source = open_source(thing)
+    scene = build(source.mesh(0.05, 0.5), 30.0)
+    asked = Options(**options)
+    camera = resolve(view, asked, source.frame, source.bounds())
+    tolerances = derive(0.05, 1.0, 100.0, brep=True)
+    return scene, decide(scene, camera, asked, tolerances), tolerances
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+@pytest.mark.parametrize("seam", [False, True])
+def test_which_edges_are_drawn(smooth, seam):
+    model = cq.Workplane().cylinder(20, 5).faces(">Z").edges().fillet(1)
+    scene, plan, _ = planned(model, smooth=smooth, seam=seam)
+    drawn = {k: bool((plan.role[scene.edge_kind == k] & DRAWN).all()) for k in (0, 1, 2)}
+    assert drawn == {EdgeClass.SHARP: True, EdgeClass.SMOOTH: smooth, EdgeClass.SEAM: seam}
+    assert not (plan.role[scene.edge_kind == INTERIOR] & DRAWN).any()
+    # A sharp edge is drawn anyway; anything else on a curved face may turn out to be an outline.
+    assert not (plan.role[scene.edge_kind == EdgeClass.SHARP] & OUTLINE).any()
+    may = scene.edge_curved & (scene.edge_kind != EdgeClass.SHARP)
+    assert ((plan.role & OUTLINE != 0) == may).all()
+
+
+def test_contact_tolerances():
+    model = cq.Assembly().add(cq.Workplane().box(20, 20, 20)).add(cq.Workplane().cylinder(20, 5))
+    scene, plan, tolerances = planned(model)
+    assert plan.delta.tolist() == [tolerances.contact_planar, tolerances.contact]
+    assert (plan.cull == scene.groups.cull).all()
+    assert plan.sound.all()
+    # A thin part: no more than half its thickness.
+    thin, plan, _ = planned(cq.Workplane().cylinder(0.01, 5))
+    assert plan.delta == pytest.approx(0.5 * thin.groups.extent)
+    assert plan.delta[0] < 0.0051
+    # Meshes bring the tolerance of whoever made them: a share of the whole model's size.
+    _, plan, _ = planned(parts(box((3000, 4000, 1)), box((1, 1, 1))))
+    assert plan.delta == pytest.approx([0.5, 0.5])
+    _, plan, _ = planned(parts(box((3000, 4000, 100)), box((100, 100, 100))))
+    assert plan.delta == pytest.approx([np.sqrt(3000**2 + 4000**2 + 100**2) / 8000] * 2)
+    assert not plan.sound.any()
+
+
+def test_depth_is_steeper_close_to_the_eye():
+    near_far = parts(box((20, 20, 20), (0, 0, 0)), box((20, 20, 20), (0, 200, 0)))
+    eye = Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=60.0)
+    _, flat, _ = planned(near_far, "front")
+    _, plan, _ = planned(near_far, "front", perspective=eye)
+    assert plan.delta / flat.delta == pytest.approx([1, (100 / 300) ** 2])
