@@ -125,7 +125,7 @@ fn main() {
     for count in counts {
         let scene = prisms(count);
         let view: Vec<[f64; 3]> = scene.points.iter().map(in_view).collect();
-        let t = topology(&scene.triangles);
+        let t = topology(&scene.triangles, scene.points.len());
         let role = roles(&scene, &t);
         let edge_part: Vec<i32> =
             (0..t.edges.len()).map(|e| scene.part[t.incident[t.offsets[e] as usize] as usize]).collect();
@@ -143,7 +143,7 @@ fn main() {
             parts: vec![Part { cull: true, sound: true, delta: grid.delta(0.125) }; count],
         };
         let go = || false;
-        let topo = median(|| drop(topology(&scene.triangles)));
+        let topo = median(|| drop(topology(&scene.triangles, scene.points.len())));
         let snap = median(|| drop(view.iter().map(|p| grid.snap(p)).collect::<Vec<_>>()));
         let polygons = PolygonTable::new(&mesh);
         let edges = EdgeTable::new(&mesh, &polygons);

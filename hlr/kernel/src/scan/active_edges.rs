@@ -37,7 +37,7 @@ pub fn crossings(mesh: &Mesh, drawn: &[u32], contours: &[Contour], stopped: &(dy
     // Contours first, then drawn edges: one edge table for both.
     let ranges: Vec<(i32, i32)> =
         contours.par_iter().map(|c| range(c.edge)).chain(drawn.par_iter().map(|&e| range(e))).collect();
-    let bands = Bands::choose(&ranges, 1.5);
+    let bands = Bands::choose(&ranges, 0.75);
     let (offsets, items) = bands.bucket(&ranges);
     let first_drawn = contours.len() as u32;
     let found: Vec<(Vec<Event>, u64)> = (0..bands.count)

@@ -79,7 +79,7 @@ impl Seeds {
                 (p[1].min(q[1]).min(r[1]), p[1].max(q[1]).max(r[1]))
             })
             .collect();
-        let bands = Bands::choose(&ranges, 2.0);
+        let bands = Bands::choose(&ranges, 0.5);
         let (offsets, items) = bands.bucket(&ranges);
         let points: Vec<(i32, i32)> = asked
             .iter()

@@ -10,29 +10,51 @@ pub struct Topology {
 
 /// Edges (lo < hi, ascending) and the triangles incident to each, ascending. Triangles with a repeated corner
 /// contribute their remaining edge twice, which cancels in every jump.
-pub fn topology(triangles: &[[i32; 3]]) -> Topology {
-    let mut sides: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
-    for (t, &[p, q, r]) in triangles.iter().enumerate() {
-        for (a, b) in [(p, q), (q, r), (r, p)] {
-            if a != b {
-                sides.push((((a.min(b) as u64) << 32) | a.max(b) as u64, t as u32));
+///
+/// Bucketed by the lower vertex first: what is left to sort are the few edges around one vertex.
+pub fn topology(triangles: &[[i32; 3]], n_points: usize) -> Topology {
+    let sides = |t: &[i32; 3]| {
+        let [p, q, r] = *t;
+        [(p, q), (q, r), (r, p)].map(|(a, b)| (a.min(b) as usize, a.max(b) as u64, a != b))
+    };
+    let mut first = vec![0u32; n_points + 1];
+    for t in triangles {
+        for (low, _, proper) in sides(t) {
+            first[low + 1] += u32::from(proper);
+        }
+    }
+    for v in 0..n_points {
+        first[v + 1] += first[v];
+    }
+    let total = first[n_points] as usize;
+    let mut next = first.clone();
+    let mut around = vec![0u64; total];
+    for (t, corners) in triangles.iter().enumerate() {
+        for (low, high, proper) in sides(corners) {
+            if proper {
+                around[next[low] as usize] = (high << 32) | t as u64;
+                next[low] += 1;
             }
         }
     }
-    sides.par_sort_unstable();
     let mut out = Topology {
-        edges: Vec::with_capacity(sides.len() / 2),
-        offsets: Vec::with_capacity(sides.len() / 2 + 1),
-        incident: Vec::with_capacity(sides.len()),
+        edges: Vec::with_capacity(total / 2),
+        offsets: Vec::with_capacity(total / 2 + 1),
+        incident: Vec::with_capacity(total),
     };
-    let mut last = u64::MAX;
-    for &(key, t) in &sides {
-        if key != last {
-            out.offsets.push(out.incident.len() as i32);
-            out.edges.push([(key >> 32) as i32, (key & 0xffff_ffff) as i32]);
-            last = key;
+    for v in 0..n_points {
+        let fan = &mut around[first[v] as usize..first[v + 1] as usize];
+        fan.sort_unstable();
+        let mut last = u64::MAX;
+        for &side in fan.iter() {
+            let high = side >> 32;
+            if high != last {
+                out.offsets.push(out.incident.len() as i32);
+                out.edges.push([v as i32, high as i32]);
+                last = high;
+            }
+            out.incident.push((side & 0xffff_ffff) as i32);
         }
-        out.incident.push(t as i32);
     }
     out.offsets.push(out.incident.len() as i32);
     out
@@ -124,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_tetrahedron_has_six_edges_of_two_triangles() {
-        let t = topology(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]);
+        let t = topology(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], 4);
         assert_eq!(t.edges, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]);
         assert!(t.offsets.windows(2).all(|w| w[1] - w[0] == 2));
     }
@@ -133,11 +155,11 @@ mod tests {
     fn folds_of_a_roof_and_of_a_sliver() {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [2.0, 0.0, 0.0]];
         let triangles = [[0, 1, 2], [1, 0, 3], [0, 4, 1]];
-        let t = topology(&triangles);
+        let t = topology(&triangles, 5);
         let balance = balance(&triangles, &t.edges, &t.offsets, &t.incident);
         let normals = normals(&points, &triangles);
         assert_eq!((normals[0], normals[2]), ([0.0, 0.0, 1.0], [0.0; 3]));
-        let roof = topology(&triangles[..2]);
+        let roof = topology(&triangles[..2], 5);
         let folds = folds(&normals[..2], &roof.offsets, &roof.incident, &balance[..roof.edges.len()]);
         assert_eq!(folds[0], 0.0);
         assert!(folds[1..].iter().all(|f| f.is_nan()));
@@ -148,9 +170,9 @@ mod tests {
         let one = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
         let two: Vec<[i32; 3]> = one.iter().chain(&one.map(|t| t.map(|v| v + 4))).copied().collect();
         assert_eq!(components(&two, 8), [0, 0, 0, 0, 1, 1, 1, 1]);
-        let t = topology(&two);
+        let t = topology(&two, 8);
         assert!(balance(&two, &t.edges, &t.offsets, &t.incident).iter().all(|&b| b == 0));
-        let open = topology(&two[1..]);
+        let open = topology(&two[1..], 8);
         assert_eq!(
             balance(&two[1..], &open.edges, &open.offsets, &open.incident).iter().filter(|&&b| b != 0).count(),
             3
