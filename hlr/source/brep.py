@@ -46,8 +46,13 @@ class BrepSource:
                 f"{name} holds {edges} edges but no faces: a hidden-line drawing needs surfaces "
                 "(export solids or shells instead of wires)."
             )
+        # In a file, wires under the name of a part that is drawn are its annotation, sketches or axes, which no drawing
+        # misses: a warning would make every file with dimensions fail where warnings are errors. Wires under a name of
+        # their own, and those that a caller put there, may be something that the reader of the drawing looks for.
+        drawn = {part.product for part in self._parts if kind not in ("object", "script")}
+        wires = [part for part in wires if part.product not in drawn]
         if wires:
-            # Sketches, axes and annotation come along with many files; they are no part of the product's surface.
+            edges = sum(self._counts[part.root][1] for part in wires)
             self._notes.append(f"{_some(wires)} without faces ({edges} edges) left out.")
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None

@@ -26,9 +26,13 @@ class Leaf:
 
 @dataclass(slots=True)
 class Part:
-    """A part to draw: the number of its root (a shape without placement), and where it stands."""
+    """A part to draw: the number of its root (a shape without placement), and where it stands.
+
+    name: its own; product: that of its leaf, which several parts may share.
+    """
 
     name: str
+    product: str
     color: Color | None
     root: int
     transform: Floats
@@ -56,7 +60,11 @@ class Parts:
         self._counts: dict[str, int] = {}
 
     def add(self, leaf: Leaf) -> None:
-        """Split a leaf; an empty one becomes a note."""
+        """Split a leaf.
+
+        One without any shape becomes a note: its geometry is missing. One that holds neither faces nor edges does not:
+        such products only carry annotation, often under the name of the part that they annotate.
+        """
         if leaf.shape is None or leaf.shape.IsNull():
             self.notes.append(f'Part "{leaf.name}" is empty and was left out.')
             return
@@ -64,8 +72,6 @@ class Parts:
         pieces = self._pieces.get(key)
         if pieces is None:
             pieces = self._pieces[key] = self._split(leaf)
-        if not pieces:
-            self.notes.append(f'Part "{leaf.name}" has neither faces nor edges and was left out.')
         place = matrix(leaf.shape.Location())
         several = sum(piece.solid for piece in pieces) > 1
         for piece in pieces:
@@ -73,6 +79,7 @@ class Parts:
             self.parts.append(
                 Part(
                     name=self._unique(leaf.name + suffix, several and piece.solid),
+                    product=leaf.name,
                     color=piece.color or leaf.color,
                     root=piece.root,
                     transform=_four(place if piece.place is _HERE else chained(place, piece.place)),

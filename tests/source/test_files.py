@@ -102,6 +102,18 @@ def test_wires_beside_solids_are_noted(tmp_path):
     assert any("without faces (1 edges) left out" in note for note in source.notes)
 
 
+def test_annotation_of_a_drawn_part_is_no_warning(data, tmp_path):
+    cube, ring = cq.Workplane().box(1, 1, 1).val(), cq.Workplane().circle(3).val()
+    cq.exporters.export(cq.Workplane(obj=cq.Compound.makeCompound([cube, ring])), str(tmp_path / "sketched.brep"))
+    source = open_source(tmp_path / "sketched.brep")
+    assert len(source.mesh(0.1, 0.3).parts) == 1
+    assert source.notes == []
+    # This file holds an empty product for its dimensions, named like the part.
+    assert open_source(data / "nist_ctc_01_asme1_ap242-e1.stp").notes == []
+    # What a caller passes is meant.
+    assert open_source([cube, ring]).notes != []
+
+
 def test_tessellated_shapes_are_meshes(tmp_path, gaps):
     from OCP.BRep import BRep_Builder, BRep_Tool
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
