@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-import hlr
 from manifold3d import Manifold
+
+import hlr
 
 here = Path(__file__).parent
 

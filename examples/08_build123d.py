@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-import hlr
 from build123d import Align, Axis, Box, Cylinder, Pos, Rot, fillet
+
+import hlr
 
 here = Path(__file__).parent
 low = (Align.CENTER, Align.CENTER, Align.MIN)
