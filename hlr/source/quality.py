@@ -67,8 +67,10 @@ _SIDES = ((0, 1), (1, 2), (2, 0))
 def _worst(points: Floats, normals: Floats, corner: Ints, owner: Ints, count: int) -> Floats:
     """The highest chord of every triangulation."""
     worst = np.zeros(count)
-    for a, b in _SIDES:
-        np.maximum.at(worst, owner, heights(points, normals, corner[:, a], corner[:, b]))
+    first = np.flatnonzero(np.diff(owner, prepend=-1))  # the triangles of one stand together
+    if len(first):
+        high = [heights(points, normals, corner[:, a], corner[:, b]) for a, b in _SIDES]
+        worst[owner[first]] = np.maximum.reduceat(np.max(high, axis=0), first)
     return worst
 
 

@@ -48,7 +48,7 @@ def build(tables: Tables, planar: Bools) -> Meshes:
     parts = int(tables.sub_start[-1] - tables.sub_start[-2]) - 1
     tri = tables.face_tri[topo.face_shape]
     meshed = tri >= 0
-    node_counts = np.where(meshed, np.diff(tables.node_start)[tri], 0).astype(np.int32)
+    node_counts = np.where(meshed, np.append(np.diff(tables.node_start), 0)[tri], 0).astype(np.int32)
     node_base = starts(node_counts)
     source = ranges(np.where(meshed, tables.node_start[tri], 0), node_counts)
     face_of_node = np.repeat(np.arange(len(tri), dtype=np.int32), node_counts)
@@ -60,7 +60,7 @@ def build(tables: Tables, planar: Bools) -> Meshes:
     polygons = edge_polygons(tables, topo, node_base)
     label = join_nodes(tables, topo, polygons, positions)
 
-    tri_counts = np.where(meshed, np.diff(tables.tri_start)[tri], 0).astype(np.int32)
+    tri_counts = np.where(meshed, np.append(np.diff(tables.tri_start), 0)[tri], 0).astype(np.int32)
     face_of_triangle = np.repeat(np.arange(len(tri), dtype=np.int32), tri_counts)
     raw = tables.triangles[ranges(np.where(meshed, tables.tri_start[tri], 0), tri_counts)]
     raw = raw + node_base[face_of_triangle][:, None]

@@ -142,3 +142,11 @@ def test_heights_at_a_node_without_normal_are_those_of_the_other_end():
     normals = np.array([(0.0, 0.0, 0.0), (0.8, 0.0, -0.6), (math.sin(0.2), 0.0, math.cos(0.2))])
     found = heights(points, normals, np.array([0, 0, 0]), np.array([1, 2, 0]))
     assert found == pytest.approx([0.0, 1.0 - math.cos(0.1), 0.0], rel=0.01)
+
+
+def test_nothing_that_can_be_meshed_is_an_error_of_ours(monkeypatch):
+    from hlr.errors import SourceError
+
+    monkeypatch.setattr(t, "_run_mesher", lambda *_, **__: None)
+    with pytest.raises(SourceError, match="could be meshed"):
+        open_source(cq.Solid.makeCone(10, 2, 20)).mesh(0.1, 0.5)
