@@ -139,9 +139,9 @@ def test_model_axes_of_a_y_up_mesh():
     assert front.right == pytest.approx((1, 0, 0))
     assert front.up == pytest.approx((0, 1, 0))
     # Up and eye are world millimetres, too.
-    eyed = camera("front", Y_UP, up=(1, 0, 0), perspective=Perspective(eye=(0, -3000, 500)))
-    assert eyed.eye == pytest.approx((0, 0.5, 3))
-    assert eyed.up[0] > 0.9
+    eyed = camera("front", Y_UP, up=(1, 0, 0), perspective=Perspective(eye=(2000, -3000, 500), target=(0, 0, 0)))
+    assert eyed.eye == pytest.approx((2, 0.5, 3))
+    assert eyed.up[0] > 0.8
 
 
 def test_orthographic_projection_and_depth():
