@@ -205,3 +205,10 @@ def test_perspectives_that_are_none(perspective, error):
 
 def test_an_eye_inside_the_model_gets_the_widest_field():
     assert camera("front", perspective=Perspective(eye=(0, -1, 0))).fov == 120
+
+
+@pytest.mark.xfail(strict=True, reason="a named view's own up is held against an eye that looks elsewhere")
+@pytest.mark.parametrize("view", ["iso", "front"])
+def test_bug_an_eye_straight_above_needs_no_up(view):
+    above = camera(view, perspective=Perspective(eye=(0, 0, 100)))
+    assert (above.right, above.up) == ((1, 0, 0), (0, 1, 0))
