@@ -70,7 +70,6 @@ def test_points_on_paper_are_points_of_the_model(model, camera):
         expect_projected(drawing)
 
 
-@pytest.mark.xfail(strict=True, reason="where a line is cut because another covers it, its 3-D end is off")
 @pytest.mark.parametrize(
     ("model", "camera"),
     [
@@ -81,7 +80,7 @@ def test_points_on_paper_are_points_of_the_model(model, camera):
         ("clash", "eye"),
     ],
 )
-def test_bug_in_perspective_too_points_on_paper_are_points_of_the_model(model, camera):
+def test_in_perspective_too_points_on_paper_are_points_of_the_model(model, camera):
     test_points_on_paper_are_points_of_the_model(model, camera)
 
 
@@ -165,7 +164,6 @@ def test_any_number_of_threads_gives_the_same_bytes(model):
             assert len({bare(drawing, kind) for drawing in drawings}) == 1
 
 
-@pytest.mark.xfail(strict=True, reason="a shape that was meshed once has another bounding box, and so another accuracy")
 @pytest.mark.parametrize("model", ["bracket", "clash", "ball"])
 def test_bug_the_same_object_drawn_twice_is_the_same_drawing(model):
     thing = MODELS[model]()
@@ -304,8 +302,7 @@ def test_strict_turns_a_warning_into_an_error():
     hlr.draw(tiny, "front", strict=True, scale=10.0)
 
 
-@pytest.mark.xfail(strict=True, reason="only the first view's warnings are looked at")
-def test_bug_strict_minds_every_view():
+def test_strict_minds_every_view():
     # 3 mm seen from the front, 9 mm seen from above.
     model = box((2, 9, 2))
     assert not hlr.draw(model, "top").notes

@@ -150,14 +150,12 @@ def test_a_thin_sheet_hides_what_lies_under_it(kind, size):
     under_a_sheet(kind, size, accuracy=0.05 if kind == "brep" else 0.01)
 
 
-@pytest.mark.xfail(strict=True, reason="a mesh's contact tolerance, 0.125 mm at 1:1, exceeds the sheet's thickness")
 @pytest.mark.parametrize("kind", ["mesh", "open"])
-def test_bug_a_thin_sheet_over_a_mesh_hides_what_lies_under_it_at_the_default_accuracy(kind):
+def test_a_thin_sheet_over_a_mesh_hides_what_lies_under_it_at_the_default_accuracy(kind):
     under_a_sheet(kind, 100.0)
 
 
-@pytest.mark.xfail(strict=True, reason="of two contact tolerances the larger wins, which undoes the thin part's cap")
-def test_bug_a_thin_sheet_over_a_curved_part_hides_it_at_the_default_accuracy():
+def test_a_thin_sheet_over_a_curved_part_hides_it_at_the_default_accuracy():
     import cadquery as cq
 
     disc = cq.Workplane().cylinder(5, 50).translate((0, 0, -2.5))

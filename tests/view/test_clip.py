@@ -106,13 +106,11 @@ def test_any_cuts_leave_a_scene_that_agrees(cuts, kind):
     assert area(whole) == pytest.approx(area(cut))
 
 
-@pytest.mark.xfail(strict=True, reason="the pieces of a chain that a cut left stay one chain, over the gap")
 def test_bug_a_chain_that_a_cut_divides_becomes_several():
     cut, _ = clip(SCENES["torus"](), [Plane((0.0, 0.0, -1.0), 0.0)])
     check(cut)
 
 
-@pytest.mark.xfail(strict=True, reason="the pieces of a chain that a cut left stay one chain, over the gap")
 def test_bug_no_line_runs_across_what_the_frame_cut_away():
     import cadquery as cq
 
@@ -224,7 +222,6 @@ def test_without_an_eye_and_nothing_behind_it_all_of_the_model_is_drawn():
     assert drawing.notes == ()
 
 
-@pytest.mark.xfail(strict=True, reason="corners that were cut away are still projected: division by zero")
 def test_bug_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
     # The box stands beside the eye; its front corners are exactly as far along the view as the eye.
     drawing = hlr.draw(
@@ -235,7 +232,6 @@ def test_bug_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
     assert counts(drawing)[("sharp", True)] >= 4
 
 
-@pytest.mark.xfail(strict=True, reason="corners that were cut away still count for the size of the integer grid")
 @pytest.mark.parametrize("beside", [1e-6, 1e-9, 1e-12])
 def test_bug_a_corner_close_to_the_plane_of_the_eye_spoils_nothing(beside):
     model = box((100, 100, 100))
