@@ -29,13 +29,13 @@ def visibility(
     cull: Bools,
     sound: Bools,
     delta: Floats,
+    cap: Floats,
     threads: int = 0,
 ) -> dict[str, Any]: ...
 def chain(edges: Ints, key: Ints) -> tuple[Ints, Ints, Bools]: ...
 def linework(
     flat_points: Floats,
     space_points: Floats,
-    depth: Floats,
     perspective: bool,
     eye: tuple[float, float, float],
     away: tuple[float, float, float],
@@ -48,6 +48,7 @@ def linework(
     chain_edges: Ints,
     chain_reversed: Bools,
     chain_rank: Bytes,
+    chain_noisy: Bools,
     short: float,
     stub: float,
     width: float,

@@ -7,11 +7,11 @@ from time import perf_counter
 from typing import Any
 
 from hlr.drawing import Drawing, DrawnPart, DrawnView
-from hlr.errors import StrictError
+from hlr.errors import OptionError, StrictError
 from hlr.linework.lines import draw_lines
 from hlr.plan.options import Options, View
 from hlr.plan.plan import decide
-from hlr.plan.request import checked
+from hlr.plan.request import check_crease, checked, checked_views
 from hlr.scene.build import build
 from hlr.scene.report import ModelInfo, PartReport
 from hlr.scene.scene import Scene
@@ -35,6 +35,9 @@ def draw_views(
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
     """
     options = checked(options or Options())
+    views = checked_views(views)
+    if not views:
+        return []
     tell = progress or (lambda _stage, _done: None)
     clock: Clock = {}
     started = perf_counter()
@@ -55,18 +58,24 @@ def draw_views(
         tell("visibility", i / len(cameras))
         out.append(_drawing(opened, scene, camera, at, options, dict(clock)))
     tell("linework", 1.0)
-    if options.strict and out and out[0].notes:
-        raise StrictError(out[0].notes[0])
+    for drawing in out:
+        if options.strict and drawing.notes:
+            raise StrictError(drawing.notes[0])
     return out
 
 
 def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Drawing:
     """One view of a source; the keywords are the fields of `Options`."""
-    return draw_views(source, [view], Options(**options), progress)[0]
+    try:
+        request = Options(**options)
+    except TypeError as error:
+        raise OptionError(f"{error}".replace("Options.__init__()", "draw()")) from None
+    return draw_views(source, [view], request, progress)[0]
 
 
 def info(source: Any, *, crease: float = 30.0, progress: Progress | None = None) -> ModelInfo:
     """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size."""
+    check_crease(crease)
     tell = progress or (lambda _stage, _done: None)
     tell("source", 0.0)
     opened = open_source(source)

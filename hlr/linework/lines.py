@@ -49,7 +49,6 @@ def draw_lines(
     found = _kernel.linework(
         np.ascontiguousarray(projected[:, :2] * per_model),
         scene.points,
-        camera.ahead(scene.points),
         camera.eye is not None,
         camera.eye or (0.0, 0.0, 0.0),
         (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
@@ -62,6 +61,7 @@ def draw_lines(
         chains.edges,
         chains.reversed,
         rank,
+        chains.kind == EdgeClass.OUTLINE,
         tolerances.short,
         tolerances.stub,
         tolerances.width,

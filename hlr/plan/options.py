@@ -14,6 +14,7 @@ View = str | Sequence[float]
 class Perspective:
     """A perspective camera. `eye` None: far enough along the view direction for the whole model to fit.
 
+    eye and target are millimetres in the world (z up), whatever units and axes the model's own file has.
     fov is the vertical field of view in degrees; None: as wide as the model needs, at most 120.
     """
 

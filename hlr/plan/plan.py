@@ -26,6 +26,7 @@ class Plan:
     cull    (g,) bool: faces turned away are not looked at
     sound   (g,) bool: no piercing search of a group against itself
     delta   (g,) float64: contact tolerance in view depth
+    cap     (g,) float64: the most that is allowed against this group: half its thickness, in view depth
     drawn_kind (6,) bool: per EdgeClass, whether source edges of that class are drawn as such
     """
 
@@ -33,6 +34,7 @@ class Plan:
     cull: npt.NDArray[np.bool_]
     sound: npt.NDArray[np.bool_]
     delta: Floats
+    cap: Floats
     drawn_kind: npt.NDArray[np.bool_]
 
 
@@ -48,29 +50,40 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
     role[tied] = np.where(drawn_kind[kind[tied]], DRAWN, 0)
     may_fold = scene.edge_curved & ((kind == INTERIOR) | (kind == EdgeClass.SMOOTH) | (kind == EdgeClass.SEAM))
     role[may_fold] |= OUTLINE
+    delta, cap = _contact(scene, camera, tolerances)
     return Plan(
         role=role,
         cull=scene.groups.cull,
         sound=scene.groups.sound,
-        delta=_delta(scene, camera, tolerances),
+        delta=delta,
+        cap=cap,
         drawn_kind=drawn_kind,
     )
 
 
-def _delta(scene: Scene, camera: Camera, tolerances: Tolerances) -> Floats:
+def _contact(scene: Scene, camera: Camera, tolerances: Tolerances) -> tuple[Floats, Floats]:
     groups = scene.groups
     delta = np.where(groups.planar, tolerances.contact_planar, tolerances.contact)
-    used = np.isfinite(groups.low).all(axis=1)
+    used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])
     if groups.bare.any():
         size = groups.high[used].max(axis=0) - groups.low[used].min(axis=0)
         diagonal = math.sqrt(sum(float(s) * float(s) for s in size))
         delta = np.where(groups.bare, np.maximum(delta, diagonal * MESH_CONTACT), delta)
-    # Half a part's thickness at most, or the far side of a thin sheet would show through.
-    delta = np.where(groups.closed, np.minimum(delta, 0.5 * groups.extent), delta)
+    # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet has none: only
+    # what a file rounds is forgiven there.
+    cap = np.where(groups.closed, 0.5 * groups.extent, np.maximum(0.5 * groups.extent, tolerances.contact_planar))
     if camera.eye is None or camera.distance is None:
-        return delta
-    # Depth in perspective is -distance^2 / z: its slope at the group's centre.
-    centre = np.where(np.isfinite(groups.low), (groups.low + groups.high) * 0.5, 0.0)
-    ahead = np.maximum(camera.ahead(centre), camera.distance * 1e-3)
-    slope = camera.distance / ahead
-    return np.asarray(delta * slope * slope)
+        return delta, cap
+    # Depth in perspective is -distance^2 / z. Its slope at the group's centre, or, where the group surrounds the eye,
+    # halfway to its far end: a slope taken near the eye would let everything beyond show through.
+    corners = [groups.low, groups.high]
+    reach = [
+        np.where(used.reshape(-1, 1), np.stack([corners[i][:, 0], corners[j][:, 1], corners[k][:, 2]], axis=1), 0.0)
+        for i in (0, 1)
+        for j in (0, 1)
+        for k in (0, 1)
+    ]
+    ahead = np.stack([camera.ahead(c) for c in reach])
+    z = np.maximum(np.maximum(ahead.mean(axis=0), 0.5 * ahead.max(axis=0)), camera.distance * 1e-3)
+    slope = camera.distance / z
+    return np.asarray(delta * slope * slope), np.asarray(cap * slope * slope)

@@ -3,21 +3,92 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from numbers import Integral, Real
+from typing import Any, cast
 
-from hlr.errors import OptionError
-from hlr.plan.options import Options
+from hlr.errors import OptionError, ViewError
+from hlr.plan.options import Options, Perspective, View
+
+MOST_THREADS = 1024
+MOST_SCALE = 1e9
+SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e7
+"""Millimetres."""
+NARROWEST, WIDEST = 0.01, 170.0
+"""Degrees: fields of view that can be drawn."""
 
 
 def checked(options: Options) -> Options:
-    """The options, all within their ranges; raises OptionError with the range."""
-    if not (math.isfinite(options.scale) and options.scale > 0.0):
-        raise OptionError(f"scale {options.scale:g} cannot be drawn: give a positive number, such as 0.5 for 1:2")
-    if options.fit is not None and not all(math.isfinite(f) and f > 0.0 for f in options.fit):
-        raise OptionError("fit needs a positive width and height in millimetres, such as 277x190")
-    if options.accuracy is not None and not (math.isfinite(options.accuracy) and options.accuracy > 0.0):
-        raise OptionError(f"accuracy {options.accuracy:g} mm cannot be kept: give a positive length, such as 0.05")
-    if not 0.0 <= options.crease <= 180.0:
-        raise OptionError(f"crease {options.crease:g} is no fold: give 0 to 180 degrees")
-    if options.threads < 0:
-        raise OptionError(f"{options.threads} threads cannot work: give 0 for all cores, or a number")
+    """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
+    for name in ("hidden", "smooth", "seam", "strict"):
+        if getattr(options, name) not in (True, False):
+            raise OptionError(f"{name} is yes or no: give True or False, not {getattr(options, name)!r}")
+    if not _is_real(options.scale) or not 1.0 / MOST_SCALE <= options.scale <= MOST_SCALE:
+        raise OptionError(f"scale {_shown(options.scale)} cannot be drawn: give a positive number, such as 0.5 for 1:2")
+    accuracy = options.accuracy
+    if accuracy is not None and (not _is_real(accuracy) or not (math.isfinite(accuracy) and accuracy > 0.0)):
+        raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
+    if options.fit is not None and (
+        not _is_vector(options.fit, 2) or min(options.fit) < SMALLEST_FIT or max(options.fit) > LARGEST_FIT
+    ):
+        raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
+    check_crease(options.crease)
+    if options.up is not None and not _is_vector(options.up, 3):
+        raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
+    threads = options.threads
+    if not isinstance(threads, Integral) or isinstance(threads, bool) or not 0 <= int(threads) <= MOST_THREADS:
+        raise OptionError(f"{threads!r} threads cannot work: give 0 for all cores, or a number up to {MOST_THREADS}")
+    if options.perspective is not None:
+        _perspective(options.perspective)
     return options
+
+
+def check_crease(crease: float) -> None:
+    """Raises OptionError for what is no angle of a fold, in degrees."""
+    if not _is_real(crease) or not 0.0 <= crease <= 180.0:
+        raise OptionError(f"crease {_shown(crease)} is no fold: give 0 to 180 degrees")
+
+
+def checked_views(views: Sequence[View]) -> list[View]:
+    """The views as a list; a single name or direction is understood as one view.
+
+    Raises ViewError where one is neither a name nor three numbers.
+    """
+    if isinstance(views, str):
+        return [views]
+    if _is_vector(views, 3):
+        return [cast(Sequence[float], views)]
+    try:
+        found = list(views)
+    except TypeError:
+        raise ViewError(f"{views!r} is no list of views: give names such as 'iso', or directions") from None
+    for view in found:
+        if not isinstance(view, str) and not _is_vector(view, 3, finite=False):
+            raise ViewError(f"{view!r} is no view: give a name such as 'iso', or a direction such as (1, -1, 1)")
+    return found
+
+
+def _perspective(camera: Any) -> None:
+    if not isinstance(camera, Perspective):
+        raise OptionError(f"perspective needs an hlr.Perspective, not {camera!r}")
+    for name, point in (("eye", camera.eye), ("target", camera.target)):
+        if point is not None and not _is_vector(point, 3):
+            raise OptionError(f"{name} needs three finite numbers in millimetres, not {point!r}")
+    if camera.fov is not None and (not _is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
+        raise OptionError(f"a field of view of {camera.fov!r} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}")
+
+
+def _shown(value: Any) -> str:
+    return f"{value:g}" if _is_real(value) else repr(value)
+
+
+def _is_real(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _is_vector(value: Any, length: int, finite: bool = True) -> bool:
+    try:
+        numbers = list(value)
+    except TypeError:
+        return False
+    return len(numbers) == length and all(_is_real(n) and (not finite or math.isfinite(n)) for n in numbers)

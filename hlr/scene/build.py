@@ -226,8 +226,9 @@ def _reports(
             defects.append(f"{crowded[i]} non-manifold edges")
         if turned[i]:
             defects.append(f"{turned[i]} edges between faces of opposite orientation")
-        if outside_in[i] and not part.brep:
-            defects.append(f"{int(outside_in[i])} closed pieces turned inside out or hollow")
+        if outside_in[i]:
+            what = "the solid is turned" if part.brep else f"{int(outside_in[i])} closed pieces turned"
+            defects.append(f"{what} inside out" + ("" if part.brep else ", or hollow"))
         out.append(
             ScenePart(
                 name=part.name,

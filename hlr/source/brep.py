@@ -213,7 +213,11 @@ def _box(root: Any) -> Floats:
     from OCP.BRepBndLib import BRepBndLib
 
     box = Bnd_Box()
-    BRepBndLib.Add_s(root, box, True)
+    # From the geometry, not from a triangulation that an earlier drawing may have left: the accuracy depends on it, and
+    # the same shape is to give the same drawing twice. Faces that are nothing but a triangulation have only that.
+    BRepBndLib.Add_s(root, box, False)
+    if box.IsVoid():
+        BRepBndLib.Add_s(root, box, True)
     if box.IsVoid():
         return np.empty((0, 3))
     x0, y0, z0, x1, y1, z1 = box.Get()

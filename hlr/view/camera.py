@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hlr.errors import OptionError, ViewError
+from hlr.errors import ViewError
 from hlr.plan.options import Options, Perspective, View
 from hlr.source.model import Frame
 from hlr.view.names import NAMED
@@ -25,6 +25,8 @@ NEAR = 1e-3
 """Of the eye's distance to its target: nothing nearer to the eye plane is drawn."""
 WIDEST = 120.0
 """Degrees: the field of view where none is given, at most."""
+CLOSEST = 1e-9
+"""Of the model's size: an eye nearer to its target looks nowhere."""
 MARGIN = 1.05
 """How much wider than the model's bounding sphere a field of view is chosen."""
 
@@ -97,7 +99,9 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
         if view not in NAMED:
             raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
         world, named_up = NAMED[view]
-        up_hint = up_hint or named_up
+        # With an eye of its own the camera looks elsewhere than the name says: the name's up has no meaning then.
+        if perspective is None or perspective.eye is None:
+            up_hint = up_hint or named_up
         name = view
         direction = normalized(world, "the view direction")
     else:
@@ -139,13 +143,14 @@ def _eye(perspective: Perspective, direction: Vector, frame: Frame, bounds: Floa
     eye = _given(perspective.eye, frame)
     if eye is None:
         half = math.radians((perspective.fov or 45.0) * 0.5)
-        if not 0.0 < half < math.pi / 2:
-            raise OptionError(f"a field of view of {perspective.fov:g} degrees cannot be drawn: give 1 to 170")
         away = MARGIN * radius / math.sin(half)
         d = _to_model(frame, direction)
         eye = (target[0] + away * d[0], target[1] + away * d[1], target[2] + away * d[2])
         return eye, target, direction
-    toward = normalized([e - t for e, t in zip(eye, target, strict=True)], "the way from target to eye")
+    apart = [e - t for e, t in zip(eye, target, strict=True)]
+    if max(abs(c) for c in apart) <= CLOSEST * max(radius, *(abs(c) for c in (*eye, *target))):
+        raise ViewError("eye and target are one point: move the eye away from what it looks at")
+    toward = normalized(apart, "the way from target to eye")
     return eye, target, _to_model(to_world, toward)
 
 
@@ -172,8 +177,6 @@ def _framed(camera: Camera, perspective: Perspective | None, bounds: Floats) -> 
             away = corners - np.asarray(camera.eye)
             reach = max(float(np.max(np.abs(dot(away, v)) / ahead)) for v in (camera.right, camera.up))
             fov = min(WIDEST, 2.0 * math.degrees(math.atan(MARGIN * reach)))
-    if not 0.0 < fov < 180.0:
-        raise OptionError(f"a field of view of {fov:g} degrees cannot be drawn: give 1 to 170")
     return Camera(
         camera.name,
         camera.direction,

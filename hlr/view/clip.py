@@ -66,7 +66,21 @@ def clip(scene: Scene, cuts: list[Plane]) -> tuple[Scene, int]:
             continue
         used += 1
         scene = _cut(scene, height)
-    return scene, used
+    return (_compact(scene) if used else scene), used
+
+
+def _compact(scene: Scene) -> Scene:
+    """Without the points that nothing uses any more: behind the eye they have no place on paper."""
+    used = np.zeros(len(scene.points), bool)
+    used[scene.edges.ravel()] = True
+    used[scene.triangles.ravel()] = True
+    number = (np.cumsum(used) - 1).astype(np.int32)
+    return replace(
+        scene,
+        points=scene.points[used],
+        triangles=np.ascontiguousarray(number[scene.triangles]),
+        edges=np.ascontiguousarray(number[scene.edges]),
+    )
 
 
 def _cut(scene: Scene, height: Floats) -> Scene:

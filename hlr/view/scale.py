@@ -11,16 +11,23 @@ from hlr.errors import SourceError
 from hlr.plan.options import Options
 from hlr.source.model import Floats, Source
 from hlr.tolerance import Tolerances, choose, derive
-from hlr.view.camera import Camera
+from hlr.view.camera import NEAR, Camera
 from hlr.view.clip import ASPECT
 
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
 
+MOST_MAGNIFIED = 50.0
+"""Nearer to the eye than this share of the target's distance the accuracy is no longer kept: a tessellation that fine
+would not end."""
+
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A view's scale (paper : millimetres of the model), per_model (paper millimetres per model unit), tolerances."""
+    """A view's scale (paper : millimetres of the model), per_model (paper millimetres per model unit), tolerances.
+
+    aspect: width to height of the frame; magnified: how much larger than at the target the nearest point is drawn.
+    """
 
     scale: float
     per_model: float
@@ -28,13 +35,14 @@ class Placed:
     unit: float
     brep: bool
     aspect: float
+    magnified: float
     notes: tuple[str, ...] = ()
 
     def fitted(self, camera: Camera, options: Options, points: Floats) -> Placed:
         """The same with the size taken from the mesh itself; (n, 3) model coordinates."""
         if options.fit is None:
             return self
-        width, height = _extent(camera, points)
+        width, height = _extent(camera, points, self.aspect)
         return replace(_sized(width, height, options, self), notes=self.notes)
 
 
@@ -48,24 +56,38 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
         raise SourceError(f"{source.name} has no finite size: repair the model")
     if float((bounds[1] - bounds[0]).max()) <= 0.0:
         raise SourceError(f"{source.name} has no size: all of it lies in one point")
-    width, height = _extent(camera, corners)
-    brep = source.kind in ("step", "iges", "brep", "script", "object")
     aspect = options.fit[0] / options.fit[1] if options.fit else ASPECT
-    draft = Placed(1.0, 1.0, derive(1.0, 1.0, 0.0, brep=brep), source.frame.unit, brep, aspect)
+    width, height = _extent(camera, corners, aspect)
+    brep = source.kind in ("step", "iges", "brep", "script", "object")
+    magnified = _magnified(camera, corners)
+    draft = Placed(1.0, 1.0, derive(1.0, 1.0, 0.0, brep=brep), source.frame.unit, brep, aspect, magnified)
     return _sized(width, height, options, draft)
 
 
-def _extent(camera: Camera, points: Floats) -> tuple[float, float]:
+def _extent(camera: Camera, points: Floats, aspect: float) -> tuple[float, float]:
     """Width and height on the image plane, model units; what lies behind the eye is left out."""
-    if camera.eye is not None and camera.distance is not None and camera.fov is not None:
-        before = points[camera.ahead(points) > 1e-3 * camera.distance]
-        across = 2.0 * camera.distance * math.tan(math.radians(camera.fov) * 0.5)
-        if len(before) < len(points) or len(before) == 0:
-            return across, across
-        points = before
-    flat = camera.project(points)[:, :2]
+    if camera.eye is None or camera.distance is None or camera.fov is None:
+        flat = camera.project(points)[:, :2]
+        size = flat.max(axis=0) - flat.min(axis=0)
+        return float(size[0]), float(size[1])
+    half = camera.distance * math.tan(math.radians(camera.fov) * 0.5)
+    frame = np.array([half * aspect, half])
+    before = points[camera.ahead(points) > NEAR * camera.distance]
+    if len(before) < len(points):
+        return 2.0 * float(frame[0]), 2.0 * half
+    flat = camera.project(before)[:, :2]
+    if camera.framed:
+        flat = np.clip(flat, -frame, frame)
     size = flat.max(axis=0) - flat.min(axis=0)
     return float(size[0]), float(size[1])
+
+
+def _magnified(camera: Camera, points: Floats) -> float:
+    """How much larger than in the image plane the nearest of the points (n, 3) is drawn."""
+    if camera.eye is None or camera.distance is None:
+        return 1.0
+    nearest = max(float(camera.ahead(points).min()), camera.distance / MOST_MAGNIFIED)
+    return max(1.0, camera.distance / nearest)
 
 
 def _sized(width: float, height: float, options: Options, draft: Placed) -> Placed:
@@ -76,7 +98,7 @@ def _sized(width: float, height: float, options: Options, draft: Placed) -> Plac
     per_model = scale * draft.unit
     diagonal = math.hypot(width, height) * per_model
     accuracy = choose(options.accuracy, diagonal)
-    tolerances = derive(accuracy, per_model, diagonal, brep=draft.brep)
+    tolerances = derive(accuracy, per_model * draft.magnified, diagonal, brep=draft.brep)
     notes: tuple[str, ...] = ()
     if options.fit is None and options.scale == 1.0 and diagonal > 0.0:
         if diagonal < SMALLEST_PAPER:

@@ -48,6 +48,7 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
         plan.cull,
         plan.sound,
         np.ascontiguousarray(plan.delta),
+        np.ascontiguousarray(plan.cap),
         threads,
     )
     return Segments(

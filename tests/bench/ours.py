@@ -48,6 +48,7 @@ class Kernel:
             cull=closed,
             sound=closed,
             delta=np.full(mesh.parts, self._contact),
+            cap=np.full(mesh.parts, self._contact),
             threads=threads,
         )
         seconds = time.perf_counter() - start

@@ -79,6 +79,7 @@ def visibility(scene: Scene, way: Way, threads: int = 1) -> Found:
         cull=np.full(parts, way.trusted),
         sound=np.full(parts, way.trusted),
         delta=np.full(parts, float(way.bias)),
+        cap=np.full(parts, float(way.bias)),
         threads=threads,
     )
     pieces: dict[Edge, list[Piece]] = {}

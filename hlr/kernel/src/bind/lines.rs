@@ -13,14 +13,8 @@ use crate::lines::cover::{Widths, uncovered};
 use crate::lines::runs::{Geometry, Limits, Piece, cut};
 use crate::lines::simplify::simplify;
 use crate::lines::specks::drop_specks;
-use crate::lines::{Polyline, distance};
+use crate::lines::{Polyline, View, distance};
 use crate::scan::invisibility::State;
-
-/// Where depth is measured from, and along what.
-struct View {
-    origin: [f64; 3],
-    away: [f64; 3],
-}
 
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
 
@@ -37,15 +31,14 @@ pub fn chain<'py>(
 }
 
 #[pyfunction]
-#[pyo3(signature = (flat_points, space_points, depth, perspective, eye, away, edges, piece_edge, piece_t0, piece_t1, piece_state,
-    chain_offsets, chain_edges, chain_reversed, chain_rank, short, stub, width, under, flat_tolerance, space_tolerance,
+#[pyo3(signature = (flat_points, space_points, perspective, eye, away, edges, piece_edge, piece_t0, piece_t1, piece_state,
+    chain_offsets, chain_edges, chain_reversed, chain_rank, chain_noisy, short, stub, width, under, flat_tolerance, space_tolerance,
     threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
 pub fn linework<'py>(
     py: Python<'py>,
     flat_points: PyReadonlyArray2<'py, f64>,
     space_points: PyReadonlyArray2<'py, f64>,
-    depth: PyReadonlyArray1<'py, f64>,
     perspective: bool,
     eye: [f64; 3],
     away: [f64; 3],
@@ -58,6 +51,7 @@ pub fn linework<'py>(
     chain_edges: PyReadonlyArray1<'py, i32>,
     chain_reversed: PyReadonlyArray1<'py, bool>,
     chain_rank: PyReadonlyArray1<'py, u8>,
+    chain_noisy: PyReadonlyArray1<'py, bool>,
     short: f64,
     stub: f64,
     width: f64,
@@ -69,19 +63,19 @@ pub fn linework<'py>(
     let flat_points = rows::<f64, 2>(&flat_points, "flat_points")?;
     let space_points = rows::<f64, 3>(&space_points, "space_points")?;
     let edges = rows::<i32, 2>(&edges, "edges")?;
-    let depth = flat(&depth, "depth")?;
     let piece_edge = flat(&piece_edge, "piece_edge")?;
     let (piece_t0, piece_t1, piece_state) =
         (flat(&piece_t0, "piece_t0")?, flat(&piece_t1, "piece_t1")?, flat(&piece_state, "piece_state")?);
     let (offsets, members) = (flat(&chain_offsets, "chain_offsets")?, flat(&chain_edges, "chain_edges")?);
     let (reversed, rank) = (flat(&chain_reversed, "chain_reversed")?, flat(&chain_rank, "chain_rank")?);
     expect_len("space_points", space_points.len(), flat_points.len())?;
-    expect_len("depth", depth.len(), flat_points.len())?;
     for (name, found) in
         [("piece_t0", piece_t0.len()), ("piece_t1", piece_t1.len()), ("piece_state", piece_state.len())]
     {
         expect_len(name, found, piece_edge.len())?;
     }
+    let noisy = flat(&chain_noisy, "chain_noisy")?;
+    expect_len("chain_noisy", noisy.len(), rank.len())?;
     expect_len("chain_reversed", reversed.len(), members.len())?;
     expect_len("chain_offsets", offsets.len(), rank.len() + 1)?;
     expect_below("edges", edges.iter().flatten().copied(), flat_points.len())?;
@@ -110,44 +104,43 @@ pub fn linework<'py>(
         piece_offsets[e + 1] += piece_offsets[e];
     }
     let lines = run(py, threads, |stopped| {
+        let view = View { origin: eye, away, perspective };
         let geometry = Geometry {
             flat: flat_points,
             space: space_points,
-            depth: if perspective { depth } else { &[] },
+            view: &view,
             edges,
             pieces: &pieces,
             piece_offsets: &piece_offsets,
         };
-        let toward = View { origin: eye, away };
+
         let limits = Limits { short, stub };
         let lines: Vec<Polyline> = (0..rank.len())
             .into_par_iter()
             .flat_map_iter(|c| {
                 let run = offsets[c] as usize..offsets[c + 1] as usize;
+                let mut limits = limits;
+                if noisy[c] {
+                    limits.short = geometry.noise(&members[run.clone()], short);
+                }
                 cut(&geometry, &members[run.clone()], &reversed[run], c as u32, &limits)
             })
             .collect();
         if stopped() {
             return None;
         }
-        let nearest: Vec<f64> = lines.par_iter().map(|line| nearest(line, &toward)).collect();
+        let nearest: Vec<f64> = lines
+            .par_iter()
+            .map(|line| line.space.iter().map(|p| view.depth(p)).fold(f64::INFINITY, f64::min))
+            .collect();
         let ranks = ranked(&lines, rank, &nearest);
-        let mut lines = uncovered(lines, &ranks, Widths { same: width, under });
+        let mut lines = uncovered(lines, &ranks, Widths { same: width, under }, &view);
         drop_specks(&mut lines, short);
         lines.par_iter_mut().for_each(|line| simplify(line, flat_tolerance, space_tolerance));
         Some(lines)
     })?
     .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     export(py, &lines)
-}
-
-/// Least depth of a line.
-fn nearest(line: &Polyline, view: &View) -> f64 {
-    let depth = |p: &[f64; 3]| {
-        let q = [0, 1, 2].map(|k| p[k] - view.origin[k]);
-        q[0] * view.away[0] + q[1] * view.away[1] + q[2] * view.away[2]
-    };
-    line.space.iter().map(depth).fold(f64::INFINITY, f64::min)
 }
 
 /// A strict order of lines: visible before hidden, then by rank, then nearer, then by geometry; order in the input

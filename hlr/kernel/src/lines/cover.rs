@@ -11,7 +11,7 @@
 
 use rayon::prelude::*;
 
-use super::{Polyline, distance};
+use super::{Polyline, View, distance};
 use crate::exact::Point;
 use crate::exact::snap::Grid;
 use crate::scan::bands::{Bands, clipped_x, y_range};
@@ -45,7 +45,7 @@ struct Entry {
 }
 
 /// Remove what better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
-pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths) -> Vec<Polyline> {
+pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
     let mut sides = Vec::new();
     let mut first_side = Vec::with_capacity(lines.len());
     for (i, line) in lines.iter().enumerate() {
@@ -77,7 +77,7 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths) -> Vec<Poly
         .zip(by_line.into_par_iter())
         .flat_map_iter(|(line, covered)| {
             let width = if line.visible { widths.same } else { widths.under };
-            if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width) }
+            if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width, view) }
         })
         .collect()
 }
@@ -139,11 +139,16 @@ fn sweep(
                 continue;
             }
             let t = &sides[other.side as usize];
-            if s.line == t.line {
-                continue;
-            }
-            let (worse, better, id) =
-                if rank[s.line as usize] > rank[t.line as usize] { (s, t, e.side) } else { (t, s, other.side) };
+            let yields = if s.line == t.line {
+                // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
+                if heading(s, t) >= 0.0 {
+                    continue;
+                }
+                e.side > other.side
+            } else {
+                rank[s.line as usize] > rank[t.line as usize]
+            };
+            let (worse, better, id) = if yields { (s, t, e.side) } else { (t, s, other.side) };
             let width = if worse.visible == better.visible { widths.same } else { widths.under };
             if let Some((u0, u1)) = covered(worse, better, width) {
                 found.push((id, u0, u1));
@@ -152,6 +157,11 @@ fn sweep(
         active.push(e);
     }
     found
+}
+
+/// Positive where two sides run the same way.
+fn heading(s: &Side, t: &Side) -> f64 {
+    (s.to[0] - s.from[0]) * (t.to[0] - t.from[0]) + (s.to[1] - s.from[1]) * (t.to[1] - t.from[1])
 }
 
 /// The stretch of `worse` within `width` of `better`, as parameters on `worse`.
@@ -182,7 +192,7 @@ fn covered(worse: &Side, better: &Side, width: f64) -> Option<(f64, f64)> {
 }
 
 /// What is left of a line without the covered stretches (in arc length).
-fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64) -> Vec<Polyline> {
+fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, view: &View) -> Vec<Polyline> {
     covered.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let total = line.length();
     let mut merged: Vec<(f64, f64)> = Vec::new();
@@ -210,7 +220,7 @@ fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64) -> Vec<P
     let mut from = 0.0;
     for &(start, end) in merged.iter().chain([&(total, total)]) {
         if start > from {
-            out.push(stretch(line, from, start));
+            out.push(stretch(line, from, start, view));
         }
         from = end;
     }
@@ -219,7 +229,7 @@ fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64) -> Vec<P
 }
 
 /// The part of a line between two arc lengths.
-fn stretch(line: &Polyline, from: f64, to: f64) -> Polyline {
+fn stretch(line: &Polyline, from: f64, to: f64, view: &View) -> Polyline {
     let mut out = Polyline { chain: line.chain, visible: line.visible, ..Polyline::default() };
     let mut at = 0.0;
     for i in 1..line.flat.len() {
@@ -232,12 +242,13 @@ fn stretch(line: &Polyline, from: f64, to: f64) -> Polyline {
             continue;
         }
         let mut put = |u: f64| {
-            let mix = |x: f64, y: f64| x + (y - x) * u;
-            let flat = [mix(a[0], b[0]), mix(a[1], b[1])];
+            let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
+            let flat = [mix(a[0], b[0], u), mix(a[1], b[1], u)];
             let (p, q) = (&line.space[i - 1], &line.space[i]);
+            let s = view.in_space(u, view.depth(p), view.depth(q));
             if out.flat.last() != Some(&flat) {
                 out.flat.push(flat);
-                out.space.push([mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])]);
+                out.space.push([mix(p[0], q[0], s), mix(p[1], q[1], s), mix(p[2], q[2], s)]);
             }
         };
         put(((from - start) / length).clamp(0.0, 1.0));
@@ -249,6 +260,16 @@ fn stretch(line: &Polyline, from: f64, to: f64) -> Polyline {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const PARALLEL_VIEW: View = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+
+    #[test]
+    fn a_line_back_over_itself_is_drawn_once() {
+        let rim = line(true, &[[0.0, 0.0], [5.0, 0.0], [10.0, 0.0], [5.0, 0.001], [0.0, 0.0]]);
+        let rest = uncovered(vec![rim], &[0], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
+        assert_eq!(rest.len(), 1);
+        assert_eq!(rest[0].flat, [[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]]);
+    }
 
     fn line(visible: bool, points: &[[f64; 2]]) -> Polyline {
         let space = points.iter().map(|p| [p[0], p[1], 0.0]).collect();
@@ -262,7 +283,7 @@ mod tests {
             line(false, &[[10.0, 0.0], [4.0, 0.0], [4.0, 5.0]]),
             line(false, &[[6.0, 0.001], [20.0, 0.001]]),
         ];
-        let rest = uncovered(lines, &[0, 1, 2], Widths { same: 0.01, under: 0.01 });
+        let rest = uncovered(lines, &[0, 1, 2], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest.len(), 3);
         assert_eq!(rest[1].flat[1], [4.0, 5.0]);
         assert!((rest[1].flat[0][1]).abs() < 0.05);
@@ -272,7 +293,7 @@ mod tests {
     #[test]
     fn crossing_lines_are_left_alone() {
         let lines = vec![line(true, &[[0.0, 0.0], [10.0, 0.0]]), line(false, &[[0.0, -2.0], [10.0, 2.0]])];
-        let rest = uncovered(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 });
+        let rest = uncovered(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest, lines);
     }
 }

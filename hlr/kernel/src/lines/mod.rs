@@ -21,6 +21,26 @@ pub struct Polyline {
     pub space: Vec<[f64; 3]>,
 }
 
+/// Where depth is measured from, and along what; perspective views map depth z to 1 / z on paper.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    pub origin: [f64; 3],
+    pub away: [f64; 3],
+    pub perspective: bool,
+}
+
+impl View {
+    pub fn depth(&self, p: &[f64; 3]) -> f64 {
+        let q = [0, 1, 2].map(|k| p[k] - self.origin[k]);
+        q[0] * self.away[0] + q[1] * self.away[1] + q[2] * self.away[2]
+    }
+
+    /// The parameter in space of the point at parameter t on paper, between depths za and zb.
+    pub fn in_space(&self, t: f64, za: f64, zb: f64) -> f64 {
+        if self.perspective { t * za / (t * za + (1.0 - t) * zb) } else { t }
+    }
+}
+
 pub fn distance(a: &[f64; 2], b: &[f64; 2]) -> f64 {
     let (x, y) = (b[0] - a[0], b[1] - a[1]);
     (x * x + y * y).sqrt()

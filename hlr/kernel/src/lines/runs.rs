@@ -5,7 +5,7 @@
 //!   settled  V V V H H H H V V V V V V     a short W beside H is a stub of the tolerance; a long one is a contact
 //! ```
 
-use super::{Polyline, distance};
+use super::{Polyline, View, distance};
 use crate::scan::invisibility::State;
 
 /// A piece of one mesh edge; parameters run from the edge's first to its second vertex.
@@ -21,13 +21,29 @@ pub struct Geometry<'a> {
     pub flat: &'a [[f64; 2]],
     /// Model coordinates.
     pub space: &'a [[f64; 3]],
-    /// Distance from the eye plane for perspective views; empty for orthographic ones.
-    pub depth: &'a [f64],
+    pub view: &'a View,
     pub edges: &'a [[i32; 2]],
     /// Pieces of edge e: pieces[piece_offsets[e]..piece_offsets[e + 1]], ascending.
     pub pieces: &'a [Piece],
     pub piece_offsets: &'a [u32],
 }
+
+impl Geometry<'_> {
+    /// The contour of a mesh folds back and forth by an edge or two where the surface curves like a saddle, and hides
+    /// itself there: changes of visibility over such lengths say nothing of the shape.
+    pub fn noise(&self, edges: &[i32], short: f64) -> f64 {
+        let total: f64 = edges
+            .iter()
+            .map(|&e| self.edges[e as usize])
+            .map(|[a, b]| distance(&self.flat[a as usize], &self.flat[b as usize]))
+            .sum();
+        short.max((NOISE_EDGES * total / edges.len().max(1) as f64).min(NOISE_MOST * short))
+    }
+}
+
+/// In mean edge lengths of the chain, and at most in accuracies.
+const NOISE_EDGES: f64 = 2.5;
+const NOISE_MOST: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
@@ -67,12 +83,7 @@ impl Chain<'_> {
         if t >= 1.0 {
             return (g.flat[b], g.space[b]);
         }
-        let mut u = t;
-        if !g.depth.is_empty() {
-            // Image-linear to space-linear: 1 / depth is what is linear on paper.
-            let (za, zb) = (g.depth[a], g.depth[b]);
-            u = t * za / (t * za + (1.0 - t) * zb);
-        }
+        let u = g.view.in_space(t, g.view.depth(&g.space[a]), g.view.depth(&g.space[b]));
         let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
         let flat = [mix(g.flat[a][0], g.flat[b][0], t), mix(g.flat[a][1], g.flat[b][1], t)];
         let (p, q) = (&g.space[a], &g.space[b]);
@@ -88,6 +99,7 @@ impl Chain<'_> {
             let e = self.edges[k] as usize;
             let pieces = &g.pieces[g.piece_offsets[e] as usize..g.piece_offsets[e + 1] as usize];
             let (a, b) = self.ends(k);
+            broken |= k > 0 && self.ends(k - 1).1 != a;
             if pieces.is_empty() {
                 // Seen end-on the chain goes on through it; anything longer was clipped away.
                 broken |= g.flat[a] != g.flat[b];
@@ -247,7 +259,7 @@ mod tests {
         let g = Geometry {
             flat: &flat,
             space: &space,
-            depth: &[],
+            view: &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false },
             edges: &edges,
             pieces: &pieces,
             piece_offsets: &piece_offsets,

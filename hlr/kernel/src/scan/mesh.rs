@@ -16,6 +16,9 @@ pub struct Part {
     pub sound: bool,
     /// Contact tolerance in depth units of the grid.
     pub delta: i64,
+    /// The most that anything may be moved before it is compared with this part: less than its thickness, or what
+    /// lies behind it would show through.
+    pub cap: i64,
 }
 
 pub struct Mesh<'a> {
@@ -65,6 +68,7 @@ impl Mesh<'_> {
         if drawn_part == polygon_part {
             return if own.sound || own.cull { 0 } else { own.delta };
         }
-        own.delta.max(self.parts[polygon_part as usize].delta)
+        let other = &self.parts[polygon_part as usize];
+        own.delta.max(other.delta).min(other.cap)
     }
 }
