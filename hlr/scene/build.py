@@ -227,8 +227,8 @@ def _reports(
         if turned[i]:
             defects.append(f"{turned[i]} edges between faces of opposite orientation")
         if outside_in[i]:
-            what = "the solid is turned" if part.brep else f"{int(outside_in[i])} closed pieces turned"
-            defects.append(f"{what} inside out" + ("" if part.brep else ", or hollow"))
+            pieces = f"{int(outside_in[i])} closed pieces turned inside out or hollow"
+            defects.append("the solid is turned inside out" if part.brep else pieces)
         out.append(
             ScenePart(
                 name=part.name,

@@ -26,7 +26,7 @@ NEAR = 1e-3
 WIDEST = 120.0
 """Degrees: the field of view where none is given, at most."""
 CLOSEST = 1e-9
-"""Of the model's size: an eye nearer to its target looks nowhere."""
+"""Of their coordinates and the model's size: an eye nearer to its target looks nowhere."""
 MARGIN = 1.05
 """How much wider than the model's bounding sphere a field of view is chosen."""
 
@@ -146,12 +146,18 @@ def _eye(perspective: Perspective, direction: Vector, frame: Frame, bounds: Floa
         away = MARGIN * radius / math.sin(half)
         d = _to_model(frame, direction)
         eye = (target[0] + away * d[0], target[1] + away * d[1], target[2] + away * d[2])
+        _apart(eye, target, radius)
         return eye, target, direction
-    apart = [e - t for e, t in zip(eye, target, strict=True)]
-    if max(abs(c) for c in apart) <= CLOSEST * max(radius, *(abs(c) for c in (*eye, *target))):
-        raise ViewError("eye and target are one point: move the eye away from what it looks at")
-    toward = normalized(apart, "the way from target to eye")
+    _apart(eye, target, radius)
+    toward = normalized([e - t for e, t in zip(eye, target, strict=True)], "the way from target to eye")
     return eye, target, _to_model(to_world, toward)
+
+
+def _apart(eye: Vector, target: Vector, radius: float) -> None:
+    """Raises ViewError where eye and target are the same but for rounding; radius: half the model's diagonal."""
+    largest = max(radius, *(abs(c) for c in (*eye, *target)))
+    if max(abs(e - t) for e, t in zip(eye, target, strict=True)) <= CLOSEST * largest:
+        raise ViewError("eye and target are one point: move the eye away from what it looks at, or the target nearer")
 
 
 def _given(point: Vector | None, frame: Frame) -> Vector | None:

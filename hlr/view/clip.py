@@ -191,8 +191,18 @@ def _cut_triangles(
 
 def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
     edge = target[chains.edges]
-    keep = edge >= 0
-    owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))
-    offsets = np.zeros(len(chains.offsets), np.int32)
-    np.cumsum(np.bincount(owner[keep], minlength=len(chains.kind)), out=offsets[1:])
-    return replace(chains, offsets=offsets, edges=edge[keep], reversed=(chains.reversed ^ swapped[chains.edges])[keep])
+    kept = np.flatnonzero(edge >= 0)
+    owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))[kept]
+    # A chain that lost an edge in between goes on as another.
+    fresh = np.ones(len(kept), bool)
+    fresh[1:] = (np.diff(kept) > 1) | (np.diff(owner) > 0)
+    head = np.flatnonzero(fresh)
+    whole = owner[head]
+    return Chains(
+        offsets=np.append(head, len(kept)).astype(np.int32),
+        edges=edge[kept],
+        reversed=(chains.reversed ^ swapped[chains.edges])[kept],
+        kind=chains.kind[whole],
+        part=chains.part[whole],
+        index=chains.index[whole],
+    )

@@ -127,7 +127,8 @@ def test_what_is_left_of_a_border_is_walked_as_before(normal):
     (kept,) = np.unique(scene.chains.kind)
     cut, _ = clip(scene, [Plane(tuple(map(float, normal)), 0.0)])
     chains = cut.chains
-    assert chains.kind.tolist() == [kept]
+    # A closed walk begins anywhere: the stretch that it lost may leave it in two.
+    assert chains.kind.tolist() in ([kept], [kept, kept])
     walked = cut.edges[chains.edges]
     walked[chains.reversed] = walked[chains.reversed][:, ::-1]
     # A closed walk that lost one stretch has at most one gap.

@@ -43,7 +43,9 @@ def test_bug_a_view_from_a_given_eye_fills_what_it_is_fitted_into(fit, fov):
         fit=fit,
         perspective=Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=fov),
     )
-    assert drawing.bounds()[2] > 0.9 * fit[0]
+    # The frame that the field of view spans is what is fitted, whether or not lines reach its border.
+    assert drawing.scale == pytest.approx(fit[1] / (2 * 100 * math.tan(math.radians(fov / 2))))
+    assert drawing.bounds()[2] <= fit[0] and drawing.bounds()[3] <= fit[1]
 
 
 @pytest.mark.parametrize("scale", [0.01, 0.5, 1.0, 3.0, 100.0])
