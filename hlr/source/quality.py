@@ -61,6 +61,27 @@ def coarse_faces(tables: Tables, deflection: float, excess: float = EXCESS) -> I
     return np.flatnonzero((tri >= 0) & np.append(coarse, False)[tri]).astype(np.int32)
 
 
+def lapped_faces(tables: Tables, deflection: float) -> Ints:
+    """Numbers, among the faces of `tables`, of those with a triangle turned against the surface.
+
+    Delabella cuts ears off a border that curves in space but hardly in (u, v): three nodes of a fillet's tangent edge
+    make a triangle that lies in the plane beyond it, upside down. Slivers thinner than a fifth of the deflection do
+    that everywhere and do no harm.
+    """
+    counts = np.diff(tables.tri_start)
+    owner = np.repeat(np.arange(len(counts), dtype=np.int32), counts)
+    corner = tables.triangles + tables.node_start[owner][:, None]
+    p, q, r = (tables.nodes[corner[:, k]] for k in range(3))
+    normal = np.cross(q - p, r - p)
+    outward = sum(tables.normals[corner[:, k]].astype(np.float64) for k in range(3))
+    longest = np.maximum.reduce([((a - b) ** 2).sum(axis=1) for a, b in ((p, q), (q, r), (r, p))])
+    thick = (normal * normal).sum(axis=1) > (0.2 * deflection) ** 2 * longest
+    turned = thick & ((normal * outward).sum(axis=1) < 0.0)
+    lapped = np.bincount(owner[turned], minlength=len(counts)) > 0
+    tri = tables.face_tri[tables.kind == FACE]
+    return np.flatnonzero((tri >= 0) & np.append(lapped, False)[tri]).astype(np.int32)
+
+
 _SIDES = ((0, 1), (1, 2), (2, 0))
 
 

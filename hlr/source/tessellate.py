@@ -11,7 +11,7 @@ import numpy as np
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
-from hlr.source.quality import FINE, coarse_faces, edge_pairs, tightened
+from hlr.source.quality import FINE, coarse_faces, lapped_faces, edge_pairs, tightened
 from hlr.source.refine import refine
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build
@@ -96,9 +96,10 @@ class Tessellator:
         from OCP.BRepTools import BRepTools
 
         tables, first = self._tables()
-        if not len(coarse_faces(tables, deflection, FINE)):
+        lapped = lapped_faces(tables, deflection)
+        if not len(lapped) and not len(coarse_faces(tables, deflection, FINE)):
             return tables, first
-        coarse = coarse_faces(tables, deflection)
+        coarse = np.union1d(lapped, coarse_faces(tables, deflection))
         coarse = coarse[coarse >= first] - first
         if len(coarse):
             with tightened([self._faces[i] for i in coarse]) as faces:
