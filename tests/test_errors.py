@@ -65,7 +65,7 @@ def test_any_numbers_as_options(**options):
     drawn_or_refused(BOX, view, **options)
 
 
-def test_bug_a_size_so_small_that_the_scale_is_zero():
+def test_a_size_so_small_that_the_scale_is_zero():
     drawn_or_refused(BOX, "front", fit=(1.0, 5e-324))
 
 
@@ -191,7 +191,7 @@ def test_one_view_where_several_are_asked_for_is_understood_or_said(views):
 
 
 @pytest.mark.parametrize("crease", [math.nan, -1.0, 500.0, "x"])
-def test_bug_info_refuses_the_creases_that_draw_refuses(crease):
+def test_info_refuses_the_creases_that_draw_refuses(crease):
     with pytest.raises(HlrError):
         hlr.info(BOX, crease=crease)
 

@@ -165,7 +165,7 @@ def test_any_number_of_threads_gives_the_same_bytes(model):
 
 
 @pytest.mark.parametrize("model", ["bracket", "clash", "ball"])
-def test_bug_the_same_object_drawn_twice_is_the_same_drawing(model):
+def test_the_same_object_drawn_twice_is_the_same_drawing(model):
     thing = MODELS[model]()
     assert bare(hlr.draw(thing), "json") == bare(hlr.draw(thing), "json")
 

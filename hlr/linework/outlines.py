@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.plan.plan import DRAWN, OUTLINE, Plan
+from hlr.plan.plan import OUTLINE, Plan
 from hlr.scene.scene import Scene
 from hlr.source.model import EdgeClass, Ints
 from hlr.visibility.segments import Segments
@@ -16,6 +16,10 @@ from hlr.visibility.segments import Segments
 NOISE_EDGES = 6
 """A contour of fewer mesh edges that hangs on no other line is the mesh's roughness, not the shape's: a closed curve of
 so few chords is coarser than any tessellation that turns by half a radian."""
+
+ISLAND_TRIANGLES = 5
+"""So many triangles that face away in the midst of a smooth surface that faces the viewer, or the other way round, are
+roughness: their border would be a small loop beside the outline or hanging on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,24 +43,24 @@ def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
     """Chains of the contour edges among the segments' edges."""
     found = np.unique(segments.edge).astype(np.int32)
     found = found[scene.offsets[found + 1] > scene.offsets[found]]
-    owner, folds = _facing(scene, segments, found)
-    role = plan.role[found]
-    # What the kernel drew only as a contour is one; edges drawn anyway are one where the surface folds there.
-    contour = ((role & DRAWN) == 0) | folds
-    keep = contour & ((role & OUTLINE) != 0) & ~_noise(scene, found)
+    facing = _kernel.settled_facing(
+        segments.facing, scene.offsets, scene.incident, (plan.role & OUTLINE) != 0, ISLAND_TRIANGLES
+    )
+    owner, folds = _facing(scene, facing, found)
+    keep = folds & ((plan.role[found] & OUTLINE) != 0) & ~_noise(scene, found)
     return _chained(scene, found[keep], owner[keep])
 
 
-def _facing(scene: Scene, segments: Segments, edges: Ints) -> tuple[Ints, npt.NDArray[np.bool_]]:
+def _facing(scene: Scene, facing: npt.NDArray[np.int8], edges: Ints) -> tuple[Ints, npt.NDArray[np.bool_]]:
     """Per edge the incident triangle that faces the viewer most, and whether another one faces away."""
     first, last = scene.offsets[edges], scene.offsets[edges + 1]
     owner = scene.incident[first]
-    farthest = segments.facing[owner]
+    farthest = facing[owner]
     for k in range(1, int((last - first).max(initial=0))):
         other = scene.incident[np.minimum(first + k, last - 1)]
-        owner = np.where(segments.facing[other] > segments.facing[owner], other, owner)
-        farthest = np.minimum(farthest, segments.facing[other])
-    return owner, (segments.facing[owner] > 0) & (farthest <= 0)
+        owner = np.where(facing[other] > facing[owner], other, owner)
+        farthest = np.minimum(farthest, facing[other])
+    return owner, (facing[owner] > 0) & (farthest <= 0)
 
 
 def _noise(scene: Scene, found: Ints) -> npt.NDArray[np.bool_]:

@@ -11,7 +11,7 @@ import numpy as np
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
-from hlr.source.quality import FINE, coarse_faces, lapped_faces, edge_pairs, tightened
+from hlr.source.quality import FINE, coarse_faces, edge_pairs, lapped_faces, tightened
 from hlr.source.refine import refine
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build

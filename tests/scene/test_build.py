@@ -221,7 +221,7 @@ def test_a_part_that_is_not_finite_is_refused():
         build(Meshed([replace(part, points=broken)]), 30.0)
 
 
-def test_bug_a_solid_turned_inside_out_is_reported():
+def test_a_solid_turned_inside_out_is_reported():
     solid = cq.Shape.cast(cq.Solid.makeBox(5, 5, 5).wrapped.Reversed())
     scene = scene_of(solid)
     assert not scene.groups.cull.any()

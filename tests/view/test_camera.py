@@ -209,6 +209,6 @@ def test_an_eye_inside_the_model_gets_the_widest_field():
 
 
 @pytest.mark.parametrize("view", ["iso", "front"])
-def test_bug_an_eye_straight_above_needs_no_up(view):
+def test_an_eye_straight_above_needs_no_up(view):
     above = camera(view, perspective=Perspective(eye=(0, 0, 100)))
     assert (above.right, above.up) == ((1, 0, 0), (0, 1, 0))

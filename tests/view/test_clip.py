@@ -106,12 +106,12 @@ def test_any_cuts_leave_a_scene_that_agrees(cuts, kind):
     assert area(whole) == pytest.approx(area(cut))
 
 
-def test_bug_a_chain_that_a_cut_divides_becomes_several():
+def test_a_chain_that_a_cut_divides_becomes_several():
     cut, _ = clip(SCENES["torus"](), [Plane((0.0, 0.0, -1.0), 0.0)])
     check(cut)
 
 
-def test_bug_no_line_runs_across_what_the_frame_cut_away():
+def test_no_line_runs_across_what_the_frame_cut_away():
     import cadquery as cq
 
     eye = Perspective(eye=(0, 0, 150), target=(0, 0, 1), fov=60.0)
@@ -223,7 +223,7 @@ def test_without_an_eye_and_nothing_behind_it_all_of_the_model_is_drawn():
     assert drawing.notes == ()
 
 
-def test_bug_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
+def test_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
     # The box stands beside the eye; its front corners are exactly as far along the view as the eye.
     drawing = hlr.draw(
         parts(box((10, 10, 10), (0, 100, 0)), box((100, 100, 100), (0, 0, -200))),
@@ -234,7 +234,7 @@ def test_bug_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
 
 
 @pytest.mark.parametrize("beside", [1e-6, 1e-9, 1e-12])
-def test_bug_a_corner_close_to_the_plane_of_the_eye_spoils_nothing(beside):
+def test_a_corner_close_to_the_plane_of_the_eye_spoils_nothing(beside):
     model = box((100, 100, 100))
     far = hlr.draw(model, "front", perspective=Perspective(eye=(0, -49, 20), target=(0, 0, 20), fov=100.0))
     near = hlr.draw(model, "front", perspective=Perspective(eye=(0, -50 + beside, 20), target=(0, 0, 20), fov=100.0))

@@ -33,7 +33,7 @@ def test_fit_wins_over_scale_and_says_its_own():
 
 
 @pytest.mark.parametrize(("fit", "fov"), [((80.0, 60.0), 5.0), ((60.0, 80.0), 60.0)])
-def test_bug_a_view_from_a_given_eye_fills_what_it_is_fitted_into(fit, fov):
+def test_a_view_from_a_given_eye_fills_what_it_is_fitted_into(fit, fov):
     wall = box((500, 1, 500))
     drawing = hlr.draw(
         parts(
@@ -120,7 +120,7 @@ def test_the_accuracy_is_kept(accuracy, scale):
     assert len(points) < 40 / math.sqrt(accuracy / (30 * scale))
 
 
-def test_bug_the_accuracy_is_kept_before_the_image_plane():
+def test_the_accuracy_is_kept_before_the_image_plane():
     import cadquery as cq
     from linework.measures import placed, samples
 

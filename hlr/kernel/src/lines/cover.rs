@@ -225,6 +225,21 @@ fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, view: &V
         from = end;
     }
     out.retain(|l| l.flat.len() > 1);
+    rejoined(out, 4.0 * width)
+}
+
+/// Pieces that go on where the one before ended: what was left out between them ran back over the line itself.
+fn rejoined(pieces: Vec<Polyline>, gap: f64) -> Vec<Polyline> {
+    let mut out: Vec<Polyline> = Vec::new();
+    for piece in pieces {
+        match out.last_mut() {
+            Some(last) if distance(&last.flat[last.flat.len() - 1], &piece.flat[0]) <= gap => {
+                last.flat.extend(&piece.flat);
+                last.space.extend(&piece.space);
+            }
+            _ => out.push(piece),
+        }
+    }
     out
 }
 
