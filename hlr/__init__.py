@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from hlr.drawing import Drawing, Line
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
-    from hlr.pipeline import draw, draw_views, info
+    from hlr.inspection import info
+    from hlr.pipeline import draw, draw_views
     from hlr.plan.options import Options, Perspective
     from hlr.scene.report import ModelInfo, PartReport
 
@@ -34,7 +35,7 @@ _HOME = {
     "WriteError": "hlr.errors",
     "draw": "hlr.pipeline",
     "draw_views": "hlr.pipeline",
-    "info": "hlr.pipeline",
+    "info": "hlr.inspection",
 }
 
 __all__ = [

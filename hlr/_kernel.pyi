@@ -1,4 +1,8 @@
-"""The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape."""
+"""The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape.
+
+A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap) is a scene's group. Parts share no
+points.
+"""
 
 from typing import Any
 

@@ -11,13 +11,12 @@ from hlr.errors import OptionError, StrictError
 from hlr.linework.lines import draw_lines
 from hlr.plan.options import Options, View
 from hlr.plan.plan import decide
-from hlr.plan.request import check_crease, checked, checked_views
+from hlr.plan.request import checked, checked_views
 from hlr.scene.build import build
-from hlr.scene.report import ModelInfo, PartReport
 from hlr.scene.scene import Scene
 from hlr.source import open_source
 from hlr.source.model import Progress, Source
-from hlr.tolerance import SMALL_DRAWING, Tolerances
+from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera, resolve
 from hlr.view.clip import clip, planes
 from hlr.view.scale import Placed, place
@@ -71,36 +70,6 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
     except TypeError as error:
         raise OptionError(f"{error}".replace("Options.__init__()", "draw()")) from None
     return draw_views(source, [view], request, progress)[0]
-
-
-def info(source: Any, *, crease: float = 30.0, progress: Progress | None = None) -> ModelInfo:
-    """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size."""
-    check_crease(crease)
-    tell = progress or (lambda _stage, _done: None)
-    tell("source", 0.0)
-    opened = open_source(source)
-    bounds = opened.bounds()
-    size = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5)
-    tell("tessellate", 0.0)
-    scene = build(opened.mesh(size / SMALL_DRAWING, 0.5, progress), crease)
-    solids = {i.name: i.solids for i in opened.infos()}
-    parts = tuple(
-        PartReport(
-            name=p.name,
-            color=p.color,
-            solids=solids.get(p.name, 0),
-            faces=p.faces,
-            edges=p.edges,
-            triangles=p.triangles,
-            closed=p.closed,
-            oriented=p.oriented,
-            defects=p.defects,
-        )
-        for p in scene.parts
-    )
-    low, high = ((float(c[0]), float(c[1]), float(c[2])) for c in bounds)
-    notes = (*opened.notes, *scene.notes)
-    return ModelInfo(opened.name, opened.kind, opened.frame.unit, (low, high), parts, notes)
 
 
 def _lap(clock: Clock, stage: str, started: float) -> float:
@@ -187,4 +156,4 @@ def _drawn_view(camera: Camera) -> DrawnView:
     )
 
 
-__all__ = ["draw", "draw_views", "info"]
+__all__ = ["draw", "draw_views"]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hlr.errors import OptionError, StrictError
+from hlr.errors import OptionError, SourceError, StrictError
 
 from ..exits import warn
 from ..meter import meter
@@ -145,6 +145,8 @@ def _targets(
         if as_json:
             raise OptionError("--json and -o - both want standard output; write the drawing to a file")
         return [(None, format or "svg")]
+    if Path(source).is_dir():  # "." has no stem to name an output after
+        raise SourceError(f"{source} is a folder: name a model file in it.")
     paths = plan(output, source, names, format)
     for path in paths:
         files.check(path)

@@ -71,8 +71,7 @@ def build(meshed: Meshed, crease: float) -> Scene:
     edge_curved[: len(balance)] &= ~folded_back(mesh)
     if len(points) == 0 or len(edges) == 0:
         raise SourceError("nothing to draw: no part has a face or an edge")
-    # Triangle-less meshes still need arrays of the right shape downstream.
-    reports, notes = _reports(parts, doubled, groups, group_part, part_of, edge_part, balance, offsets, kind)
+    reports = _reports(parts, doubled, groups, group_part, part_of, edge_part, balance, offsets, kind)
     return Scene(
         points=points,
         triangles=triangles,
@@ -89,7 +88,7 @@ def build(meshed: Meshed, crease: float) -> Scene:
         groups=groups,
         chains=Chains(walks.offsets, walks.edges, walks.reversed, walks.kind, walks.part, walks.index),
         parts=reports,
-        notes=tuple(meshed.notes) + notes,
+        notes=tuple(meshed.notes),
     )
 
 
@@ -204,7 +203,7 @@ def _reports(
     balance: Ints,
     offsets: Ints,
     kind: npt.NDArray[np.uint8],
-) -> tuple[tuple[ScenePart, ...], tuple[str, ...]]:
+) -> tuple[ScenePart, ...]:
     n = len(parts)
     uses = np.diff(offsets)[: len(balance)]
     own = edge_part[: len(balance)]
@@ -242,4 +241,4 @@ def _reports(
                 defects=tuple(defects),
             )
         )
-    return tuple(out), ()
+    return tuple(out)

@@ -156,7 +156,7 @@ fn join(runs: &mut Vec<Run>, run: Run) {
     runs.push(run);
 }
 
-/// Give run `i` the state `state` and join it with what lies beside it.
+/// Join neighbours that have come to the same state.
 fn rejoin(runs: Vec<Run>) -> Vec<Run> {
     let mut out = Vec::with_capacity(runs.len());
     for run in runs {

@@ -1,0 +1,42 @@
+"""What a model is made of, and what is wrong with it: source -> tessellate -> scene, and a report."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hlr.plan.request import check_crease
+from hlr.scene.build import build
+from hlr.scene.report import ModelInfo, PartReport
+from hlr.source import open_source
+from hlr.source.model import Progress
+from hlr.tolerance import ANGLE, SMALL_DRAWING
+
+
+def info(source: Any, *, crease: float = 30.0, progress: Progress | None = None) -> ModelInfo:
+    """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size."""
+    check_crease(crease)
+    tell = progress or (lambda _stage, _done: None)
+    tell("source", 0.0)
+    opened = open_source(source)
+    bounds = opened.bounds()
+    size = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5)
+    tell("tessellate", 0.0)
+    scene = build(opened.mesh(size / SMALL_DRAWING, ANGLE, progress), crease)
+    solids = {i.name: i.solids for i in opened.infos()}
+    parts = tuple(
+        PartReport(
+            name=p.name,
+            color=p.color,
+            solids=solids.get(p.name, 0),
+            faces=p.faces,
+            edges=p.edges,
+            triangles=p.triangles,
+            closed=p.closed,
+            oriented=p.oriented,
+            defects=p.defects,
+        )
+        for p in scene.parts
+    )
+    low, high = ((float(c[0]), float(c[1]), float(c[2])) for c in bounds)
+    notes = (*opened.notes, *scene.notes)
+    return ModelInfo(opened.name, opened.kind, opened.frame.unit, (low, high), parts, notes)
