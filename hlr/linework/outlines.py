@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.plan.plan import OUTLINE, Plan
+from hlr.plan.plan import DRAWN, OUTLINE, Plan
 from hlr.scene.scene import Scene
 from hlr.source.model import EdgeClass, Ints
 from hlr.visibility.segments import Segments
@@ -16,10 +16,6 @@ from hlr.visibility.segments import Segments
 NOISE_EDGES = 6
 """A contour of fewer mesh edges that hangs on no other line is the mesh's roughness, not the shape's: a closed curve of
 so few chords is coarser than any tessellation that turns by half a radian."""
-
-ISLAND_TRIANGLES = 5
-"""So many triangles that face away in the midst of a smooth surface that faces the viewer, or the other way round, are
-roughness: their border would be a small loop beside the outline or hanging on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +39,11 @@ def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
     """Chains of the contour edges among the segments' edges."""
     found = np.unique(segments.edge).astype(np.int32)
     found = found[scene.offsets[found + 1] > scene.offsets[found]]
-    facing = _kernel.settled_facing(
-        segments.facing, scene.offsets, scene.incident, (plan.role & OUTLINE) != 0, ISLAND_TRIANGLES
-    )
-    owner, folds = _facing(scene, facing, found)
-    keep = folds & ((plan.role[found] & OUTLINE) != 0) & ~_noise(scene, found)
+    owner, folds = _facing(scene, segments.facing, found)
+    role = plan.role[found]
+    # What the kernel drew only as a contour is one; edges drawn anyway are one where the surface folds there.
+    contour = ((role & DRAWN) == 0) | folds
+    keep = contour & ((role & OUTLINE) != 0) & ~_noise(scene, found)
     return _chained(scene, found[keep], owner[keep])
 
 

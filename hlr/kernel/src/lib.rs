@@ -14,7 +14,6 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_folds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::scan::settled_facing, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;

@@ -114,14 +114,14 @@ pub fn linework<'py>(
             piece_offsets: &piece_offsets,
         };
 
-        let limits = Limits { short, stub };
+        let limits = Limits { short, stub, noise: short };
         let lines: Vec<Polyline> = (0..rank.len())
             .into_par_iter()
             .flat_map_iter(|c| {
                 let run = offsets[c] as usize..offsets[c + 1] as usize;
                 let mut limits = limits;
                 if noisy[c] {
-                    limits.short = geometry.noise(&members[run.clone()], short);
+                    limits.noise = geometry.noise(&members[run.clone()], short);
                 }
                 cut(&geometry, &members[run.clone()], &reversed[run], c as u32, &limits)
             })

@@ -120,21 +120,6 @@ pub fn edge_components<'py>(
     Ok(topology::components(edges, n_points).into_pyarray(py))
 }
 
-#[pyfunction]
-pub fn settled_facing<'py>(
-    py: Python<'py>,
-    facing: PyReadonlyArray1<'py, i8>,
-    offsets: PyReadonlyArray1<'py, i32>,
-    incident: PyReadonlyArray1<'py, i32>,
-    smooth: PyReadonlyArray1<'py, bool>,
-    most: usize,
-) -> PyResult<Bound<'py, PyArray1<i8>>> {
-    let (facing, smooth) = (flat(&facing, "facing")?, flat(&smooth, "smooth")?);
-    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
-    check_incidence(smooth.len(), offsets, incident, facing.len())?;
-    Ok(py.detach(|| topology::settled(facing, offsets, incident, smooth, most)).into_pyarray(py))
-}
-
 fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
     expect_len("offsets", offsets.len(), edges + 1)?;
     expect_below("incident", incident.iter().copied(), triangles)?;

@@ -43,7 +43,7 @@ impl Geometry<'_> {
 
 /// In mean edge lengths of the chain, and at most in accuracies.
 const NOISE_EDGES: f64 = 2.5;
-const NOISE_MOST: f64 = 20.0;
+const NOISE_MOST: f64 = 6.0;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
@@ -51,6 +51,9 @@ pub struct Limits {
     pub short: f64,
     /// A contact run shorter than this beside a hidden one is hidden.
     pub stub: f64,
+    /// A hidden run shorter than this between visible ones is visible: a contour that its own folds hide. Never the
+    /// other way round, for a true outline may be broken into many such runs.
+    pub noise: f64,
 }
 
 /// A stretch of constant state between two stops, each (position in the chain, parameter along the walk).
@@ -188,6 +191,13 @@ fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
         run.state = state;
     }
     runs = rejoin(runs);
+    for i in 0..runs.len() {
+        let between = beside(&runs, i, closed).iter().all(|r| r.is_some_and(|r| r.state == State::Visible));
+        if runs[i].state == State::Hidden && runs[i].length < limits.noise && between {
+            runs[i].state = State::Visible;
+        }
+    }
+    runs = rejoin(runs);
     // The shortest first: a run that grows by a merge may then be long enough.
     while runs.len() > 1 {
         let Some(i) = (0..runs.len()).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length)) else { break };
@@ -246,10 +256,14 @@ pub fn cut(geometry: &Geometry, edges: &[i32], reversed: &[bool], id: u32, limit
 mod tests {
     use super::*;
 
-    const LIMITS: Limits = Limits { short: 0.5, stub: 2.0 };
+    const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5 };
 
     /// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
     fn lines(states: &[State]) -> Vec<(bool, f64, f64)> {
+        lines_within(states, &LIMITS)
+    }
+
+    fn lines_within(states: &[State], limits: &Limits) -> Vec<(bool, f64, f64)> {
         let n = states.len();
         let flat: Vec<[f64; 2]> = (0..=n).map(|i| [i as f64, 0.0]).collect();
         let space: Vec<[f64; 3]> = (0..=n).map(|i| [i as f64, 0.0, 0.0]).collect();
@@ -265,7 +279,7 @@ mod tests {
             piece_offsets: &piece_offsets,
         };
         let ids: Vec<i32> = (0..n as i32).collect();
-        let found = cut(&g, &ids, &vec![false; n], 0, &LIMITS);
+        let found = cut(&g, &ids, &vec![false; n], 0, limits);
         found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
     }
 
@@ -273,6 +287,17 @@ mod tests {
     fn equal_states_join_across_mesh_edges() {
         use State::{Hidden as H, Visible as V};
         assert_eq!(lines(&[V, V, H, H, H]), [(true, 0.0, 2.0), (false, 2.0, 5.0)]);
+    }
+
+    #[test]
+    fn a_contour_that_its_own_folds_hide_is_whole() {
+        use State::{Hidden as H, Visible as V};
+        let noisy = Limits { noise: 1.5, ..LIMITS };
+        assert_eq!(
+            lines_within(&[V, H, V, V, H, H, V], &noisy),
+            [(true, 0.0, 4.0), (false, 4.0, 6.0), (true, 6.0, 7.0)]
+        );
+        assert_eq!(lines_within(&[H, H, V, H], &noisy), [(false, 0.0, 2.0), (true, 2.0, 3.0), (false, 3.0, 4.0)]);
     }
 
     #[test]

@@ -140,73 +140,8 @@ pub fn components<const N: usize>(cells: &[[i32; N]], n_points: usize) -> Vec<i3
         .collect()
 }
 
-/// Facing without islands: up to `most` triangles that face the other way than the smooth surface all around them are
-/// the roughness of the mesh, and are counted with their surroundings. `smooth` edges are those that may carry an
-/// outline; an island that touches any other edge is left as it is.
-pub fn settled(facing: &[i8], offsets: &[i32], incident: &[i32], smooth: &[bool], most: usize) -> Vec<i8> {
-    let pairs = || {
-        smooth.iter().enumerate().filter(|&(_, &s)| s).filter_map(|(e, _)| {
-            match incident[offsets[e] as usize..offsets[e + 1] as usize] {
-                [s, t] => Some((s as usize, t as usize)),
-                _ => None,
-            }
-        })
-    };
-    let mut inner = vec![0u8; facing.len()];
-    for (s, t) in pairs() {
-        inner[s] += 1;
-        inner[t] += 1;
-    }
-    let joined: Vec<[i32; 2]> =
-        pairs().filter(|&(s, t)| (facing[s] > 0) == (facing[t] > 0)).map(|(s, t)| [s as i32, t as i32]).collect();
-    let mut label = vec![-1; facing.len()];
-    for (pair, l) in joined.iter().zip(components(&joined, facing.len())) {
-        label[pair[0] as usize] = l;
-        label[pair[1] as usize] = l;
-    }
-    let islands = label.iter().max().map_or(0, |&l| (l + 1) as usize);
-    let (mut size, mut apart) = (vec![0; islands], vec![true; islands]);
-    for (t, &l) in label.iter().enumerate() {
-        if l >= 0 {
-            size[l as usize] += 1;
-            apart[l as usize] &= inner[t] == 3;
-        }
-    }
-    facing
-        .iter()
-        .enumerate()
-        .map(|(t, &f)| {
-            let island = match label[t] {
-                -1 => inner[t] == 3 && most > 0,
-                l => apart[l as usize] && size[l as usize] <= most,
-            };
-            if !island {
-                f
-            } else if f > 0 {
-                -1
-            } else {
-                1
-            }
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
-    #[test]
-    fn an_island_joins_its_surroundings() {
-        // A triangle within a larger one: the inner one faces away.
-        let triangles = [[0, 1, 2], [0, 3, 1], [1, 3, 4], [1, 4, 2], [2, 4, 5], [2, 5, 0], [0, 5, 3]];
-        let t = topology(&triangles, 6);
-        let facing = [-1, 1, 1, 1, 1, 1, 1];
-        let all = vec![true; t.edges.len()];
-        assert_eq!(settled(&facing, &t.offsets, &t.incident, &all, 1), [1; 7]);
-        assert_eq!(settled(&facing, &t.offsets, &t.incident, &all, 0), facing);
-        let mut sharp = all.clone();
-        sharp[0] = false;
-        assert_eq!(settled(&facing, &t.offsets, &t.incident, &sharp, 1), facing);
-    }
-
     use super::*;
 
     #[test]
