@@ -182,7 +182,7 @@ for name in MODELS:
 
 def test_another_process_gives_the_same_bytes(request):
     folder = str(request.path.parent)
-    done = subprocess.run([sys.executable, "-c", PROGRAM, folder], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-P", "-c", PROGRAM, folder], capture_output=True, text=True, check=True)
     here = []
     for name, make in MODELS.items():
         for drawing in hlr.draw_views(make(), VIEWS):
