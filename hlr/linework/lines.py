@@ -19,14 +19,14 @@ from hlr.visibility.segments import Segments
 
 KIND_RANK = {
     EdgeClass.SHARP: 0,
-    EdgeClass.BOUNDARY: 0,
-    EdgeClass.INTERSECTION: 0,
-    EdgeClass.OUTLINE: 0,
-    EdgeClass.SMOOTH: 1,
-    EdgeClass.SEAM: 2,
+    EdgeClass.BOUNDARY: 1,
+    EdgeClass.INTERSECTION: 2,
+    EdgeClass.OUTLINE: 3,
+    EdgeClass.SMOOTH: 16,
+    EdgeClass.SEAM: 32,
 }
-"""Of coincident lines the lower rank is drawn, of equal ranks the nearer: what one would see. A tangent edge or a seam
-never lies on top of an outline."""
+"""Of coincident lines the lower sixteen is drawn (a tangent edge or a seam never lies on top of an outline), of equal
+ones the nearer: what one would see. Only at the same depth does the kind decide."""
 
 
 def draw_lines(

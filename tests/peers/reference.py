@@ -121,12 +121,17 @@ def from_shape(shape: Any, fineness: float = FINENESS, angle: float = 0.5) -> Re
     from OCP.BRep import BRep_Tool
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
     from OCP.BRepTools import BRepTools
+    from OCP.Precision import Precision
+    from OCP.ShapeFix import ShapeFix_ShapeTolerance
     from OCP.TopAbs import TopAbs_FACE, TopAbs_REVERSED
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS
 
     BRepTools.Clean_s(shape)
+    # The mesher refines nothing below the tolerance of a face's vertices, and some files have generous ones: without
+    # this the reference may be dozens of deflections off the surface.
+    ShapeFix_ShapeTolerance().SetTolerance(shape, Precision.Confusion_s())
     BRepMesh_IncrementalMesh(shape, shape_diagonal(shape) / fineness, False, angle, True)
     points: list[Floats] = []
     triangles: list[Ints] = []

@@ -143,7 +143,8 @@ pub fn linework<'py>(
     export(py, &lines)
 }
 
-/// A strict order of lines: visible before hidden, then by rank, then nearer, then by geometry; order in the input
+/// A strict order of lines: visible before hidden, then by rank in sixteens, then nearer, then by rank, then by
+/// geometry; order in the input
 /// decides only between lines that are the same in every coordinate.
 fn ranked(lines: &[Polyline], rank: &[u8], nearest: &[f64]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..lines.len() as u32).collect();
@@ -151,8 +152,9 @@ fn ranked(lines: &[Polyline], rank: &[u8], nearest: &[f64]) -> Vec<u32> {
         let (a, b) = (&lines[i as usize], &lines[j as usize]);
         b.visible
             .cmp(&a.visible)
-            .then_with(|| rank[a.chain as usize].cmp(&rank[b.chain as usize]))
+            .then_with(|| (rank[a.chain as usize] >> 4).cmp(&(rank[b.chain as usize] >> 4)))
             .then_with(|| nearest[i as usize].total_cmp(&nearest[j as usize]))
+            .then_with(|| rank[a.chain as usize].cmp(&rank[b.chain as usize]))
             .then_with(|| {
                 let (x, y) = (a.space.iter().flatten(), b.space.iter().flatten());
                 x.zip(y).map(|(p, q)| p.total_cmp(q)).find(|o| o.is_ne()).unwrap_or(a.space.len().cmp(&b.space.len()))
