@@ -8,7 +8,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.errors import SourceError
 from hlr.scene.repair import without_duplicates
-from hlr.scene.scene import INTERIOR, Chains, Groups, Scene, ScenePart
+from hlr.scene.scene import INTERIOR, Groups, Scene, ScenePart
 from hlr.scene.topology import crease_walks, creases, folded_back, joined, mesh_facts, source_walks
 from hlr.source.model import Floats, Ints, Meshed, PartMesh
 
@@ -86,7 +86,7 @@ def build(meshed: Meshed, crease: float) -> Scene:
         edge_kind=kind,
         edge_curved=edge_curved,
         groups=groups,
-        chains=Chains(walks.offsets, walks.edges, walks.reversed, walks.kind, walks.part, walks.index),
+        chains=walks,
         parts=reports,
         notes=tuple(meshed.notes),
     )

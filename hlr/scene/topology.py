@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.scene.scene import Chains
 from hlr.source.model import EdgeClass, Floats, Ints, PartMesh
 
 LONE_EDGES = 4
@@ -18,25 +19,13 @@ CLEAR_FOLD = 1.5
 Keys = npt.NDArray[np.int64]
 
 
-@dataclass(slots=True)
-class Walks:
-    """Source edges as walks over mesh edges; see scene.Chains."""
-
-    offsets: Ints
-    edges: Ints
-    reversed: npt.NDArray[np.bool_]
-    kind: npt.NDArray[np.uint8]
-    part: Ints
-    index: Ints
-
-
 def keys(edges: Ints, n: int) -> Keys:
     """(e, 2) -> (e,) one sortable number per edge, lower vertex first."""
     return np.asarray(edges[:, 0], np.int64) * np.int64(n) + edges[:, 1]
 
 
-def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tuple[Walks, Ints]:
-    """Walks of all B-rep edges, and the mesh edges (m, 2) that no triangle has and that had to be added.
+def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tuple[Chains, Ints]:
+    """Chains of all B-rep edges, and the mesh edges (m, 2) that no triangle has and that had to be added.
 
     firsts[i] is the number of part i's first vertex among all; `edges` are ascending. Steps between one and the same
     vertex vanish.
@@ -52,7 +41,7 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         part_of.append(np.full(len(part.edge_index), i, np.int32))
     if not nodes:
         none = np.zeros(0, np.int32)
-        return Walks(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none), none.reshape(
+        return Chains(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none), none.reshape(
             0, 2
         )
     node = np.concatenate(nodes)
@@ -71,7 +60,7 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
     edge[~found] = len(edges) + which.ravel().astype(np.int32)
     offsets = np.zeros(len(count) + 1, np.int32)
     np.cumsum(np.bincount(owner, minlength=len(count)), out=offsets[1:])
-    walks = Walks(
+    walks = Chains(
         offsets=offsets,
         edges=edge,
         reversed=backward,
@@ -166,14 +155,14 @@ def _across_flat(
                 kind[e] = EdgeClass.SHARP
 
 
-def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]) -> Walks:
+def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]) -> Chains:
     """Creases and borders of bare meshes, joined where exactly two of a kind meet."""
     chosen = np.flatnonzero(candidates & (kind != 255)).astype(np.int32)
     key = part[chosen].astype(np.int32) * 8 + kind[chosen]
     offsets, order, backward = _kernel.chain(np.ascontiguousarray(edges[chosen]), np.ascontiguousarray(key))
     member = chosen[order]
     head = member[offsets[:-1]]
-    return Walks(
+    return Chains(
         offsets=offsets,
         edges=member,
         reversed=backward,
@@ -183,7 +172,7 @@ def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidate
     )
 
 
-def joined(a: Walks, b: Walks) -> Walks:
+def joined(a: Chains, b: Chains) -> Chains:
     """All walks, sorted by part; within a part in the order given."""
     count = np.concatenate([np.diff(a.offsets), np.diff(b.offsets)])
     part = np.concatenate([a.part, b.part])
@@ -192,7 +181,7 @@ def joined(a: Walks, b: Walks) -> Walks:
     offsets = np.zeros(len(count) + 1, np.int32)
     np.cumsum(count[order], out=offsets[1:])
     member = np.arange(offsets[-1], dtype=np.int64) + np.repeat(start - offsets[:-1], count[order])
-    return Walks(
+    return Chains(
         offsets=offsets,
         edges=np.concatenate([a.edges, b.edges])[member],
         reversed=np.concatenate([a.reversed, b.reversed])[member],
