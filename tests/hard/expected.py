@@ -1,0 +1,233 @@
+"""What a hard case is held against: ink on paper, expected from first principles or kept as a picture.
+
+Ink is what a drawing puts on paper: straight pieces, visible and hidden apart, before the drawing was moved to its
+origin. Two inks are compared by points sampled along each: every point of one has ink of the same visibility of the
+other within a tolerance, and the other way round. So it does not matter how lines are cut or chained, only where they
+are; `doubled` tells whether one is there twice, which distances alone cannot see.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import numpy.typing as npt
+from linework.measures import distances, drawn_twice, placed
+from visibility.oracle import LARGEST, states_either_side
+
+import hlr
+from hlr import Drawing, Line
+
+Floats = npt.NDArray[np.float64]
+
+PICTURES = Path(__file__).with_name("pictures")
+SVG = "{http://www.w3.org/2000/svg}"
+META = "{urn:hlr:drawing:1}"
+
+UNDER = 3.0
+"""Accuracies: a hidden line this close to a visible one lies under its ink and need not be drawn."""
+MOST_TOLD = 5
+
+
+@dataclass(frozen=True)
+class Ink:
+    """visible, hidden: (n, 2, 2) straight pieces in millimetres on paper, (P.right, P.up) * scale."""
+
+    visible: Floats
+    hidden: Floats
+
+    def lengths(self) -> tuple[float, float]:
+        """Millimetres of visible and of hidden ink."""
+        return ink_length(self.visible), ink_length(self.hidden)
+
+
+def pieces(walks: Iterable[Floats]) -> Floats:
+    """(n, 2, 2) straight pieces of polylines (k, 2)."""
+    return np.concatenate([np.zeros((0, 2, 2)), *[np.stack([w[:-1], w[1:]], axis=1) for w in walks]])
+
+
+def ink_length(ink: Floats) -> float:
+    """Millimetres of all pieces together."""
+    return float(np.hypot(*(ink[:, 1] - ink[:, 0]).T).sum())
+
+
+def ink(drawing: Drawing, without: Sequence[str] = ()) -> Ink:
+    """What the drawing puts on paper; kinds in `without` are left out."""
+    chosen = [line for line in drawing.lines if line.kind not in without]
+    return Ink(
+        pieces(placed(drawing, line) for line in chosen if line.visible),
+        pieces(placed(drawing, line) for line in chosen if not line.visible),
+    )
+
+
+def on_paper(drawing: Drawing, points: npt.ArrayLike) -> Floats:
+    """Where points of the model (n, 3) fall, like the exchange format says it, but before the move to the origin."""
+    view, p = drawing.view, np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    factor = np.full(len(p), drawing.unit * drawing.scale)
+    if view.eye is not None:
+        p = p - view.eye
+        factor = factor * view.distance / -(p @ np.asarray(view.direction))
+    return np.stack([p @ np.asarray(view.right), p @ np.asarray(view.up)], axis=1) * factor[:, None]
+
+
+def lines_of_sight(drawing: Drawing, points: npt.ArrayLike) -> Floats:
+    """(n, 3) paper and depth, growing away from the viewer, in which straight lines and planes stay straight."""
+    view, p = drawing.view, np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    ahead = -(p - (view.eye or (0.0, 0.0, 0.0))) @ np.asarray(view.direction)
+    factor = drawing.unit * drawing.scale
+    depth = ahead * factor if view.eye is None else -(view.distance**2) / ahead * factor
+    return np.concatenate([on_paper(drawing, p), depth[:, None]], axis=1)
+
+
+Edge3 = tuple[npt.ArrayLike, npt.ArrayLike]
+
+
+def expect(drawing: Drawing, visible: Iterable[Edge3], hidden: Iterable[Edge3] = ()) -> Ink:
+    """Ink from pieces of edges whose ends were computed by hand, in the model."""
+    flat = [
+        np.array([on_paper(drawing, np.asarray(e, float)) for e in edges]).reshape(-1, 2, 2)
+        for edges in (visible, hidden)
+    ]
+    return Ink(*flat)
+
+
+def by_oracle(
+    drawing: Drawing, points: npt.ArrayLike, triangles: npt.ArrayLike, edges: Iterable[tuple[int, int]]
+) -> Ink:
+    """Ink from the exact rational oracle: `edges` (pairs of point numbers) against all triangles, one by one.
+
+    The points are rounded to 2^-21 of the drawing's size first: far below any accuracy.
+    """
+    where = lines_of_sight(drawing, points)
+    centre = (where.min(axis=0) + where.max(axis=0)) / 2
+    size = np.abs(where - centre).max()
+    grid = np.round((where - centre) * (0.99 * LARGEST / size)).astype(int)
+    corners = [(x, y, z) for x, y, z in grid.tolist()]
+    faces = [(corners[i], corners[j], corners[k]) for i, j, k in np.asarray(triangles).tolist()]
+    found: dict[bool, list[Floats]] = {False: [], True: []}
+    for i, j in edges:
+        if corners[i][:2] == corners[j][:2]:
+            continue
+        a, b = where[i, :2], where[j, :2]
+        for t0, t1, is_hidden in states_either_side((corners[i], corners[j]), faces):
+            found[is_hidden].append(np.stack([a + (b - a) * float(Fraction(t)) for t in (t0, t1)]))
+    return Ink(pieces(found[False]), pieces(found[True]))
+
+
+def samples(ink: Floats, step: float) -> Floats:
+    """(m, 2) points along the pieces, at most `step` apart; ends of pieces too."""
+    count = np.ceil(np.hypot(*(ink[:, 1] - ink[:, 0]).T) / step).astype(int) + 1
+    t = np.concatenate([np.zeros(0), *[np.linspace(0.0, 1.0, n) for n in count]])
+    a, b = (np.repeat(ink[:, k], count, axis=0) for k in (0, 1))
+    return a + (b - a) * t[:, None]
+
+
+def _missing(what: str, points: Floats, off: Floats, tolerance: float) -> Iterator[str]:
+    for n in np.flatnonzero(off > tolerance)[:MOST_TOLD]:
+        x, y = points[n]
+        yield f"{what} at ({x:.6g}, {y:.6g}): nearest {off[n]:.3g} mm away, {tolerance:.3g} allowed"
+
+
+def differences(expected: Ink, drawn: Ink, tolerance: float, step: float | None = None, ends: float = 0.0) -> list[str]:
+    """Where two inks differ, in words; empty where they agree.
+
+    tolerance and step (between samples; four tolerances) in millimetres on paper. What is expected hidden but lies
+    within UNDER tolerances of visible ink may be missing. ends: so much further may expected ink be from the drawn one,
+    where pieces shorter than the accuracy were left out.
+    """
+    told: list[str] = []
+    step = step or 4.0 * tolerance
+    seen, unseen = samples(expected.visible, step), samples(expected.hidden, step)
+    told += _missing("visible ink is missing", seen, distances(seen, drawn.visible), tolerance + ends)
+    covered = distances(unseen, drawn.visible) <= UNDER * tolerance
+    unseen = unseen[~covered]
+    told += _missing("hidden ink is missing", unseen, distances(unseen, drawn.hidden), tolerance + ends)
+    seen, unseen = samples(drawn.visible, step), samples(drawn.hidden, step)
+    told += _missing("visible ink that should not be there", seen, distances(seen, expected.visible), tolerance)
+    told += _missing("hidden ink that should not be there", unseen, distances(unseen, expected.hidden), tolerance)
+    return told
+
+
+def agrees(
+    drawing: Drawing, expected: Ink, *, without: Sequence[str] = (), step: float | None = None, ends: float = 0.0
+) -> None:
+    """Assert that a drawing is what is expected, within its own accuracy, and draws nothing twice."""
+    assert expected.visible.size + expected.hidden.size, "nothing is expected: the comparison would be empty"
+    told = differences(expected, ink(drawing, without), drawing.accuracy["used"], step, ends)
+    assert not told, "\n".join(told)
+    assert doubled(drawing) == 0.0
+
+
+def doubled(drawing: Drawing) -> float:
+    """Millimetres of paper along which a line lies on another."""
+    return drawn_twice(drawing)
+
+
+def of_kind(drawing: Drawing, kind: str, visible: bool | None = None) -> list[Line]:
+    """The lines of one kind."""
+    return [x for x in drawing.lines if x.kind == kind and visible in (None, x.visible)]
+
+
+def read_picture(path: Path) -> Ink:
+    """The ink of an SVG that hlr wrote, in the frame of `Ink`. Shares no code with the writer."""
+    root = ElementTree.parse(path).getroot()
+    meta = root.find(f".//{META}drawing")
+    assert meta is not None
+    origin = np.array([float(v) for v in meta.attrib["origin"].split()])
+    found: dict[str, Floats] = {}
+    for visibility in ("visible", "hidden"):
+        group = root.find(f"{SVG}g[@id='{visibility}']")
+        paths = [] if group is None else [p.attrib["d"] for p in group.iter(f"{SVG}path")]
+        found[visibility] = pieces(walk * [1, -1] + origin for d in paths for walk in _walks(d))
+    return Ink(**found)
+
+
+def _walks(d: str) -> Iterator[Floats]:
+    """Polylines of a path of M, l, h, v and z, as the writer uses them."""
+    for run in re.findall(r"M[^M]*", d):
+        walk: list[tuple[float, float]] = []
+        for command, text in re.findall(r"([Mlhvz])([^Mlhvz]*)", run):
+            numbers = [float(n) for n in re.findall(r"-?\d*\.?\d+", text)]
+            if command == "z":
+                walk.append(walk[0])
+            elif command in "hv":
+                for n in numbers:
+                    x, y = walk[-1]
+                    walk.append((x + n, y) if command == "h" else (x, y + n))
+            else:
+                for dx, dy in zip(numbers[::2], numbers[1::2], strict=True):
+                    x, y = walk[-1] if walk else (0.0, 0.0)
+                    walk.append((x + dx, y + dy))
+        yield np.array(walk)
+
+
+def wrong_by_rays(drawing: Drawing, points: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[int, int]:
+    """(judged, wrong) samples of the drawing's lines, by rays cast against the model's own triangles.
+
+    Give points and triangles in the coordinates of the model that was drawn.
+    """
+    from peers import exchange, judge, reference
+
+    from hlr.writers import render
+
+    verdict = judge.judge(
+        exchange.parse(render(drawing, "json")), judge.RayCaster(reference.from_arrays(points, triangles))
+    )
+    return len(verdict.samples.line), verdict.wrong
+
+
+def defects(source: object) -> list[str]:
+    """All defects of all parts, as `hlr info` words them, and its notes."""
+    found = hlr.info(source)
+    return [text for part in found.parts for text in part.defects] + list(found.notes)
+
+
+def straight_lines(drawing: Drawing, visible: bool) -> list[tuple[Floats, Floats]]:
+    """The straight pieces of one visibility as pairs of points in the model."""
+    return [(a, b) for line in drawing.lines if line.visible == visible for a, b in pairwise(line.points3)]
