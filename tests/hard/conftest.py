@@ -25,10 +25,18 @@ def picture(request: pytest.FixtureRequest) -> Callable[..., None]:
     """picture(drawing): the drawing is the committed pictures/<case>.svg, the case being the name of the test file.
 
     picture(drawing, "back") is for a second one of the same case. Kinds in `without` are not compared.
+    twice: millimetres of ink that may lie on other ink, for outlines of meshes, which run in zigzags along the facets.
     """
     case = request.path.stem.removeprefix("test_")
 
-    def compare(drawing: Drawing, which: str = "", *, without: Sequence[str] = (), step: float | None = None) -> None:
+    def compare(
+        drawing: Drawing,
+        which: str = "",
+        *,
+        without: Sequence[str] = (),
+        step: float | None = None,
+        twice: float = 0.0,
+    ) -> None:
         path = PICTURES / f"{case}{which and '-'}{which}.svg"
         if request.config.getoption("--draw", default=False):
             PICTURES.mkdir(exist_ok=True)
@@ -37,6 +45,6 @@ def picture(request: pytest.FixtureRequest) -> Callable[..., None]:
         assert path.stat().st_size <= LARGEST_PICTURE
         told = differences(read_picture(path), ink(drawing, without), drawing.accuracy["used"], step)
         assert not told, f"not as in {path.name}:\n" + "\n".join(told)
-        assert doubled(drawing) == 0.0
+        assert doubled(drawing) <= twice
 
     return compare

@@ -231,3 +231,11 @@ def defects(source: object) -> list[str]:
 def straight_lines(drawing: Drawing, visible: bool) -> list[tuple[Floats, Floats]]:
     """The straight pieces of one visibility as pairs of points in the model."""
     return [(a, b) for line in drawing.lines if line.visible == visible for a, b in pairwise(line.points3)]
+
+
+def covers(drawing: Drawing, lines: Iterable[Edge3], step: float | None = None) -> None:
+    """Assert that these edges, hidden or not, are all that is drawn; with `wrong_by_rays` this is the whole truth."""
+    drawn = ink(drawing)
+    both = Ink(np.concatenate([drawn.visible, drawn.hidden]), np.zeros((0, 2, 2)))
+    told = differences(expect(drawing, lines), both, drawing.accuracy["used"], step)
+    assert not told, "\n".join(told)
