@@ -33,6 +33,7 @@ META = "{urn:hlr:drawing:1}"
 UNDER = 3.0
 """Accuracies: a hidden line this close to a visible one lies under its ink and need not be drawn."""
 MOST_TOLD = 5
+LIFT = 32
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,8 @@ def by_oracle(
 ) -> Ink:
     """Ink from the exact rational oracle: `edges` (pairs of point numbers) against all triangles, one by one.
 
-    The points are rounded to 2^-21 of the drawing's size first: far below any accuracy.
+    The points are rounded to 2^-21 of the drawing's size first: far below any accuracy. Where oblique faces coincide
+    that is enough for one to lie before the other, so the edges are moved LIFT of these steps toward the viewer.
     """
     where = lines_of_sight(drawing, points)
     centre = (where.min(axis=0) + where.max(axis=0)) / 2
@@ -115,7 +117,8 @@ def by_oracle(
         if corners[i][:2] == corners[j][:2]:
             continue
         a, b = where[i, :2], where[j, :2]
-        for t0, t1, is_hidden in states_either_side((corners[i], corners[j]), faces):
+        p, q = ((x, y, z - LIFT) for x, y, z in (corners[i], corners[j]))
+        for t0, t1, is_hidden in states_either_side((p, q), faces):
             found[is_hidden].append(np.stack([a + (b - a) * float(Fraction(t)) for t in (t0, t1)]))
     return Ink(pieces(found[False]), pieces(found[True]))
 

@@ -1,0 +1,46 @@
+"""A book: n pages on one spine, an edge of n faces.
+
+A half-edge structure holds two faces per edge and drops or refuses the rest; the spine is a contour as often as pages
+lie to one side of it more than to the other.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hard.expected import agrees, by_oracle, defects
+from hard.shapes import face, merged, turned_over
+
+import hlr
+
+
+def book(count, opening=2 * np.pi, turned=False):
+    """Pages as a fan of `opening` about the z axis; with `turned` every second one is turned over."""
+    angles = np.arange(count) * (opening / count) + 0.1
+    pages = [
+        face((0, 0, 0), (15 * np.cos(t), 15 * np.sin(t), 0), (15 * np.cos(t), 15 * np.sin(t), 20), (0, 0, 20))
+        for t in angles
+    ]
+    return merged(*(turned_over(p) if turned and k % 2 else p for k, p in enumerate(pages)))
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 7, 16])
+@pytest.mark.parametrize("view", ["iso", (1, 0.2, 0), (-1, 0.5, -2), "top"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_each_page_hides_those_behind_it(picture, count, view, turned):
+    points, triangles = book(count, np.pi if count in (2, 7) else 2 * np.pi, turned)
+    drawing = hlr.draw((points, triangles), view)
+    sides = [(4 * k + i, 4 * k + (i + 1) % 4) for k in range(count) for i in range(4)]
+    agrees(drawing, by_oracle(drawing, points, triangles, sides), step=0.3)
+    if count == 7 and view == "iso":
+        picture(drawing)
+
+
+@pytest.mark.parametrize(
+    ("count", "said"), [(1, []), (2, []), (3, ["1 non-manifold edges"]), (16, ["1 non-manifold edges"])]
+)
+def test_the_spine_is_reported(count, said):
+    border = {1: 4}.get(count, 3 * count)
+    found = defects(book(count, np.pi))
+    assert found[0] == f"open: {border} border edges"
+    assert [text for text in found[1:] if "orientation" not in text] == said
