@@ -13,7 +13,7 @@ from hard.shapes import as_parts, circle, merged, sphere
 
 import hlr
 
-N, M = 192, 96
+N, M = 96, 48
 HOLE = np.radians(50)
 """Latitude of the rim."""
 
@@ -51,7 +51,7 @@ def test_closed_spheres_hide_all_that_they_hold(how):
 
 
 def test_an_eye_between_the_shells_sees_only_the_inner_one():
-    model = merged(sphere(20, N, M), sphere(5, N, M))
+    model = merged(sphere(20, N, M), sphere(5, 2 * N, 2 * M))
     drawing = hlr.draw(model, perspective=hlr.Perspective(eye=(0, 0, 15), target=(0, 0, 0), fov=80), hidden=False)
     # The tangents from 15 touch the sphere at an angle whose sine is 5 / 15; the image plane is 15 away.
     angle = np.arcsin(5 / 15)
