@@ -1,6 +1,6 @@
 """The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape.
 
-A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap) is a scene's group. Parts share no
+A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap, tight) is a scene's group. Parts share no
 points.
 """
 
@@ -21,6 +21,7 @@ def edge_folds(
 ) -> tuple[Floats, Floats]: ...
 def components(triangles: Ints, n_points: int) -> Ints: ...
 def edge_components(edges: Ints, n_points: int) -> Ints: ...
+def clashes(points: Floats, triangles: Ints, triangle_part: Ints, itself: Bools) -> dict[str, Any]: ...
 def visibility(
     points: Floats,
     triangles: Ints,
@@ -34,6 +35,7 @@ def visibility(
     sound: Bools,
     delta: Floats,
     cap: Floats,
+    tight: Bools,
     threads: int = 0,
 ) -> dict[str, Any]: ...
 def chain(edges: Ints, key: Ints) -> tuple[Ints, Ints, Bools]: ...

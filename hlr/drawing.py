@@ -23,6 +23,7 @@ class Line:
     face     index in the part's TopExp face map for outlines; else None
     points   (n, 2) millimetres on paper, y up
     points3  (n, 3) model coordinates, same count
+    other    of an intersection line: index of the second part (the same one where a part meets itself); else None
     """
 
     kind: str
@@ -32,6 +33,7 @@ class Line:
     face: int | None
     points: Points
     points3: Points
+    other: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,8 @@ def info(source: Any, *, crease: float = 30.0, progress: Progress | None = None)
     bounds = opened.bounds()
     size = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5)
     tell("tessellate", 0.0)
-    scene = build(opened.mesh(size / SMALL_DRAWING, ANGLE, progress), crease)
+    deflection = size / SMALL_DRAWING
+    scene = build(opened.mesh(deflection, ANGLE, progress), crease, deflection)
     solids = {i.name: i.solids for i in opened.infos()}
     parts = tuple(
         PartReport(

@@ -93,7 +93,7 @@ def _meshed(
         meshed = opened.mesh(finest, placed[0].tolerances.angle, tell)
         started = _lap(clock, "tessellate", started)
         tell("scene", 0.0)
-        scene = build(meshed, options.crease)
+        scene = build(meshed, options.crease, finest)
         _lap(clock, "scene", started)
         final = [at.fitted(c, options, scene.points) for c, at in zip(cameras, placed, strict=True)]
         if min(at.tolerances.deflection for at in final) > 0.8 * finest:

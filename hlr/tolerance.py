@@ -23,6 +23,12 @@ MESH_CONTACT = 1.0 / 8000.0
 """Of the model's diagonal. A mesh was tessellated by someone else, at a deflection it does not tell: within this depth
 its pieces count as touching."""
 
+CONTACT = 5.0
+"""In deflections: the tessellations of two touching curved surfaces may be off by one each, obliquely seen."""
+
+CONTACT_PLANAR = 0.04
+"""In deflections: planar faces are off only by what their files round."""
+
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9
 """Of the drawing's diagonal. Finer tessellations do not fit into memory; finer meshes do not fit the integer grid."""
@@ -35,9 +41,8 @@ class Tolerances:
     accuracy       what is promised, on paper
     deflection     chord error of the tessellation, in the model
     angle          turning per chord, radians
-    contact        depth within which two curved things count as touching, in the model: the tessellations of both may
-                   be off by one deflection each, obliquely seen
-    contact_planar the same for planar parts, which are off only by what their files round
+    contact        depth within which two curved things count as touching, in the model
+    contact_planar the same for planar parts
     short          no piece shorter than this is drawn on its own, on paper
     stub           a doubtful piece shorter than this beside a hidden one is the contact tolerance's own, on paper
     width          lines of one visibility this close coincide, on paper
@@ -86,12 +91,13 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
             f"accuracy {accuracy:g} mm is too fine for a drawing of {diagonal:.3g} mm: give at least {finest:.1g}"
         )
     model = accuracy / per_model
+    deflection = 0.5 * model
     return Tolerances(
         accuracy=accuracy,
-        deflection=0.5 * model,
+        deflection=deflection,
         angle=ANGLE,
-        contact=2.5 * model,
-        contact_planar=model / 50.0,
+        contact=CONTACT * deflection,
+        contact_planar=CONTACT_PLANAR * deflection,
         short=accuracy,
         stub=10.0 * accuracy,
         width=0.5 * accuracy,

@@ -203,8 +203,12 @@ def test_the_order_of_parts_does_not_matter(order, view):
     assert straight(one) == straight(other)
 
     def owned(drawing, names):
+        # Of an intersection, the part with the lower number is named first.
+        def owners(line):
+            return tuple(sorted(names[p] for p in (line.part, line.other) if p is not None))
+
         return sorted(
-            (names[x.part], x.kind, x.visible, *map(tuple, np.round(placed(drawing, x), 6))) for x in drawing.lines
+            (owners(x), x.kind, x.visible, *map(tuple, np.round(placed(drawing, x), 6))) for x in drawing.lines
         )
 
     if view != "front":
@@ -221,13 +225,15 @@ def test_what_stands_behind_or_beside_changes_no_visible_line(view):
     behind = box((6, 6, 6), tuple(-60 * d))
     beside = box((6, 6, 6), tuple(90 * right))
     after = hlr.draw(parts(*(box(*b) for b in base), behind), view, accuracy=0.02)
-    # The grid of integers is laid anew for the larger scene: equal but for rounding.
-    assert apart(segments(after, True), segments(alone, True)) < 1e-4
+    # The grid of integers is laid anew for the larger scene: equal but for rounding. Intersection lines lie on surfaces
+    # up to that rounding, and where they dive behind one is known to within a tolerance of a fiftieth of the accuracy.
+    near = 0.02 / 50
+    assert apart(segments(after, True), segments(alone, True)) < near
     after = hlr.draw(parts(*(box(*b) for b in base), beside), view, accuracy=0.02)
     for visible in (True, False):
         mine = segments(after, visible)
         mine = mine[(np.abs(mine[:, :, 0]) < 60).all(axis=1)]
-        assert apart(mine, segments(alone, visible)) < 1e-4
+        assert apart(mine, segments(alone, visible)) < near
 
 
 def test_what_stands_before_hides():

@@ -12,6 +12,7 @@ import click
 from hlr.errors import OptionError, SourceError, StrictError
 
 from ..exits import warn
+from ..guard import start
 from ..meter import meter
 from ..outputs import STDOUT, plan
 from ..parameters import Scale, Size, Vector, Vector3, ViewName
@@ -44,6 +45,11 @@ if TYPE_CHECKING:
 @click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on.")
 @click.option("--smooth", is_flag=True, help="Also tangent edges, thin.")
 @click.option("--seam", is_flag=True, help="Also the seams of closed surfaces.")
+@click.option(
+    "--intersections/--no-intersections",
+    default=True,
+    help="Lines where surfaces pass through each other. Default: on.",
+)
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
 @click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
 @click.option(
@@ -98,6 +104,7 @@ def draw(
     options = _options(**wishes)
     targets = _targets(output, source, names, format, as_json)
 
+    start(source)
     # While anything runs that is not ours, standard output is out of its reach.
     with result_only() as out:
         with meter(quiet) as progress:

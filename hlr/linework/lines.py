@@ -81,7 +81,7 @@ def draw_lines(
     order = keep[np.lexsort((keep, *_identity(chains, chain[keep])))]
     names = [k.name.lower() for k in EdgeClass]
     kinds = chains.kind[chain].tolist()
-    part, edge, face = (a[chain].tolist() for a in (chains.part, chains.edge, chains.face))
+    part, edge, face, other = (a[chain].tolist() for a in (chains.part, chains.edge, chains.face, chains.other))
     visible, start = found["visible"].tolist(), offsets.tolist()
     lines = tuple(
         Line(
@@ -92,6 +92,7 @@ def draw_lines(
             face[i] if face[i] >= 0 else None,
             flat[start[i] : start[i + 1]],
             space[start[i] : start[i + 1]],
+            other[i] if other[i] >= 0 else None,
         )
         for i in order.tolist()
     )
@@ -100,7 +101,7 @@ def draw_lines(
 
 def _identity(chains: LineChains, chain: Ints) -> tuple[npt.NDArray[Any], ...]:
     """Sort keys, least significant first."""
-    return chains.face[chain], chains.edge[chain], chains.kind[chain], chains.part[chain]
+    return chains.other[chain], chains.face[chain], chains.edge[chain], chains.kind[chain], chains.part[chain]
 
 
 def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
@@ -122,4 +123,5 @@ def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
         part=np.concatenate([source.part[asked], outline.part]),
         edge=np.concatenate([source.index[asked], outline.edge]),
         face=np.concatenate([none, outline.face]),
+        other=np.concatenate([source.other[asked], outline.other]),
     )

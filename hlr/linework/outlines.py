@@ -23,7 +23,7 @@ class LineChains:
     """Walks over mesh edges that become lines.
 
     offsets (c+1,), edges (k,), reversed (k,) bool; kind (c,) EdgeClass, part (c,), edge (c,) and face (c,) in the
-    part's TopExp maps, -1 where there is none.
+    part's TopExp maps, other (c,) the second part of an intersection line; -1 where there is none.
     """
 
     offsets: Ints
@@ -33,6 +33,7 @@ class LineChains:
     part: Ints
     edge: Ints
     face: Ints
+    other: Ints
 
 
 def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
@@ -89,4 +90,5 @@ def _chained(scene: Scene, contour: Ints, owner: Ints) -> LineChains:
         part=part[head].astype(np.int32),
         edge=np.full(len(head), -1, np.int32),
         face=np.where(has_faces[part[head]], face[head], -1).astype(np.int32),
+        other=np.full(len(head), -1, np.int32),
     )

@@ -30,6 +30,7 @@ class Options:
     hidden       draw hidden lines
     smooth       draw tangent (G1) edges, thin
     seam         draw the seams of closed surfaces
+    intersections  draw the lines in which surfaces pass through one another
     scale        paper : model; 0.5 is 1:2
     fit          (width, height) to fit the drawing into instead of a scale
     accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
@@ -43,6 +44,7 @@ class Options:
     hidden: bool = True
     smooth: bool = False
     seam: bool = False
+    intersections: bool = True
     scale: float = 1.0
     fit: tuple[float, float] | None = None
     accuracy: float | None = None

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.plan.options import Options
+from hlr.scene.groups import touching
 from hlr.scene.scene import INTERIOR, Scene
 from hlr.source.model import EdgeClass, Floats
-from hlr.tolerance import MESH_CONTACT, Tolerances
+from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera
 
 DRAWN = 1
@@ -46,6 +46,7 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
     drawn_kind[[EdgeClass.SHARP, EdgeClass.BOUNDARY]] = True
     drawn_kind[EdgeClass.SMOOTH] = options.smooth
     drawn_kind[EdgeClass.SEAM] = options.seam
+    drawn_kind[EdgeClass.INTERSECTION] = options.intersections
     tied = kind != INTERIOR
     role[tied] = np.where(drawn_kind[kind[tied]], DRAWN, 0)
     may_fold = scene.edge_curved & ((kind == INTERIOR) | (kind == EdgeClass.SMOOTH) | (kind == EdgeClass.SEAM))
@@ -63,12 +64,8 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
 
 def _contact(scene: Scene, camera: Camera, tolerances: Tolerances) -> tuple[Floats, Floats]:
     groups = scene.groups
-    delta = np.where(groups.planar, tolerances.contact_planar, tolerances.contact)
+    delta = touching(groups, tolerances.contact, tolerances.contact_planar)
     used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])
-    if groups.bare.any():
-        size = groups.high[used].max(axis=0) - groups.low[used].min(axis=0)
-        diagonal = math.sqrt(sum(float(s) * float(s) for s in size))
-        delta = np.where(groups.bare, np.maximum(delta, diagonal * MESH_CONTACT), delta)
     # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet has none: only
     # what a file rounds is forgiven there.
     cap = np.where(groups.closed, 0.5 * groups.extent, np.maximum(0.5 * groups.extent, tolerances.contact_planar))

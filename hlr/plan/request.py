@@ -20,7 +20,7 @@ NARROWEST, WIDEST = 0.01, 170.0
 
 def checked(options: Options) -> Options:
     """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
-    for name in ("hidden", "smooth", "seam", "strict"):
+    for name in ("hidden", "smooth", "seam", "intersections", "strict"):
         if getattr(options, name) not in (True, False):
             raise OptionError(f"{name} is yes or no: give True or False, not {getattr(options, name)!r}")
     if not _is_real(options.scale) or not 1.0 / MOST_SCALE <= options.scale <= MOST_SCALE:

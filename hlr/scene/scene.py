@@ -21,6 +21,7 @@ class Groups:
     cull     (g,) bool: closed, and turned outward: faces turned away need not be looked at
     sound    (g,) bool: does not pass through itself, as far as its source vouches for it
     bare     (g,) bool: a piece of a mesh without B-rep
+    tight    (g,) bool: lines that lie exactly on other groups' triangles
     planar   (g,) bool: nothing but planar faces: exact, but for what the file rounds
     extent   (g,) float64: the smallest side of its box, model units
     low, high (g, 3) float64: its box
@@ -30,6 +31,7 @@ class Groups:
     cull: npt.NDArray[np.bool_]
     sound: npt.NDArray[np.bool_]
     bare: npt.NDArray[np.bool_]
+    tight: npt.NDArray[np.bool_]
     planar: npt.NDArray[np.bool_]
     extent: Floats
     low: Floats
@@ -42,6 +44,7 @@ class Chains:
 
     offsets (c+1,), edges (k,) mesh edges, reversed (k,) bool: walked from second to first vertex
     kind (c,) uint8 EdgeClass, part (c,) int32, index (c,) int32 in the part's TopExp edge map, -1 for meshes
+    other (c,) int32: of an intersection line the second part, else -1
     """
 
     offsets: Ints
@@ -50,6 +53,7 @@ class Chains:
     kind: npt.NDArray[np.uint8]
     part: Ints
     index: Ints
+    other: Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +76,8 @@ class Scene:
     """points (n, 3) model coordinates; triangles (t, 3); edges (e, 2), lower vertex first.
 
     incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. edge_kind is an EdgeClass or INTERIOR;
-    edge_curved tells the edges at which a curved surface may show its outline.
+    edge_curved tells the edges at which a curved surface may show its outline. Edges without triangles are wires, or
+    intersection lines; those belong to a group of their own.
     """
 
     points: Floats

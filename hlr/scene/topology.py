@@ -41,9 +41,8 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         part_of.append(np.full(len(part.edge_index), i, np.int32))
     if not nodes:
         none = np.zeros(0, np.int32)
-        return Chains(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none), none.reshape(
-            0, 2
-        )
+        empty = Chains(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none, none)
+        return empty, none.reshape(0, 2)
     node = np.concatenate(nodes)
     count = np.concatenate(counts)
     walk = np.repeat(np.arange(len(count), dtype=np.int32), count)
@@ -67,6 +66,7 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         kind=np.concatenate([p.edge_class for p in parts]).astype(np.uint8),
         part=np.concatenate(part_of),
         index=np.concatenate([p.edge_index for p in parts]).astype(np.int32),
+        other=np.full(len(count), -1, np.int32),
     )
     return walks, extra
 
@@ -169,6 +169,7 @@ def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidate
         kind=kind[head],
         part=part[head].astype(np.int32),
         index=np.full(len(head), -1, np.int32),
+        other=np.full(len(head), -1, np.int32),
     )
 
 
@@ -188,4 +189,5 @@ def joined(a: Chains, b: Chains) -> Chains:
         kind=np.concatenate([a.kind, b.kind])[order],
         part=part[order],
         index=np.concatenate([a.index, b.index])[order],
+        other=np.concatenate([a.other, b.other])[order],
     )

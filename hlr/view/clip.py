@@ -205,4 +205,5 @@ def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
         kind=chains.kind[whole],
         part=chains.part[whole],
         index=chains.index[whole],
+        other=chains.other[whole],
     )

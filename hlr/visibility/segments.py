@@ -49,6 +49,7 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
         plan.sound,
         np.ascontiguousarray(plan.delta),
         np.ascontiguousarray(plan.cap),
+        scene.groups.tight,
         threads,
     )
     return Segments(

@@ -66,9 +66,10 @@ def _lines(drawing: Drawing) -> list[str]:
     for i, line in enumerate(lines):
         edge = "null" if line.edge is None else line.edge
         face = "null" if line.face is None else line.face
+        other = "" if line.other is None else f'"other": {line.other}, '
         out.append(
             f'{{"class": "{line.kind}", "visible": {"true" if line.visible else "false"}, "part": {line.part}, '
-            f'"edge": {edge}, "face": {face}, "points": [{paper[paper_at[i] : paper_at[i + 1]]}]], '
+            f'"edge": {edge}, "face": {face}, {other}"points": [{paper[paper_at[i] : paper_at[i + 1]]}]], '
             f'"points3": [{space[space_at[i] : space_at[i + 1]]}]]}}'
         )
     return out

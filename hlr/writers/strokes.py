@@ -28,6 +28,7 @@ class Layer:
     closed   (s,)
     part     per stroke: index of its part
     edge     per stroke: index of its edge, or None
+    other    per stroke: index of the second part of an intersection, or None
     """
 
     kind: str
@@ -37,6 +38,7 @@ class Layer:
     closed: Bools
     part: list[int]
     edge: list[int | None]
+    other: list[int | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,12 +86,13 @@ def _layer(visible: bool, kind: str, lines: Sequence[Line], points: Ints, counts
     first, last = np.cumsum(counts) - counts, np.cumsum(counts) - 1
     part = np.fromiter((line.part for line in lines), np.int64, len(lines))
     edge = np.fromiter((-1 if line.edge is None else line.edge for line in lines), np.int64, len(lines))
+    other = np.fromiter((-1 if line.other is None else line.other for line in lines), np.int64, len(lines))
     loop = _same(points[first], points[last])
 
     # A line joins the one before it where it starts on its end, on the same edge of the same part.
     joins = np.zeros(len(lines), np.bool_)
     joins[1:] = (part[1:] == part[:-1]) & (edge[1:] == edge[:-1]) & _same(points[first[1:]], points[last[:-1]])
-    joins[1:] &= ~loop[1:] & ~loop[:-1]
+    joins[1:] &= (other[1:] == other[:-1]) & ~loop[1:] & ~loop[:-1]
     new = np.zeros(len(points), np.bool_)
     new[first[~joins]] = True
     keep = new.copy()
@@ -114,6 +117,7 @@ def _layer(visible: bool, kind: str, lines: Sequence[Line], points: Ints, counts
         closed,
         part[owner[starts]].tolist(),
         [None if e < 0 else e for e in edge[owner[starts]].tolist()],
+        [None if o < 0 else o for o in other[owner[starts]].tolist()],
     )
 
 

@@ -76,9 +76,10 @@ def _paths(layer: Layer, places: int) -> list[str]:
     """One element per stroke."""
     text, offsets = _path_data(layer, places)
     out = []
-    spans = zip(offsets[:-1], offsets[1:], layer.closed.tolist(), layer.part, layer.edge, strict=True)
-    for start, end, closed, part, edge in spans:
+    spans = zip(offsets[:-1], offsets[1:], layer.closed.tolist(), layer.part, layer.edge, layer.other, strict=True)
+    for start, end, closed, part, edge, other in spans:
         tie = "" if edge is None else f' data-edge="{edge}"'
+        tie += "" if other is None else f' data-other="{other}"'
         out.append(f'<path data-part="{part}"{tie} d="{text[start:end]}{"z" if closed else ""}"/>\n')
     return out
 

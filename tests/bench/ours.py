@@ -49,6 +49,7 @@ class Kernel:
             sound=closed,
             delta=np.full(mesh.parts, self._contact),
             cap=np.full(mesh.parts, self._contact),
+            tight=np.zeros(mesh.parts, bool),
             threads=threads,
         )
         seconds = time.perf_counter() - start

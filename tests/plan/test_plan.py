@@ -27,7 +27,7 @@ def test_options_are_frozen_and_their_defaults_pass():
     assert checked(options) is options
     with pytest.raises(FrozenInstanceError):
         options.scale = 2.0
-    assert len({f.name for f in fields(Options)}) == 11
+    assert len({f.name for f in fields(Options)}) == 12
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_the_accuracy_of_those_who_do_not_ask():
 
 def planned(thing, view="iso", **options):
     source = open_source(thing)
-    scene = build(source.mesh(0.05, 0.5), 30.0)
+    scene = build(source.mesh(0.05, 0.5), 30.0, 0.05)
     asked = Options(**options)
     camera = resolve(view, asked, source.frame, source.bounds())
     tolerances = derive(0.05, 1.0, 100.0, brep=True)

@@ -20,7 +20,7 @@ from hlr.source.model import EdgeClass, Meshed
 
 
 def scene_of(thing, crease=30.0, deflection=0.05):
-    return build(open_source(thing).mesh(deflection, 0.5), crease)
+    return build(open_source(thing).mesh(deflection, 0.5), crease, deflection)
 
 
 def part_of(thing):
@@ -133,9 +133,9 @@ def test_only_what_is_closed_and_outward_may_be_culled(name, expected):
     [
         ("mesh box", True, True, ()),
         ("lidless", False, True, ("open: 4 border edges",)),
-        ("turned", True, True, ("1 closed pieces turned inside out or hollow",)),
-        ("hollow", True, True, ("1 closed pieces turned inside out or hollow",)),
-        ("fin", False, True, ("open: 6 border edges", "1 non-manifold edges")),
+        ("turned", True, True, ("1 closed piece turned inside out",)),
+        ("hollow", True, True, ()),
+        ("fin", False, True, ("open: 6 border edges", "1 non-manifold edge")),
         ("box", True, True, ()),
         ("ball", True, True, ()),
         ("face", False, True, ("open: ",)),
@@ -210,7 +210,7 @@ def test_nothing_to_draw():
     part = part_of(box((1, 1, 1)))
     empty = replace(part, triangles=part.triangles[:0], triangle_face=part.triangle_face[:0])
     with pytest.raises(SourceError, match="nothing to draw"):
-        build(Meshed([empty]), 30.0)
+        build(Meshed([empty]), 30.0, 0.05)
 
 
 def test_a_part_that_is_not_finite_is_refused():
@@ -218,7 +218,7 @@ def test_a_part_that_is_not_finite_is_refused():
     broken = part.points.copy()
     broken[0, 0] = np.nan
     with pytest.raises(SourceError, match="not finite"):
-        build(Meshed([replace(part, points=broken)]), 30.0)
+        build(Meshed([replace(part, points=broken)]), 30.0, 0.05)
 
 
 def test_a_solid_turned_inside_out_is_reported():

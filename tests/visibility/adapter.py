@@ -80,6 +80,7 @@ def visibility(scene: Scene, way: Way, threads: int = 1) -> Found:
         sound=np.full(parts, way.trusted),
         delta=np.full(parts, float(way.bias)),
         cap=np.full(parts, float(way.bias)),
+        tight=np.zeros(parts, bool),
         threads=threads,
     )
     pieces: dict[Edge, list[Piece]] = {}

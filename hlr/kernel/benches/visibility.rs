@@ -140,7 +140,10 @@ fn main() {
             incident: &t.incident,
             edge_part: &edge_part,
             role: &role,
-            parts: vec![Part { cull: true, sound: true, delta: grid.delta(0.125), cap: grid.delta(1.0) }; count],
+            parts: vec![
+                Part { cull: true, sound: true, delta: grid.delta(0.125), cap: grid.delta(1.0), tight: false };
+                count
+            ],
         };
         let go = || false;
         let topo = median(|| drop(topology(&scene.triangles, scene.points.len())));

@@ -1,6 +1,7 @@
 //! Exact object-space hidden-line removal: module registration only.
 
 pub mod bind;
+pub mod clash;
 pub mod exact;
 pub mod lines;
 pub mod scan;
@@ -15,6 +16,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::edge_folds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     Ok(())

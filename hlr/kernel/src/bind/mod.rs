@@ -1,5 +1,6 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry.
 
+pub mod clash;
 pub mod lines;
 pub mod running;
 pub mod scan;

@@ -131,7 +131,7 @@ fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: u
 }
 
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, threads = 0))]
+#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array of the scene: the stub names them
 pub fn visibility<'py>(
     py: Python<'py>,
@@ -147,6 +147,7 @@ pub fn visibility<'py>(
     sound: PyReadonlyArray1<'py, bool>,
     delta: PyReadonlyArray1<'py, f64>,
     cap: PyReadonlyArray1<'py, f64>,
+    tight: PyReadonlyArray1<'py, bool>,
     threads: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let points = rows::<f64, 3>(&points, "points")?;
@@ -156,8 +157,9 @@ pub fn visibility<'py>(
     let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
     let (role, cull, sound, delta) =
         (flat(&role, "role")?, flat(&cull, "cull")?, flat(&sound, "sound")?, flat(&delta, "delta")?);
-    let cap = flat(&cap, "cap")?;
+    let (cap, tight) = (flat(&cap, "cap")?, flat(&tight, "tight")?);
     expect_len("cap", cap.len(), cull.len())?;
+    expect_len("tight", tight.len(), cull.len())?;
     expect_len("triangle_part", triangle_part.len(), triangles.len())?;
     expect_len("edge_part", edge_part.len(), edges.len())?;
     expect_len("role", role.len(), edges.len())?;
@@ -180,7 +182,13 @@ pub fn visibility<'py>(
             edge_part,
             role,
             parts: (0..cull.len())
-                .map(|p| Part { cull: cull[p], sound: sound[p], delta: grid.delta(delta[p]), cap: grid.delta(cap[p]) })
+                .map(|p| Part {
+                    cull: cull[p],
+                    sound: sound[p],
+                    delta: grid.delta(delta[p]),
+                    cap: grid.delta(cap[p]),
+                    tight: tight[p],
+                })
                 .collect(),
         };
         Some(sweep::visibility(&mesh, stopped))

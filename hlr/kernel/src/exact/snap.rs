@@ -74,6 +74,20 @@ impl Grid {
         ]
     }
 
+    /// The same step along all axes, the coarser of both.
+    pub fn uniform(self) -> Grid {
+        let scale = self.scale_xy.min(self.scale_z);
+        Grid { scale_xy: scale, scale_z: scale, ..self }
+    }
+
+    pub fn unsnap(&self, p: &Point) -> [f64; 3] {
+        [
+            f64::from(p[0]) / self.scale_xy + self.centre[0],
+            f64::from(p[1]) / self.scale_xy + self.centre[1],
+            f64::from(p[2]) / self.scale_z + self.centre[2],
+        ]
+    }
+
     /// A depth tolerance in grid units: at least one unit where it is positive at all.
     pub fn delta(&self, depth: f64) -> i64 {
         if depth > 0.0 { (depth * self.scale_z).ceil().min(DELTA_LIMIT) as i64 } else { 0 }

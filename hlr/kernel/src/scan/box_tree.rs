@@ -27,6 +27,20 @@ impl Aabb {
         (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
     }
 
+    /// Overlaps in more than the border; a box without thickness may lie inside another.
+    pub fn enters(&self, other: &Aabb) -> bool {
+        (0..3).all(|k| self.low[k] < other.high[k] && other.low[k] < self.high[k])
+    }
+
+    pub fn common(&self, other: &Aabb) -> Aabb {
+        let mut out = *self;
+        for k in 0..3 {
+            out.low[k] = out.low[k].max(other.low[k]);
+            out.high[k] = out.high[k].min(other.high[k]);
+        }
+        out
+    }
+
     /// Grown toward the viewer.
     pub fn toward_viewer(mut self, depth: i64) -> Aabb {
         self.low[2] = (i64::from(self.low[2]) - depth).max(i64::from(i32::MIN)) as i32;

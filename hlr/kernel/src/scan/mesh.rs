@@ -19,6 +19,8 @@ pub struct Part {
     /// The most that anything may be moved before it is compared with this part: less than its thickness, or what
     /// lies behind it would show through.
     pub cap: i64,
+    /// Lines that lie exactly on other parts' polygons, by construction: only their own tolerance counts.
+    pub tight: bool,
 }
 
 pub struct Mesh<'a> {
@@ -69,6 +71,7 @@ impl Mesh<'_> {
             return if own.sound || own.cull { 0 } else { own.delta };
         }
         let other = &self.parts[polygon_part as usize];
-        own.delta.max(other.delta).min(other.cap)
+        let delta = if own.tight { own.delta } else { own.delta.max(other.delta) };
+        delta.min(other.cap)
     }
 }

@@ -1,0 +1,53 @@
+//! `clashes` as Python sees it.
+
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::running::run;
+use super::scan::{expect_below, expect_len, flat, rows};
+use crate::clash::search::Surfaces;
+use crate::clash::weld::weld;
+use crate::exact::snap::Grid;
+
+#[pyfunction]
+pub fn clashes<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    triangle_part: PyReadonlyArray1<'py, i32>,
+    itself: PyReadonlyArray1<'py, bool>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let points = rows::<f64, 3>(&points, "points")?;
+    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+    let (group, itself) = (flat(&triangle_part, "triangle_part")?, flat(&itself, "itself")?);
+    expect_len("triangle_part", group.len(), triangles.len())?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("triangle_part", group.iter().copied(), itself.len())?;
+    let result = run(py, 0, |stopped| {
+        let grid = Grid::around(points)?.uniform();
+        let snapped: Vec<_> = points.iter().map(|p| grid.snap(p)).collect();
+        let found = Surfaces { points: &snapped, triangles, group, itself }.clashes(stopped);
+        let (points, edges) = weld(&found.found);
+        let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();
+        Some((!stopped()).then_some((grid, found, points, edges)))
+    })?;
+    let Some(result) = result else {
+        return Err(PyValueError::new_err("points hold coordinates that are not finite"));
+    };
+    let (grid, found, points, edges) = result.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+    let (n, m) = (points.len(), edges.len());
+    let out = PyDict::new(py);
+    let all = &found.found;
+    out.set_item("points", points.into_flattened().into_pyarray(py).reshape([n, 3])?)?;
+    out.set_item("edges", edges.into_flattened().into_pyarray(py).reshape([m, 2])?)?;
+    let triangles: Vec<i32> = all.iter().flat_map(|c| c.triangles.map(|t| t as i32)).collect();
+    out.set_item("triangles", triangles.into_pyarray(py).reshape([m, 2])?)?;
+    let depth: Vec<f64> = all.iter().map(|c| c.meeting.depth / grid.scale_xy).collect();
+    out.set_item("depth", depth.into_pyarray(py))?;
+    out.set_item("sine", all.iter().map(|c| c.meeting.sine).collect::<Vec<f64>>().into_pyarray(py))?;
+    out.set_item("searched", found.searched)?;
+    out.set_item("tests", found.tests)?;
+    Ok(out)
+}

@@ -1,0 +1,192 @@
+//! The segment in which two triangles pass through each other.
+//!
+//! ```text
+//!         a            An edge of one triangle whose ends lie on different sides of the other's plane pierces that
+//!        / \           plane; where it does so inside the other triangle, the common segment ends.
+//!   b---x---x----b
+//!     \/     \/        A corner on the plane counts as above it (so a face that ends on a plane meets it once, from one
+//!                      side), and the inside is closed: no gap where two triangles share the edge that is met.
+//! ```
+//!
+//! After P. Guigue and O. Devillers, "Fast and robust triangle-triangle overlap test using orientation predicates",
+//! Journal of Graphics Tools 8 (2003).
+
+use crate::exact::Point;
+
+/// A triangle with the numbers of its corners: an edge is cut the same way from both triangles that share it.
+#[derive(Clone, Copy)]
+pub struct Numbered<'a> {
+    pub corner: [&'a Point; 3],
+    pub number: [i32; 3],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Rounded to the grid, in ascending order.
+    pub ends: [Point; 2],
+    /// How far each triangle reaches beyond the other's plane on its shallower side; the lesser of both, in grid units.
+    pub depth: f64,
+    /// Sine of the angle between the planes.
+    pub sine: f64,
+}
+
+/// Six times the volume of the tetrahedron p, q, r, s. Coordinates up to 2^30 give less than 2^97.
+pub fn orient3d(p: &Point, q: &Point, r: &Point, s: &Point) -> i128 {
+    let d = |v: &Point| [0, 1, 2].map(|k| i64::from(v[k]) - i64::from(p[k]));
+    let (u, v, w) = (d(q), d(r), d(s));
+    let minor = |i: usize, j: usize| i128::from(u[i]) * i128::from(v[j]) - i128::from(u[j]) * i128::from(v[i]);
+    minor(1, 2) * i128::from(w[0]) + minor(2, 0) * i128::from(w[1]) + minor(0, 1) * i128::from(w[2])
+}
+
+/// None where they do not meet, or only in a point, or lie in one plane.
+pub fn meet(a: &Numbered, b: &Numbered) -> Option<Meeting> {
+    let side_b = sides(a, b)?;
+    let side_a = sides(b, a)?;
+    let mut found = Ends::default();
+    pierce(a, &side_a, b, &mut found);
+    pierce(b, &side_b, a, &mut found);
+    let ends = found.farthest()?;
+    let (na, nb) = (normal(a), normal(b));
+    let (la, lb) = (length(&na), length(&nb));
+    let cross = [na[1] * nb[2] - na[2] * nb[1], na[2] * nb[0] - na[0] * nb[2], na[0] * nb[1] - na[1] * nb[0]];
+    let depth = (shallower(&side_a) / lb).min(shallower(&side_b) / la);
+    Some(Meeting { ends, depth, sine: length(&cross) / (la * lb) })
+}
+
+/// Sides of `of`'s corners against the plane of `plane`; None where the plane does not part them.
+fn sides(plane: &Numbered, of: &Numbered) -> Option<[i128; 3]> {
+    let [p, q, r] = plane.corner;
+    let found = of.corner.map(|v| orient3d(p, q, r, v));
+    let below = found.iter().filter(|&&s| s < 0).count();
+    (below == 1 || below == 2).then_some(found)
+}
+
+/// Points where edges of `a` go through `b`; side: of a's corners against b's plane.
+fn pierce(a: &Numbered, side: &[i128; 3], b: &Numbered, found: &mut Ends) {
+    for k in 0..3 {
+        let (mut i, mut j) = (k, (k + 1) % 3);
+        if (side[i] < 0) == (side[j] < 0) {
+            continue;
+        }
+        if a.number[i] > a.number[j] {
+            (i, j) = (j, i);
+        }
+        let (p, q) = (a.corner[i], a.corner[j]);
+        let turn = |m: usize| orient3d(p, q, b.corner[m], b.corner[(m + 1) % 3]).signum();
+        let turns = [turn(0), turn(1), turn(2)];
+        if turns.contains(&1) && turns.contains(&-1) {
+            continue;
+        }
+        let t = side[i] as f64 / (side[i] - side[j]) as f64;
+        found.add(
+            [0, 1, 2].map(|c| (f64::from(p[c]) + t * (f64::from(q[c]) - f64::from(p[c]))).round_ties_even() as i32),
+        );
+    }
+}
+
+/// Ends of the common segment, each found once or more.
+#[derive(Default)]
+struct Ends {
+    points: [Point; 6],
+    count: usize,
+}
+
+impl Ends {
+    fn add(&mut self, point: Point) {
+        if !self.points[..self.count].contains(&point) && self.count < 6 {
+            self.points[self.count] = point;
+            self.count += 1;
+        }
+    }
+
+    fn farthest(&self) -> Option<[Point; 2]> {
+        let points = &self.points[..self.count];
+        let apart =
+            |p: &Point, q: &Point| -> i128 { (0..3).map(|k| (i128::from(p[k]) - i128::from(q[k])).pow(2)).sum() };
+        let mut best = None;
+        for (i, p) in points.iter().enumerate() {
+            for q in &points[i + 1..] {
+                let pair = if p < q { [*p, *q] } else { [*q, *p] };
+                let key = (apart(p, q), pair);
+                if best.is_none_or(|b| key > b) {
+                    best = Some(key);
+                }
+            }
+        }
+        best.map(|(_, pair)| pair)
+    }
+}
+
+fn shallower(side: &[i128; 3]) -> f64 {
+    let above = side.iter().copied().fold(0, i128::max);
+    let below = side.iter().copied().fold(0, i128::min);
+    above.min(-below) as f64
+}
+
+fn normal(t: &Numbered) -> [f64; 3] {
+    let [p, q, r] = t.corner;
+    let d = |v: &Point| [0, 1, 2].map(|k| f64::from(v[k]) - f64::from(p[k]));
+    let (u, v) = (d(q), d(r));
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+fn length(v: &[f64; 3]) -> f64 {
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn met(a: [Point; 3], b: [Point; 3]) -> Option<Meeting> {
+        let (a, b) = (a.each_ref(), b.each_ref());
+        meet(&Numbered { corner: a, number: [0, 1, 2] }, &Numbered { corner: b, number: [3, 4, 5] })
+    }
+
+    const FLOOR: [Point; 3] = [[-100, -100, 0], [100, -100, 0], [0, 100, 0]];
+
+    #[test]
+    fn a_wall_through_a_floor() {
+        let found = met(FLOOR, [[-10, 0, -7], [10, 0, -7], [0, 0, 20]]).unwrap();
+        assert_eq!((found.ends[0][1], found.ends[1][1]), (0, 0));
+        assert_eq!((found.ends[0][2], found.ends[1][2]), (0, 0));
+        assert_eq!((found.depth, found.sine), (7.0, 1.0));
+        let other_way = met([[-10, 0, -7], [10, 0, -7], [0, 0, 20]], FLOOR).unwrap();
+        assert_eq!(found.ends, other_way.ends);
+    }
+
+    #[test]
+    fn what_only_touches_does_not_meet() {
+        assert_eq!(met(FLOOR, [[0, 0, 0], [5, 0, 9], [0, 5, 9]]), None);
+        assert_eq!(met(FLOOR, [[0, 0, 0], [5, 0, -9], [0, 5, -9]]), None);
+        assert_eq!(met(FLOOR, [[-9, 0, 0], [9, 0, 0], [0, 9, 0]]), None);
+        assert_eq!(met(FLOOR, [[-9, 0, 5], [9, 0, 5], [0, 0, 9]]), None);
+        assert_eq!(met(FLOOR, [[300, 0, -5], [310, 0, -5], [300, 0, 9]]), None);
+    }
+
+    #[test]
+    fn a_face_that_ends_on_a_plane_meets_it_from_one_side_only() {
+        let above = met(FLOOR, [[-9, 0, 0], [9, 0, 0], [0, 0, 9]]);
+        let below = met(FLOOR, [[-9, 0, 0], [9, 0, 0], [0, 0, -9]]);
+        assert!(above.is_some() != below.is_some());
+        assert_eq!(above.or(below).unwrap().ends, [[-9, 0, 0], [9, 0, 0]]);
+        assert_eq!(above.or(below).unwrap().depth, 0.0);
+    }
+
+    #[test]
+    fn edges_that_cross_end_the_segment_for_both_neighbours() {
+        // The wall's foot crosses the floor's diagonal: both halves of the floor end there.
+        let wall = [[-50, 0, -10], [50, 0, -10], [0, 0, 90]];
+        let left = met([[-100, -100, 0], [0, -100, 0], [0, 100, 0]], wall).unwrap();
+        let right = met([[0, -100, 0], [100, -100, 0], [0, 100, 0]], wall).unwrap();
+        assert_eq!(left.ends[1], right.ends[0]);
+    }
+
+    #[test]
+    fn the_largest_coordinates_do_not_overflow() {
+        let m = 1 << 29;
+        assert!(orient3d(&[-2 * m; 3], &[2 * m - 1, -m, -m], &[-m, 2 * m - 1, -m], &[-m, -m, 2 * m - 1]) > 0);
+        let found = met([[-m, -m, 0], [m, -m, 0], [0, m, 0]], [[-m, 0, -m], [m, 0, -m], [0, 0, m]]).unwrap();
+        assert_eq!(found.ends, [[-m / 2, 0, 0], [m / 2, 0, 0]]);
+    }
+}

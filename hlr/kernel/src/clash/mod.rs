@@ -1,0 +1,14 @@
+//! Where surfaces pass through one another: the intersection lines of clashing solids, and whether a solid passes
+//! through itself.
+//!
+//! 1. `search`  which triangles may meet: boxes of groups, then boxes of triangles, only where boxes overlap
+//! 2. `meet`    the segment that two triangles have in common, decided by exact integers
+//! 3. `weld`    ends that fall on one grid point are one point
+//!
+//! Independent of any view: done once per scene, on a grid of its own in model space. What is found is drawn as edges
+//! without triangles, which the visibility pass treats like any wire: the ends, rounded to the grid, lie off both
+//! surfaces by less than the contact tolerance.
+
+pub mod meet;
+pub mod search;
+pub mod weld;
