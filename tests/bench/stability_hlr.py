@@ -1,0 +1,121 @@
+"""A drawing by hlr of a model whose tessellation was disturbed before anything else looks at it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+from unittest import mock
+
+import numpy as np
+import numpy.typing as npt
+from bench.stability_measure import Stroke
+
+from hlr import Options, pipeline
+from hlr.drawing import Drawing
+from hlr.source import open_source
+from hlr.source.model import Meshed, PartMesh, Source
+
+Floats = npt.NDArray[np.float64]
+
+FIT = (277.0, 190.0)
+"""Millimetres: the inside of an A4 sheet."""
+
+
+def nodes(parts: Sequence[Floats], reach: float, seed: int) -> list[Floats]:
+    """Every coordinate of every node moves by itself, by at most `reach`.
+
+    The directions depend on the seed alone: a larger reach moves the nodes farther along the same ways.
+    """
+    ways = np.random.default_rng(seed)
+    return [points + reach * ways.uniform(-1.0, 1.0, points.shape) for points in parts]
+
+
+def turn(reach: float, size: float, seed: int) -> Floats:
+    """(3, 3) rotation about a random axis that moves what lies half a size from the axis by `reach`."""
+    axis = np.random.default_rng(seed).normal(size=3)
+    x, y, z = axis / np.linalg.norm(axis)
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    angle = 2.0 * reach / size
+    return np.asarray(np.eye(3) + np.sin(angle) * k + 2.0 * np.sin(angle / 2.0) ** 2 * (k @ k))
+
+
+class Disturbed:
+    """A source that hands over given points instead of its own: same triangles, edges, names and bounds."""
+
+    def __init__(self, source: Source, meshed: Meshed, points: Sequence[Floats]) -> None:
+        self.name, self.kind, self.frame, self.notes = source.name, source.kind, source.frame, source.notes
+        self._source = source
+        pairs = zip(meshed.parts, points, strict=True)
+        self._meshed = Meshed([replace(part, points=moved) for part, moved in pairs], list(meshed.notes))
+
+    def bounds(self) -> Floats:
+        return self._source.bounds()
+
+    def infos(self) -> Any:
+        return self._source.infos()
+
+    def mesh(self, *_: Any) -> Meshed:
+        return self._meshed
+
+
+def draw(source: Source, view: Any, options: Options) -> Drawing:
+    """`hlr.draw_views` on a source that is open already: all stages but reading."""
+    with mock.patch.object(pipeline, "open_source", lambda opened: opened):
+        return pipeline.draw_views(source, [view], options)[0]
+
+
+class Model:
+    """A model opened and meshed once, for one view and one scale.
+
+    size       diagonal of the tessellation, model units
+    per_model  millimetres on paper per model unit
+    accuracy   millimetres on paper
+    deflection of the tessellation, model units
+    """
+
+    def __init__(self, thing: Any, view: Any = "iso", fit: tuple[float, float] | None = FIT) -> None:
+        self.source = open_source(str(thing) if isinstance(thing, Path) else thing)
+        self._view = view
+        first = draw(self.source, view, Options(fit=fit))
+        self._options = Options(scale=first.scale)
+        self.view, self.scale = first.view, first.scale
+        self.per_model = first.scale * first.unit
+        self.accuracy = float(first.accuracy["used"])
+        self.deflection = float(first.accuracy["deflection"])
+        # Meshed once more than needed: the mesh of a drawing that was fitted is not told.
+        self.meshed = self._mesh()
+        every = np.concatenate(self.points)
+        low, high = every.min(axis=0), every.max(axis=0)
+        self.size, self.centre = float(np.linalg.norm(high - low)), (low + high) / 2.0
+
+    def _mesh(self) -> Meshed:
+        from hlr.tolerance import ANGLE
+
+        return self.source.mesh(self.deflection, ANGLE)
+
+    @property
+    def points(self) -> list[Floats]:
+        return [part.points for part in self.meshed.parts]
+
+    @property
+    def parts(self) -> list[PartMesh]:
+        return self.meshed.parts
+
+    def jiggled(self, amount: float, seed: int) -> Drawing:
+        """Every node moved by itself; amount: of the model's size."""
+        return self.drawn(nodes(self.points, amount * self.size, seed))
+
+    def turned(self, amount: float, seed: int) -> Drawing:
+        """The whole model turned a little before the same camera."""
+        rotation = turn(amount * self.size, self.size, seed)
+        return self.drawn([(points - self.centre) @ rotation.T + self.centre for points in self.points])
+
+    def drawn(self, points: Sequence[Floats]) -> Drawing:
+        return draw(Disturbed(self.source, self.meshed, points), self._view, self._options)
+
+
+def strokes(drawing: Drawing) -> list[Stroke]:
+    """Lines on paper about a fixed origin: a drawing's own is its lower left corner, which moves with the model."""
+    return [(line.visible, line.points + np.asarray(drawing.origin)) for line in drawing.lines]

@@ -1,0 +1,221 @@
+"""OpenCASCADE's hidden-line removal on a disturbed model.
+
+The polygonal algorithm is given the triangulation it reads with every node moved. The exact one has no nodes: it works
+on surfaces and curves that have to agree, and a shape whose vertices were moved one by one is no shape any more. It is
+disturbed by a small turn of the view instead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from bench.stability_hlr import Model, nodes, turn
+from bench.stability_measure import Stroke
+from peers import occt
+from peers.exchange import Camera
+from peers.reference import BREP, read_shape
+
+Floats = npt.NDArray[np.float64]
+
+WELD = 1e-9
+"""Of the model's size: nodes of neighbouring faces this near are one, and move together."""
+
+
+def camera_of(model: Model) -> Camera:
+    view = model.view
+    return Camera(view.name, np.array(view.direction), np.array(view.right), np.array(view.up))
+
+
+def shape_of(model: Model, path: Path, crease: float = 30.0) -> Any:
+    """The file as OpenCASCADE reads it; a mesh becomes a polyhedron whose faces are its triangles."""
+    if path.suffix.lower() in BREP:
+        return read_shape(path)
+    return _compound([polyhedron(part.points, part.triangles, crease) for part in model.parts])
+
+
+def polyhedron(points: Floats, triangles: npt.NDArray[np.int32], crease: float) -> Any:
+    """A shell of planar triangles that share their edges, smooth ones where the fold is below `crease` (degrees)."""
+    from OCP.BRep import BRep_Builder
+    from OCP.BRepBuilderAPI import (
+        BRepBuilderAPI_MakeEdge,
+        BRepBuilderAPI_MakeFace,
+        BRepBuilderAPI_MakeVertex,
+        BRepBuilderAPI_MakeWire,
+    )
+    from OCP.GeomAbs import GeomAbs_C1
+    from OCP.gp import gp_Pnt
+    from OCP.TopoDS import TopoDS, TopoDS_Shell
+
+    builder, shell = BRep_Builder(), TopoDS_Shell()
+    builder.MakeShell(shell)
+    vertices = [BRepBuilderAPI_MakeVertex(gp_Pnt(*map(float, p))).Vertex() for p in points]
+    normals = np.cross(
+        points[triangles[:, 1]] - points[triangles[:, 0]], points[triangles[:, 2]] - points[triangles[:, 0]]
+    )
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
+    limit = np.cos(np.radians(crease))
+    edges: dict[tuple[int, int], Any] = {}
+    first: dict[tuple[int, int], tuple[int, Any]] = {}
+    for number, corners in enumerate(triangles.tolist()):
+        wire = BRepBuilderAPI_MakeWire()
+        keys = []
+        for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+            key = (min(a, b), max(a, b))
+            if key not in edges:
+                edges[key] = BRepBuilderAPI_MakeEdge(vertices[key[0]], vertices[key[1]]).Edge()
+            wire.Add(edges[key] if a < b else TopoDS.Edge_s(edges[key].Reversed()))
+            keys.append(key)
+        made = BRepBuilderAPI_MakeFace(wire.Wire(), True) if wire.IsDone() else None
+        if made is None or not made.IsDone():
+            continue
+        face = made.Face()
+        builder.Add(shell, face)
+        for key in keys:
+            other = first.setdefault(key, (number, face))
+            if other[0] != number and float(normals[other[0]] @ normals[number]) > limit:
+                builder.Continuity(edges[key], other[1], face, GeomAbs_C1)
+    return shell
+
+
+class Poly:
+    """HLRBRep_PolyAlgo; each solid is a copy of its own, so that no two parts share a triangulation."""
+
+    def __init__(self, model: Model, path: Path) -> None:
+        from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
+        from OCP.BRepMesh import BRepMesh_IncrementalMesh
+
+        self._model, self._camera = model, camera_of(model)
+        pieces = [BRepBuilderAPI_Copy(piece, True, False).Shape() for piece in _pieces(shape_of(model, path))]
+        self._shape = _compound(pieces)
+        BRepMesh_IncrementalMesh(self._shape, model.deflection, False, 0.5, True)
+        self._faces: list[tuple[Any, Floats, Floats, npt.NDArray[np.int64]]] = []
+        self._parts: list[Floats] = []
+        for number, piece in enumerate(pieces):
+            self._take(piece, number)
+
+    def _take(self, piece: Any, number: int) -> None:
+        """Nodes that coincide within one piece are one."""
+        found = list(_triangulations(piece))
+        if not found:
+            self._parts.append(np.zeros((0, 3)))
+            return
+        places = np.concatenate([local @ move[:, :3].T + move[:, 3] for _, local, move in found])
+        key = np.round(places / (WELD * self._model.size)).astype(np.int64)
+        _, kept, label = np.unique(key, axis=0, return_index=True, return_inverse=True)
+        self._parts.append(places[kept])
+        label = label.ravel()
+        start = 0
+        for triangulation, local, move in found:
+            own = label[start : start + len(local)]
+            start += len(local)
+            self._faces.append((triangulation, local, move, own + (number << 32)))
+
+    def __call__(self, amount: float, seed: int) -> list[Stroke]:
+        from OCP.gp import gp_Pnt
+
+        moved = nodes(self._parts, amount * self._model.size, seed)
+        for triangulation, local, move, label in self._faces:
+            part = label[0] >> 32
+            which = label & 0xFFFFFFFF
+            way = (moved[part] - self._parts[part])[which] @ move[:, :3]
+            for i, p in enumerate((local + way).tolist(), start=1):
+                triangulation.SetNode(i, gp_Pnt(*p))
+        return self._draw()
+
+    def _draw(self) -> list[Stroke]:
+        from OCP.BRep import BRep_Tool
+        from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
+        from OCP.HLRAlgo import HLRAlgo_Projector
+        from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
+        from OCP.TopExp import TopExp
+
+        camera = self._camera
+        axes = gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(*map(float, camera.direction)), gp_Dir(*map(float, camera.right)))
+        algorithm = HLRBRep_PolyAlgo()
+        algorithm.Load(self._shape)
+        algorithm.Projector(HLRAlgo_Projector(axes))
+        algorithm.Update()
+        result = HLRBRep_PolyHLRToShape()
+        result.Update(algorithm)
+        lines: list[Stroke] = []
+        for visible, compound in (
+            (True, result.VCompound()),
+            (True, result.OutLineVCompound()),
+            (False, result.HCompound()),
+            (False, result.OutLineHCompound()),
+        ):
+            for edge in occt.edges_of(compound):
+                ends = [BRep_Tool.Pnt_s(end(edge)).Coord()[:2] for end in (TopExp.FirstVertex_s, TopExp.LastVertex_s)]
+                lines.append((visible, np.array(ends) * self._model.per_model))
+        return lines
+
+
+class Exact:
+    """HLRBRep_Algo; the view is turned the other way round, and its lines are laid back before the first camera."""
+
+    def __init__(self, model: Model, path: Path) -> None:
+        self._model, self._camera = model, camera_of(model)
+        self._shape = shape_of(model, path)
+
+    def __call__(self, amount: float, seed: int) -> list[Stroke]:
+        camera, model = self._camera, self._model
+        rotation = turn(amount * model.size, model.size, seed)
+        turned = Camera(
+            camera.name, *(axis @ rotation if amount else axis for axis in (camera.direction, camera.right, camera.up))
+        )
+        document = occt.draw(self._shape, "exact", turned)
+        axes = np.stack([camera.right, camera.up], axis=1) * model.per_model
+        return [
+            (
+                line["visible"],
+                ((np.array(line["points3"]) - model.centre) @ rotation.T + model.centre) @ axes,
+            )
+            for line in document["lines"]
+        ]
+
+
+def _triangulations(piece: Any) -> Iterator[tuple[Any, Floats, Floats]]:
+    """Each face's triangulation, its nodes in its own frame, and the (3, 4) move from there."""
+    from OCP.BRep import BRep_Tool
+    from OCP.TopAbs import TopAbs_FACE
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS
+
+    explorer = TopExp_Explorer(piece, TopAbs_FACE)
+    while explorer.More():
+        place = TopLoc_Location()
+        mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(explorer.Current()), place)
+        explorer.Next()
+        if mesh is None:
+            continue
+        move = place.Transformation()
+        matrix = np.array([[move.Value(row, column) for column in range(1, 5)] for row in range(1, 4)])
+        yield mesh, np.array([mesh.Node(i).Coord() for i in range(1, mesh.NbNodes() + 1)]), matrix
+
+
+def _pieces(shape: Any) -> Iterator[Any]:
+    """Solids, and together what is in none."""
+    from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
+    from OCP.TopExp import TopExp_Explorer
+
+    for kind, outside in ((TopAbs_SOLID, None), (TopAbs_SHELL, TopAbs_SOLID), (TopAbs_FACE, TopAbs_SHELL)):
+        explorer = TopExp_Explorer(shape, kind) if outside is None else TopExp_Explorer(shape, kind, outside)
+        while explorer.More():
+            yield explorer.Current()
+            explorer.Next()
+
+
+def _compound(shapes: list[Any]) -> Any:
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound
+
+    result, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(result)
+    for shape in shapes:
+        builder.Add(result, shape)
+    return result
