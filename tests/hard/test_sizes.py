@@ -32,7 +32,7 @@ def test_any_size_gives_the_same_drawing(picture, size, view):
 
 
 @pytest.mark.parametrize("size", [1e-150, 1e150])
-@pytest.mark.xfail(strict=True, reason="normals under- and overflow: creases are not found, and nothing is said")
+@pytest.mark.xfail(strict=False, reason="normals under- and overflow: creases are not found, and nothing is said")
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 def test_sizes_beyond_all_reason_are_drawn_or_refused(size):
     points, triangles = SHAPE
