@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +25,7 @@ COVER = 5.0
 """Accuracies on either side of a visible line that its ink covers: half of 0.5 mm at the usual accuracy."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Ink:
     """Samples of a drawing's lines.
 
@@ -34,6 +36,16 @@ class Ink:
     length: Floats
     visible: Bools
     stroke: npt.NDArray[np.int64]
+
+    @cached_property
+    def trees(self) -> dict[bool, Any]:
+        """By visibility a search tree of the places; None where there is no such ink."""
+        chosen = {visible: self.places[self.visible == visible] for visible in (True, False)}
+        # Samples come in rows along lines: splitting in the middle is as good as at the median, and much faster.
+        return {
+            visible: cKDTree(places, compact_nodes=False, balanced_tree=False) if len(places) else None
+            for visible, places in chosen.items()
+        }
 
     def total(self, visible: bool) -> float:
         return float(self.length[self.visible == visible].sum())
@@ -73,11 +85,21 @@ def ink(strokes: Iterable[Stroke], step: float) -> Ink:
 
 def beside(places: Floats, others: Ink, visible: bool, radius: float) -> Bools:
     """(n,) bool: the places that have ink of this visibility within the radius."""
-    theirs = others.places[others.visible == visible]
-    if not len(theirs) or not len(places):
+    tree = others.trees[visible]
+    if tree is None or not len(places):
         return np.zeros(len(places), bool)
-    distance, _ = cKDTree(theirs).query(places, distance_upper_bound=radius)
-    return np.isfinite(distance)
+    # Two places in one square of that diagonal are near enough: that settles nearly all, at a tenth of the cost.
+    found = np.isin(_squares(places, radius), _squares(others.places[others.visible == visible], radius))
+    rest = np.flatnonzero(~found)
+    distance, _ = tree.query(places[rest], distance_upper_bound=radius)
+    found[rest] = np.isfinite(distance)
+    return found
+
+
+def _squares(places: Floats, diagonal: float) -> npt.NDArray[np.int64]:
+    """(n,) a number for the square of a grid that each place lies in."""
+    column, row = np.floor(places * (np.sqrt(2.0) / diagonal)).astype(np.int64).T
+    return column * (1 << 31) + row
 
 
 def unmatched(these: Ink, others: Ink, radius: float) -> Bools:
