@@ -13,7 +13,7 @@ import click
 
 from hlr.errors import HlrError
 
-from . import signals
+from . import guard, signals
 from .streams import ReaderGoneError
 
 REFUSED = 2
@@ -93,6 +93,7 @@ def _leave(code: int) -> NoReturn:
             sys.stdout.flush()
     except BrokenPipeError:
         _broken_pipe()
+    guard.note(f"done {code}")
     sys.exit(code)
 
 

@@ -12,6 +12,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import IO
 
+from . import guard
+
 Progress = Callable[[str, float], None]
 
 # Seconds between two reports of one stage: the eye needs no more, and the child has to read them all.
@@ -19,10 +21,10 @@ _PERIOD = 0.05
 
 
 @contextlib.contextmanager
-def meter(quiet: bool) -> Iterator[Progress | None]:
-    """Yield what the stages call with their name and the fraction done; None where nobody would see it."""
+def meter(quiet: bool) -> Iterator[Progress]:
+    """Yield what the stages call with their name and the fraction done; it is drawn where somebody would see it."""
     if quiet or sys.stderr is None or not sys.stderr.isatty():
-        yield None
+        yield _noting(None)
         return
     import subprocess  # here, because the help text has no use for it
 
@@ -32,17 +34,33 @@ def meter(quiet: bool) -> Iterator[Progress | None]:
             [sys.executable, "-P", "-m", f"{__package__}.meter_process"],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
+            pass_fds=guard.kept_open(),
         )
     except OSError:  # drawing matters more than showing progress
-        yield None
+        yield _noting(None)
         return
     assert child.stdin is not None
     try:
-        yield _sender(child.stdin)
+        yield _noting(_sender(child.stdin))
     finally:
         with contextlib.suppress(OSError):
             child.stdin.close()
         child.wait()
+
+
+def _noting(show: Progress | None) -> Progress:
+    """Whoever waits for this process is told each stage, however seldom anything is shown."""
+    noted = ""
+
+    def report(stage: str, fraction: float) -> None:
+        nonlocal noted
+        if stage != noted:
+            noted = stage
+            guard.note(stage)
+        if show is not None:
+            show(stage, fraction)
+
+    return report
 
 
 def _sender(pipe: IO[bytes]) -> Progress:

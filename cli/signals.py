@@ -15,9 +15,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import NoReturn
 
-_STOPPING = tuple(
-    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
-)
+STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
 
 
 class Stopped(BaseException):
@@ -41,7 +39,7 @@ def tidily() -> Iterator[None]:
     if not _in_main_thread():
         yield
         return
-    before = {number: signal.getsignal(number) for number in _STOPPING}
+    before = {number: signal.getsignal(number) for number in STOPPING}
     caught = [number for number, handler in before.items() if handler == signal.SIG_DFL]
     for number in caught:
         signal.signal(number, _stop)
@@ -60,6 +58,10 @@ def die_by(number: int) -> NoReturn:
 
 
 def _stop(number: int, frame: FrameType | None) -> NoReturn:
+    # Ctrl-C arrives twice, from the terminal and from the waiting process: the second must not disturb the tidying.
+    for other in STOPPING:
+        if signal.getsignal(other) is _stop:
+            signal.signal(other, signal.SIG_IGN)
     raise Stopped(number)
 
 

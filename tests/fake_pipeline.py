@@ -63,6 +63,8 @@ def draw_views(source, views, options, progress=None):
     if stem == "forever":
         print("computing", file=sys.stderr, flush=True)
         _hold_the_interpreter(20)
+    if stem.startswith("crash"):
+        _crash(stem, progress)
     if stem == "slow":
         for i in range(30):
             if progress is not None:
@@ -84,6 +86,20 @@ def info(source, *, crease=30.0, progress=None):
         PartReport("tw\x1bisted", None, 1, 6, 12, 12, True, False, ()),
     )  # fmt: skip
     return ModelInfo(Path(source).name, "step", 25.4, ((0, 0, 0), (1, 2, 3.5)), parts, ("part 9 could not be read",))
+
+
+def _crash(stem, progress):
+    """In code of ours; after the work; or after some progress."""
+    import atexit
+    import ctypes
+
+    if stem == "crash-late":
+        atexit.register(ctypes.string_at, 0)
+        return
+    for i in range(15 if stem == "crash-slowly" else 1):
+        progress("visibility", i / 30)
+        time.sleep(0.1)
+    ctypes.string_at(0)
 
 
 def _hold_the_interpreter(seconds):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..exits import warn
+from ..guard import start
 from ..meter import meter
 from ..streams import result_only
 
@@ -34,6 +35,7 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
 
     closed: every edge has a face on both sides, and the faces agree on what is outside.
     """
+    start(source)
     encoding = sys.stdout.encoding if sys.stdout is not None else "utf-8"
     with result_only() as out:
         with meter(quiet) as progress:
