@@ -1,7 +1,7 @@
 """The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape.
 
-A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap, tight) is a scene's group. Parts share no
-points.
+A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap, tight) is a scene's group. Parts share
+no points.
 """
 
 from typing import Any

@@ -52,11 +52,14 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
         scene.groups.tight,
         threads,
     )
+    # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
+    state, edge = found["state"], found["edge"]
+    state[(state == WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
     return Segments(
-        edge=found["edge"],
+        edge=edge,
         t0=found["t0"],
         t1=found["t1"],
-        state=found["state"],
+        state=state,
         facing=found["facing"],
         counters=found["counters"],
     )

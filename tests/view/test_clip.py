@@ -21,7 +21,7 @@ from hlr.view.clip import Plane, clip, planes
 
 
 def scene_of(thing):
-    return build(open_source(thing).mesh(0.05, 0.5), 30.0)
+    return build(open_source(thing).mesh(0.05, 0.5), 30.0, 0.05)
 
 
 def area(scene):

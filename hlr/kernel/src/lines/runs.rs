@@ -177,16 +177,6 @@ fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
 }
 
 fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
-    // A line that lies on a surface flickers there between seen and doubtful: it is doubtful all along.
-    let within = |r: Option<&Run>| r.is_some_and(|r| r.state == State::Within);
-    let flicker: Vec<usize> = (0..runs.len())
-        .filter(|&i| runs[i].state == State::Visible && runs[i].length < limits.short)
-        .filter(|&i| beside(&runs, i, closed).into_iter().all(within))
-        .collect();
-    for i in flicker {
-        runs[i].state = State::Within;
-    }
-    runs = rejoin(runs);
     let states: Vec<State> = (0..runs.len())
         .map(|i| match runs[i].state {
             State::Within => {
@@ -316,8 +306,5 @@ mod tests {
         assert_eq!(lines(&[V, W, H]), [(true, 0.0, 1.0), (false, 1.0, 3.0)]);
         assert_eq!(lines(&[H, W, W, W]), [(false, 0.0, 1.0), (true, 1.0, 4.0)]);
         assert_eq!(lines(&[W]), [(true, 0.0, 1.0)]);
-        // What flickers is doubtful all along.
-        let limits = Limits { short: 1.5, stub: 4.5, noise: 1.5 };
-        assert_eq!(lines_within(&[V, V, W, V, W, H, H], &limits), [(true, 0.0, 2.0), (false, 2.0, 7.0)]);
     }
 }
