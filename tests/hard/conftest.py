@@ -24,7 +24,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def picture(request: pytest.FixtureRequest) -> Callable[..., None]:
     """picture(drawing): the drawing is the committed pictures/<case>.svg, the case being the name of the test file.
 
-    picture(drawing, "back") is for a second one of the same case. Kinds in `without` are not compared.
+    picture(drawing, "back") is for a second one of the same case. Kinds in `without` need not be in the picture.
     twice: millimetres of ink that may lie on other ink, for outlines of meshes, which run in zigzags along the facets.
     """
     case = request.path.stem.removeprefix("test_")
@@ -43,7 +43,8 @@ def picture(request: pytest.FixtureRequest) -> Callable[..., None]:
             drawing.save(path)
         assert path.exists(), f"no picture {path.name}: pytest tests/hard --draw makes it, then look at it"
         assert path.stat().st_size <= LARGEST_PICTURE
-        told = differences(read_picture(path), ink(drawing, without), drawing.accuracy["used"], step)
+        used = drawing.accuracy["used"]
+        told = differences(read_picture(path), ink(drawing), used, step, judged=ink(drawing, without))
         assert not told, f"not as in {path.name}:\n" + "\n".join(told)
         assert doubled(drawing) <= twice
 

@@ -137,12 +137,19 @@ def _missing(what: str, points: Floats, off: Floats, tolerance: float) -> Iterat
         yield f"{what} at ({x:.6g}, {y:.6g}): nearest {off[n]:.3g} mm away, {tolerance:.3g} allowed"
 
 
-def differences(expected: Ink, drawn: Ink, tolerance: float, step: float | None = None, ends: float = 0.0) -> list[str]:
+def differences(
+    expected: Ink,
+    drawn: Ink,
+    tolerance: float,
+    step: float | None = None,
+    ends: float = 0.0,
+    judged: Ink | None = None,
+) -> list[str]:
     """Where two inks differ, in words; empty where they agree.
 
     tolerance and step (between samples; four tolerances) in millimetres on paper. What is expected hidden but lies
     within UNDER tolerances of visible ink may be missing. ends: so much further may expected ink be from the drawn one,
-    where pieces shorter than the accuracy were left out.
+    where pieces shorter than the accuracy were left out. judged: the drawn ink that must be expected, if not all of it.
     """
     told: list[str] = []
     step = step or 4.0 * tolerance
@@ -151,7 +158,8 @@ def differences(expected: Ink, drawn: Ink, tolerance: float, step: float | None 
     covered = distances(unseen, drawn.visible) <= UNDER * tolerance
     unseen = unseen[~covered]
     told += _missing("hidden ink is missing", unseen, distances(unseen, drawn.hidden), tolerance + ends)
-    seen, unseen = samples(drawn.visible, step), samples(drawn.hidden, step)
+    judged = judged or drawn
+    seen, unseen = samples(judged.visible, step), samples(judged.hidden, step)
     told += _missing("visible ink that should not be there", seen, distances(seen, expected.visible), tolerance)
     told += _missing("hidden ink that should not be there", unseen, distances(unseen, expected.hidden), tolerance)
     return told
@@ -160,9 +168,13 @@ def differences(expected: Ink, drawn: Ink, tolerance: float, step: float | None 
 def agrees(
     drawing: Drawing, expected: Ink, *, without: Sequence[str] = (), step: float | None = None, ends: float = 0.0
 ) -> None:
-    """Assert that a drawing is what is expected, within its own accuracy, and draws nothing twice."""
+    """Assert that a drawing is what is expected, within its own accuracy, and draws nothing twice.
+
+    Kinds in `without` need not be expected, but may stand for what is.
+    """
     assert expected.visible.size + expected.hidden.size, "nothing is expected: the comparison would be empty"
-    told = differences(expected, ink(drawing, without), drawing.accuracy["used"], step, ends)
+    used = drawing.accuracy["used"]
+    told = differences(expected, ink(drawing), used, step, ends, judged=ink(drawing, without))
     assert not told, "\n".join(told)
     assert doubled(drawing) == 0.0
 
@@ -226,9 +238,8 @@ def wrong_by_rays(drawing: Drawing, points: npt.ArrayLike, triangles: npt.ArrayL
 
 
 def defects(source: object) -> list[str]:
-    """All defects of all parts, as `hlr info` words them, and its notes."""
-    found = hlr.info(source)
-    return [text for part in found.parts for text in part.defects] + list(found.notes)
+    """All defects of all parts, as `hlr info` words them."""
+    return [text for part in hlr.info(source).parts for text in part.defects]
 
 
 def straight_lines(drawing: Drawing, visible: bool) -> list[tuple[Floats, Floats]]:

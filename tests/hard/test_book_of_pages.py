@@ -36,11 +36,10 @@ def test_each_page_hides_those_behind_it(picture, count, view, turned):
         picture(drawing)
 
 
-@pytest.mark.parametrize(
-    ("count", "said"), [(1, []), (2, []), (3, ["1 non-manifold edges"]), (16, ["1 non-manifold edges"])]
-)
-def test_the_spine_is_reported(count, said):
-    border = {1: 4}.get(count, 3 * count)
+@pytest.mark.parametrize("count", [1, 2, 3, 16])
+def test_the_spine_is_reported(count):
     found = defects(book(count, np.pi))
-    assert found[0] == f"open: {border} border edges"
-    assert [text for text in found[1:] if "orientation" not in text] == said
+    assert "border" in found[0] and str({1: 4}.get(count, 3 * count)) in found[0]
+    crowded = [text for text in found if "non-manifold" in text]
+    assert len(crowded) == (count > 2)
+    assert all("1 " in text for text in crowded)

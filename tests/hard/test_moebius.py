@@ -55,7 +55,7 @@ def test_rays_agree_and_the_border_is_all_there(picture, twists, view):
 @pytest.mark.parametrize("twists", [0, 1, 2, 3])
 def test_its_one_side_is_reported(twists):
     found = defects(strip(twists=twists))
-    assert found[0] == "open: 480 border edges"
+    assert "480 border edges" in found[0]
     assert any("opposite orientation" in text for text in found) == (twists % 2 == 1)
 
 
