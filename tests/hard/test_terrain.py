@@ -1,0 +1,61 @@
+"""One large free-form face and nothing else: hills that hide one another and no edge but the border.
+
+(terrain.brep of OpenCASCADE: one B-spline face of many spans.) All lines but four are outlines within the one face,
+which end in the middle of it where the hill flattens out.
+"""
+
+from __future__ import annotations
+
+import cadquery as cq
+import numpy as np
+import pytest
+from hard.brep import faultless, kinds, told
+from hard.expected import of_kind
+
+import hlr
+
+
+def height(x, y):
+    return 6 * np.sin(x / 7) * np.cos(y / 9) + 0.05 * x
+
+
+def terrain(count=14):
+    """Through a grid of heights: x and y run evenly, so it is nowhere steeper than the formula."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
+    from OCP.TColStd import TColStd_Array2OfReal
+
+    heights = TColStd_Array2OfReal(1, count, 1, count)
+    dx, dy = 80 / (count - 1), 60 / (count - 1)
+    for i in range(count):
+        for j in range(count):
+            heights.SetValue(i + 1, j + 1, float(height(i * dx, j * dy)))
+    maker = GeomAPI_PointsToBSplineSurface()
+    maker.Interpolate(heights, 0.0, dx, 0.0, dy)
+    return cq.Face(BRepBuilderAPI_MakeFace(maker.Surface(), 1e-6).Face())
+
+
+@pytest.mark.parametrize("views", [["front", "iso"], [(0.36, 0.86, 0.35), (-1, -0.4, 0.25)]])
+def test_by_rays(views):
+    for drawing in faultless(terrain(), terrain(), views, 2000):
+        assert {kind for kind, _ in kinds(drawing)} <= {"boundary", "outline"}
+
+
+def test_outlines_lie_where_the_surface_is_seen_edge_on(picture):
+    """Each point's normal, by the B-spline itself, is square to the view but for half the turn of one chord."""
+    face = terrain()
+    drawing = hlr.draw(face, (-1, -0.4, 0.25))
+    found = of_kind(drawing, "outline")
+    assert found
+    direction = cq.Vector(*drawing.view.direction)
+    for line in found:
+        for x, y, z in line.points3[:: max(1, len(line.points3) // 10)]:
+            normal = face.normalAt(cq.Vector(x, y, z))
+            assert abs(normal.dot(direction)) < 0.25
+    picture(drawing, twice=5.0)
+
+
+def test_from_above_only_its_border():
+    assert {line.kind for line in hlr.draw(terrain(), "top").lines} == {"boundary"}
+    (defect,) = told(terrain())
+    assert defect.startswith("open: ")
