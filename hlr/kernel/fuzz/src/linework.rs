@@ -1,0 +1,249 @@
+//! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing.
+
+use _kernel::lines::cover::{Widths, uncovered};
+use _kernel::lines::runs::{Geometry, Limits, Piece, cut};
+use _kernel::lines::simplify::simplify;
+use _kernel::lines::specks::drop_specks;
+use _kernel::lines::{Polyline, View, distance};
+use _kernel::scan::invisibility::State;
+
+use super::bytes::Bytes;
+use super::topology::check_chains;
+
+struct Case {
+    flat: Vec<[f64; 2]>,
+    space: Vec<[f64; 3]>,
+    view: View,
+    edges: Vec<[i32; 2]>,
+    pieces: Vec<Piece>,
+    piece_offsets: Vec<u32>,
+    chains: Vec<(Vec<i32>, Vec<bool>)>,
+    limits: Limits,
+    noisy: bool,
+    widths: Widths,
+    thin: f64,
+    /// Pieces ascend and do not overlap, as the visibility pass makes them.
+    proper: bool,
+}
+
+pub fn run(data: &[u8]) {
+    let case = read(&mut Bytes::new(data));
+    check_chains(&case.edges, &vec![0; case.edges.len()]);
+    let geometry = Geometry {
+        flat: &case.flat,
+        space: &case.space,
+        view: &case.view,
+        edges: &case.edges,
+        pieces: &case.pieces,
+        piece_offsets: &case.piece_offsets,
+    };
+    let mut lines = Vec::new();
+    for (id, (edges, reversed)) in case.chains.iter().enumerate() {
+        let mut limits = case.limits;
+        if case.noisy {
+            limits.noise = geometry.noise(edges, limits.short);
+        }
+        lines.extend(cut(&geometry, edges, reversed, id as u32, &limits));
+    }
+    check_lines(&case, &lines, "cut");
+    if case.proper {
+        check_length(&case, &lines);
+    }
+    // Visible before hidden, then as they come: any strict order will do.
+    let mut order: Vec<usize> = (0..lines.len()).collect();
+    order.sort_by_key(|&i| !lines[i].visible);
+    let mut rank = vec![0; lines.len()];
+    for (r, &i) in order.iter().enumerate() {
+        rank[i] = r as u32;
+    }
+    let all = lines.clone();
+    let mut lines = uncovered(lines, &rank, case.widths, &case.view);
+    check_lines(&case, &lines, "uncovered");
+    check_cover(&case, &all, &lines);
+    let kept = lines.clone();
+    drop_specks(&mut lines, case.limits.short);
+    assert!(lines.iter().all(|l| kept.contains(l)), "specks: a line was changed");
+    assert!(kept.iter().all(|l| l.length() < case.limits.short || lines.contains(l)), "specks: a long line was lost");
+    for line in &mut lines {
+        let before = line.clone();
+        simplify(line, case.thin, case.thin);
+        check_thinned(&before, line, case.thin);
+    }
+    check_lines(&case, &lines, "simplified");
+}
+
+fn read(bytes: &mut Bytes) -> Case {
+    let proper = !bytes.byte().is_multiple_of(8);
+    let kind = bytes.numbers();
+    // On paper and in a model no coordinate is beyond the limits that the entry sets; Any is for panics alone.
+    let places = 2 + bytes.below(24);
+    let flat: Vec<[f64; 2]> = (0..places).map(|_| [bytes.number(kind), bytes.number(kind)]).collect();
+    let perspective = bytes.byte().is_multiple_of(4);
+    let space =
+        flat.iter().map(|p| [p[0], p[1], if perspective { 1.0 } else { 0.0 } + f64::from(bytes.byte())]).collect();
+    let mut edges = Vec::new();
+    let mut chains = Vec::new();
+    for _ in 0..1 + bytes.below(6) {
+        let (mut members, mut reversed) = (Vec::new(), Vec::new());
+        let mut at = bytes.below(places);
+        for _ in 0..1 + bytes.below(12) {
+            let next = bytes.below(places);
+            let back = bytes.bit();
+            members.push(edges.len() as i32);
+            reversed.push(back);
+            edges.push(if back { [next as i32, at as i32] } else { [at as i32, next as i32] });
+            // A chain may jump, where clipping has cut something out of it.
+            at = if bytes.byte().is_multiple_of(16) { bytes.below(places) } else { next };
+        }
+        chains.push((members, reversed));
+    }
+    let (mut pieces, mut piece_offsets) = (Vec::new(), vec![0]);
+    for _ in &edges {
+        let mut cuts: Vec<f64> = (0..bytes.below(4)).map(|_| bytes.fraction()).collect();
+        if proper {
+            cuts.extend([0.0, 1.0]);
+            cuts.sort_unstable_by(f64::total_cmp);
+            cuts.dedup();
+        }
+        let drawn = !bytes.byte().is_multiple_of(8);
+        for w in cuts.windows(2).filter(|_| drawn) {
+            let state = [State::Visible, State::Hidden, State::Within][bytes.below(3)];
+            pieces.push(Piece { start: w[0], end: w[1], state });
+        }
+        piece_offsets.push(pieces.len() as u32);
+    }
+    let extent = flat.iter().flatten().map(|c| c.abs()).fold(0.0, f64::max);
+    // From the accuracy, as hlr derives them: at most a quarter of the drawing, at least what its grid can tell apart.
+    let accuracy = if extent > 0.0 { extent * 0.25f64.powi(1 + (bytes.byte() % 12) as i32) } else { 0.05 };
+    Case {
+        flat,
+        space,
+        view: View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective },
+        edges,
+        pieces,
+        piece_offsets,
+        chains,
+        limits: Limits { short: accuracy, stub: 10.0 * accuracy, noise: accuracy },
+        noisy: bytes.bit(),
+        widths: Widths { same: 0.5 * accuracy, under: 3.0 * accuracy },
+        thin: 0.25 * accuracy,
+        proper,
+    }
+}
+
+impl Case {
+    fn extent(&self) -> f64 {
+        self.flat.iter().flatten().map(|c| c.abs()).fold(0.0, f64::max)
+    }
+
+    /// A closed chain of which a piece at its start or end is missing is closed by a chord nevertheless.
+    fn known_gap(&self, id: usize) -> bool {
+        let (edges, reversed) = &self.chains[id];
+        let ends = |k: usize| {
+            let [a, b] = self.edges[edges[k] as usize];
+            if reversed[k] { (b, a) } else { (a, b) }
+        };
+        let missing = |k: usize| {
+            let e = edges[k] as usize;
+            let (a, b) = ends(k);
+            let apart = self.flat[a as usize] != self.flat[b as usize];
+            (apart && self.piece_offsets[e] == self.piece_offsets[e + 1]) || (k > 0 && ends(k - 1).1 != a)
+        };
+        ends(0).0 == ends(edges.len() - 1).1 && (0..edges.len()).any(missing)
+    }
+
+    /// Numbers whose squares neither overflow nor vanish.
+    fn sane(&self) -> bool {
+        self.flat.iter().flatten().all(|c| *c == 0.0 || (1e-60..1e60).contains(&c.abs()))
+    }
+}
+
+/// Finite, two points or more, and every point on an edge of its own chain.
+fn check_lines(case: &Case, lines: &[Polyline], step: &str) {
+    if !case.sane() {
+        return;
+    }
+    let slack = 1e-9 * case.extent();
+    for line in lines {
+        assert!(line.flat.len() > 1 && line.flat.len() == line.space.len(), "{step}: {line:?}");
+        assert!(
+            line.flat.iter().flatten().chain(line.space.iter().flatten()).all(|c| c.is_finite()),
+            "{step}: {line:?}"
+        );
+        for p in &line.flat {
+            let on = |e: &i32| {
+                let [a, b] = case.edges[*e as usize].map(|v| case.flat[v as usize]);
+                off(p, &a, &b) <= slack
+            };
+            let known = case.known_gap(line.chain as usize);
+            assert!(
+                known || case.chains[line.chain as usize].0.iter().any(on),
+                "{step}: {p:?} is on no edge of its chain"
+            );
+        }
+    }
+}
+
+/// Settling states moves ends of lines about, but draws each piece of each chain once.
+fn check_length(case: &Case, lines: &[Polyline]) {
+    if !case.sane() {
+        return;
+    }
+    for (id, (edges, _)) in case.chains.iter().enumerate() {
+        if case.known_gap(id) {
+            continue;
+        }
+        let wanted: f64 = edges
+            .iter()
+            .map(|&e| {
+                let [a, b] = case.edges[e as usize].map(|v| case.flat[v as usize]);
+                let own = case.piece_offsets[e as usize] as usize..case.piece_offsets[e as usize + 1] as usize;
+                distance(&a, &b) * case.pieces[own].iter().map(|p| p.end - p.start).sum::<f64>()
+            })
+            .sum();
+        let found: f64 = lines.iter().filter(|l| l.chain == id as u32).map(Polyline::length).sum();
+        assert!((found - wanted).abs() <= 1e-9 * (wanted + case.extent()), "chain {id}: {found} drawn of {wanted}");
+    }
+}
+
+/// Nothing is lost where coincident lines are drawn once: beside every point there is still a line.
+fn check_cover(case: &Case, before: &[Polyline], after: &[Polyline]) {
+    if !case.sane() || case.limits.short > 0.2 * case.extent() {
+        return;
+    }
+    // A line yields to another within a width, that one to a third; gaps of two widths are closed along the line.
+    let widest = case.widths.same.max(case.widths.under);
+    let reach = 4.0 * widest * (before.len() as f64 + 2.0) + 1e-9 * case.extent();
+    for line in before {
+        // Both ends of a line may yield by two widths: of a short one that runs back over itself nothing may be left.
+        let size = |k: usize| line.flat.iter().map(|p| (p[k] - line.flat[0][k]).abs()).fold(0.0, f64::max);
+        if size(0).max(size(1)) < 8.0 * widest {
+            continue;
+        }
+        for p in &line.flat {
+            let near = after.iter().any(|l| l.flat.windows(2).any(|w| off(p, &w[0], &w[1]) <= reach));
+            assert!(near, "nothing is left near {p:?} of {line:?}");
+        }
+    }
+}
+
+/// Every vertex left out lies within the tolerance of what is left.
+fn check_thinned(before: &Polyline, after: &Polyline, thin: f64) {
+    let ends = |l: &Polyline| (l.flat[0], l.flat[l.flat.len() - 1]);
+    assert_eq!(ends(before), ends(after));
+    if before.flat.iter().flatten().any(|c| *c != 0.0 && !(1e-60..1e60).contains(&c.abs())) {
+        return;
+    }
+    for p in &before.flat {
+        let near =
+            after.flat.windows(2).any(|w| off(p, &w[0], &w[1]) <= thin * (1.0 + 1e-6) + 1e-12 * p[0].hypot(p[1]));
+        assert!(near, "{p:?} was left out of {before:?}");
+    }
+}
+
+fn off(p: &[f64; 2], a: &[f64; 2], b: &[f64; 2]) -> f64 {
+    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let square = u[0] * u[0] + u[1] * u[1];
+    let t = if square > 0.0 { ((u[0] * v[0] + u[1] * v[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(p, &[a[0] + t * u[0], a[1] + t * u[1]])
+}

@@ -1,0 +1,102 @@
+//! A scene from bytes: triangles and wires in parts, and what the kernel is told of them.
+
+use _kernel::scan::mesh::{DRAWN, OUTLINE};
+use _kernel::scan::topology::topology;
+
+use super::bytes::Bytes;
+
+const MOST_POINTS: usize = 16;
+const MOST_TRIANGLES: usize = 48;
+const MOST_WIRES: usize = 8;
+
+#[derive(Debug)]
+pub struct Scene {
+    pub points: Vec<[f64; 3]>,
+    pub triangles: Vec<[i32; 3]>,
+    pub triangle_part: Vec<i32>,
+    pub edges: Vec<[i32; 2]>,
+    pub offsets: Vec<i32>,
+    pub incident: Vec<i32>,
+    pub edge_part: Vec<i32>,
+    pub role: Vec<u8>,
+    pub cull: Vec<bool>,
+    pub sound: Vec<bool>,
+    pub delta: Vec<f64>,
+    pub cap: Vec<f64>,
+    pub tight: Vec<bool>,
+    /// Edges know their triangles, and no edge belongs to two parts: as real scenes are made.
+    pub proper: bool,
+}
+
+impl Scene {
+    /// One input in eight is not proper: anything goes that the entry from Python lets pass.
+    pub fn read(bytes: &mut Bytes) -> Scene {
+        let proper = !bytes.byte().is_multiple_of(8);
+        let (flat, deep) = (bytes.numbers(), bytes.numbers());
+        let places = 1 + bytes.below(MOST_POINTS);
+        let parts = 1 + bytes.below(3);
+        let mut points: Vec<[f64; 3]> =
+            (0..places).map(|_| [bytes.number(flat), bytes.number(flat), bytes.number(deep)]).collect();
+        // Every part has vertices of its own, in the same places.
+        for _ in 1..parts {
+            points.extend_from_within(..places);
+        }
+        let mut scene = Scene {
+            points,
+            triangles: Vec::new(),
+            triangle_part: Vec::new(),
+            edges: Vec::new(),
+            offsets: Vec::new(),
+            incident: Vec::new(),
+            edge_part: Vec::new(),
+            role: Vec::new(),
+            cull: (0..parts).map(|_| bytes.byte().is_multiple_of(4)).collect(),
+            sound: (0..parts).map(|_| bytes.bit()).collect(),
+            delta: Vec::new(),
+            cap: Vec::new(),
+            tight: (0..parts).map(|_| bytes.byte().is_multiple_of(4)).collect(),
+            proper,
+        };
+        let unit = scene.points.iter().map(|p| p[2].abs()).fold(0.0, f64::max) / 16.0;
+        for _ in 0..parts {
+            scene.delta.push(unit * f64::from(bytes.byte() % 4));
+            scene.cap.push(unit * f64::from(bytes.byte() % 8));
+        }
+        for _ in 0..bytes.below(MOST_TRIANGLES + 1) {
+            let part = bytes.below(parts);
+            let own = if proper { part } else { bytes.below(parts) };
+            scene.triangles.push([0; 3].map(|_: i32| (own * places + bytes.below(places)) as i32));
+            scene.triangle_part.push(part as i32);
+        }
+        scene.connect(bytes, places, parts);
+        scene.role = scene.edges.iter().map(|_| [DRAWN, DRAWN, OUTLINE, 0][bytes.below(4)]).collect();
+        scene
+    }
+
+    fn connect(&mut self, bytes: &mut Bytes, places: usize, parts: usize) {
+        let found = topology(&self.triangles, self.points.len());
+        (self.edges, self.offsets, self.incident) = (found.edges, found.offsets, found.incident);
+        self.edge_part = self.edges.iter().map(|e| e[0] / places as i32).collect();
+        for _ in 0..bytes.below(MOST_WIRES + 1) {
+            let part = bytes.below(parts);
+            self.edges.push([0; 2].map(|_: i32| (part * places + bytes.below(places)) as i32));
+            self.offsets.push(self.incident.len() as i32);
+            self.edge_part.push(part as i32);
+        }
+        if self.proper {
+            return;
+        }
+        for part in &mut self.edge_part {
+            *part = bytes.below(parts) as i32;
+        }
+        if !self.triangles.is_empty() && bytes.bit() {
+            for t in &mut self.incident {
+                *t = bytes.below(self.triangles.len()) as i32;
+            }
+            for at in &mut self.offsets {
+                *at = bytes.below(self.incident.len() + 1) as i32;
+            }
+            self.offsets.sort_unstable();
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! The visibility pass on any scene: it ends, agrees with itself on any number of threads and, where the scene keeps the
+//! rules of the entry, with the oracle on every interval.
+
+use std::sync::OnceLock;
+
+use _kernel::exact::snap::Grid;
+use _kernel::scan::mesh::{DRAWN, Mesh, Part};
+use _kernel::scan::sweep::{Outcome, visibility};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use super::bytes::Bytes;
+use super::oracle::{self, HIDDEN, Shadow};
+use super::scene::Scene;
+
+/// Parameters are quotients of integers, rounded in two or three places.
+const ROUNDING: f64 = 1e-13;
+
+pub fn run(data: &[u8]) {
+    check(&Scene::read(&mut Bytes::new(data)));
+}
+
+pub fn check(scene: &Scene) {
+    let Some(grid) = Grid::around(&scene.points) else { return };
+    let mesh = Mesh {
+        points: scene.points.iter().map(|p| grid.snap(p)).collect(),
+        triangles: &scene.triangles,
+        triangle_part: &scene.triangle_part,
+        edges: &scene.edges,
+        offsets: &scene.offsets,
+        incident: &scene.incident,
+        edge_part: &scene.edge_part,
+        role: &scene.role,
+        parts: (0..scene.cull.len())
+            .map(|p| Part {
+                cull: scene.cull[p],
+                sound: scene.sound[p],
+                delta: grid.delta(scene.delta[p]),
+                cap: grid.delta(scene.cap[p]),
+                tight: scene.tight[p],
+            })
+            .collect(),
+    };
+    for p in &mesh.points {
+        assert!(p[0].abs() < 1 << 30 && p[1].abs() < 1 << 30 && p[2].abs() <= 1 << 29, "off the grid: {p:?}");
+    }
+    let [one, two] = pools().each_ref().map(|pool| pool.install(|| visibility(&mesh, &|| false)).expect("not stopped"));
+    assert_eq!(listed(&one), listed(&two), "another answer on two threads");
+    assert_eq!((&one.facing, format!("{:?}", one.counters)), (&two.facing, format!("{:?}", two.counters)));
+    if scene.proper {
+        assert_eq!(one.counters.contradictions, 0, "{:?}", one.counters);
+        compare(&mesh, &one);
+    }
+}
+
+fn pools() -> &'static [ThreadPool; 2] {
+    static POOLS: OnceLock<[ThreadPool; 2]> = OnceLock::new();
+    POOLS.get_or_init(|| [1, 2].map(|n| ThreadPoolBuilder::new().num_threads(n).build().expect("threads")))
+}
+
+fn listed(outcome: &Outcome) -> Vec<(u32, u64, u64, u8)> {
+    let row = |p: &_kernel::scan::sweep::Piece| {
+        (p.edge, p.segment.start.to_bits(), p.segment.end.to_bits(), p.segment.state as u8)
+    };
+    outcome.pieces.iter().map(row).collect()
+}
+
+fn compare(mesh: &Mesh, outcome: &Outcome) {
+    let corners = |t: usize| mesh.triangles[t].map(|v| mesh.points[v as usize]);
+    let facing: Vec<i128> = (0..mesh.triangles.len()).map(|t| oracle::area(corners(t)).signum()).collect();
+    assert!(outcome.facing.iter().zip(&facing).all(|(&a, &b)| i128::from(a) == b), "facing");
+    let counted = |t: usize| facing[t] > 0 || (facing[t] < 0 && !mesh.parts[mesh.triangle_part[t] as usize].cull);
+    let lied = unsound(mesh, &counted);
+
+    let mut pieces = outcome.pieces.iter().peekable();
+    for e in 0..mesh.edges.len() {
+        let mut found = Vec::new();
+        while let Some(p) = pieces.next_if(|p| p.edge as usize == e) {
+            found.push((p.segment.start, p.segment.end, p.segment.state as u8));
+        }
+        let (part, around) = (mesh.edge_part[e], mesh.incident(e));
+        let [a, b] = mesh.edges[e].map(|v| mesh.points[v as usize]);
+        if !drawn(mesh, e, &counted) || a[..2] == b[..2] {
+            assert!(found.is_empty(), "edge {e} is not to be drawn: {found:?}");
+            continue;
+        }
+        let turned = !around.is_empty() && around.iter().all(|&t| facing[t as usize] < 0);
+        let wanted = if mesh.parts[part as usize].cull && turned {
+            vec![(0.0, 1.0, HIDDEN)]
+        } else if lied[part as usize] {
+            tiled(e, &found);
+            continue;
+        } else {
+            let shadows = |moved: bool| -> Vec<Shadow> {
+                let delta = |t: usize| if moved { delta(mesh, part, mesh.triangle_part[t]) } else { 0 };
+                (0..facing.len())
+                    .filter(|&t| counted(t))
+                    .filter_map(|t| oracle::shadow(a, b, corners(t), delta(t)))
+                    .collect()
+            };
+            oracle::states(&shadows(false), &shadows(true))
+        };
+        tiled(e, &found);
+        agree(e, [a, b], &found, &wanted);
+    }
+    assert!(pieces.next().is_none(), "pieces out of order");
+}
+
+/// A part told to be sound that is not: its own piercings are not looked for, and what they change is not promised.
+fn unsound(mesh: &Mesh, counted: &dyn Fn(usize) -> bool) -> Vec<bool> {
+    let pierces = |e: usize, t: usize| {
+        let [a, b] = mesh.edges[e].map(|v| mesh.points[v as usize]);
+        let corners = mesh.triangles[t].map(|v| mesh.points[v as usize]);
+        oracle::shadow(a, b, corners, 0).is_some_and(|s| s.pierced)
+    };
+    let own = |part: i32| {
+        (0..mesh.edges.len())
+            .filter(move |&e| mesh.edge_part[e] == part)
+            .any(|e| (0..mesh.triangles.len()).any(|t| mesh.triangle_part[t] == part && counted(t) && pierces(e, t)))
+    };
+    (0..mesh.parts.len()).map(|p| mesh.parts[p].sound && own(p as i32)).collect()
+}
+
+/// An outline is drawn where the number of faces in front changes across it.
+fn drawn(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
+    if mesh.role[e] & DRAWN != 0 || mesh.role[e] == 0 {
+        return mesh.role[e] != 0;
+    }
+    let [a, b] = mesh.edges[e];
+    let side = |&t: &i32| {
+        let triangle = mesh.triangles[t as usize];
+        let apex = triangle
+            .iter()
+            .find(|&&v| v != a && v != b)
+            .map_or(0, |&v| oracle::area([a, b, v].map(|v| mesh.points[v as usize])).signum());
+        if counted(t as usize) { apex } else { 0 }
+    };
+    mesh.incident(e).iter().map(side).sum::<i128>() != 0
+}
+
+/// How far an edge is moved before it is compared with a part.
+fn delta(mesh: &Mesh, own: i32, other: i32) -> i64 {
+    let (a, b) = (&mesh.parts[own as usize], &mesh.parts[other as usize]);
+    match own == other {
+        true if a.sound || a.cull => 0,
+        true => a.delta,
+        false if a.tight => a.delta.min(b.cap),
+        false => a.delta.max(b.delta).min(b.cap),
+    }
+}
+
+type Interval = (f64, f64, u8);
+
+/// Pieces ascend from 0 to 1; only what is shorter than rounding may be missing between.
+fn tiled(e: usize, found: &[Interval]) {
+    let mut at = 0.0;
+    for &(from, to, _) in found {
+        assert!((from - at).abs() < ROUNDING && to > from, "edge {e}: {found:?}");
+        at = to;
+    }
+    assert!(at > 1.0 - ROUNDING, "edge {e}: {found:?}");
+}
+
+/// The same state wherever either side cuts the edge, but for slivers of rounding.
+fn agree(e: usize, ends: [oracle::Point; 2], found: &[Interval], wanted: &[Interval]) {
+    let mut cuts: Vec<f64> = found.iter().chain(wanted).flat_map(|&(from, to, _)| [from, to]).collect();
+    cuts.sort_unstable_by(f64::total_cmp);
+    for w in cuts.windows(2).filter(|w| w[1] - w[0] > ROUNDING) {
+        let middle = 0.5 * (w[0] + w[1]);
+        let at = |list: &[Interval]| list.iter().find(|i| i.0 < middle && middle < i.1).map(|i| i.2);
+        assert_eq!(at(found), at(wanted), "edge {e} {ends:?} at {middle}: kernel {found:?}, oracle {wanted:?}");
+    }
+}
