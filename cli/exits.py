@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
@@ -23,6 +24,8 @@ FAULT = 1
 def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoReturn:
     """Run a command and leave the process."""
     signals.at_once()
+    # Absurd coordinates overflow on their way to an error or a drawing: arithmetic's own remarks help nobody.
+    warnings.filterwarnings("ignore", category=RuntimeWarning, module=r"(hlr|numpy|trimesh)\b")
     try:
         result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
         _leave(result if isinstance(result, int) else 0)

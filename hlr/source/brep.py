@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from hlr.errors import SourceError
+from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
 from hlr.source.model import Floats, Frame, Meshed, PartInfo, PartMesh, Progress
 from hlr.source.parts import Leaf, Part, Parts
@@ -89,7 +90,7 @@ class BrepSource:
             if not corners:
                 raise SourceError(f"{self._name}: no part has any extent.")
             every = np.concatenate(corners)
-            self._bounds = np.stack((every.min(axis=0), every.max(axis=0)))
+            self._bounds = checked(self._name, np.stack((every.min(axis=0), every.max(axis=0))))
         return self._bounds.copy()
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.errors import SourceError
+from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved
 from hlr.source.model import Color, Floats, Frame, Ints, Meshed, PartInfo, PartMesh, Progress
 from hlr.source.weld import Clean, clean
@@ -64,7 +65,7 @@ class MeshSource:
         """Clean each geometry, given as (points, triangles), once.
 
         Raises:
-            SourceError: no triangle is left.
+            SourceError: no triangle is left, or the model is too large to calculate with.
         """
         self._name, self._kind = name, kind
         self._frame = frame if frame is not None else Frame()
@@ -80,6 +81,7 @@ class MeshSource:
                 self._notes.append(f'Part "{label}" has no triangles and was left out.')
         if not self._parts:
             raise SourceError(self._refusal(cleaned))
+        checked(name, self.bounds())
 
     def _report(self, cleaned: list[Clean]) -> None:
         for count, what in (
@@ -153,8 +155,10 @@ def unique_names(names: Sequence[str]) -> list[str]:
 def _part(name: str, mesh: Clean, instance: Instance) -> PartMesh:
     points, triangles = mesh.points, mesh.triangles
     if not (instance.transform == np.eye(4)).all():
-        points = moved(points, instance.transform)
-        if determinant_sign(instance.transform) < 0:
+        with np.errstate(over="ignore", invalid="ignore"):  # such a size is refused in a sentence
+            points = moved(points, instance.transform)
+            mirrored = determinant_sign(instance.transform) < 0
+        if mirrored:
             triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
     none = np.empty(0, dtype=np.int32)
     return PartMesh(
@@ -196,7 +200,7 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
         if not hasattr(thing, "faces"):
             raise SourceError(f"{name} holds no triangles (only points or curves): there is nothing to draw.")
         whole = Instance(part, 0, np.eye(4), _color(thing))
-        return MeshSource(name, kind, [(thing.vertices, thing.faces)], [whole], frame)
+        return MeshSource(name, kind, [_arrays(name, thing)], [whole], frame)
     geometries: list[tuple[Any, Any]] = []
     numbers: dict[str, int] = {}
     instances: list[Instance] = []
@@ -207,11 +211,19 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
             continue
         if key not in numbers:
             numbers[key] = len(geometries)
-            geometries.append((geometry.vertices, geometry.faces))
+            geometries.append(_arrays(name, geometry))
         instances.append(Instance(_node_name(node, key, part), numbers[key], matrix, _color(geometry)))
     if len(instances) == 1 and not instances[0].name:
         instances = [Instance(part, 0, instances[0].transform, instances[0].color)]
     return MeshSource(name, kind, geometries, instances, frame)
+
+
+def _arrays(name: str, mesh: Any) -> tuple[Any, Any]:
+    """Vertices and faces; some readers of trimesh hand on whatever number of columns a file has."""
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    if any(table.size and table.shape[1:] != (3,) for table in (vertices, faces)):
+        raise SourceError(f"{name} holds vertices or faces that are not three numbers each: export it again.")
+    return vertices, faces
 
 
 def _placement(graph: Any, node: str) -> tuple[Floats, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import re
 import struct
 import warnings
@@ -46,11 +47,16 @@ def _load(path: Path, kind: str) -> Any:
         more |= {"skip_materials": True, "split_object": True, "group_material": False, "maintain_order": True}
     # From memory, not from the folder: a file cannot make the reader open its neighbours.
     data = path.read_bytes()
+    # It reports what it tried in vain, with tracebacks; without a handler they would go to standard error.
+    logging.getLogger("trimesh").addHandler(_SILENT)
     if kind == "obj":
         data = data.removeprefix(b"\xef\xbb\xbf")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return trimesh.load_scene(io.BytesIO(data), file_type=kind, **more)
+
+
+_SILENT = logging.NullHandler()
 
 
 def _frame(kind: str, scene: Any) -> Frame:
@@ -162,44 +168,13 @@ def _check_glb(path: Path, head: bytes, size: int) -> None:
 
 _PACKED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization_compressed"}
 
-MAX_EXPANDED = 4 << 30
-"""Bytes: no 3MF archive may unpack to more."""
-
-MAX_RATIO = 300
-"""No archive of plain XML shrinks below this; a bomb does."""
-
 
 def _check_3mf(path: Path, head: bytes, size: int) -> None:
-    import zipfile
+    from hlr.source.archive import check
 
     if not head.startswith(b"PK"):
         raise _refuse(path, "a 3MF file (they are ZIP archives)", head)
-    try:
-        with zipfile.ZipFile(path) as archive:
-            entries = archive.infolist()
-            total = sum(entry.file_size for entry in entries)
-            if total > MAX_EXPANDED or (total > 64 << 20 and total > MAX_RATIO * size):
-                raise SourceError(f"{path.name} would unpack to {total >> 20} MiB: it is refused as a ZIP bomb.")
-            models = [entry for entry in entries if entry.filename.lower().endswith(".model")]
-            if not any("3d/3dmodel.model" in entry.filename.lower() for entry in entries):
-                raise SourceError(f"{path.name} is a ZIP archive without 3D/3dmodel.model: it is no 3MF file.")
-            for entry in models:
-                with archive.open(entry) as file:
-                    prolog = _prolog(file.read(1 << 20))
-                if "<!DOCTYPE" in prolog or "<!ENTITY" in prolog:
-                    raise SourceError(f"{path.name} declares XML entities, which no 3MF file needs: it is refused.")
-                if "<" not in prolog:
-                    raise SourceError(f"{path.name} cannot be read as 3MF: {entry.filename} does not begin as XML.")
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError) as error:
-        raise SourceError(f"{path.name} cannot be read as 3MF: the archive is broken or encrypted ({error}).") from None
-
-
-def _prolog(start: bytes) -> str:
-    """What stands before the root element <model>; all of it where there is none."""
-    wide = start[:2] in (b"\xff\xfe", b"\xfe\xff")
-    text = start.decode("utf-16" if wide else "latin-1", errors="replace").replace("\0", "")
-    root = re.search(r"<(?:\w+:)?model[\s>]", text)
-    return text[: root.end()] if root else text
+    check(path, size)
 
 
 _CHECKS = {
