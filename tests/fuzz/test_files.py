@@ -24,14 +24,14 @@ from fuzz.warm import Result, Warm
 CORPUS = Path(__file__).parent / "corpus"
 SEEDS = sorted(CORPUS.glob("seeds/*"))
 BROKEN = sorted(CORPUS.glob("broken/*"))
-MUTANTS = 8
+MUTANTS = 6
 """Of each seed."""
 
 OPENCASCADE = (".step", ".igs", ".brep", ".brp")
 """Files that may crash the reader, or never let it go: the guard of the command line, tested below, makes a sentence of
 a crash, and Ctrl-C ends the rest."""
 
-SECONDS = 3
+SECONDS = 2
 """For OpenCASCADE on a broken file: sound ones of this size take a tenth of it."""
 
 
