@@ -22,7 +22,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.scene.groups import touching
 from hlr.scene.scene import Chains, Groups
-from hlr.scene.topology import MeshFacts
+from hlr.scene.topology import Keys, MeshFacts
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.tolerance import CONTACT, CONTACT_PLANAR
 
@@ -52,44 +52,92 @@ def clashes(
 ) -> Clashes:
     """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves."""
     found = _kernel.clashes(points, triangles, group_of, itself)
-    depth, sine = found["depth"], found["sine"]
-    pair = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
-    touch = touching(groups, CONTACT * deflection, CONTACT_PLANAR * deflection)[pair].max(axis=1, initial=0.0)
-    kept = np.flatnonzero((depth >= touch) | (sine >= SLIGHT_ANGLE))
+    group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
+    touch = touching(groups, CONTACT * deflection, CONTACT_PLANAR * deflection)[group].max(axis=1, initial=0.0)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
-    row = np.concatenate([pair[kept], found["edges"][kept]], axis=1)
-    row, first = np.unique(row, axis=0, return_inverse=True)
-    deepest = np.full(len(row), -1.0)
-    np.maximum.at(deepest, first.ravel(), (depth - touch)[kept])
-    real = _figures(row)
-    most = np.full(int(real.max(initial=-1)) + 1, -1.0)
-    np.maximum.at(most, real, deepest)
-    row = row[most[real] >= 0.0]
+    pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
+    ends = found["edges"].astype(np.int64)
+    order = np.lexsort((ends[:, 1], ends[:, 0], pair))
+    fresh = np.ones(len(order), bool)
+    fresh[1:] = (pair[order][1:] != pair[order][:-1]) | (ends[order][1:] != ends[order][:-1]).any(axis=1)
+    one, first = order[fresh], np.flatnonzero(fresh)
+    beyond = np.maximum.reduceat((found["depth"] - touch)[order], first) if len(one) else np.zeros(0)
+    sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
+    kept = one[_real(pair[one], ends[one], beyond, sine)]
     through = np.zeros(len(itself), bool)
-    through[row[row[:, 0] == row[:, 1], 0]] = True
-    used, edges = np.unique(row[:, 2:], return_inverse=True)
+    through[group[kept, 0][group[kept, 0] == group[kept, 1]]] = True
+    size = np.ptp(points[triangles[found["triangles"][kept]]], axis=2).max(axis=(1, 2), initial=0.0)
+    alone = (group[kept, 0] == group[kept, 1]) & ~groups.bare[group[kept, 0]]
+    kept = kept[~(alone & _small(pair[kept], ends[kept], found["points"], size))]
+    used, edges = np.unique(ends[kept], return_inverse=True)
     return Clashes(
         points=found["points"][used],
         edges=np.ascontiguousarray(edges.reshape(-1, 2), np.int32),
-        group=np.ascontiguousarray(row[:, :2], np.int32),
+        group=np.ascontiguousarray(group[kept], np.int32),
         through=through,
     )
 
 
-def _figures(row: Ints) -> Ints:
-    """(m,) a number per connected figure of segments of one pair of groups; row (m, 4): groups and ends."""
-    if not len(row):
+def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[np.bool_]:
+    """(m,) bool: segments of real intersections.
+
+    pair (m,): which two groups; ends (m, 2); beyond (m,): depth over the contact tolerance. What is neither deep nor
+    steep is a contact, unless it closes a gap: where surfaces that cross are tangent at a point.
+    """
+    node = _nodes(pair, ends)
+    clear = (beyond >= 0.0) | (sine >= SLIGHT_ANGLE)
+    out = np.zeros(len(pair), bool)
+    figure = _figures(node[clear])
+    deepest = np.full(int(figure.max(initial=-1)) + 1, -1.0)
+    np.maximum.at(deepest, figure, beyond[clear])
+    out[clear] = deepest[figure] >= 0.0
+    slight = np.flatnonzero(~clear)
+    held = np.isin(node[slight], node[out])
+    bridge = _figures(node[slight])
+    held_nodes = np.unique(np.stack([np.repeat(bridge, 2)[held.ravel()], node[slight].ravel()[held.ravel()]]), axis=1)
+    holds = np.bincount(held_nodes[0], minlength=int(bridge.max(initial=-1)) + 1)
+    out[slight] = holds[bridge] > 1
+    return out
+
+
+def _small(pair: Keys, ends: Keys, points: Floats, size: Floats) -> npt.NDArray[np.bool_]:
+    """(m,) bool: figures hardly larger than the triangles they lie on (size (m,)).
+
+    Where a curved face meets itself in a point, all triangles around it cross one another: what they have in common is
+    the tessellation's, not the shape's.
+    """
+    figure = _figures(_nodes(pair, ends))
+    low, high = np.full((len(figure), 3), np.inf), np.full((len(figure), 3), -np.inf)
+    largest = np.zeros(len(figure))
+    for k in (0, 1):
+        np.minimum.at(low, figure, points[ends[:, k]])
+        np.maximum.at(high, figure, points[ends[:, k]])
+    np.maximum.at(largest, figure, size)
+    return np.asarray(((high - low).max(axis=1, initial=0.0) < 2.0 * largest)[figure])
+
+
+def _nodes(pair: Keys, ends: Keys) -> Keys:
+    """(m, 2) numbers of ends, told apart by pair of groups."""
+    return _ranked(np.stack([pair * np.int64(ends.max(initial=0) + 1) + ends[:, k] for k in (0, 1)], axis=1))
+
+
+def _ranked(keys: Keys) -> Keys:
+    """Keys replaced by their ranks, same shape."""
+    _, rank = np.unique(keys, return_inverse=True)
+    return np.asarray(rank.reshape(keys.shape), np.int64)
+
+
+def _figures(ends: Keys) -> Ints:
+    """(m,) a number per connected figure of segments (m, 2)."""
+    if not len(ends):
         return np.zeros(0, np.int32)
-    ends = np.concatenate([row[:, [0, 1, 2]], row[:, [0, 1, 3]]])
-    _, number = np.unique(ends, axis=0, return_inverse=True)
-    edges = np.ascontiguousarray(number.reshape(2, -1).T, np.int32)
-    return _kernel.edge_components(edges, int(edges.max()) + 1)
+    return _kernel.edge_components(np.ascontiguousarray(ends, np.int32), int(ends.max()) + 1)
 
 
 def intersection_walks(edges: Ints, group: Ints, part_of_group: Ints, first: int) -> Chains:
     """The segments chained per pair of groups. edges (m, 2), the scene's number of the first is `first`."""
-    _, key = np.unique(group, axis=0, return_inverse=True)
-    offsets, order, backward = _kernel.chain(edges, np.ascontiguousarray(key.ravel(), np.int32))
+    key = _ranked(group[:, 0].astype(np.int64) << 32 | group[:, 1])
+    offsets, order, backward = _kernel.chain(edges, key.astype(np.int32))
     parts = np.sort(part_of_group[group[order[offsets[:-1]]]], axis=1)
     return Chains(
         offsets=offsets,

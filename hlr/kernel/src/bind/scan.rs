@@ -171,7 +171,7 @@ pub fn visibility<'py>(
     expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
     check_incidence(edges.len(), offsets, incident, triangles.len())?;
     let outcome = run(py, threads, |stopped| {
-        let grid = Grid::around(points)?;
+        let grid = Grid::around(points)?.with_room(delta.iter().copied().fold(0.0, f64::max));
         let mesh = Mesh {
             points: points.iter().map(|p| grid.snap(p)).collect(),
             triangles,

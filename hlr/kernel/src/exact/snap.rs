@@ -74,6 +74,16 @@ impl Grid {
         ]
     }
 
+    /// So coarse in depth that a tolerance of `depth` fits: where all depth is rounding noise, as of a plane seen face-on,
+    /// the finest grid would blow the noise up beyond it.
+    pub fn with_room(self, depth: f64) -> Grid {
+        let mut scale_z = self.scale_z;
+        while depth * scale_z > DELTA_LIMIT {
+            scale_z *= 0.5;
+        }
+        Grid { scale_z, ..self }
+    }
+
     /// The same step along all axes, the coarser of both.
     pub fn uniform(self) -> Grid {
         let scale = self.scale_xy.min(self.scale_z);
@@ -116,6 +126,13 @@ mod tests {
         assert!(Grid::around(&[[f64::NAN, 0.0, 0.0]]).is_none());
         assert!(Grid::around(&[[f64::INFINITY, 0.0, 0.0]]).is_none());
         assert!(Grid::around(&[[f64::MAX, 0.0, 0.0], [f64::MIN, 0.0, 0.0]]).is_some());
+    }
+
+    #[test]
+    fn a_tolerance_finds_room() {
+        let grid = Grid::around(&[[0.0, 0.0, 0.0], [1.0, 1.0, 1e-16]]).unwrap().with_room(1e-3);
+        assert!(grid.delta(1e-3) > 1 && (grid.delta(1e-3) as f64) < DELTA_LIMIT);
+        assert_eq!(grid.snap(&[1.0, 1.0, 1e-16])[2], 0);
     }
 
     #[test]

@@ -9,6 +9,8 @@
 //!   worse        - - - - - - - - - - - -      yields on the left, stays on the right
 //! ```
 
+use std::collections::HashSet;
+
 use rayon::prelude::*;
 
 use super::{Polyline, View, distance};
@@ -124,6 +126,9 @@ fn sweep(
 ) -> Vec<(u32, f64, f64)> {
     let mut active: Vec<&Entry> = Vec::new();
     let mut found = Vec::new();
+    // A side that is covered whole need not be covered again: in a tangle of thousands of short lines, where each covers
+    // each, the list would have no end.
+    let mut whole = HashSet::new();
     for e in entries {
         let (s, range) = (&sides[e.side as usize], ranges[e.side as usize]);
         let mut i = 0;
@@ -149,9 +154,15 @@ fn sweep(
                 rank[s.line as usize] > rank[t.line as usize]
             };
             let (worse, better, id) = if yields { (s, t, e.side) } else { (t, s, other.side) };
+            if whole.contains(&id) {
+                continue;
+            }
             let width = if worse.visible == better.visible { widths.same } else { widths.under };
             if let Some((u0, u1)) = covered(worse, better, width) {
                 found.push((id, u0, u1));
+                if (u0, u1) == (0.0, 1.0) {
+                    whole.insert(id);
+                }
             }
         }
         active.push(e);
