@@ -27,6 +27,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from bench import stability_plot
 from bench.stability_child import DRAWERS
+from peers.report import markdown
 
 AMOUNTS = np.logspace(-9, -3, 13)
 COLUMNS = (
@@ -124,8 +125,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     given.out.mkdir(parents=True, exist_ok=True)
     table = given.out / "stability.csv"
+    rows: list[Row]
     if not given.plot:
-        rows: list[Row] = []
+        rows = []
         for path in given.models:
             for drawer in given.drawers:
                 found = list(measured(path, drawer, given.seeds, given.limit, given.budget))
@@ -136,8 +138,29 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     f"{path.name} {drawer}: {len(found)} drawings, {seconds:.0f} s {end}", file=sys.stderr, flush=True
                 )
                 write(table, rows)
-    stability_plot.plot(read(table), given.out)
+    rows = read(table)
+    stability_plot.plot(rows, given.out)
+    print(summary(rows))
     return 0
+
+
+def summary(rows: Sequence[Row]) -> str:
+    """Medians of some columns of the plots, visible ink."""
+    shown = AMOUNTS[[0, 2, 4, 6, 8, 10]]
+    lines = []
+    for model, drawer in dict.fromkeys((row["model"], row["drawer"]) for row in rows):
+        own = [row for row in rows if (row["model"], row["drawer"]) == (model, drawer)]
+        curve = {f"{amount:.0e}": values for amount, values in stability_plot.shares(own, "visible").items()}
+        cells = [_percent(curve.get(f"{amount:.0e}")) for amount in shown]
+        lines.append([model, DRAWERS[drawer], *(cells if curve else [own[-1]["failure"], *[""] * (len(shown) - 1)])])
+    return markdown(["model", "drawn by", *(f"{amount:.0e}" for amount in shown)], lines)
+
+
+def _percent(shares: Sequence[float] | None) -> str:
+    if not shares:
+        return "-"
+    middle = 100.0 * float(np.median(shares))
+    return f"{middle:.2g} %" if middle else "0"
 
 
 def write(path: Path, rows: Sequence[Row]) -> None:

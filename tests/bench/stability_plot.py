@@ -53,11 +53,10 @@ def _panel(axes: Axes, rows: Sequence[Row], side: str) -> None:
     accuracy = next((row["accuracy"] for row in rows if "accuracy" in row), None)
     if accuracy:
         axes.axvline(accuracy, color="#555", linewidth=0.8, linestyle=":")
-        axes.text(accuracy * 0.85, 1.2 * FLOOR, "accuracy", rotation=90, size=7, color="#555", ha="right", va="bottom")
+        axes.text(accuracy * 0.85, 0.8, "accuracy", rotation=90, size=7, color="#555", ha="right", va="top")
     axes.set(xscale="log", yscale="log", ylim=(FLOOR / 1.8, 1.5), xlim=(7e-10, 1.4e-3))
-    axes.set_yticks(
-        [FLOOR, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1], ["0", "$10^{-5}$", "$10^{-4}$", "0.1 %", "1 %", "10 %", "100 %"]
-    )
+    ticks = [FLOOR, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1]
+    axes.set_yticks(ticks, ["0", *(f"{100 * tick:g} %" for tick in ticks[1:])])
     axes.tick_params(labelsize=8)
     axes.minorticks_off()
     axes.grid(True, linewidth=0.3, color="#ccc")
@@ -91,13 +90,13 @@ def plot(rows: Sequence[Row], folder: Path) -> None:
             grid[row][0].set_ylabel(f"{side}: changed / drawn length", size=8)
         grid[0][column].set_title(model, size=7.5)
         grid[1][column].set_xticks([1e-9, 1e-6, 1e-3])
-    figure.supxlabel("disturbance / size of the model", size=8)
+        grid[1][column].set_xlabel("disturbance / size", size=8)
     _finish(figure, "", grid[0][0], folder / "stability.png")
 
 
 def _finish(figure: Any, title: str, axes: Axes, path: Path) -> None:
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=4 if not title else 2, fontsize=8, frameon=False)
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     if title:
         figure.suptitle(title, size=10)
     figure.savefig(path, dpi=110, metadata={"Software": None})
