@@ -116,14 +116,6 @@ def compound(*shapes: Any) -> Any:
     return cq.Compound.makeCompound(list(shapes))
 
 
-def told(source: Any) -> list[str]:
-    """All that `hlr info` says is wrong: the defects of the parts, and its notes."""
-    import hlr
-
-    found = hlr.info(source)
-    return [text for part in found.parts for text in part.defects] + list(found.notes)
-
-
 class Rays:
     """The ray referee of one shape: it meshes the shape by itself, with OpenCASCADE's default triangulator."""
 

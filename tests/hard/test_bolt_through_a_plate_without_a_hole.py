@@ -53,7 +53,7 @@ def intersections(drawing):
 def test_the_plate_hides_the_shank_from_where_it_enters(picture):
     drawing = hlr.draw(model(), VIEW)
     like(drawing, expected(drawing, ENTRY), either=intersections(drawing))
-    picture(drawing, without=["intersection"], twice=1.0)
+    picture(drawing, twice=1.0)
 
 
 @pytest.mark.xfail(strict=True, reason="the outline follows the mesh: it enters the plate beside the true generator")
@@ -66,7 +66,6 @@ def test_the_generators_enter_at_the_very_height():
         assert low == pytest.approx(right, abs=2 * drawing.accuracy["used"])
 
 
-@pytest.mark.xfail(strict=False, reason="lines of intersection between parts are not drawn yet")
 def test_the_circle_where_it_enters_is_drawn():
     drawing = hlr.draw(model(), VIEW)
     found = of_kind(drawing, "intersection")
@@ -78,4 +77,5 @@ def test_the_circle_where_it_enters_is_drawn():
     # Upon the plate, on the side of the viewer; the other half lies behind the shank.
     assert (seen[:, 2] > 0).all() and seen[:, 1].max() < near
     length = sum(np.linalg.norm(np.diff(line.points3, axis=0), axis=1).sum() for line in found if line.visible)
-    assert length == pytest.approx(np.pi * SHANK, rel=0.01)
+    # Beside the two generators the contact tolerance decides.
+    assert length == pytest.approx(np.pi * SHANK, rel=0.03)

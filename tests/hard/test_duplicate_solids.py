@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
-from hard.brep import compound, once, same
+from hard.brep import box_edges, compound, like, once, same
+from hard.expected import expect
 
 import hlr
 
@@ -34,6 +35,13 @@ def built_twice():
 def turned_over():
     """The other one upside down: the same solid, its faces numbered and meshed differently."""
     return compound(part(), part().rotate((0, 0, 0), (1, 0, 0), 180))
+
+
+@pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
+def test_a_box_three_times_is_twelve_edges(view):
+    box = cq.Solid.makeBox(30, 20, 10)
+    drawing = hlr.draw(compound(box, box.copy(), box.rotate((15, 10, 5), (15, 10, 6), 180)), view)
+    like(drawing, expect(drawing, *box_edges((0, 0, 0), (30, 20, 10), drawing.view.direction)))
 
 
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])

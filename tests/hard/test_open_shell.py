@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
-from hard.brep import kinds, like, ring, told, turn
-from hard.expected import agrees, by_oracle, expect
+from hard.brep import kinds, like, ring, turn
+from hard.expected import agrees, by_oracle, defects, expect
 from hard.shapes import BOX_EDGES, BOX_QUADS, box, split
 
 import hlr
@@ -46,7 +46,7 @@ def test_a_box_without_lid(view, turned, picture):
 
 
 def test_its_defects():
-    assert told(tray()) == ["open: 4 border edges"]
+    assert defects(tray()) == ["open: 4 border edges"]
 
 
 def test_half_a_pipe_wall_seen_into():

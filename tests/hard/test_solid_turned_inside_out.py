@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
-from hard.brep import faultless, same, told
+from hard.brep import faultless, same
+from hard.expected import defects
 
 import hlr
 
@@ -53,7 +54,7 @@ def test_by_rays():
 
 
 def test_the_defect_is_named():
-    assert told(model()) == []
-    assert told(inverted()) == ["the solid is turned inside out"]
-    (defect,) = told(one_face_turned())
+    assert defects(model()) == []
+    assert defects(inverted()) == ["the solid is turned inside out"]
+    (defect,) = defects(one_face_turned())
     assert defect.endswith("edges between faces of opposite orientation")

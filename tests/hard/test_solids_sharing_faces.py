@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
-from hard.brep import box_edges, kinds, like, told
-from hard.expected import expect
+from hard.brep import box_edges, kinds, like
+from hard.expected import defects, expect
 
 import hlr
 
@@ -51,4 +51,4 @@ def test_each_edge_once(view, picture):
 
 
 def test_its_defects():
-    assert all("open" not in text and "inside out" not in text for text in told(shared()))
+    assert all("open" not in text and "inside out" not in text for text in defects(shared()))

@@ -9,8 +9,8 @@ from __future__ import annotations
 import cadquery as cq
 import numpy as np
 import pytest
-from hard.brep import faultless, kinds, told
-from hard.expected import of_kind
+from hard.brep import faultless, kinds
+from hard.expected import defects, of_kind
 
 import hlr
 
@@ -57,5 +57,5 @@ def test_outlines_lie_where_the_surface_is_seen_edge_on(picture):
 
 def test_from_above_only_its_border():
     assert {line.kind for line in hlr.draw(terrain(), "top").lines} == {"boundary"}
-    (defect,) = told(terrain())
+    (defect,) = defects(terrain())
     assert defect.startswith("open: ")

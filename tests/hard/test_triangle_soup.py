@@ -9,8 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hard.brep import told
-from hard.expected import by_oracle, ink, wrong_by_rays
+from hard.expected import by_oracle, defects, ink, wrong_by_rays
 from peers import reference
 
 import hlr
@@ -39,4 +38,4 @@ def test_picture(picture):
 
 
 def test_the_defect_is_named():
-    assert "open: 300 border edges" in told(SOUP)
+    assert "open: 300 border edges" in defects(SOUP)

@@ -35,7 +35,7 @@ def test_generators_end_where_they_enter(picture):
     for end in (-HALF, HALF):
         seen += [((end, 0, -RADIUS), (end, 0, RADIUS)), ((-RADIUS, 0, end), (RADIUS, 0, end))]
     like(drawing, expect(drawing, seen, unseen), without=["intersection"])
-    picture(drawing, without=["intersection"])
+    picture(drawing)
 
 
 @pytest.mark.parametrize("other", [RADIUS, 0.6 * RADIUS])
@@ -44,14 +44,16 @@ def test_by_rays(other):
         assert drawing.lines
 
 
-@pytest.mark.xfail(strict=False, reason="lines of intersection between parts are not drawn yet")
 def test_the_ellipses_are_drawn():
     drawing = hlr.draw(crossing(), "front")
     found = of_kind(drawing, "intersection", visible=True)
     points = np.concatenate([line.points3 for line in found])
     near = 3 * drawing.accuracy["used"]
+    # Where both are tangent to one plane, a place on both is known to the root of the accuracy only.
+    tangent = (drawing.accuracy["used"] * RADIUS) ** 0.5
     # On both cylinders, before them both, and from corner to corner.
-    assert np.abs(np.abs(points[:, 0]) - np.abs(points[:, 2])).max() < near
+    off = np.abs(np.abs(points[:, 0]) - np.abs(points[:, 2]))
+    assert off.max() < tangent and off[np.abs(points[:, 0]) > 4 * tangent].max() < near
     assert np.abs(np.hypot(points[:, 1], points[:, 2]) - RADIUS).max() < near
     assert points[:, 1].max() < near
     length = sum(np.linalg.norm(np.diff(line.points, axis=0), axis=1).sum() for line in found)

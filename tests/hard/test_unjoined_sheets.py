@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import cadquery as cq
 import pytest
-from hard.brep import box_edges, compound, faultless, kinds, like, ring, told, turn
-from hard.expected import expect
+from hard.brep import box_edges, compound, faultless, kinds, like, ring, turn
+from hard.expected import defects, expect
 
 import hlr
 
@@ -58,4 +58,4 @@ def test_by_rays():
 
 
 def test_the_defect_is_named():
-    assert told(apart(cq.Workplane().box(30, 20, 10).val())) == ["open: 24 border edges"]
+    assert defects(apart(cq.Workplane().box(30, 20, 10).val())) == ["open: 24 border edges"]
