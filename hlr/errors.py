@@ -5,9 +5,16 @@ The command line prints the message alone and exits with code 2.
 
 from __future__ import annotations
 
+LONGEST = 1000
+"""Characters of a message: it may repeat what it was given, but not a whole array."""
+
 
 class HlrError(Exception):
-    """Base of every error that hlr raises on purpose."""
+    """Base of every error that hlr raises on purpose; its message is one line, whatever it quotes."""
+
+    def __init__(self, message: str) -> None:
+        words = " ".join(message.split())
+        super().__init__(words if len(words) <= LONGEST else words[: LONGEST - 4] + " ...")
 
 
 class SourceError(HlrError):

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from numbers import Integral, Real
 from typing import Any, cast
 
+import numpy as np
+
 from hlr.errors import OptionError, ViewError
 from hlr.plan.options import Options, Perspective, View
 
@@ -21,8 +23,9 @@ NARROWEST, WIDEST = 0.01, 170.0
 def checked(options: Options) -> Options:
     """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
     for name in ("hidden", "smooth", "seam", "intersections", "strict"):
-        if getattr(options, name) not in (True, False):
-            raise OptionError(f"{name} is yes or no: give True or False, not {getattr(options, name)!r}")
+        value = getattr(options, name)
+        if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
+            raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
     if not _is_real(options.scale) or not 1.0 / MOST_SCALE <= options.scale <= MOST_SCALE:
         raise OptionError(f"scale {_shown(options.scale)} cannot be drawn: give a positive number, such as 0.5 for 1:2")
     accuracy = options.accuracy

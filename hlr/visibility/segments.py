@@ -12,7 +12,7 @@ from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
 
-VISIBLE, HIDDEN, WITHIN = 0, 1, 2
+VISIBLE, HIDDEN, WITHIN, DIVING = 0, 1, 2, 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class Segments:
     """Pieces of mesh edges, sorted by edge and parameter.
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,) VISIBLE, HIDDEN or
-    WITHIN (hidden by less than the contact tolerance); facing (t,) int8 of every triangle.
+    WITHIN (hidden by less than the contact tolerance) or DIVING (the same, on the way to hidden); facing (t,) int8 of every triangle.
     """
 
     edge: Ints
@@ -54,7 +54,7 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
     )
     # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
     state, edge = found["state"], found["edge"]
-    state[(state == WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
+    state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
     return Segments(
         edge=edge,
         t0=found["t0"],

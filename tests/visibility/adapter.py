@@ -84,7 +84,8 @@ def visibility(scene: Scene, way: Way, threads: int = 1) -> Found:
         threads=threads,
     )
     pieces: dict[Edge, list[Piece]] = {}
+    # Diving (3) is a way of being within the tolerance.
     for number, t0, t1, state in zip(found["edge"], found["t0"], found["t1"], found["state"], strict=True):
         edge = (int(edges[number][0]), int(edges[number][1]))
-        pieces.setdefault(edge, []).append((float(t0), float(t1), int(state)))
+        pieces.setdefault(edge, []).append((float(t0), float(t1), min(int(state), WITHIN)))
     return Found(pieces, {name: int(value) for name, value in found["counters"].items()})

@@ -92,7 +92,8 @@ pub fn linework<'py>(
             state: match piece_state[i] {
                 0 => State::Visible,
                 1 => State::Hidden,
-                _ => State::Within,
+                2 => State::Within,
+                _ => State::Diving,
             },
         })
         .collect();

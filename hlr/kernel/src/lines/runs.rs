@@ -1,8 +1,8 @@
 //! Along one chain: join equal states, settle the doubtful and the too short, cut out the lines.
 //!
 //! ```text
-//!   states   V V V W H H H W W W W W V     W: hidden by less than the contact tolerance
-//!   settled  V V V H H H H V V V V V V     a short W beside H is a stub of the tolerance; a long one is a contact
+//!   states   V V V D H H H W W W W W V     W: hidden by less than the contact tolerance; D: and diving
+//!   settled  V V V H H H H V V V V V V     a D is a stub of the tolerance; a W is a contact
 //! ```
 
 use super::{Polyline, View, distance};
@@ -49,7 +49,7 @@ const NOISE_MOST: f64 = 6.0;
 pub struct Limits {
     /// A run shorter than this takes the state of what lies beside it.
     pub short: f64,
-    /// A contact run shorter than this beside a hidden one is hidden.
+    /// A diving run shorter than this is hidden.
     pub stub: f64,
     /// A hidden run shorter than this between visible ones is visible: a contour that its own folds hide. Never the
     /// other way round, for a true outline may be broken into many such runs.
@@ -124,8 +124,11 @@ impl Chain<'_> {
         out
     }
 
-    fn closed(&self) -> bool {
-        self.edges.len() > 1 && self.ends(0).0 == self.ends(self.edges.len() - 1).1
+    /// One stretch that ends where it begins, with nothing clipped away in between.
+    fn closed(&self, stretches: &[Vec<Run>]) -> bool {
+        let [runs] = stretches else { return false };
+        let last = self.edges.len() - 1;
+        last > 0 && self.ends(0).0 == self.ends(last).1 && self.at(runs[0].from).0 == self.at(runs[runs.len() - 1].to).0
     }
 
     fn polyline(&self, runs: &[Run], id: u32) -> Polyline {
@@ -159,6 +162,14 @@ fn join(runs: &mut Vec<Run>, run: Run) {
     runs.push(run);
 }
 
+/// A doubtful run is a stub's beginning where a stub goes on from it, on the next edge of a chain of many short ones.
+fn dives(runs: &[Run], i: usize, stub: f64, closed: bool) -> bool {
+    beside(runs, i, closed)
+        .into_iter()
+        .flatten()
+        .any(|next| next.state == State::Diving && runs[i].length + next.length < stub)
+}
+
 /// Join neighbours that have come to the same state.
 fn rejoin(runs: Vec<Run>) -> Vec<Run> {
     let mut out = Vec::with_capacity(runs.len());
@@ -177,13 +188,12 @@ fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
 }
 
 fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
+    // A contact is seen, however short; a stub that is as long as this is a contact, too.
     let states: Vec<State> = (0..runs.len())
         .map(|i| match runs[i].state {
-            State::Within => {
-                let stub = runs[i].length < limits.stub
-                    && beside(&runs, i, closed).iter().flatten().any(|r| r.state == State::Hidden);
-                if stub { State::Hidden } else { State::Visible }
-            }
+            State::Within if !dives(&runs, i, limits.stub, closed) => State::Visible,
+            State::Diving if runs[i].length >= limits.stub => State::Visible,
+            State::Within | State::Diving => State::Hidden,
             known => known,
         })
         .collect();
@@ -230,7 +240,7 @@ pub fn cut(geometry: &Geometry, edges: &[i32], reversed: &[bool], id: u32, limit
     let chain = Chain { geometry, edges, reversed };
     let mut out = Vec::new();
     let stretches = chain.stretches();
-    let closed = stretches.len() == 1 && chain.closed();
+    let closed = chain.closed(&stretches);
     for stretch in stretches {
         let mut runs = settle(stretch, limits, closed);
         let last = runs.len() - 1;
@@ -301,10 +311,15 @@ mod tests {
     }
 
     #[test]
-    fn a_short_contact_beside_hidden_is_a_stub_and_a_long_one_is_seen() {
-        use State::{Hidden as H, Visible as V, Within as W};
-        assert_eq!(lines(&[V, W, H]), [(true, 0.0, 1.0), (false, 1.0, 3.0)]);
+    fn a_stub_is_hidden_and_a_contact_is_seen() {
+        use State::{Diving as D, Hidden as H, Visible as V, Within as W};
+        assert_eq!(lines(&[V, D, H]), [(true, 0.0, 1.0), (false, 1.0, 3.0)]);
+        assert_eq!(lines(&[V, W, H]), [(true, 0.0, 2.0), (false, 2.0, 3.0)]);
         assert_eq!(lines(&[H, W, W, W]), [(false, 0.0, 1.0), (true, 1.0, 4.0)]);
         assert_eq!(lines(&[W]), [(true, 0.0, 1.0)]);
+        // A stub that begins on the edge before, and one as long as a contact.
+        let limits = Limits { stub: 2.5, ..LIMITS };
+        assert_eq!(lines_within(&[V, W, D, H], &limits), [(true, 0.0, 1.0), (false, 1.0, 4.0)]);
+        assert_eq!(lines_within(&[V, D, D, D, H], &limits), [(true, 0.0, 4.0), (false, 4.0, 5.0)]);
     }
 }

@@ -3,15 +3,15 @@
 //! An edge shorter than the accuracy may be one of a thousand that make up a long profile, so length is measured over
 //! whole connected figures: lines of one visibility whose ends meet.
 //!
-//! Edges seen almost end-on hang on longer lines as dots. Those too short for the printed digits are dropped wherever
-//! they hang, unless many of them in a row make up something longer.
+//! Edges seen almost end-on hang on longer lines as dots. Those of a quarter of the accuracy are dropped wherever they
+//! hang, unless many of them in a row make up something longer.
 
 use std::collections::HashMap;
 
 use super::Polyline;
 
-/// Of the shortest length: what lies below has no room in the printed digits.
-const DOT: f64 = 0.1;
+/// Of the shortest length: vertices nearer to one another are left out of a line, too.
+const DOT: f64 = 0.25;
 
 pub fn drop_specks(lines: &mut Vec<Polyline>, shortest: f64) {
     drop_small(lines, |line| line.length() < DOT * shortest, DOT * shortest);

@@ -59,8 +59,16 @@ pub struct Event {
 pub enum State {
     Visible = 0,
     Hidden = 1,
-    /// Hidden by less than the contact tolerance: linework decides, from what lies beside it.
+    /// Hidden by less than the contact tolerance: in contact with what is in front.
     Within = 2,
+    /// The same, on the way to where it is hidden by more: not a contact but a stub that the tolerance leaves.
+    ///
+    /// ```text
+    ///        in front \  stub   \ hidden           a contact that ends behind something else is no stub:
+    ///   ---------------\---------\---------- line   the count jumps there at a border, not at a depth
+    ///                   \ delta   \
+    /// ```
+    Diving = 3,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -85,26 +93,34 @@ pub fn walk(start: Count, events: &mut [Event], end: Count, out: &mut Vec<Segmen
     events.sort_unstable_by(|a, b| a.at.compare(&b.at));
     let mut count = start;
     let mut from = Parameter::START;
+    let mut surfacing = false;
     let mut k = 0;
     while k < events.len() {
         let at = events[k].at;
         let mut next = count;
+        let mut by_depth = false;
         while k < events.len() && events[k].at.compare(&at) == Ordering::Equal {
             next.plain += events[k].plain;
             next.moved += events[k].moved;
+            // Only where a surface's depth is reached, moved by the tolerance, does one count change alone.
+            by_depth |= events[k].plain == 0;
             k += 1;
         }
         if next.plain < 0 || next.moved < 0 {
             out.clear();
             return false;
         }
-        if state(next) != state(count) {
-            push(out, from, at, state(count));
+        let (now, then) = (state(count), state(next));
+        if now != then {
+            let diving = surfacing || (by_depth && then == State::Hidden);
+            push(out, from, at, if now == State::Within && diving { State::Diving } else { now });
+            surfacing = by_depth && now == State::Hidden;
             from = at;
         }
         count = next;
     }
-    push(out, from, Parameter::END, state(count));
+    let last = state(count);
+    push(out, from, Parameter::END, if last == State::Within && surfacing { State::Diving } else { last });
     if count != end {
         out.clear();
         return false;
@@ -125,6 +141,19 @@ mod tests {
 
     fn event(n: i64, d: i64, jump: i32) -> Event {
         Event { drawn: 0, at: Parameter::crossing(n, d), plain: jump, moved: jump }
+    }
+
+    #[test]
+    fn a_stub_ends_at_a_depth_and_a_contact_at_a_border() {
+        let behind = |moved| Count { plain: 1, moved };
+        let mut out = Vec::new();
+        let depth = Event { drawn: 0, at: Parameter::crossing(1, 2), plain: 0, moved: 1 };
+        assert!(walk(behind(0), &mut [depth], behind(1), &mut out));
+        assert_eq!((out[0].state, out[1].state), (State::Diving, State::Hidden));
+        assert!(walk(behind(1), &mut [Event { moved: -1, ..depth }], behind(0), &mut out));
+        assert_eq!((out[0].state, out[1].state), (State::Hidden, State::Diving));
+        assert!(walk(behind(0), &mut [event(1, 2, 1)], Count { plain: 2, moved: 1 }, &mut out));
+        assert_eq!((out[0].state, out[1].state), (State::Within, State::Hidden));
     }
 
     const NONE: Count = Count { plain: 0, moved: 0 };

@@ -153,13 +153,17 @@ fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
 
 /// Parts whose box, grown by the contact tolerance, meets another's, and parts that are not sound.
 fn sought_parts(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
-    let grown: Vec<Aabb> = boxes.iter().zip(&mesh.parts).map(|(b, p)| b.toward_viewer(p.delta)).collect();
     let live: Vec<usize> = (0..boxes.len()).filter(|&p| boxes[p] != Aabb::EMPTY).collect();
-    let tree = BoxTree::new(live.iter().map(|&p| (grown[p], p as u32)).collect());
+    let largest = live.iter().map(|&p| mesh.parts[p].delta).max().unwrap_or(0);
+    let tree = BoxTree::new(live.iter().map(|&p| (boxes[p].toward_viewer(largest), p as u32)).collect());
     let mut sought = vec![false; boxes.len()];
     for p in live {
         let mut meets = !mesh.parts[p].sound;
-        tree.query(&grown[p], |other| meets |= other as usize != p);
+        tree.query(&boxes[p].toward_viewer(largest), |other| {
+            let delta = mesh.delta(p as i32, other as i32).max(mesh.delta(other as i32, p as i32));
+            let (a, b) = (boxes[p].toward_viewer(delta), boxes[other as usize].toward_viewer(delta));
+            meets |= other as usize != p && a.overlaps(&b);
+        });
         sought[p] = meets;
     }
     sought
