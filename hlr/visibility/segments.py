@@ -20,7 +20,8 @@ class Segments:
     """Pieces of mesh edges, sorted by edge and parameter.
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,) VISIBLE, HIDDEN or
-    WITHIN (hidden by less than the contact tolerance) or DIVING (the same, on the way to hidden); facing (t,) int8 of every triangle.
+    WITHIN (hidden by less than the contact tolerance) or DIVING (the same, on the way to hidden); facing (t,) int8 of
+    every triangle.
     """
 
     edge: Ints
