@@ -47,3 +47,19 @@ def test_beyond_it_two_generators_and_the_near_part_of_the_rim(degrees, picture)
     assert kinds(drawing) == {("sharp", True), ("sharp", False), ("outline", True)}
     if degrees == 60:
         picture(drawing, "side")
+
+
+@pytest.mark.xfail(
+    strict=True, reason="near the apex the mesher folds triangles over, and the fold is drawn as outline"
+)
+@pytest.mark.parametrize("nurbs", [False, True])
+def test_half_a_cone_alone_has_no_outline_from_above(nurbs):
+    """The face looks up everywhere. (Seen on the cones of plate_mode_samples_creo.stp of BRL-CAD.)"""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_NurbsConvert
+
+    solid = cq.Solid.makeCone(10, 0, 30, angleDegrees=180)
+    (face,) = [face for face in solid.Faces() if face.geomType() == "CONE"]
+    if nurbs:
+        face = cq.Shape.cast(BRepBuilderAPI_NurbsConvert(face.wrapped, True).Shape())
+    drawing = hlr.draw(face, "top", accuracy=10 / 3000)
+    assert {kind for kind, _ in kinds(drawing)} == {"boundary"}
