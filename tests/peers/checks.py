@@ -1,0 +1,52 @@
+"""The kernel's own check over many models: how often the counts along an edge contradicted its end.
+
+    python tests/peers/checks.py FOLDER_OR_FILES... [--random 10]
+
+Each model is drawn from the named views and from random ones. Per model: drawn edges, edges whose check failed (decided
+again polygon by polygon), edges where even that contradicted itself, and what is wrong with the model's parts.
+Exit code 1 if a model without defects has a failed check.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+
+from peers.referee import files, random_views
+
+NAMED = ("front", "back", "left", "right", "top", "bottom", "iso", "iso-sw", "iso-ne", "iso-nw")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    import hlr
+    from hlr.errors import HlrError
+
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("paths", nargs="+", type=Path, help="folders or model files")
+    parser.add_argument("--random", type=int, default=10, metavar="N", help="random views beside the named ones")
+    given = parser.parse_args(arguments)
+    views = [*NAMED, *random_views(given.random)]
+    bad = 0
+    print("| model | views | drawn edges | failed checks | contradictions | defects |")
+    print("| --- | --- | --- | --- | --- | --- |")
+    for path in files(given.paths):
+        try:
+            drawings = hlr.draw_views(path, list(views))
+        except HlrError as error:
+            print(f"| {path.name} | | | | | refused: {error} |", flush=True)
+            continue
+        drawn, failed, torn = (
+            sum(d.counters[k] for d in drawings) for k in ("drawn", "failed_checks", "contradictions")
+        )
+        defects = [note for note in drawings[0].notes if "is drawn as it is" in note or "defects" in note]
+        bad += failed > 0 and not defects
+        print(f"| {path.name} | {len(drawings)} | {drawn} | {failed} | {torn} | {' '.join(defects)} |", flush=True)
+    return int(bad > 0)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
