@@ -64,9 +64,6 @@ def test_what_is_wrong_is_said(name):
 
 
 @pytest.mark.parametrize("name", [n for n in BROKEN if BROKEN[n][1]])
-@pytest.mark.xfail(
-    strict=False, reason="only hlr info tells of defects; a drawing's notes do not, so --strict lets them pass"
-)
 def test_a_drawing_notes_what_is_wrong(name):
     assert hlr.draw((POINTS, BROKEN[name][0]), "iso").notes
 
@@ -95,9 +92,6 @@ def test_a_triangle_with_two_corners_in_one_place_is_left_out_and_noted(corner):
     agrees(drawing, by_oracle(drawing, POINTS, TRIANGLES, BOX_EDGES))
 
 
-@pytest.mark.xfail(
-    strict=False, reason="a triangle without area is reported as an opening and a non-manifold edge only"
-)
 def test_a_triangle_without_area_is_reported_as_such():
     said = " ".join(defects(needle(0, 4, (0, -10, -10))))
     assert "area" in said or "degenerate" in said

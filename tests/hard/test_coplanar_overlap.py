@@ -48,10 +48,6 @@ def test_all_sides_are_seen_face_on(how, order):
         seen(how, TURNS[0], order, toward)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="where all depth is rounding, the grid resolves the rounding and the contact tolerance does not fit it",
-)
 def test_all_sides_are_seen_face_on_when_turned():
     for how in (merged, as_parts):
         for turn in TURNS[1:]:

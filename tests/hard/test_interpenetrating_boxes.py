@@ -47,7 +47,6 @@ def test_edges_end_where_they_enter(picture, kind, other, view):
         picture(drawing, without=("intersection",))
 
 
-@pytest.mark.xfail(strict=False, reason="lines of intersection between parts are not drawn yet")
 @KINDS
 def test_the_bar_shows_a_rectangle_on_the_face_it_leaves(kind):
     drawing = hlr.draw(kind(BLOCK, BAR), (3, -2, 2))
@@ -59,7 +58,6 @@ def test_the_bar_shows_a_rectangle_on_the_face_it_leaves(kind):
     assert not differences(expect(drawing, [front, top], [bottom, back]), drawn, drawing.accuracy["used"])
 
 
-@pytest.mark.xfail(strict=False, reason="lines of intersection between parts are not drawn yet")
 @KINDS
 def test_the_post_stands_in_the_block_by_lines_that_it_hides_itself(kind):
     drawing = hlr.draw(kind(BLOCK, POST), (3, -2, 2))
