@@ -13,6 +13,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from hypothesis import settings
 from hypothesis import strategies as st
 from properties.frozen import Frozen
 
@@ -158,6 +159,11 @@ views = st.one_of(st.sampled_from(VIEWS), directions)
 12 degrees unless edge-on."""
 
 
+def examples(count: int) -> settings:
+    """So many in the ordinary run; where a profile searches at random, as many as that profile says."""
+    return settings(max_examples=count if settings.default.derandomize else settings.default.max_examples)
+
+
 def pieces(degrees: st.SearchStrategy[int]) -> st.SearchStrategy[Piece]:
     """Solids turned by any of the given angles."""
     triple = st.tuples(coordinate, coordinate, coordinate)
@@ -171,3 +177,12 @@ turned = pieces(st.sampled_from((0, 0, 0, 90, 45, 30, 17)))
 def assemblies(of: st.SearchStrategy[Piece] = turned, most: int = 5) -> st.SearchStrategy[tuple[Piece, ...]]:
     """One to so many pieces."""
     return st.lists(of, min_size=1, max_size=most).map(tuple)
+
+
+@st.composite
+def standing_apart(draw: st.DrawFn, kinds: Sequence[str], most: int = 6) -> tuple[Piece, ...]:
+    """Upright solids in different cells of a lattice, none touching another."""
+    cells = draw(st.lists(st.integers(0, 26), min_size=1, max_size=most, unique=True))
+    sizes = st.tuples(length, length, length)
+    lows = [(5 * (c % 3), 5 * (c // 3 % 3), 5 * (c // 9)) for c in cells]
+    return tuple(Piece(draw(st.sampled_from(kinds)), low, draw(sizes)) for low in lows)

@@ -17,10 +17,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from properties import changes, models
-from properties.assemblies import Piece, assemblies, assembly, axes, rotation, upright, views
+from properties.assemblies import Piece, assemblies, assembly, axes, examples, rotation, upright, views
 from properties.frozen import draw
 from properties.identity import identities
 from properties.ink import expect_same_ink
@@ -32,7 +32,10 @@ from hlr import Perspective
 ACCURACY = 0.01
 degrees = st.integers(1, 359)
 kinds = st.booleans()
-few = settings(max_examples=20)
+PLAIN = {"intersections": False}
+"""Random assemblies often touch all along a face; where the line of such an intersection ends, rounding decides."""
+CROSSING = (Piece("box", (0, 0, 0), (4, 4, 4)), Piece("cylinder", (2, 2, 2), (4, 4, 4), (1, 1, 0), 30))
+few = examples(20)
 
 
 def moved_camera(before, matrix):
@@ -40,16 +43,16 @@ def moved_camera(before, matrix):
     return tuple(matrix @ view.direction), tuple(matrix @ view.up)
 
 
-def expect_turned(model, view, turn, accuracy):
-    before = draw(model, view, accuracy)
+def expect_turned(model, view, turn, accuracy, **options):
+    before = draw(model, view, accuracy, **options)
     direction, up = moved_camera(before, turn)
-    expect_same_ink(before, draw(changes.moved(model, turn), direction, accuracy, up=up))
+    expect_same_ink(before, draw(changes.moved(model, turn), direction, accuracy, up=up, **options))
 
 
 @few
 @given(assemblies(), kinds, views, axes, degrees)
 def test_an_assembly_turned_with_the_camera(pieces, brep, view, axis, angle):
-    expect_turned(assembly(pieces, brep), view, rotation(axis, angle), ACCURACY)
+    expect_turned(assembly(pieces, brep), view, rotation(axis, angle), ACCURACY, **PLAIN)
 
 
 @pytest.mark.parametrize("name", models.SOLIDS)
@@ -72,11 +75,11 @@ def test_a_thin_sheet_turned_with_the_camera(brep):
 SHEET = Piece("box", (0, 0, 0), (90, 90, 1))
 
 
-def expect_shifted(model, view, offset, accuracy):
-    before = draw(model, view, accuracy)
+def expect_shifted(model, view, offset, accuracy, **options):
+    before = draw(model, view, accuracy, **options)
     v = before.view
     paper = np.array([np.dot(offset, v.right), np.dot(offset, v.up)]) * before.unit * before.scale
-    after = draw(changes.moved(model, np.eye(3), offset), v.direction, accuracy, up=v.up)
+    after = draw(changes.moved(model, np.eye(3), offset), v.direction, accuracy, up=v.up, **options)
     expect_same_ink(before, after, back=lambda p: p - paper)
     assert np.abs(np.array(after.origin) - before.origin - paper).max() < accuracy
 
@@ -88,7 +91,7 @@ far = st.tuples(*[st.floats(-1e6, 1e6)] * 3)
 @given(assemblies(), kinds, views, far)
 def test_an_assembly_moved_by_a_million_times_its_size(pieces, brep, view, offset):
     model = assembly(pieces, brep)
-    expect_shifted(model, view, np.array(offset) * model.diagonal, ACCURACY)
+    expect_shifted(model, view, np.array(offset) * model.diagonal, ACCURACY, **PLAIN)
 
 
 @pytest.mark.parametrize("name", models.SOLIDS)
@@ -142,13 +145,13 @@ def _scaled(perspective, factor):
 
 
 @few
-@given(assemblies(), kinds, views, st.integers(-30, 30))
+@given(assemblies(), kinds, views, st.integers(-29, 29))
 def test_an_assembly_scaled_by_a_power_of_two(pieces, brep, view, power):
     expect_doubled(assembly(pieces, brep), view, power, ACCURACY)
 
 
 @few
-@given(assemblies(), kinds, st.integers(-30, 30))
+@given(assemblies(), kinds, st.integers(-29, 29))
 def test_in_perspective_too(pieces, brep, power):
     camera = Perspective(eye=(31.0, -42.0, 23.0), target=(5.0, 5.0, 5.0), fov=40.0)
     expect_doubled(assembly(pieces, brep), "iso", power, ACCURACY, perspective=camera)
@@ -160,15 +163,16 @@ def test_a_model_scaled_by_a_power_of_two(name):
     expect_doubled(model, "iso", 20, models.accuracy(model), smooth=True)
 
 
-def expect_scaled(model, view, factor, accuracy):
-    before = draw(model, view, accuracy)
-    expect_same_ink(before, draw(changes.moved(model, factor * np.eye(3)), view, accuracy, scale=1.0 / factor))
+def expect_scaled(model, view, factor, accuracy, **options):
+    before = draw(model, view, accuracy, **options)
+    after = draw(changes.moved(model, factor * np.eye(3)), view, accuracy, scale=1.0 / factor, **options)
+    expect_same_ink(before, after)
 
 
 @few
 @given(assemblies(), kinds, views, st.floats(1e-4, 1e4))
 def test_an_assembly_scaled_by_any_factor(pieces, brep, view, factor):
-    expect_scaled(assembly(pieces, brep), view, factor, ACCURACY)
+    expect_scaled(assembly(pieces, brep), view, factor, ACCURACY, **PLAIN)
 
 
 @pytest.mark.parametrize("name", models.SOLIDS)
@@ -178,19 +182,19 @@ def test_a_model_scaled_by_any_factor(name, factor):
     expect_scaled(model, "iso", factor, models.accuracy(model))
 
 
-def expect_mirrored(model, view, accuracy):
+def expect_mirrored(model, view, accuracy, **options):
     """Left and right change sides: reflected in the plane of the view direction and up, seen by the same camera."""
-    before = draw(model, view, accuracy)
+    before = draw(model, view, accuracy, **options)
     right = np.array(before.view.right)
     glass = np.eye(3) - 2.0 * np.outer(right, right)
-    after = draw(changes.moved(model, glass), before.view.direction, accuracy, up=before.view.up)
+    after = draw(changes.moved(model, glass), before.view.direction, accuracy, up=before.view.up, **options)
     expect_same_ink(before, after, back=lambda p: p * [-1.0, 1.0])
 
 
 @few
 @given(assemblies(), kinds, views)
 def test_an_assembly_in_a_mirror(pieces, brep, view):
-    expect_mirrored(assembly(pieces, brep), view, ACCURACY)
+    expect_mirrored(assembly(pieces, brep), view, ACCURACY, **PLAIN)
 
 
 @pytest.mark.parametrize("name", models.SOLIDS)
@@ -198,6 +202,16 @@ def test_an_assembly_in_a_mirror(pieces, brep, view):
 def test_a_model_in_a_mirror(name, view):
     model = models.model(name)
     expect_mirrored(model, view, models.accuracy(model))
+
+
+@pytest.mark.parametrize("brep", [True, False])
+def test_parts_that_cross_with_their_intersection_lines(brep):
+    model = assembly(CROSSING, brep)
+    assert any(line.kind == "intersection" for line in draw(model, "iso", ACCURACY).lines)
+    expect_turned(model, "iso", rotation((1, 2, 3), 37), ACCURACY)
+    expect_shifted(model, "iso", np.array([1e7, -3e6, 2e6]), ACCURACY)
+    expect_scaled(model, "iso", 0.3, ACCURACY)
+    expect_mirrored(model, "iso", ACCURACY)
 
 
 SYMMETRIES = [((a, 0), (0, b)) for a in (1, -1) for b in (1, -1)] + [((0, a), (b, 0)) for a in (1, -1) for b in (1, -1)]
@@ -224,7 +238,7 @@ def over_another(scene: Scene, edge: Edge) -> bool:
     return False
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds, ways, st.sampled_from(SYMMETRIES))
 def test_pieces_under_the_symmetries_of_the_image(seed, way, matrix):
     scene, way = prepared(seed, way)
@@ -239,7 +253,7 @@ def test_pieces_under_the_symmetries_of_the_image(seed, way, matrix):
             assert before.get(edge) == after.get(edge)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds, ways, st.integers(1, 50), st.tuples(*[st.integers(-50, 50)] * 3))
 def test_pieces_under_a_change_of_depth(seed, way, k, shear):
     scene, way = prepared(seed, way)

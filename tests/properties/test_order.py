@@ -19,10 +19,10 @@ from itertools import combinations
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from properties import changes, models
-from properties.assemblies import Piece, assemblies, assembly, corners, drilled, pieces, upright, views
+from properties.assemblies import Piece, assemblies, assembly, corners, drilled, examples, pieces, upright, views
 from properties.frozen import draw
 from properties.identity import everything, ownerless, renumbered, without
 from properties.ink import expect_same_ink
@@ -30,7 +30,7 @@ from visibility import adapter, scenes
 from visibility.scenes import Scene
 
 ACCURACY = 0.01
-few = settings(max_examples=25)
+few = examples(25)
 kinds = st.booleans()
 seeds = st.integers(0, 10**6)
 generators = seeds.map(np.random.default_rng)
@@ -162,7 +162,7 @@ def test_points_of_a_model(name):
     expect_any_order_of_points(model, "iso", models.accuracy(model), np.random.default_rng(1))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds, st.booleans(), generators)
 def test_points_in_the_kernel(seed, parts, rng):
     scene = scenes.scene(seed)
@@ -184,7 +184,7 @@ def test_points_in_the_kernel(seed, parts, rng):
         assert np.abs(np.array(same) - found).max() <= 2.0**-52
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(seeds, st.randoms(use_true_random=False))
 def test_parts_in_the_kernel(seed, random):
     scene = scenes.scene(seed).apart()

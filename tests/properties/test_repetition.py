@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from properties import models
-from properties.assemblies import KINDS, Piece, assemblies, assembly, views
+from properties.assemblies import KINDS, Piece, assemblies, assembly, examples, views
 from properties.frozen import draw
 from properties.identity import everything
 
@@ -34,7 +34,7 @@ def expect_one(drawings):
     assert len({tuple(sorted(drawing.counters.items())) for drawing in drawings}) == 1
 
 
-@settings(max_examples=15)
+@examples(15)
 @given(assemblies(), st.booleans(), views, st.sampled_from([None, CAMERA]))
 def test_threads_and_an_assembly(pieces, brep, view, camera):
     model = assembly(pieces, brep)

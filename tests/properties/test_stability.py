@@ -1,8 +1,8 @@
 """A small change of the input never causes a large change of the drawing.
 
-Every point of the mesh is moved by up to JIGGLE accuracies: forty times less than the least contact tolerance (that
-of flat B-rep parts, `tolerance.contact_planar`, a fiftieth of the accuracy), so that contacts stay contacts even seen
-at a slope of ten, and twenty thousand times less than the smallest gap in these scenes.
+Every point of the mesh is moved by up to JIGGLE accuracies: a fortieth of the least contact tolerance (that of flat
+B-rep parts, `tolerance.CONTACT_PLANAR`, a fiftieth of the accuracy), so that contacts stay contacts even seen at a
+slope of ten, and far less than the smallest gap in these scenes.
 
 IDENTICAL  nothing need be.
 MAY MOVE   ink, by the accuracy. A stretch may appear, vanish or change class only up to `ink.LONGEST`, two doubtful
@@ -11,30 +11,31 @@ MAY MOVE   ink, by the accuracy. A stretch may appear, vanish or change class on
            in all is at most SHARE of the ink.
 
 Left out are views along a flat face that runs tangentially into a curved one (see the last test), and meshes with
-slivers thinner than the jiggle, which it folds at will.
+slivers thinner than the jiggle, which it folds at will. Intersection lines of random parts are left out too: where two
+surfaces touch all along, rounding decides where such a line ends.
 """
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from properties import changes, ink, models
-from properties.assemblies import Piece, assemblies, assembly, upright, views
+from properties.assemblies import Piece, assemblies, assembly, examples, upright, views
 from properties.frozen import draw, freeze
 
 ACCURACY = 0.01
 JIGGLE = 5e-4
 SHARE = 0.005
-few = settings(max_examples=25)
+few = examples(25)
 generators = st.integers(0, 10**6).map(np.random.default_rng)
 
 
-def expect_stable(model, view, accuracy, rng, jiggle=JIGGLE):
-    before = draw(model, view, accuracy)
+def expect_stable(model, view, accuracy, rng, jiggle=JIGGLE, **options):
+    before = draw(model, view, accuracy, **options)
     amount = jiggle * accuracy / before.unit
-    found = ink.change(before, draw(changes.jiggled(model, amount, rng), view, accuracy))
+    found = ink.change(before, draw(changes.jiggled(model, amount, rng), view, accuracy, **options))
     assert found.longest <= ink.LONGEST, str(found)
     assert found.share <= SHARE, str(found)
 
@@ -43,13 +44,13 @@ def expect_stable(model, view, accuracy, rng, jiggle=JIGGLE):
 @given(assemblies(upright), st.booleans(), views, generators)
 def test_solids_on_a_lattice(pieces, brep, view, rng):
     """Touching, flush and crossing: all that a jiggle can pull apart."""
-    expect_stable(assembly(pieces, brep), view, ACCURACY, rng)
+    expect_stable(assembly(pieces, brep), view, ACCURACY, rng, intersections=False)
 
 
 @few
 @given(assemblies(), st.booleans(), views, generators)
 def test_turned_solids(pieces, brep, view, rng):
-    expect_stable(assembly(pieces, brep), view, ACCURACY, rng)
+    expect_stable(assembly(pieces, brep), view, ACCURACY, rng, intersections=False)
 
 
 @pytest.mark.parametrize("name", models.SOLIDS)
@@ -64,10 +65,16 @@ def test_a_model(name, view):
 def test_a_camera_turned_by_a_hair(pieces, brep, view, hair):
     """The view turned by a ten-millionth: no point moves by more than a thousandth of the accuracy."""
     model = assembly(pieces, brep)
-    before = draw(model, view, ACCURACY)
+    before = draw(model, view, ACCURACY, intersections=False)
     direction = np.array(before.view.direction) + 1e-7 * np.array(hair)
-    found = ink.change(before, draw(model, tuple(direction), ACCURACY, up=before.view.up))
+    found = ink.change(before, draw(model, tuple(direction), ACCURACY, up=before.view.up, intersections=False))
     assert found.longest <= ink.LONGEST and found.share <= SHARE, str(found)
+
+
+def test_parts_that_cross_with_their_intersection_lines():
+    crossing = (Piece("box", (0, 0, 0), (4, 4, 4)), Piece("cylinder", (2, 2, 2), (4, 4, 4), (1, 1, 0), 30))
+    for brep in (True, False):
+        expect_stable(assembly(crossing, brep), "iso", ACCURACY, np.random.default_rng(1))
 
 
 def rounded_disc():
