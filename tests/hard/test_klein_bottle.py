@@ -36,7 +36,7 @@ def test_rays_agree(picture, view):
     assert wrong <= judged // 100
     assert of_kind(drawing, "boundary") == []
     if view == "iso":
-        picture(drawing, without=("intersection",), twice=20.0)
+        picture(drawing, twice=20.0)
 
 
 def test_what_is_reported():

@@ -27,7 +27,7 @@ def test_any_size_gives_the_same_drawing(picture, size, view):
     plain = ink(hlr.draw((points, triangles), view, fit=FIT))
     assert not differences(plain, ink(drawing), drawing.accuracy["used"])
     if size == 1.0 and view == "iso":
-        picture(drawing, without=("intersection",))
+        picture(drawing)
     assert defects((points * size, triangles)) == defects((points, triangles))
 
 

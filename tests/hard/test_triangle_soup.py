@@ -34,7 +34,7 @@ def test_each_edge_by_the_oracle(view):
 
 def test_picture(picture):
     drawing = hlr.draw(SOUP, "iso", fit=(60, 60), hidden=False, accuracy=0.1)
-    picture(drawing, without=["intersection"], twice=1.0)
+    picture(drawing, twice=1.0)
 
 
 def test_the_defect_is_named():
