@@ -11,7 +11,7 @@ from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, with_wires
 from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR, Scene
-from hlr.scene.topology import crease_walks, creases, folded_back, joined, mesh_facts, source_walks
+from hlr.scene.topology import MeshFacts, crease_walks, creases, folded_back, joined, mesh_facts, source_walks
 from hlr.source.model import EdgeClass, Floats, Ints, Meshed, PartMesh
 
 MOST_TRIANGLES = 2**31 // 3 - 1
@@ -82,6 +82,7 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
         )
         edge_group = np.concatenate([edge_group, own_group])
         kind = np.concatenate([kind, np.full(len(lines), EdgeClass.INTERSECTION, np.uint8)])
+    curved |= _run_into(curved, kind, mesh, part_of, face, parts)
     edge_curved = np.zeros(len(edges), bool)
     faced = len(offsets) - 1
     edge_curved[:faced] = np.logical_or.reduceat(curved[incident], offsets[:-1]) if faced else False
@@ -113,6 +114,28 @@ def _firsts(counts: list[int]) -> Ints:
     out = np.zeros(len(counts), np.int32)
     np.cumsum(counts[:-1], out=out[1:])
     return out
+
+
+def _run_into(
+    curved: npt.NDArray[np.bool_],
+    kind: npt.NDArray[np.uint8],
+    mesh: MeshFacts,
+    part_of: Ints,
+    face: Ints,
+    parts: list[PartMesh],
+) -> npt.NDArray[np.bool_]:
+    """(t,) bool: the triangle lies on a planar face that a curved one runs into tangentially.
+
+    Seen edge-on, such a plane is the curved face's outline, and rounding decides along which of its edges it folds.
+    """
+    smooth = np.flatnonzero(kind[: len(mesh.balance)] == EdgeClass.SMOOTH)
+    number = _firsts([len(p.face_planar) for p in parts])[part_of] + face
+    touched = np.zeros(int(number.max(initial=-1)) + 1, bool)
+    for k in (0, 1):
+        at = mesh.offsets[smooth] + k
+        inside = at < mesh.offsets[smooth + 1]
+        touched[number[mesh.incident[at[inside]]]] = True
+    return np.asarray(touched[number] & ~curved)
 
 
 def _curved(parts: list[PartMesh], part_of: Ints, face: Ints) -> npt.NDArray[np.bool_]:

@@ -69,6 +69,8 @@ def clashes(
     size = np.ptp(points[triangles[found["triangles"][kept]]], axis=2).max(axis=(1, 2), initial=0.0)
     alone = (group[kept, 0] == group[kept, 1]) & ~groups.bare[group[kept, 0]]
     kept = kept[~(alone & _small(pair[kept], ends[kept], found["points"], size))]
+    # By place, not by the numbers of groups, which follow the order of triangles in the file.
+    kept = kept[np.lexsort((ends[kept, 1], ends[kept, 0]))]
     used, edges = np.unique(ends[kept], return_inverse=True)
     return Clashes(
         points=found["points"][used],

@@ -67,6 +67,12 @@ def checked(
     )
     volume = np.bincount(group_of, weights=six, minlength=count)
     extent = np.where(used, (high - low).min(axis=1), 0.0)
+    area = np.bincount(group_of, weights=np.sqrt((np.cross(q - p, r - p) ** 2).sum(axis=1)), minlength=count)
+    # Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a cube a
+    # third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still hides.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        thickness = np.where(closed, 1.8 * 2.0 * np.abs(volume / 6.0) / (area / 2.0), np.inf)
+    extent = np.fmin(extent, thickness)
     return Groups(
         closed=closed,
         cull=closed & (volume > 0.0),

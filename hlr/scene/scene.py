@@ -23,7 +23,7 @@ class Groups:
     bare     (g,) bool: a piece of a mesh without B-rep
     tight    (g,) bool: lines that lie exactly on other groups' triangles
     planar   (g,) bool: nothing but planar faces: exact, but for what the file rounds
-    extent   (g,) float64: the smallest side of its box, model units
+    extent   (g,) float64: its thickness, or the smallest side of its box where that is less or it is open; model units
     low, high (g, 3) float64: its box
     """
 

@@ -110,7 +110,8 @@ def test_contact_tolerances():
     assert plan.cap[0] < 0.0051
     # Meshes bring the tolerance of whoever made them: a share of the whole model's size.
     _, plan, _ = planned(parts(box((3000, 4000, 1)), box((1, 1, 1))))
-    assert np.minimum(plan.delta, plan.cap) == pytest.approx([0.5, 0.5])
+    # At most half the plate's thickness; of the cube, by its volume and area, 0.3 of a side.
+    assert np.minimum(plan.delta, plan.cap) == pytest.approx([0.5, 0.3])
     _, plan, _ = planned(parts(box((3000, 4000, 100)), box((100, 100, 100))))
     assert plan.delta == pytest.approx([np.sqrt(3000**2 + 4000**2 + 100**2) / 8000] * 2)
     assert not plan.sound.any()

@@ -62,7 +62,6 @@ def test_a_model_turned_with_the_camera(name, view):
     expect_turned(model, view, rotation((1, 2, 3), 37), models.accuracy(model))
 
 
-@pytest.mark.xfail(strict=True, reason="a part's thickness is taken from its upright box, so turned sheets seem thick")
 @pytest.mark.parametrize("brep", [True, False])
 def test_a_thin_sheet_turned_with_the_camera(brep):
     """It hides the cylinder under it whichever way both stand: the contact tolerance stays below half its thickness."""

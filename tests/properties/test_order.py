@@ -52,7 +52,6 @@ def expect_any_order_of_triangles(model, view, accuracy, rng):
         expect_same_files(before, draw(shuffled, view, accuracy, smooth=True, seam=True))
 
 
-@pytest.mark.xfail(strict=True, reason="intersection lines are listed in the order of the triangles")
 def test_triangles_and_the_place_of_intersection_lines():
     model, rng = models.model(models.SOUP), np.random.default_rng(1)
     accuracy = models.accuracy(model)

@@ -83,9 +83,6 @@ def rounded_disc():
     return freeze(cq.Workplane().cylinder(10, 10).edges(">Z").fillet(3), 2000)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="edges inside flat faces are no outlines, though a face seen edge-on may fold there"
-)
 @pytest.mark.parametrize("jiggle", [JIGGLE, 1e-6])
 def test_the_outline_where_a_rounding_ends_in_a_flat_face_seen_edge_on(jiggle):
     """Its topmost line must stay visible: nothing stands before it."""

@@ -35,6 +35,11 @@ fn visibility() {
 }
 
 #[test]
+fn clash() {
+    replay("clash", fuzz::clash::run);
+}
+
+#[test]
 fn linework() {
     replay("linework", fuzz::linework::run);
 }
