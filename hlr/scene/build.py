@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.errors import SourceError
-from hlr.scene.clash import clashes, distrusted, intersection_walks, may_fold_into_itself
+from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, may_fold_into_itself
 from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, with_wires
 from hlr.scene.repair import without_duplicates
@@ -58,7 +58,7 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
     groups = checked(points, triangles, group_of, group_part, edges, offsets, incident, balance, brep, curved)
     suspect = may_fold_into_itself(points, triangles, mesh, group_of, groups)
     met = clashes(points, triangles, group_of, groups, suspect, deflection)
-    found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, met.through)
+    found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, crossed_parts(met, group_part))
     groups = distrusted(groups, met.through)
 
     edge_group = group_of[incident[offsets[:-1]]]

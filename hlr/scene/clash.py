@@ -29,6 +29,10 @@ from hlr.tolerance import CONTACT, CONTACT_PLANAR
 SLIGHT_ANGLE = 0.35
 """Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most."""
 
+SELF = 0.1
+"""Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
+solids facets cross by a fifth of a deflection at most."""
+
 ROUNDING = 1e-9
 """Of a group's size: planar faces are flat within this share of it."""
 
@@ -54,6 +58,7 @@ def clashes(
     found = _kernel.clashes(points, triangles, group_of, itself)
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
     touch = touching(groups, CONTACT * deflection, CONTACT_PLANAR * deflection)[group].max(axis=1, initial=0.0)
+    touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
     ends = found["edges"].astype(np.int64)
@@ -150,6 +155,12 @@ def intersection_walks(edges: Ints, group: Ints, part_of_group: Ints, first: int
         index=np.full(len(parts), -1, np.int32),
         other=np.ascontiguousarray(parts[:, 1]),
     )
+
+
+def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
+    """Parts of which one surface passes through another, or through itself."""
+    a, b = part_of_group[met.group[:, 0]], part_of_group[met.group[:, 1]]
+    return np.asarray(np.union1d(a[a == b], part_of_group[np.flatnonzero(met.through)]), np.int32)
 
 
 def distrusted(groups: Groups, through: npt.NDArray[np.bool_]) -> Groups:

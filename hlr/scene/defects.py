@@ -21,12 +21,12 @@ def reports(
     part_of: Ints,
     groups: Groups,
     group_part: Ints,
-    through: npt.NDArray[np.bool_],
+    crossed: Ints,
 ) -> tuple[ScenePart, ...]:
     """Per part what it is and what is wrong with it.
 
     doubled: triangles already left out as duplicates; kind: of all mesh edges; part_of (t,); group_part (g,);
-    through (g,) bool: the group passes through itself.
+    crossed: numbers of parts whose surfaces pass through one another.
     """
     n = len(parts)
     uses = np.diff(mesh.offsets)
@@ -44,8 +44,8 @@ def reports(
         return np.bincount(group_part[chosen], minlength=n)
 
     unclosed, outside_in = groups_of_part(~groups.closed), groups_of_part(_inside_out(groups, group_part))
-    crossed = groups_of_part(through)
     triangles = np.bincount(part_of, minlength=n)
+    through = set(crossed.tolist())
     out = []
     for i, part in enumerate(parts):
         defects = []
@@ -62,7 +62,7 @@ def reports(
         if outside_in[i]:
             pieces = _count(outside_in[i], "closed piece") + " turned inside out"
             defects.append("the solid is turned inside out" if part.brep else pieces)
-        if crossed[i]:
+        if i in through:
             defects.append("the surface passes through itself")
         out.append(
             ScenePart(
