@@ -24,10 +24,14 @@ from hlr.scene.groups import touching
 from hlr.scene.scene import Chains, Groups
 from hlr.scene.topology import Keys, MeshFacts
 from hlr.source.model import EdgeClass, Floats, Ints
-from hlr.tolerance import CONTACT, CONTACT_PLANAR
+from hlr.tolerance import CONTACT
 
 SLIGHT_ANGLE = 0.35
 """Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most."""
+
+FLUSH = 2.0
+"""In deflections, an accuracy: a wall that reaches less far beyond a face stands on it, and has no line there but its
+own edge."""
 
 SELF = 0.1
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
@@ -52,13 +56,20 @@ class Clashes:
 
 
 def clashes(
-    points: Floats, triangles: Ints, group_of: Ints, groups: Groups, itself: npt.NDArray[np.bool_], deflection: float
+    points: Floats,
+    triangles: Ints,
+    mesh: MeshFacts,
+    group_of: Ints,
+    groups: Groups,
+    itself: npt.NDArray[np.bool_],
+    deflection: float,
 ) -> Clashes:
     """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves."""
     found = _kernel.clashes(points, triangles, group_of, itself)
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
-    touch = touching(groups, CONTACT * deflection, CONTACT_PLANAR * deflection)[group].max(axis=1, initial=0.0)
+    touch = touching(groups, CONTACT * deflection, CONTACT * deflection)[group].max(axis=1, initial=0.0)
     touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
+    reach = _reach(points, triangles, mesh, found["triangles"])
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
     ends = found["edges"].astype(np.int64)
@@ -68,6 +79,9 @@ def clashes(
     one, first = order[fresh], np.flatnonzero(fresh)
     beyond = np.maximum.reduceat((found["depth"] - touch)[order], first) if len(one) else np.zeros(0)
     sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
+    reach = np.maximum.reduceat(reach[order], first) if len(one) else np.zeros(0)
+    flush = (reach < FLUSH * deflection) & (sine >= SLIGHT_ANGLE)
+    one, beyond, sine = one[~flush], beyond[~flush], sine[~flush]
     kept = one[_real(pair[one], ends[one], beyond, sine)]
     through = np.zeros(len(itself), bool)
     through[group[kept, 0][group[kept, 0] == group[kept, 1]]] = True
@@ -83,6 +97,44 @@ def clashes(
         group=np.ascontiguousarray(group[kept], np.int32),
         through=through,
     )
+
+
+def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> Floats:
+    """(m,) how far each of two triangles (m, 2), with those beyond its edges, reaches beyond the other's plane on its
+    shallower side; the lesser of both. Where that is nothing, one surface stands flush on the other.
+
+    ::
+
+              |                         |
+        ______|______ crosses     ______|______ stands on it: the triangle beyond the wall's lower edge is its
+              |                    -----+       bottom, which goes no deeper
+    """
+    used, number = np.unique(pairs, return_inverse=True)
+    number = number.reshape(-1, 2)
+    # The three sides of each used triangle, and what lies beyond each: its own corner where there is nothing.
+    edge_of = np.repeat(np.arange(len(mesh.edges), dtype=np.int64), np.diff(mesh.offsets))
+    rank = np.full(len(triangles), -1, np.int64)
+    rank[used] = np.arange(len(used))
+    entry = np.flatnonzero(rank[mesh.incident] >= 0)
+    entry = entry[np.argsort(rank[mesh.incident[entry]], kind="stable")]
+    own = rank[mesh.incident[entry]]
+    place = np.arange(len(entry)) - np.searchsorted(own, own)
+    around = np.repeat(triangles[used][:, :1], 6, axis=1)
+    around[:, :3] = triangles[used]
+    edge = edge_of[entry]
+    first = mesh.offsets[edge]
+    other = np.where(mesh.incident[first] == mesh.incident[entry], first + 1, first)
+    there = (other < mesh.offsets[edge + 1]) & (place < 3)
+    beyond = mesh.incident[np.where(there, other, first)]
+    apex = triangles[beyond].sum(axis=1, dtype=np.int64) - mesh.edges[edge].sum(axis=1, dtype=np.int64)
+    around[own[there], 3 + place[there]] = apex[there]
+    out = np.full(len(pairs), np.inf)
+    for s, t in ((0, 1), (1, 0)):
+        plane = pairs[:, s]
+        away = points[around[number[:, t]]] - points[triangles[plane, 0]][:, None]
+        height = np.einsum("mkc,mc->mk", away, mesh.normals[plane])
+        out = np.minimum(out, np.minimum(height.max(axis=1), -height.min(axis=1)))
+    return out
 
 
 def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[np.bool_]:
