@@ -33,6 +33,9 @@ FLUSH = 2.0
 """In deflections, an accuracy: a wall that reaches less far beyond a face stands on it, and has no line there but its
 own edge."""
 
+PLANAR = 0.25
+"""In deflections: planar faces are off by what their files round, and their triangles may be small."""
+
 SELF = 0.1
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
 solids facets cross by a fifth of a deflection at most."""
@@ -67,7 +70,7 @@ def clashes(
     """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves."""
     found = _kernel.clashes(points, triangles, group_of, itself)
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
-    touch = touching(groups, CONTACT * deflection, CONTACT * deflection)[group].max(axis=1, initial=0.0)
+    touch = touching(groups, CONTACT * deflection, PLANAR * deflection)[group].max(axis=1, initial=0.0)
     touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
     reach = _reach(points, triangles, mesh, found["triangles"])
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
@@ -81,8 +84,7 @@ def clashes(
     sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
     reach = np.maximum.reduceat(reach[order], first) if len(one) else np.zeros(0)
     flush = (reach < FLUSH * deflection) & (sine >= SLIGHT_ANGLE)
-    one, beyond, sine = one[~flush], beyond[~flush], sine[~flush]
-    kept = one[_real(pair[one], ends[one], beyond, sine)]
+    kept = one[_real(pair[one], ends[one], beyond, sine) & ~flush]
     through = np.zeros(len(itself), bool)
     through[group[kept, 0][group[kept, 0] == group[kept, 1]]] = True
     size = np.ptp(points[triangles[found["triangles"][kept]]], axis=2).max(axis=(1, 2), initial=0.0)

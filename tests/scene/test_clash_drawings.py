@@ -110,7 +110,7 @@ def test_on_the_command_line(tmp_path):
     found = []
     for flag in ([], ["--intersections"], ["--no-intersections"]):
         out = tmp_path / "post.json"
-        command = [sys.executable, "-m", "hlr", "draw", str(model), "-o", str(out), "--view", "2,-3,1", *flag]
+        command = [sys.executable, "-P", "-m", "hlr", "draw", str(model), "-o", str(out), "--view", "2,-3,1", *flag]
         subprocess.run(command, check=True, capture_output=True)
         found.append(sum(line["class"] == "intersection" for line in json.loads(out.read_text())["lines"]))
     assert found[0] == found[1] > 0 == found[2]
