@@ -8,7 +8,7 @@ pub fn weld(found: &[Clash]) -> (Vec<Point>, Vec<[i32; 2]>) {
     let mut points: Vec<Point> = found.iter().flat_map(|c| c.meeting.ends).collect();
     points.sort_unstable();
     points.dedup();
-    let number = |p: &Point| points.binary_search(p).unwrap_or_default() as i32;
+    let number = |p: &Point| points.partition_point(|q| q < p) as i32;
     let edges = found.iter().map(|c| [number(&c.meeting.ends[0]), number(&c.meeting.ends[1])]).collect();
     (points, edges)
 }
