@@ -3,6 +3,7 @@
 pub mod bind;
 pub mod clash;
 pub mod exact;
+pub mod geometry;
 pub mod lines;
 pub mod scan;
 
@@ -17,6 +18,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     Ok(())

@@ -1,0 +1,4 @@
+//! Curves and surfaces of a B-rep, as their records say: evaluated with derivatives, without OpenCASCADE.
+
+pub mod curve;
+pub mod nurbs;

@@ -1,0 +1,183 @@
+//! B-splines, rational or not, in homogeneous coordinates.
+//! (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997: A2.1 find span, A2.3 basis functions and derivatives.)
+
+/// Highest degree that is evaluated; OpenCASCADE's own limit is 25.
+pub const MOST_DEGREE: usize = 25;
+
+/// A curve of degree p over knots u[0..n + p + 1] with n poles (x w, y w, z w, w); its domain is u[p]..u[n].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nurbs {
+    pub degree: usize,
+    pub rational: bool,
+    pub knots: Vec<f64>,
+    pub poles: Vec<[f64; 4]>,
+}
+
+/// A2.1: the span [u[i], u[i + 1]) that holds t, clamped to the domain; never an empty span.
+pub fn find_span(knots: &[f64], degree: usize, poles: usize, t: f64) -> usize {
+    let (mut low, mut high) = (degree, poles);
+    if t >= knots[high] {
+        while high > degree + 1 && knots[high - 1] >= knots[high] {
+            high -= 1;
+        }
+        return high - 1;
+    }
+    while high - low > 1 {
+        let middle = usize::midpoint(low, high);
+        if t < knots[middle] { high = middle } else { low = middle }
+    }
+    // Before the domain the first span that is not empty goes on.
+    while knots[low + 1] <= knots[low] && low + 1 < poles {
+        low += 1;
+    }
+    low
+}
+
+/// The basis functions that are not zero on a span, with their first and second derivatives: out[k][j] is the k-th
+/// derivative of N(span - degree + j).
+pub fn basis(knots: &[f64], degree: usize, span: usize, t: f64) -> [[f64; MOST_DEGREE + 1]; 3] {
+    let p = degree;
+    let mut ndu = [[0.0; MOST_DEGREE + 1]; MOST_DEGREE + 1];
+    let (mut left, mut right) = ([0.0; MOST_DEGREE + 1], [0.0; MOST_DEGREE + 1]);
+    ndu[0][0] = 1.0;
+    for j in 1..=p {
+        left[j] = t - knots[span + 1 - j];
+        right[j] = knots[span + j] - t;
+        let mut saved = 0.0;
+        for r in 0..j {
+            ndu[j][r] = right[r + 1] + left[j - r];
+            let part = ndu[r][j - 1] / ndu[j][r];
+            ndu[r][j] = saved + right[r + 1] * part;
+            saved = left[j - r] * part;
+        }
+        ndu[j][j] = saved;
+    }
+    let mut out = [[0.0; MOST_DEGREE + 1]; 3];
+    for j in 0..=p {
+        out[0][j] = ndu[j][p];
+    }
+    for r in 0..=p {
+        let mut a = [[0.0; MOST_DEGREE + 1]; 2];
+        let (mut s1, mut s2) = (0, 1);
+        a[0][0] = 1.0;
+        for k in 1..=p.min(2) {
+            let mut d = 0.0;
+            let pk = p - k;
+            if r >= k {
+                a[s2][0] = a[s1][0] / ndu[pk + 1][r - k];
+                d = a[s2][0] * ndu[r - k][pk];
+            }
+            let first = if r + 1 >= k { 1 } else { k - r };
+            let last = if r <= pk + 1 { k - 1 } else { p - r };
+            for j in first..=last {
+                let below = r + j - k;
+                a[s2][j] = (a[s1][j] - a[s1][j - 1]) / ndu[pk + 1][below];
+                d += a[s2][j] * ndu[below][pk];
+            }
+            if r <= pk {
+                a[s2][k] = -a[s1][k - 1] / ndu[pk + 1][r];
+                d += a[s2][k] * ndu[r][pk];
+            }
+            out[k][r] = d;
+            std::mem::swap(&mut s1, &mut s2);
+        }
+    }
+    let mut factor = 1.0;
+    for (k, row) in out.iter_mut().enumerate().skip(1) {
+        if k > p {
+            break;
+        }
+        factor *= (p + 1 - k) as f64;
+        for value in &mut row[..=p] {
+            *value *= factor;
+        }
+    }
+    out
+}
+
+impl Nurbs {
+    pub fn domain(&self) -> (f64, f64) {
+        (self.knots[self.degree], self.knots[self.poles.len()])
+    }
+
+    /// Homogeneous point, first and second derivative.
+    pub fn homogeneous(&self, t: f64) -> [[f64; 4]; 3] {
+        let span = find_span(&self.knots, self.degree, self.poles.len(), t);
+        let basis = basis(&self.knots, self.degree, span, t);
+        let mut out = [[0.0; 4]; 3];
+        for (row, values) in out.iter_mut().zip(&basis) {
+            for (pole, value) in self.poles[span - self.degree..=span].iter().zip(values) {
+                for (sum, c) in row.iter_mut().zip(pole) {
+                    *sum += c * value;
+                }
+            }
+        }
+        out
+    }
+}
+
+/// From homogeneous to plain coordinates, with both derivatives (quotient rule; The NURBS Book, 4.8).
+pub fn dehomogenized([a, b, c]: &[[f64; 4]; 3]) -> [[f64; 3]; 3] {
+    let w = a[3];
+    let p = [0, 1, 2].map(|k| a[k] / w);
+    let d1 = [0, 1, 2].map(|k| (b[k] - b[3] * p[k]) / w);
+    let d2 = [0, 1, 2].map(|k| (c[k] - 2.0 * b[3] * d1[k] - c[3] * p[k]) / w);
+    [p, d1, d2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(a: f64, b: f64, tolerance: f64) {
+        assert!((a - b).abs() <= tolerance, "{a} {b}");
+    }
+
+    #[test]
+    fn a_rational_quarter_circle() {
+        let s = 0.5f64.sqrt();
+        let quarter = Nurbs {
+            degree: 2,
+            rational: true,
+            knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+            poles: vec![[1.0, 0.0, 0.0, 1.0], [s, s, 0.0, s], [0.0, 1.0, 0.0, 1.0]],
+        };
+        for i in 0..=10 {
+            let [p, d1, d2] = dehomogenized(&quarter.homogeneous(f64::from(i) * 0.1));
+            close(p[0] * p[0] + p[1] * p[1], 1.0, 1e-14);
+            close(p[0] * d1[0] + p[1] * d1[1], 0.0, 1e-13);
+            // The second derivative of |p|^2 = 1.
+            close(d1[0] * d1[0] + d1[1] * d1[1] + p[0] * d2[0] + p[1] * d2[1], 0.0, 1e-12);
+        }
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let curve = Nurbs {
+            degree: 3,
+            rational: true,
+            knots: vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 2.5, 3.0, 3.0, 3.0, 3.0],
+            poles: (0..7u8)
+                .map(|i| [f64::from(i), f64::from(i * i % 5), f64::from(i % 3), 1.0 + 0.1 * f64::from(i % 2)])
+                .collect(),
+        };
+        let h = 1e-4;
+        for t in [0.2, 0.9, 1.3, 2.2, 2.7] {
+            let at = |t: f64| dehomogenized(&curve.homogeneous(t));
+            let ([_, d1, d2], before, after) = (at(t), at(t - h), at(t + h));
+            for k in 0..3 {
+                close(d1[k], (after[0][k] - before[0][k]) / (2.0 * h), 1e-5);
+                close(d2[k], (after[1][k] - before[1][k]) / (2.0 * h), 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn spans_at_the_ends_are_not_empty() {
+        let knots = [0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
+        assert_eq!(find_span(&knots, 1, 4, 0.0), 1);
+        assert_eq!(find_span(&knots, 1, 4, 1.0), 3);
+        assert_eq!(find_span(&knots, 1, 4, 2.0), 3);
+        assert_eq!(find_span(&knots, 1, 4, -1.0), 1);
+    }
+}
