@@ -20,6 +20,7 @@ from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera, resolve
 from hlr.view.clip import clip, planes
 from hlr.view.scale import Placed, place
+from hlr.view.silhouettes import with_silhouettes
 from hlr.visibility.segments import solve
 
 Clock = dict[str, float]
@@ -104,12 +105,13 @@ def _meshed(
 
 def _drawing(opened: Source, scene: Scene, camera: Camera, at: Placed, options: Options, clock: Clock) -> Drawing:
     started = perf_counter()
-    seen, cuts = clip(scene, planes(camera, at.aspect))
     tolerances: Tolerances = at.tolerances
+    seen, cuts = clip(with_silhouettes(scene, camera, tolerances, options.threads), planes(camera, at.aspect))
     plan = decide(seen, camera, options, tolerances)
     projected = camera.project(seen.points)
     started = _lap(clock, "plan", started)
-    segments = solve(seen, plan, projected, options.threads)
+    lifted = projected if seen.lift is None else camera.project(seen.points + seen.lift)
+    segments = solve(seen, plan, lifted, options.threads)
     started = _lap(clock, "visibility", started)
     lines, origin = draw_lines(
         seen, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads

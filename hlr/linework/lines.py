@@ -61,7 +61,7 @@ def draw_lines(
         chains.edges,
         chains.reversed,
         rank,
-        chains.kind == EdgeClass.OUTLINE,
+        chains.noisy,
         tolerances.short,
         tolerances.stub,
         tolerances.width,
@@ -114,7 +114,6 @@ def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
     offsets = np.zeros(len(asked) + 1, np.int32)
     np.cumsum(count, out=offsets[1:])
     member = np.arange(offsets[-1]) + np.repeat(source.offsets[asked] - offsets[:-1], count)
-    none = np.full(len(asked), -1, np.int32)
     return LineChains(
         offsets=np.concatenate([offsets, outline.offsets[1:] + offsets[-1]]).astype(np.int32),
         edges=np.concatenate([source.edges[member], outline.edges]).astype(np.int32),
@@ -122,6 +121,7 @@ def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
         kind=np.concatenate([source.kind[asked], outline.kind]),
         part=np.concatenate([source.part[asked], outline.part]),
         edge=np.concatenate([source.index[asked], outline.edge]),
-        face=np.concatenate([none, outline.face]),
+        face=np.concatenate([source.face[asked], outline.face]),
         other=np.concatenate([source.other[asked], outline.other]),
+        noisy=np.concatenate([np.zeros(len(asked), bool), outline.noisy]),
     )

@@ -23,7 +23,8 @@ class LineChains:
     """Walks over mesh edges that become lines.
 
     offsets (c+1,), edges (k,), reversed (k,) bool; kind (c,) EdgeClass, part (c,), edge (c,) and face (c,) in the
-    part's TopExp maps, other (c,) the second part of an intersection line; -1 where there is none.
+    part's TopExp maps, other (c,) the second part of an intersection line; -1 where there is none. noisy (c,): the
+    contour of a mesh, which may turn to and fro by an edge.
     """
 
     offsets: Ints
@@ -34,6 +35,7 @@ class LineChains:
     edge: Ints
     face: Ints
     other: Ints
+    noisy: npt.NDArray[np.bool_]
 
 
 def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
@@ -91,4 +93,5 @@ def _chained(scene: Scene, contour: Ints, owner: Ints) -> LineChains:
         edge=np.full(len(head), -1, np.int32),
         face=np.where(has_faces[part[head]], face[head], -1).astype(np.int32),
         other=np.full(len(head), -1, np.int32),
+        noisy=np.ones(len(head), bool),
     )

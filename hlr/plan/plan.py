@@ -43,7 +43,7 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
     kind = scene.edge_kind
     role = np.zeros(len(kind), np.uint8)
     drawn_kind = np.zeros(len(EdgeClass), bool)
-    drawn_kind[[EdgeClass.SHARP, EdgeClass.BOUNDARY]] = True
+    drawn_kind[[EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.OUTLINE]] = True
     drawn_kind[EdgeClass.SMOOTH] = options.smooth
     drawn_kind[EdgeClass.SEAM] = options.seam
     drawn_kind[EdgeClass.INTERSECTION] = options.intersections
@@ -51,6 +51,8 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
     role[tied] = np.where(drawn_kind[kind[tied]], DRAWN, 0)
     may_fold = scene.edge_curved & ((kind == INTERIOR) | (kind == EdgeClass.SMOOTH) | (kind == EdgeClass.SEAM))
     role[may_fold] |= OUTLINE
+    if scene.edge_hidden is not None:
+        role[scene.edge_hidden] = 0
     delta, cap = _contact(scene, camera, tolerances)
     return Plan(
         role=role,

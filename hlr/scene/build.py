@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
@@ -10,9 +13,9 @@ from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_wal
 from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, with_wires
 from hlr.scene.repair import without_duplicates
-from hlr.scene.scene import INTERIOR, Scene
+from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
 from hlr.scene.topology import MeshFacts, crease_walks, creases, folded_back, joined, mesh_facts, source_walks
-from hlr.source.model import EdgeClass, Floats, Ints, Meshed, PartMesh
+from hlr.source.model import EdgeClass, Floats, Ints, Meshed, OnSurfaces, PartMesh
 
 MOST_TRIANGLES = 2**31 // 3 - 1
 """Indices are 32 bits wide; three sides a triangle."""
@@ -107,12 +110,56 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
         chains=walks,
         parts=found,
         notes=(*meshed.notes, *notes(found)),
+        true_surfaces=_true_surfaces(parts),
     )
 
 
 def _firsts(counts: list[int]) -> Ints:
     out = np.zeros(len(counts), np.int32)
     np.cumsum(counts[:-1], out=out[1:])
+    return out
+
+
+def _true_surfaces(parts: list[PartMesh]) -> TrueSurfaces | None:
+    """The parameters of all parts' triangles; None where no part has a B-rep."""
+    on = [p.on_surfaces for p in parts]
+    known = [o for o in on if o is not None]
+    if not known:
+        return None
+    first_uv = _firsts([len(o.uv) if o is not None else 0 for o in on])
+    counts = [len(p.face_planar) for p in parts]
+
+    def joined(of: Callable[[OnSurfaces], Any], fill: float, shape: tuple[int, ...], dtype: Any) -> Any:
+        rows = [
+            of(o) if o is not None else np.full((n, *shape), fill, dtype) for o, n in zip(on, counts, strict=True)
+        ]
+        return np.concatenate(rows)
+
+    corner = [
+        o.corner + first if o is not None else np.full((len(p.triangles), 3), -1, np.int32)
+        for o, p, first in zip(on, parts, first_uv, strict=True)
+    ]
+    transform = np.repeat(np.array([p.transform[:3] for p in parts]), counts, axis=0)
+    place = joined(lambda o: o.place, 0.0, (3, 4), np.float64)
+    return TrueSurfaces(
+        corner=np.concatenate(corner).astype(np.int32),
+        uv=np.concatenate([o.uv for o in known]),
+        first=_firsts(counts),
+        number=joined(lambda o: o.number, -1, (), np.int32),
+        place=_composed(transform, place),
+        inward=joined(lambda o: o.reversed, False, (), bool),
+        curved=~np.concatenate([p.face_planar for p in parts]) & joined(lambda o: o.number >= 0, False, (), bool),
+        surfaces=known[0].surfaces,
+    )
+
+
+def _composed(outer: Floats, inner: Floats) -> Floats:
+    """(n, 3, 4) outer * inner; no BLAS, so every machine gets the same bits."""
+    out = np.zeros_like(inner)
+    for i in range(3):
+        for j in range(4):
+            out[:, i, j] = sum(outer[:, i, k] * inner[:, k, j] for k in range(3))
+        out[:, i, 3] += outer[:, i, 3]
     return out
 
 

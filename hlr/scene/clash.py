@@ -208,6 +208,7 @@ def intersection_walks(edges: Ints, group: Ints, part_of_group: Ints, first: int
         part=np.ascontiguousarray(parts[:, 0]),
         index=np.full(len(parts), -1, np.int32),
         other=np.ascontiguousarray(parts[:, 1]),
+        face=np.full(len(parts), -1, np.int32),
     )
 
 

@@ -26,5 +26,11 @@ def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
     if len(first) == len(triangles):
         return part, 0
     keep: Ints = np.sort(first).astype(np.int32)
-    kept = replace(part, triangles=triangles[keep], triangle_face=part.triangle_face[keep])
+    on = part.on_surfaces
+    kept = replace(
+        part,
+        triangles=triangles[keep],
+        triangle_face=part.triangle_face[keep],
+        on_surfaces=replace(on, corner=on.corner[keep]) if on is not None else None,
+    )
     return kept, len(triangles) - len(keep)

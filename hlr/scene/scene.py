@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hlr.source.model import Color, Floats, Ints
+from hlr.source.model import Color, Floats, Ints, Surfaces
 
 INTERIOR = 255
 """Kind of a mesh edge that no source edge runs along."""
@@ -39,12 +39,32 @@ class Groups:
 
 
 @dataclass(frozen=True, slots=True)
+class TrueSurfaces:
+    """Where the triangles of B-rep parts lie on the surfaces of their faces; faces of all parts are numbered together.
+
+    corner (t, 3) into uv (k, 2): parameters at the corners, -1 for parts without B-rep
+    first (p,) the number of each part's first face; number (f,) of its surface in `surfaces`
+    place (f, 3, 4) from the surface's frame into the model; inward (f,) bool; curved (f,) bool: may show an outline
+    """
+
+    corner: Ints
+    uv: Floats
+    first: Ints
+    number: Ints
+    place: Floats
+    inward: npt.NDArray[np.bool_]
+    curved: npt.NDArray[np.bool_]
+    surfaces: Surfaces
+
+
+@dataclass(frozen=True, slots=True)
 class Chains:
     """Source edges as walks over mesh edges, sorted by part, then source edge.
 
     offsets (c+1,), edges (k,) mesh edges, reversed (k,) bool: walked from second to first vertex
     kind (c,) uint8 EdgeClass, part (c,) int32, index (c,) int32 in the part's TopExp edge map, -1 for meshes
     other (c,) int32: of an intersection line the second part, else -1
+    face (c,) int32: of an outline the face, in the part's TopExp face map, else -1
     """
 
     offsets: Ints
@@ -54,6 +74,7 @@ class Chains:
     part: Ints
     index: Ints
     other: Ints
+    face: Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +98,10 @@ class Scene:
 
     incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. edge_kind is an EdgeClass or INTERIOR;
     edge_curved tells the edges at which a curved surface may show its outline. Edges without triangles are wires, or
-    intersection lines; those belong to a group of their own.
+    intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
+
+    lift (n, 3): how far points are moved before visibility is decided, None where none is. Outlines of true surfaces
+    run within the tolerance of their own facets, which must not hide them. edge_hidden: what hides itself.
     """
 
     points: Floats
@@ -96,3 +120,6 @@ class Scene:
     chains: Chains
     parts: tuple[ScenePart, ...]
     notes: tuple[str, ...]
+    true_surfaces: TrueSurfaces | None = None
+    lift: Floats | None = None
+    edge_hidden: npt.NDArray[np.bool_] | None = None

@@ -41,7 +41,7 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         part_of.append(np.full(len(part.edge_index), i, np.int32))
     if not nodes:
         none = np.zeros(0, np.int32)
-        empty = Chains(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none, none)
+        empty = Chains(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none, none, none)
         return empty, none.reshape(0, 2)
     node = np.concatenate(nodes)
     count = np.concatenate(counts)
@@ -67,6 +67,7 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         part=np.concatenate(part_of),
         index=np.concatenate([p.edge_index for p in parts]).astype(np.int32),
         other=np.full(len(count), -1, np.int32),
+        face=np.full(len(count), -1, np.int32),
     )
     return walks, extra
 
@@ -170,6 +171,7 @@ def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidate
         part=part[head].astype(np.int32),
         index=np.full(len(head), -1, np.int32),
         other=np.full(len(head), -1, np.int32),
+        face=np.full(len(head), -1, np.int32),
     )
 
 
@@ -190,4 +192,5 @@ def joined(a: Chains, b: Chains) -> Chains:
         part=part[order],
         index=np.concatenate([a.index, b.index])[order],
         other=np.concatenate([a.other, b.other])[order],
+        face=np.concatenate([a.face, b.face])[order],
     )

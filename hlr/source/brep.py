@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from hlr.errors import SourceError
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
-from hlr.source.model import Floats, Frame, Meshed, PartInfo, PartMesh, Progress
+from hlr.source.model import Floats, Frame, Meshed, OnSurfaces, PartInfo, PartMesh, Progress, Surfaces
 from hlr.source.parts import Leaf, Part, Parts
 from hlr.source.tessellate import Tessellator
 from hlr.source.topology import Meshes
@@ -104,7 +105,8 @@ class BrepSource:
             self._tessellator = Tessellator(self._roots, float(np.sqrt(((high - low) ** 2).sum())))
         meshes, notes = self._tessellator.mesh(deflection, angle, progress)
         meshed = Meshed(parts=[], notes=notes)
-        shared = [_Shared(meshes, number) for number in range(len(self._roots))]
+        surfaces = self._tessellator.surfaces
+        shared = [_Shared(meshes, number, surfaces) for number in range(len(self._roots))]
         places = _placed_points([(part, shared[part.root].points) for part in self._parts])
         for part, points in zip(self._parts, places, strict=True):
             mesh = shared[part.root]
@@ -124,7 +126,7 @@ class BrepSource:
 class _Shared:
     """One root's arrays, shared by all its placements."""
 
-    def __init__(self, meshes: Meshes, number: int) -> None:
+    def __init__(self, meshes: Meshes, number: int, surfaces: Surfaces) -> None:
         a, b = meshes.point_start[number : number + 2]
         c, d = meshes.triangle_start[number : number + 2]
         e, f = meshes.edge_start[number : number + 2]
@@ -139,7 +141,15 @@ class _Shared:
         self.edge_index = meshes.edge_index[e:f]
         self.edge_class = meshes.edge_class[e:f]
         self.missing = int(meshes.missing_faces[number])
-
+        i, j = meshes.node_start[number : number + 2]
+        self.on_surfaces: OnSurfaces | None = OnSurfaces(
+            corner=meshes.corner[c:d] - i,
+            uv=meshes.uv[i:j],
+            number=meshes.face_shape[g:h],
+            place=meshes.face_place[g:h],
+            reversed=meshes.face_reversed[g:h],
+            surfaces=surfaces,
+        )
         self.brep = True
         if len(self.triangles) and not len(self.edge_index):
             # Tessellated geometry: faces are loose triangles, and what they share must be found by position.
@@ -148,11 +158,14 @@ class _Shared:
             self.triangle_face = np.zeros(len(self.triangles), dtype=np.int32)
             self.face_planar = np.zeros(1, dtype=bool)
             self.brep = False
+            self.on_surfaces = None
 
     def placed(self, part: Part, points: Floats) -> PartMesh:
-        triangles = self.triangles
+        triangles, on_surfaces = self.triangles, self.on_surfaces
         if determinant_sign(part.transform) < 0:
             triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
+            if on_surfaces is not None:
+                on_surfaces = replace(on_surfaces, corner=np.ascontiguousarray(on_surfaces.corner[:, [0, 2, 1]]))
         return PartMesh(
             name=part.name,
             color=part.color,
@@ -166,6 +179,7 @@ class _Shared:
             edge_index=self.edge_index,
             edge_class=self.edge_class,
             brep=self.brep,
+            on_surfaces=on_surfaces,
         )
 
 

@@ -40,6 +40,7 @@ _RECORD = re.compile(
     re.DOTALL,
 )
 _COUNT = re.compile(rb"(\d{1,9})\n")
+_NO_NUMBER = struct.pack("<d", float("nan"))
 _STEPS_TOGETHER = 40
 _REPRESENTATION_SIZE = np.array([0, 25, 29, 34, 18, 9, 13, 17] + [0] * 248, dtype=np.int64)
 
@@ -157,6 +158,7 @@ def _polygons(data: bytes, at: int, count: int) -> tuple[int, tuple[Ints, Ints]]
 
 def _triangulations(data: bytes, at: int, count: int) -> tuple[int, tuple[Any, ...]]:
     nodes: list[bytes] = []
+    uv: list[bytes] = []
     triangles: list[bytes] = []
     normals: list[bytes] = []
     node_counts: list[int] = []
@@ -169,7 +171,10 @@ def _triangulations(data: bytes, at: int, count: int) -> tuple[int, tuple[Any, .
         at += 18
         end = at + 24 * node_count
         nodes.append(data[at:end])
-        at = end + (16 * node_count if has_uv else 0)
+        at = end
+        end = at + 16 * node_count
+        uv.append(data[at:end] if has_uv else _NO_NUMBER * (2 * node_count))
+        at = end if has_uv else at
         end = at + 12 * tri_count
         triangles.append(data[at:end])
         at = end
@@ -184,6 +189,7 @@ def _triangulations(data: bytes, at: int, count: int) -> tuple[int, tuple[Any, .
     return at, (
         starts(node_counts),
         np.frombuffer(b"".join(nodes), dtype="<f8").reshape(-1, 3),
+        np.frombuffer(b"".join(uv), dtype="<f8").reshape(-1, 2),
         np.frombuffer(b"".join(normals), dtype="<f4").reshape(-1, 3),
         starts(tri_counts),
         np.frombuffer(b"".join(triangles), dtype="<i4").reshape(-1, 3) - np.int32(1),
@@ -249,9 +255,10 @@ def _shapes(
         line_points=lines[1],
         node_start=triangulations[0],
         nodes=triangulations[1],
-        normals=triangulations[2],
-        tri_start=triangulations[3],
-        triangles=triangulations[4],
+        uv=triangulations[2],
+        normals=triangulations[3],
+        tri_start=triangulations[4],
+        triangles=triangulations[5],
         locations=locations,
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Protocol
@@ -28,6 +28,42 @@ class EdgeClass(IntEnum):
     INTERSECTION = 5
 
 
+class Surfaces(Protocol):
+    """The surfaces under a source's faces, as the kernel's records."""
+
+    def records(self, numbers: Sequence[int]) -> SurfaceRecords:
+        """The records of the faces with these numbers, in this order."""
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceRecords:
+    """kind (n,) uint8 as `hlr.source.surfaces` numbers them; the numbers of record i are
+    data[offsets[i]:offsets[i + 1]]."""
+
+    kind: npt.NDArray[np.uint8]
+    offsets: Ints
+    data: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class OnSurfaces:
+    """Where a part's mesh lies on the surfaces of its faces.
+
+    corner    (m, 3)    int32 into uv: a node on an edge has different parameters on each of its faces
+    uv        (k, 2)    parameters on the surface
+    number    (f,)      per face of the part's TopExp face map: its number in `surfaces`
+    place     (f, 3, 4) from the surface's frame to the part's own, before the part's placement
+    reversed  (f,) bool: the surface's normal points inward
+    """
+
+    corner: Ints
+    uv: Floats
+    number: Ints
+    place: Floats
+    reversed: npt.NDArray[np.bool_]
+    surfaces: Surfaces
+
+
 @dataclass(frozen=True, slots=True)
 class PartMesh:
     """One part, tessellated, in model coordinates (placements applied).
@@ -40,6 +76,7 @@ class PartMesh:
     edge_offsets      (e+1,) int32 into edge_nodes
     edge_index        (e,)   int32: index of the edge in the part's TopExp edge map
     edge_class        (e,)   uint8: EdgeClass (SHARP, SMOOTH, SEAM or BOUNDARY)
+    on_surfaces       where the triangles lie on their true surfaces; None where there are none
 
     A mesh without B-rep leaves the four edge arrays empty and sets `brep` to False: creases and borders are then
     found by the scene. Free edges (belonging to no face) are edges of class SHARP whose nodes no triangle uses.
@@ -57,6 +94,7 @@ class PartMesh:
     edge_index: Ints
     edge_class: npt.NDArray[np.uint8]
     brep: bool
+    on_surfaces: OnSurfaces | None = None
 
 
 @dataclass(frozen=True, slots=True)

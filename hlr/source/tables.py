@@ -35,7 +35,8 @@ class Tables:
     free_*        (f,)   edge polygons in space: edge, location, polygon
     poly_start    (p+1,) into poly_nodes: node numbers, 0-based within the triangulation
     line_start    (q+1,) into line_points (.., 3): polygons in space
-    node_start    (t+1,) into nodes (.., 3) and normals (.., 3; zero where the surface was not asked)
+    node_start    (t+1,) into nodes (.., 3), uv (.., 2; NaN where none is known) and normals (.., 3; zero where the
+                  surface was not asked)
     tri_start     (t+1,) into triangles (.., 3): node numbers, 0-based within the triangulation
     """
 
@@ -61,6 +62,7 @@ class Tables:
     line_points: Floats
     node_start: Ints
     nodes: Floats
+    uv: Floats
     normals: npt.NDArray[np.float32]
     tri_start: Ints
     triangles: Ints

@@ -13,6 +13,7 @@ from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
 from hlr.source.quality import FINE, coarse_faces, edge_pairs, lapped_faces, tightened
 from hlr.source.refine import refine
+from hlr.source.surfaces import FaceSurfaces
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build
 
@@ -50,6 +51,7 @@ class Tessellator:
                     seen.add(underlying)
                     self._faces.append(TopoDS.Face_s(face))
         self._flat = [_is_flat(face, FLAT * size) for face in self._faces]
+        self.surfaces = FaceSurfaces(self._faces)
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> tuple[Meshes, list[str]]:
         """All roots at this chord error and turning angle (radians), and notes on what failed."""
@@ -72,6 +74,7 @@ class Tessellator:
         # The dump lists each underlying face once, in the order in which an explorer meets them: so do we.
         planar[faces] = self._flat
         result = build(tables, planar)
+        result.face_shape -= np.int32(first)
         if progress is not None:
             progress("tessellate", 1.0)
         return result, notes

@@ -17,7 +17,7 @@ from hlr.source.edges import Laid, classify, edge_lines
 from hlr.source.explore import explore
 from hlr.source.locations import determinant_sign, moved_each
 from hlr.source.model import Floats, Ints
-from hlr.source.tables import Bools, Bytes, Tables, ranges, starts
+from hlr.source.tables import FACE, Bools, Bytes, Tables, ranges, starts
 
 
 @dataclass(slots=True)
@@ -25,6 +25,10 @@ class Meshes:
     """Part meshes one after another: part p owns points[point_start[p]:point_start[p+1]] and so on.
 
     triangles and edge_nodes count from the beginning of all points. edge_index is local to the part.
+
+    Of faces and their parameters: corner (m, 3) counts nodes of faces, into uv (k, 2); node_start per part, as
+    point_start; face_shape, face_place and face_reversed per face: number of the underlying face among those with
+    `kind` FACE, (3, 4) where it stands in the part, whether its surface's normal points inward.
     """
 
     point_start: Ints
@@ -40,6 +44,12 @@ class Meshes:
     edge_index: Ints
     edge_class: Bytes
     missing_faces: Ints
+    node_start: Ints
+    corner: Ints
+    uv: Floats
+    face_shape: Ints
+    face_place: Floats
+    face_reversed: Bools
 
 
 def build(tables: Tables, planar: Bools) -> Meshes:
@@ -90,6 +100,7 @@ def build(tables: Tables, planar: Bools) -> Meshes:
     edge_start = np.searchsorted(topo.edge_part, np.arange(parts + 1)).astype(np.int32)
     drawn_part = topo.edge_part[lines.edge]
     missing = np.bincount(topo.face_part[~meshed], minlength=parts)
+    of_faces = np.flatnonzero(tables.kind == FACE)
     return Meshes(
         point_start=np.searchsorted(node_part[kept], np.arange(parts + 1)).astype(np.int32),
         points=everything[kept],
@@ -104,6 +115,12 @@ def build(tables: Tables, planar: Bools) -> Meshes:
         edge_index=lines.edge - edge_start[drawn_part],
         edge_class=edge_class[lines.edge],
         missing_faces=missing.astype(np.int32),
+        node_start=np.searchsorted(topo.face_part[face_of_node], np.arange(parts + 1)).astype(np.int32),
+        corner=raw,
+        uv=tables.uv[source],
+        face_shape=np.searchsorted(of_faces, topo.face_shape).astype(np.int32),
+        face_place=tables.locations.matrices(topo.face_loc),
+        face_reversed=topo.face_reversed,
     )
 
 

@@ -165,6 +165,7 @@ class _Walker:
             line_points=np.array([point for line in self.lines for point in line], dtype=np.float64).reshape(-1, 3),
             node_start=starts([tri.NbNodes() for tri in tris]),
             nodes=np.array(nodes, dtype=np.float64).reshape(-1, 3),
+            uv=np.array([place for tri in tris for place in _parameters(tri)], dtype=np.float64).reshape(-1, 2),
             normals=np.array([normal for tri in tris for normal in _normals(tri)], dtype=np.float32).reshape(-1, 3),
             tri_start=starts([tri.NbTriangles() for tri in tris]),
             triangles=np.array(
@@ -180,6 +181,12 @@ def matrix_of(datum: Any) -> Floats:
     from OCP.TopLoc import TopLoc_Location
 
     return matrix(TopLoc_Location(datum.Trsf()))
+
+
+def _parameters(tri: Any) -> list[tuple[float, float]]:
+    if not tri.HasUVNodes():
+        return [(np.nan, np.nan)] * tri.NbNodes()
+    return [(place.X(), place.Y()) for place in map(tri.UVNode, range(1, tri.NbNodes() + 1))]
 
 
 def _normals(tri: Any) -> list[tuple[float, float, float]]:

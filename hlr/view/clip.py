@@ -78,6 +78,7 @@ def _compact(scene: Scene) -> Scene:
     return replace(
         scene,
         points=scene.points[used],
+        lift=scene.lift[used] if scene.lift is not None else None,
         triangles=np.ascontiguousarray(number[scene.triangles]),
         edges=np.ascontiguousarray(number[scene.edges]),
     )
@@ -94,6 +95,10 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     t = (height[a[crossing]] / (height[a[crossing]] - height[b[crossing]]))[:, None]
     pa, pb = scene.points[a[crossing]], scene.points[b[crossing]]
     points = np.concatenate([scene.points, pa + (pb - pa) * t])
+    lift = scene.lift
+    if lift is not None:
+        la, lb = lift[a[crossing]], lift[b[crossing]]
+        lift = np.concatenate([lift, la + (lb - la) * t])
 
     triangles, parent = _cut_triangles(scene, inside, new_vertex, n)
     edges, offsets, incident = _kernel.edge_table(triangles, len(points))
@@ -131,6 +136,9 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     return replace(
         scene,
         points=points,
+        lift=lift,
+        true_surfaces=None,
+        edge_hidden=moved(scene.edge_hidden, 0) if scene.edge_hidden is not None else None,
         triangles=triangles,
         triangle_part=scene.triangle_part[parent],
         triangle_group=scene.triangle_group[parent],
@@ -206,4 +214,5 @@ def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
         part=chains.part[whole],
         index=chains.index[whole],
         other=chains.other[whole],
+        face=chains.face[whole],
     )

@@ -56,10 +56,18 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
     # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
     state, edge = found["state"], found["edge"]
     state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
+    t0, t1 = found["t0"], found["t1"]
+    if scene.edge_hidden is not None and scene.edge_hidden.any():
+        known = np.flatnonzero(scene.edge_hidden).astype(np.int32)
+        order = np.argsort(np.concatenate([edge, known]), kind="stable")
+        edge = np.concatenate([edge, known])[order]
+        t0 = np.concatenate([t0, np.zeros(len(known))])[order]
+        t1 = np.concatenate([t1, np.ones(len(known))])[order]
+        state = np.concatenate([state, np.full(len(known), HIDDEN, np.uint8)])[order]
     return Segments(
         edge=edge,
-        t0=found["t0"],
-        t1=found["t1"],
+        t0=t0,
+        t1=t1,
         state=state,
         facing=found["facing"],
         counters=found["counters"],

@@ -6,6 +6,7 @@ pub mod exact;
 pub mod geometry;
 pub mod lines;
 pub mod scan;
+pub mod silhouette;
 
 use pyo3::prelude::*;
 
@@ -21,5 +22,6 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;
     Ok(())
 }

@@ -5,3 +5,4 @@ pub mod geometry;
 pub mod lines;
 pub mod running;
 pub mod scan;
+pub mod silhouette;

@@ -120,7 +120,7 @@ pub fn edge_components<'py>(
     Ok(topology::components(edges, n_points).into_pyarray(py))
 }
 
-fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
+pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
     expect_len("offsets", offsets.len(), edges + 1)?;
     expect_below("incident", incident.iter().copied(), triangles)?;
     expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;

@@ -2,3 +2,6 @@
 
 pub mod curve;
 pub mod nurbs;
+pub mod spline_surface;
+pub mod surface;
+pub mod vector;

@@ -1,0 +1,130 @@
+//! `silhouettes` as Python sees it.
+
+use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::running::run;
+use super::scan::{check_incidence, expect_below, expect_len, flat, rows};
+use crate::geometry::surface::Surface;
+use crate::lines::View;
+use crate::silhouette::trace::trace;
+use crate::silhouette::{FaceRecord, Model};
+
+#[pyfunction]
+#[pyo3(signature = (points, triangles, triangle_face, edges, offsets, incident, smooth, corner, uv, face_surface,
+    face_place, face_inward, face_curved, surface_kind, surface_offsets, surface_data, perspective, eye, away, chord,
+    threads = 0))]
+#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+pub fn silhouettes<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    triangle_face: PyReadonlyArray1<'py, i32>,
+    edges: PyReadonlyArray2<'py, i32>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    incident: PyReadonlyArray1<'py, i32>,
+    smooth: PyReadonlyArray1<'py, bool>,
+    corner: PyReadonlyArray2<'py, i32>,
+    uv: PyReadonlyArray2<'py, f64>,
+    face_surface: PyReadonlyArray1<'py, i32>,
+    face_place: PyReadonlyArray2<'py, f64>,
+    face_inward: PyReadonlyArray1<'py, bool>,
+    face_curved: PyReadonlyArray1<'py, bool>,
+    surface_kind: PyReadonlyArray1<'py, u8>,
+    surface_offsets: PyReadonlyArray1<'py, i32>,
+    surface_data: PyReadonlyArray1<'py, f64>,
+    perspective: bool,
+    eye: [f64; 3],
+    away: [f64; 3],
+    chord: f64,
+    threads: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let points = rows::<f64, 3>(&points, "points")?;
+    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+    let triangle_face = flat(&triangle_face, "triangle_face")?;
+    let edges = rows::<i32, 2>(&edges, "edges")?;
+    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
+    let smooth = flat(&smooth, "smooth")?;
+    let corner = rows::<i32, 3>(&corner, "corner")?;
+    let uv = rows::<f64, 2>(&uv, "uv")?;
+    let (face_surface, face_place) =
+        (flat(&face_surface, "face_surface")?, rows::<f64, 12>(&face_place, "face_place")?);
+    let (inward, curved) = (flat(&face_inward, "face_inward")?, flat(&face_curved, "face_curved")?);
+    let (kind, at) = (flat(&surface_kind, "surface_kind")?, flat(&surface_offsets, "surface_offsets")?);
+    let data = flat(&surface_data, "surface_data")?;
+    expect_len("triangle_face", triangle_face.len(), triangles.len())?;
+    expect_len("corner", corner.len(), triangles.len())?;
+    expect_len("smooth", smooth.len(), edges.len())?;
+    for (name, found) in
+        [("face_place", face_place.len()), ("face_inward", inward.len()), ("face_curved", curved.len())]
+    {
+        expect_len(name, found, face_surface.len())?;
+    }
+    expect_len("surface_offsets", at.len(), kind.len() + 1)?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("edges", edges.iter().flatten().copied(), points.len())?;
+    expect_below("triangle_face", triangle_face.iter().copied(), face_surface.len())?;
+    expect_below("surface_offsets", at.iter().copied(), data.len() + 1)?;
+    check_incidence(edges.len(), offsets, incident, triangles.len())?;
+    if at.windows(2).any(|w| w[0] > w[1]) || !(chord > 0.0) {
+        return Err(PyValueError::new_err("surface_offsets must ascend, chord must be positive"));
+    }
+    let surfaces: Vec<Option<Surface>> =
+        (0..kind.len()).map(|i| Surface::read(kind[i], &data[at[i] as usize..at[i + 1] as usize])).collect();
+    let faces: Vec<FaceRecord> = (0..face_surface.len())
+        .map(|i| {
+            let m = &face_place[i];
+            let row = |k: usize| [m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]];
+            let surface =
+                u32::try_from(face_surface[i]).ok().filter(|&s| surfaces.get(s as usize).is_some_and(Option::is_some));
+            FaceRecord {
+                surface,
+                place: [row(0), row(1), row(2)],
+                sign: if inward[i] { -1.0 } else { 1.0 },
+                curved: curved[i],
+            }
+        })
+        .collect();
+    let traced: Vec<bool> = faces.iter().map(|f| f.surface.is_some()).collect();
+    for (corners, &face) in corner.iter().zip(triangle_face) {
+        if traced[face as usize] {
+            expect_below("corner", corners.iter().copied(), uv.len())?;
+        }
+    }
+    let view = View { origin: eye, away, perspective };
+    let model = Model {
+        points,
+        triangles,
+        triangle_face,
+        edges,
+        offsets,
+        incident,
+        smooth,
+        corner,
+        uv,
+        faces,
+        surfaces,
+        view,
+        chord,
+    };
+    let found =
+        run(py, threads, |stopped| trace(&model, stopped))?.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+    let mut starts = vec![0i32];
+    let (mut flat_points, mut normals): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+    for s in &found {
+        flat_points.extend(s.points.iter().flatten());
+        normals.extend(s.normals.iter().flatten());
+        starts.push((flat_points.len() / 3) as i32);
+    }
+    let n = flat_points.len() / 3;
+    let out = PyDict::new(py);
+    out.set_item("offsets", starts.into_pyarray(py))?;
+    out.set_item("points", flat_points.into_pyarray(py).reshape([n, 3])?)?;
+    out.set_item("normals", normals.into_pyarray(py).reshape([n, 3])?)?;
+    out.set_item("face", found.iter().map(|s| s.face).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("traced", traced.into_pyarray(py))?;
+    Ok(out)
+}

@@ -1,0 +1,150 @@
+//! Tensor-product B-splines, rational or not: points and first derivatives.
+//!
+//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.3 (basis functions and derivatives, here the first
+//! only), A3.6 and A4.4 (surface points and derivatives).
+
+use super::vector::{Vector, scaled, sub};
+
+pub const MAX_DEGREE: usize = 25;
+
+#[derive(Clone, Debug)]
+pub struct SplineSurface {
+    degree: [usize; 2],
+    count: [usize; 2],
+    /// 0: not periodic.
+    period: [f64; 2],
+    knots: [Vec<f64>; 2],
+    /// (x w, y w, z w, w), v fastest.
+    poles: Vec<[f64; 4]>,
+}
+
+/// Values and first derivatives of the basis functions that are not zero at a parameter, and the first one's number.
+struct Basis {
+    first: usize,
+    value: [f64; MAX_DEGREE + 1],
+    slope: [f64; MAX_DEGREE + 1],
+}
+
+impl SplineSurface {
+    /// From a record's numbers; None where they are not those of a surface.
+    pub fn read(data: &[f64]) -> Option<SplineSurface> {
+        let (head, rest) = data.split_at_checked(6)?;
+        let whole = |x: f64, most: f64| (x >= 1.0 && x <= most && x.fract() == 0.0).then_some(x as usize);
+        let degree = [whole(head[0], MAX_DEGREE as f64)?, whole(head[1], MAX_DEGREE as f64)?];
+        let count = [whole(head[2], 1e6)?, whole(head[3], 1e6)?];
+        if count[0] <= degree[0] || count[1] <= degree[1] {
+            return None;
+        }
+        let (u, rest) = rest.split_at_checked(count[0] + degree[0] + 1)?;
+        let (v, rest) = rest.split_at_checked(count[1] + degree[1] + 1)?;
+        let (poles, left) = rest.as_chunks::<4>();
+        if poles.len() != count[0] * count[1] || !left.is_empty() || [u, v].iter().any(|k| !k.is_sorted()) {
+            return None;
+        }
+        let poles = poles.iter().map(|&[x, y, z, w]| [x * w, y * w, z * w, w]).collect();
+        Some(SplineSurface { degree, count, period: [head[4], head[5]], knots: [u.to_vec(), v.to_vec()], poles })
+    }
+
+    /// The point, and the derivatives by u and v.
+    pub fn d1(&self, u: f64, v: f64) -> (Vector, Vector, Vector) {
+        let (a, b) = (self.basis(0, u), self.basis(1, v));
+        let mut sums = [[0.0f64; 4]; 3];
+        for i in 0..=self.degree[0] {
+            let row = &self.poles[(a.first + i) * self.count[1] + b.first..][..=self.degree[1]];
+            let mut inner = [[0.0f64; 4]; 2];
+            for (j, pole) in row.iter().enumerate() {
+                for k in 0..4 {
+                    inner[0][k] += b.value[j] * pole[k];
+                    inner[1][k] += b.slope[j] * pole[k];
+                }
+            }
+            for k in 0..4 {
+                sums[0][k] += a.value[i] * inner[0][k];
+                sums[1][k] += a.slope[i] * inner[0][k];
+                sums[2][k] += a.value[i] * inner[1][k];
+            }
+        }
+        let [p, pu, pv] = sums;
+        let point = scaled(&[p[0], p[1], p[2]], 1.0 / p[3]);
+        let derived = |q: [f64; 4]| scaled(&sub(&[q[0], q[1], q[2]], &scaled(&point, q[3])), 1.0 / p[3]);
+        (point, derived(pu), derived(pv))
+    }
+
+    fn basis(&self, side: usize, x: f64) -> Basis {
+        let (p, knots) = (self.degree[side], &self.knots[side]);
+        let (low, high) = (knots[p], knots[self.count[side]]);
+        let period = self.period[side];
+        let x = if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x };
+        // The span of non-zero length that holds x; beyond the ends the outermost polynomial goes on.
+        let span = knots.partition_point(|&k| k <= x).clamp(p + 1, self.count[side]) - 1;
+        let mut value = [0.0; MAX_DEGREE + 1];
+        let mut slope = [0.0; MAX_DEGREE + 1];
+        let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
+        value[0] = 1.0;
+        for j in 1..=p {
+            left[j] = x - knots[span + 1 - j];
+            right[j] = knots[span + j] - x;
+            let mut saved = 0.0;
+            let mut rate = 0.0;
+            for r in 0..j {
+                let width = right[r + 1] + left[j - r];
+                let share = if width == 0.0 { 0.0 } else { value[r] / width };
+                if j == p {
+                    slope[r] = rate - p as f64 * share;
+                    rate = p as f64 * share;
+                }
+                value[r] = saved + right[r + 1] * share;
+                saved = left[j - r] * share;
+            }
+            value[j] = saved;
+            if j == p {
+                slope[j] = rate;
+            }
+        }
+        Basis { first: span - p, value, slope }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The cylinder quarter x^2 + y^2 = 1 as a rational surface.
+    fn quarter() -> SplineSurface {
+        let w = std::f64::consts::FRAC_1_SQRT_2;
+        let mut data = vec![2.0, 1.0, 3.0, 2.0, 0.0, 0.0];
+        data.extend([0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0]);
+        for (x, y, w) in [(1.0, 0.0, 1.0), (1.0, 1.0, w), (0.0, 1.0, 1.0)] {
+            data.extend([x, y, 0.0, w, x, y, 3.0, w]);
+        }
+        SplineSurface::read(&data).unwrap()
+    }
+
+    #[test]
+    fn a_rational_arc_is_a_circle() {
+        for u in [0.0, 0.1, 0.5, 0.77, 1.0] {
+            let (p, du, dv) = quarter().d1(u, 0.25);
+            assert!((p[0] * p[0] + p[1] * p[1] - 1.0).abs() < 1e-14 && (p[2] - 0.75).abs() < 1e-14);
+            assert!((p[0] * du[0] + p[1] * du[1]).abs() < 1e-14);
+            assert!(dv[0].abs() < 1e-14 && (dv[2] - 3.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_points() {
+        let (s, h) = (quarter(), 1e-6);
+        let (a, b) = (s.d1(0.3 - h, 0.5).0, s.d1(0.3 + h, 0.5).0);
+        let du = s.d1(0.3, 0.5).1;
+        for k in 0..3 {
+            assert!(((b[k] - a[k]) / (2.0 * h) - du[k]).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn records_of_the_wrong_length_are_refused() {
+        assert!(SplineSurface::read(&[2.0, 1.0, 3.0]).is_none());
+        assert!(
+            SplineSurface::read(&[1.0, 1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 5.0]).is_none()
+        );
+    }
+}

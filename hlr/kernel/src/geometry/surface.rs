@@ -1,0 +1,129 @@
+//! Surfaces of faces, with OpenCASCADE's parameters: points, first derivatives, normals.
+//!
+//! The records are those of `hlr/source/surfaces.py`.
+
+use super::spline_surface::SplineSurface;
+use super::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
+
+#[derive(Clone, Debug)]
+pub struct Frame {
+    origin: Vector,
+    x: Vector,
+    y: Vector,
+    z: Vector,
+}
+
+#[derive(Clone, Debug)]
+pub enum Surface {
+    Plane(Frame),
+    Cylinder(Frame, f64),
+    /// Radius at the origin; sine and cosine of the half angle.
+    Cone(Frame, f64, f64, f64),
+    Sphere(Frame, f64),
+    /// Major and minor radius.
+    Torus(Frame, f64, f64),
+    Spline(Box<SplineSurface>),
+    Offset(Box<Surface>, f64),
+}
+
+/// Of the longer derivative's square: an area below says that the surface has no normal there.
+const SINGULAR: f64 = 1e-18;
+/// Of the way to a point beside: where the normal of a singular point is taken.
+const BESIDE: f64 = 1e-6;
+
+impl Surface {
+    /// None for a kind that is not known, and for numbers that are not those of its kind.
+    pub fn read(kind: u8, data: &[f64]) -> Option<Surface> {
+        let frame = |count: usize| {
+            let three = |i: usize| [data[i], data[i + 1], data[i + 2]];
+            (data.len() == 12 + count).then(|| Frame { origin: three(0), x: three(3), y: three(6), z: three(9) })
+        };
+        Some(match kind {
+            1 => Surface::Plane(frame(0)?),
+            2 => Surface::Cylinder(frame(1)?, data[12]),
+            3 => Surface::Cone(frame(2)?, data[12], data[13].sin(), data[13].cos()),
+            4 => Surface::Sphere(frame(1)?, data[12]),
+            5 => Surface::Torus(frame(2)?, data[12], data[13]),
+            8 => Surface::Spline(Box::new(SplineSurface::read(data)?)),
+            9 => {
+                let (head, basis) = data.split_at_checked(2)?;
+                Surface::Offset(Box::new(Surface::read(head[1] as u8, basis)?), head[0])
+            }
+            _ => return None,
+        })
+    }
+
+    /// The point, and the derivatives by u and v.
+    pub fn d1(&self, [u, v]: [f64; 2]) -> (Vector, Vector, Vector) {
+        match self {
+            Surface::Plane(f) => (along(&along(&f.origin, &f.x, u), &f.y, v), f.x, f.y),
+            Surface::Cylinder(f, r) => {
+                let (out, turn) = f.around(u);
+                (along(&along(&f.origin, &out, *r), &f.z, v), scaled(&turn, *r), f.z)
+            }
+            Surface::Cone(f, r, sin, cos) => {
+                let (out, turn) = f.around(u);
+                let radius = r + v * sin;
+                let point = along(&along(&f.origin, &out, radius), &f.z, v * cos);
+                (point, scaled(&turn, radius), along(&scaled(&out, *sin), &f.z, *cos))
+            }
+            Surface::Sphere(f, r) => f.ring(u, v, 0.0, *r),
+            Surface::Torus(f, major, minor) => f.ring(u, v, *major, *minor),
+            Surface::Spline(s) => s.d1(u, v),
+            Surface::Offset(basis, distance) => offset(basis, *distance, [u, v]),
+        }
+    }
+
+    /// The unit normal du x dv; None where the surface has none.
+    pub fn normal(&self, uv: [f64; 2]) -> Option<Vector> {
+        let (_, du, dv) = self.d1(uv);
+        upright(&du, &dv)
+    }
+
+    /// The unit normal; at a pole or an apex that of a place close by, toward the parameters `beside`.
+    pub fn normal_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Vector> {
+        self.normal(uv).or_else(|| self.normal([0, 1].map(|k| uv[k] + BESIDE * (beside[k] - uv[k]))))
+    }
+}
+
+fn upright(du: &Vector, dv: &Vector) -> Option<Vector> {
+    let n = cross(du, dv);
+    let longest = dot(du, du).max(dot(dv, dv));
+    if dot(&n, &n) > SINGULAR * longest * longest { unit(&n) } else { None }
+}
+
+impl Frame {
+    /// Outward and onward directions at the angle u about z.
+    fn around(&self, u: f64) -> (Vector, Vector) {
+        let (sin, cos) = u.sin_cos();
+        (along(&scaled(&self.x, cos), &self.y, sin), along(&scaled(&self.y, cos), &self.x, -sin))
+    }
+
+    /// A circle of radius `minor` at the distance `major` from the axis, turned about it.
+    fn ring(&self, u: f64, v: f64, major: f64, minor: f64) -> (Vector, Vector, Vector) {
+        let (out, turn) = self.around(u);
+        let (sin, cos) = v.sin_cos();
+        let radius = major + minor * cos;
+        (
+            along(&along(&self.origin, &out, radius), &self.z, minor * sin),
+            scaled(&turn, radius),
+            along(&scaled(&out, -minor * sin), &self.z, minor * cos),
+        )
+    }
+}
+
+/// The normal of an offset surface is that of its basis; how it turns is taken from normals to both sides.
+fn offset(basis: &Surface, distance: f64, uv: [f64; 2]) -> (Vector, Vector, Vector) {
+    let (p, du, dv) = basis.d1(uv);
+    let Some(n) = upright(&du, &dv) else { return (p, du, dv) };
+    let turned = |side: usize, derivative: &Vector| {
+        let step = 1e-6 * (1.0 + distance.abs()) / (length(derivative) + 1e-12);
+        let at = |sign: f64| {
+            let mut place = uv;
+            place[side] += sign * step;
+            basis.normal(place).unwrap_or(n)
+        };
+        along(derivative, &sub(&at(1.0), &at(-1.0)), distance / (2.0 * step))
+    };
+    (add(&p, &scaled(&n, distance)), turned(0, &du), turned(1, &dv))
+}

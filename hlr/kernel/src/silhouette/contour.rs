@@ -1,0 +1,268 @@
+//! Where the sign of f changes along the edges of the mesh.
+//!
+//! ```text
+//!        +                       +   crossing of face A      the two faces at an edge change sign at different
+//!       / \                    - A -+=====+--                places where they are tangent only nearly: there the
+//!      x---x  two crossings        B      crossing of B      edge itself is the fold (=====)
+//!     /     \  per triangle
+//!    -       -
+//! ```
+
+use rayon::prelude::*;
+
+use super::face::{Face, Place, mean, root};
+use super::{Model, TIE};
+use crate::geometry::vector::{Vector, cross, dot, length, sub, unit};
+
+/// A change of sign on an edge, on one face of it, or on both where they are one surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing {
+    pub triangles: [i32; 2],
+    pub place: Place,
+}
+
+/// An end of a fold: a crossing of the list, or a vertex of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Node {
+    Crossing(u32),
+    Vertex(u32),
+}
+
+/// A stretch of an edge between a face turned toward the viewer and one turned away.
+#[derive(Clone, Copy, Debug)]
+pub struct Fold {
+    pub ends: [Node; 2],
+    pub points: [Vector; 2],
+    pub normal: Vector,
+    /// The face turned toward the viewer.
+    pub face: i32,
+    pub concave: bool,
+}
+
+pub struct Contour {
+    pub crossings: Vec<Crossing>,
+    pub folds: Vec<Fold>,
+}
+
+/// One triangle at an edge a-b: f at both, and the parameters of both.
+struct Side<'a> {
+    triangle: i32,
+    number: i32,
+    corners: [i32; 2],
+    uv: [[f64; 2]; 2],
+    f: [f64; 2],
+    /// None on planes.
+    face: Option<Face<'a>>,
+    normal: Vector,
+}
+
+impl Side<'_> {
+    fn away(&self, end: usize) -> bool {
+        self.f[end] >= -TIE
+    }
+
+    fn changes(&self) -> bool {
+        self.away(0) != self.away(1)
+    }
+
+    /// The parameter of the change along a-b.
+    fn change(&self) -> f64 {
+        let Some(face) = &self.face else { return 0.5 };
+        let back = usize::from(!self.away(0));
+        if self.f[back] <= TIE {
+            return back as f64;
+        }
+        root(face, self.uv[0], self.uv[1], self.f[0], self.f[1])
+    }
+
+    fn at(&self, t: f64) -> Option<Place> {
+        let uv = [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * t);
+        let face = self.face.as_ref()?;
+        let near = |s: f64| [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * s);
+        // At a pole: the point is there, the normal that of a place close by.
+        face.at(uv).or_else(|| {
+            let beside = face.normal(near(t + (0.5 - t) * 1e-6))?;
+            Some(Place { uv, point: face.point(uv), normal: beside })
+        })
+    }
+}
+
+/// f per node of the surfaces; NaN where there is no normal, and on faces that are not traced.
+pub fn values(model: &Model) -> Vec<f64> {
+    let mut face_of = vec![-1i32; model.uv.len()];
+    for (corners, &face) in model.corner.iter().zip(model.triangle_face) {
+        let record = &model.faces[face as usize];
+        if record.curved && record.surface.is_some() {
+            for &c in corners {
+                face_of[c as usize] = face;
+            }
+        }
+    }
+    (0..model.uv.len())
+        .into_par_iter()
+        .map(|n| {
+            if face_of[n] < 0 {
+                return f64::NAN;
+            }
+            Face::new(model, face_of[n]).and_then(|face| face.f(model.uv[n])).unwrap_or(f64::NAN)
+        })
+        .collect()
+}
+
+pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync)) -> Contour {
+    let traced = |t: i32| {
+        let record = &model.faces[model.triangle_face[t as usize] as usize];
+        record.surface.is_some()
+    };
+    let curved = |t: i32| model.faces[model.triangle_face[t as usize] as usize].curved;
+    let found: Vec<(Vec<Crossing>, Vec<Fold>)> = (0..model.offsets.len() - 1)
+        .into_par_iter()
+        .chunks(1024)
+        .map(|edges| {
+            let (mut crossings, mut folds) = (Vec::new(), Vec::new());
+            if stopped() {
+                return (crossings, folds);
+            }
+            for e in edges {
+                let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
+                if !around.iter().any(|&t| traced(t) && curved(t)) {
+                    continue;
+                }
+                if around.len() == 2 && same_nodes(model, around) {
+                    let Some(side) = side(model, values, e, around[0]) else { continue };
+                    if side.changes()
+                        && let Some(place) = side.at(side.change())
+                    {
+                        crossings.push(Crossing { triangles: [around[0], around[1]], place });
+                    }
+                    continue;
+                }
+                let sides: Vec<Side> = around
+                    .iter()
+                    .filter(|&&t| traced(t) && (curved(t) || model.smooth[e]))
+                    .filter_map(|&t| side(model, values, e, t))
+                    .collect();
+                let mut at = [None; 2];
+                for (k, side) in sides.iter().enumerate() {
+                    if side.changes() && side.face.is_some() {
+                        let t = side.change();
+                        let Some(place) = side.at(t) else { continue };
+                        if k < 2 {
+                            at[k] = Some((t, crossings.len() as u32, place));
+                        }
+                        crossings.push(Crossing { triangles: [side.triangle, -1], place });
+                    }
+                }
+                if model.smooth[e] && around.len() == 2 && sides.len() == 2 {
+                    folded(model, e, &sides, at, &mut folds);
+                }
+            }
+            (crossings, folds)
+        })
+        .collect();
+    let mut out = Contour { crossings: Vec::new(), folds: Vec::new() };
+    for (crossings, folds) in found {
+        let first = out.crossings.len() as u32;
+        out.crossings.extend(crossings);
+        out.folds.extend(folds.into_iter().map(|mut fold| {
+            for end in &mut fold.ends {
+                if let Node::Crossing(c) = end {
+                    *c += first;
+                }
+            }
+            fold
+        }));
+    }
+    out
+}
+
+/// Two triangles of one face that share both nodes: the crossing is one and the same.
+fn same_nodes(model: &Model, around: &[i32]) -> bool {
+    let (s, t) = (around[0] as usize, around[1] as usize);
+    if model.triangle_face[s] != model.triangle_face[t] {
+        return false;
+    }
+    model.corner[s].iter().filter(|c| model.corner[t].contains(c)).count() == 2
+}
+
+fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Side<'a>> {
+    let [a, b] = model.edges[e];
+    let corners = &model.triangles[t as usize];
+    let (i, j) = (corners.iter().position(|&c| c == a)?, corners.iter().position(|&c| c == b)?);
+    let number = model.triangle_face[t as usize];
+    let nodes = &model.corner[t as usize];
+    let record = &model.faces[number as usize];
+    if !record.curved {
+        // A plane: one normal, whichever place is asked.
+        let normal = Face::new(model, number)?.normal(model.uv[nodes[i] as usize])?;
+        let f = [a, b].map(|v| dot(&normal, &model.sight(&model.points[v as usize])));
+        return Some(Side { triangle: t, number, corners: [a, b], uv: [[0.0; 2]; 2], f, face: None, normal });
+    }
+    let face = Face::new(model, number)?;
+    let uv = nodes.map(|n| model.uv[n as usize]);
+    if uv.iter().flatten().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let middle = [0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0);
+    let f = [i, j].map(|k| {
+        let known = values[nodes[k] as usize];
+        if known.is_nan() { face.f_toward(uv[k], middle).unwrap_or(0.0) } else { known }
+    });
+    let half = [0, 1].map(|k| 0.5 * (uv[i][k] + uv[j][k]));
+    let normal = face.normal(half).or_else(|| face.normal(middle))?;
+    Some(Side { triangle: t, number, corners: [a, b], uv: [uv[i], uv[j]], f, face: Some(face), normal })
+}
+
+/// The stretches of a smooth edge over which its two faces are turned differently.
+fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)>; 2], out: &mut Vec<Fold>) {
+    let differ = [0, 1].map(|end| sides[0].away(end) != sides[1].away(end));
+    let ends = sides[0].corners.map(|v| (Node::Vertex(v as u32), model.points[v as usize]));
+    let mut stops: Vec<(f64, Node, Vector)> =
+        at.iter().flatten().map(|(t, c, place)| (*t, Node::Crossing(*c), place.point)).collect();
+    stops.sort_by(|x, y| x.0.total_cmp(&y.0));
+    if differ[0] {
+        stops.insert(0, (0.0, ends[0].0, ends[0].1));
+    }
+    if differ[1] {
+        stops.push((1.0, ends[1].0, ends[1].1));
+    }
+    for pair in stops.chunks_exact(2) {
+        let t = 0.5 * (pair[0].0 + pair[1].0);
+        // The front side over this stretch.
+        let f = [0, 1].map(|k| sides[k].f[0] + (sides[k].f[1] - sides[k].f[0]) * t);
+        let front = usize::from(f[1] < f[0]);
+        out.push(Fold {
+            ends: [pair[0].1, pair[1].1],
+            points: [pair[0].2, pair[1].2],
+            normal: mean(&sides[0].normal, &sides[1].normal),
+            face: sides[front].number,
+            concave: concave(model, e, sides, t),
+        });
+    }
+}
+
+/// Whether the surfaces beside a fold bend toward their normals along the sight: on the curved side, or, where neither
+/// tells, between the two.
+fn concave(model: &Model, e: usize, sides: &[Side], t: f64) -> bool {
+    let bend: f64 = sides
+        .iter()
+        .filter_map(|side| {
+            let uv = [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t);
+            side.face.as_ref().map(|face| face.radial(uv) * model.chord)
+        })
+        .sum();
+    if bend.abs() > 1e-9 {
+        return bend < 0.0;
+    }
+    // Across the edge, from one triangle to the other.
+    let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
+    let apex = |k: usize| {
+        let corners = model.triangles[sides[k].triangle as usize];
+        let third = corners.iter().find(|c| !sides[k].corners.contains(c));
+        third.map_or(a, |&c| model.points[c as usize])
+    };
+    let Some(line) = unit(&sub(&b, &a)) else { return false };
+    let out = cross(&line, &cross(&sub(&apex(1), &a), &line));
+    let size = length(&out);
+    size > 0.0 && dot(&sides[0].normal, &out) > 1e-9 * size
+}

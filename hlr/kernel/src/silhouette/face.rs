@@ -1,0 +1,188 @@
+//! One face as the tracer sees it: f = N . v on its surface, in model coordinates.
+
+use super::Model;
+use crate::geometry::surface::Surface;
+use crate::geometry::vector::{Vector, along, cross, dot, length, scaled, sub, unit};
+
+pub struct Face<'a> {
+    surface: &'a Surface,
+    place: &'a [[f64; 4]; 3],
+    sign: f64,
+    model: &'a Model<'a>,
+}
+
+/// A point of the surface with its outward normal.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    pub uv: [f64; 2],
+    pub point: Vector,
+    pub normal: Vector,
+}
+
+impl<'a> Face<'a> {
+    pub fn new(model: &'a Model<'a>, number: i32) -> Option<Face<'a>> {
+        let record = &model.faces[number as usize];
+        let surface = model.surfaces[record.surface? as usize].as_ref()?;
+        Some(Face { surface, place: &record.place, sign: record.sign, model })
+    }
+
+    fn turned(&self, d: &Vector) -> Vector {
+        [0, 1, 2].map(|i| self.place[i][0] * d[0] + self.place[i][1] * d[1] + self.place[i][2] * d[2])
+    }
+
+    fn moved(&self, p: &Vector) -> Vector {
+        let q = self.turned(p);
+        [0, 1, 2].map(|i| q[i] + self.place[i][3])
+    }
+
+    pub fn point(&self, uv: [f64; 2]) -> Vector {
+        self.moved(&self.surface.d1(uv).0)
+    }
+
+    fn outward(&self, normal: Option<Vector>) -> Option<Vector> {
+        unit(&scaled(&self.turned(&normal?), self.sign))
+    }
+
+    pub fn normal(&self, uv: [f64; 2]) -> Option<Vector> {
+        self.outward(self.surface.normal(uv))
+    }
+
+    /// None where the surface has no normal.
+    pub fn f(&self, uv: [f64; 2]) -> Option<f64> {
+        let n = self.normal(uv)?;
+        Some(dot(&n, &self.model.sight(&self.point(uv))))
+    }
+
+    /// The same at a pole: that of a place close by, toward other parameters.
+    pub fn f_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<f64> {
+        let n = self.outward(self.surface.normal_toward(uv, beside))?;
+        Some(dot(&n, &self.model.sight(&self.point(uv))))
+    }
+
+    pub fn at(&self, uv: [f64; 2]) -> Option<Place> {
+        Some(Place { uv, point: self.point(uv), normal: self.normal(uv)? })
+    }
+
+    /// Lengths of the derivatives in the model.
+    pub fn speeds(&self, uv: [f64; 2]) -> [f64; 2] {
+        let (_, du, dv) = self.surface.d1(uv);
+        [length(&self.turned(&du)), length(&self.turned(&dv))]
+    }
+
+    /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before and
+    /// behind, so that the sight passes over it; negative where it bends toward it and the sight lies within the body.
+    pub fn radial(&self, uv: [f64; 2]) -> f64 {
+        let (p, du, dv) = self.surface.d1(uv);
+        let (du, dv, sight) = (self.turned(&du), self.turned(&dv), self.model.sight(&self.moved(&p)));
+        let n = cross(&du, &dv);
+        let square = dot(&n, &n);
+        if square == 0.0 {
+            return 0.0;
+        }
+        // sight = a du + b dv in the tangent plane
+        let a = dot(&cross(&sight, &dv), &n) / square;
+        let b = dot(&cross(&du, &sight), &n) / square;
+        let step = 0.1 * self.model.chord;
+        let at = |s: f64| self.normal([uv[0] + s * a, uv[1] + s * b]).map(|n| dot(&n, &sight));
+        match (at(step), at(-step)) {
+            (Some(ahead), Some(back)) => (ahead - back) / (2.0 * step),
+            _ => 0.0,
+        }
+    }
+}
+
+impl Model<'_> {
+    /// Unit vector from the viewer toward a point.
+    pub fn sight(&self, p: &Vector) -> Vector {
+        if !self.view.perspective {
+            return self.view.away;
+        }
+        unit(&sub(p, &self.view.origin)).unwrap_or(self.view.away)
+    }
+}
+
+/// Where f vanishes between two places of a face, one with f > 0 and one with f < 0: regula falsi (Illinois), which keeps
+/// the change of sign between its ends.
+pub fn root(face: &Face, a: [f64; 2], b: [f64; 2], fa: f64, fb: f64) -> f64 {
+    let mix = |t: f64| [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
+    let (mut low, mut high, mut f_low, mut f_high) = (0.0f64, 1.0f64, fa, fb);
+    let mut side = 0;
+    for round in 0..80 {
+        let even = 0.5 * (low + high);
+        let t = if round % 8 == 7 { even } else { (low * f_high - high * f_low) / (f_high - f_low) };
+        let t = if t > low && t < high { t } else { even };
+        let Some(f) = face.f(mix(t)) else { return t };
+        if f.abs() < 1e-14 || high - low < 1e-15 {
+            return t;
+        }
+        if (f > 0.0) == (f_low > 0.0) {
+            (low, f_low) = (t, f);
+            if side == 1 {
+                f_high *= 0.5;
+            }
+            side = 1;
+        } else {
+            (high, f_high) = (t, f);
+            if side == 2 {
+                f_low *= 0.5;
+            }
+            side = 2;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// The point of the silhouette nearest to a place of the surface, by Newton's method along the gradient of f; None where it
+/// is farther away than `reach`, in the model.
+pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
+    let mut uv = start;
+    let from = face.point(start);
+    for _ in 0..12 {
+        let f = face.f(uv)?;
+        if f.abs() < 1e-12 {
+            break;
+        }
+        let speed = face.speeds(uv);
+        if !(speed[0] > 0.0 && speed[1] > 0.0) {
+            return None;
+        }
+        let step = 1e-3 * reach;
+        let mut slope = [0.0; 2];
+        for k in 0..2 {
+            let mut beside = [uv, uv];
+            beside[0][k] -= step / speed[k];
+            beside[1][k] += step / speed[k];
+            slope[k] = (face.f(beside[1])? - face.f(beside[0])?) / (2.0 * step);
+        }
+        let square = slope[0] * slope[0] + slope[1] * slope[1];
+        if square == 0.0 {
+            return None;
+        }
+        let way = [0, 1].map(|k| -f * slope[k] / square);
+        let size = (way[0] * way[0] + way[1] * way[1]).sqrt();
+        let cut = if size > reach { reach / size } else { 1.0 };
+        for k in 0..2 {
+            uv[k] += cut * way[k] / speed[k];
+        }
+    }
+    let place = face.at(uv)?;
+    let near = length(&sub(&place.point, &from)) <= reach;
+    let sight = face.model.sight(&place.point);
+    (near && dot(&place.normal, &sight).abs() < 1e-8).then_some(place)
+}
+
+/// The middle of two places of one face, moved onto the silhouette.
+pub fn between(face: &Face, a: &Place, b: &Place, share: f64) -> Option<Place> {
+    let size = length(&sub(&b.point, &a.point));
+    let uv = [0, 1].map(|k| a.uv[k] + (b.uv[k] - a.uv[k]) * share);
+    let place = onto(face, uv, 0.5 * size)?;
+    // It has to lie between them, or the curve would turn back.
+    let chord = sub(&b.point, &a.point);
+    let at = dot(&sub(&place.point, &a.point), &chord) / (size * size);
+    (at > 0.02 && at < 0.98).then_some(place)
+}
+
+/// A normal between those of two faces.
+pub fn mean(a: &Vector, b: &Vector) -> Vector {
+    unit(&along(a, b, 1.0)).unwrap_or(*a)
+}

@@ -1,0 +1,58 @@
+//! Silhouettes: the curves on the true surfaces where the normal is square to the line of sight, N . v = 0.
+//!
+//! After A. Hertzmann, D. Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000: the sign of f = N . v at the nodes of the
+//! tessellation, taken from the exact normals, parts the mesh in front and back; the border of the parts crosses each
+//! triangle at most once, so it never branches and never turns back on the facets, as the contour of the mesh does.
+//!
+//! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
+//! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at an
+//!               edge do not change at the same place, the edge itself folds between, so that no gap is left
+//! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
+//! 4. `trace`    joined into curves, which part where the face or the way the surface curves changes
+//!
+//! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the surface,
+//! and in that zeros at nodes (views along an axis) count as turned away, on every face alike: a plane seen edge-on that
+//! runs into a fillet is a fold along its nearer border only.
+
+pub mod contour;
+pub mod face;
+pub mod refine;
+pub mod trace;
+
+use crate::geometry::surface::Surface;
+use crate::lines::View;
+
+/// |N . v| up to here counts as nothing: a view along an axis that the file rounds.
+pub const TIE: f64 = 5e-7;
+
+/// The mesh and the surfaces under it, borrowed.
+pub struct Model<'a> {
+    pub points: &'a [[f64; 3]],
+    pub triangles: &'a [[i32; 3]],
+    pub triangle_face: &'a [i32],
+    pub edges: &'a [[i32; 2]],
+    /// Triangles incident to edge e: incident[offsets[e]..offsets[e + 1]].
+    pub offsets: &'a [i32],
+    pub incident: &'a [i32],
+    /// Edges across which the surface goes on smoothly.
+    pub smooth: &'a [bool],
+    /// Per triangle corner its place in uv.
+    pub corner: &'a [[i32; 3]],
+    pub uv: &'a [[f64; 2]],
+    pub faces: Vec<FaceRecord>,
+    pub surfaces: Vec<Option<Surface>>,
+    pub view: View,
+    /// How far chords may stay off the curve, in the model.
+    pub chord: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct FaceRecord {
+    /// In `surfaces`; None where outlines are not asked for or not known.
+    pub surface: Option<u32>,
+    /// Rows of the matrix from the surface's frame into the model.
+    pub place: [[f64; 4]; 3],
+    /// -1 where the surface's normal points inward.
+    pub sign: f64,
+    pub curved: bool,
+}

@@ -1,0 +1,152 @@
+"""Outlines of the true surfaces, added to the scene as lines of their own before the visibility pass.
+
+The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets, by
+up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
+compared with them: its own facets are then beside it and cannot hide it, while everything else still does.
+
+::
+
+        \\   true surface        the outline o, moved along the normal to x, has its own facets on one side
+         o   x
+        /|                      what bends the other way (concave along the sight) lies within its own body: hidden
+       / |
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.scene.scene import INTERIOR, Chains, Scene, TrueSurfaces
+from hlr.scene.topology import joined
+from hlr.source.model import EdgeClass, Floats, Ints
+from hlr.tolerance import Tolerances
+from hlr.view.camera import Camera
+
+CHORD = 0.2
+"""In deflections: how far the polyline of an outline may stay off the curve."""
+
+LIFT = 2.5
+"""In deflections: facets are off by two at most, where they have been refined, the outline's chords by a little."""
+
+
+def with_silhouettes(scene: Scene, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
+    """The scene with the outlines of its true surfaces; those faces' mesh contours are outlines no longer."""
+    on = scene.true_surfaces
+    if on is None or not on.curved.any():
+        return scene
+    face = on.first[scene.triangle_part] + scene.triangle_face
+    smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
+    found = _traced(scene, on, face, smooth, camera, CHORD * tolerances.deflection, threads)
+    scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
+    if len(found["face"]) == 0:
+        return scene
+    return _with_lines(scene, on, found, LIFT * tolerances.deflection)
+
+
+def _traced(
+    scene: Scene,
+    on: TrueSurfaces,
+    face: Ints,
+    smooth: npt.NDArray[np.bool_],
+    camera: Camera,
+    chord: float,
+    threads: int,
+) -> dict[str, Any]:
+    """The kernel's answer."""
+    wanted = on.curved.copy()
+    # Planes as well, where a curved face runs into them: they may be what the fold is against.
+    bent = scene.edge_kind == EdgeClass.SMOOTH
+    bent[: len(bent)] &= np.diff(scene.offsets) == 2
+    first = scene.offsets[:-1][bent]
+    one, two = face[scene.incident[first]], face[scene.incident[first + 1]]
+    wanted[one[on.curved[two]]] = True
+    wanted[two[on.curved[one]]] = True
+    wanted &= on.number >= 0
+    used, which = np.unique(on.number[wanted], return_inverse=True)
+    surface = np.full(len(wanted), -1, np.int32)
+    surface[wanted] = which
+    records = on.surfaces.records(used.tolist())
+    d = camera.direction
+    return _kernel.silhouettes(
+        scene.points,
+        scene.triangles,
+        np.ascontiguousarray(face, np.int32),
+        scene.edges,
+        scene.offsets,
+        scene.incident,
+        smooth,
+        on.corner,
+        on.uv,
+        surface,
+        np.ascontiguousarray(on.place.reshape(-1, 12)),
+        on.inward,
+        on.curved,
+        records.kind,
+        records.offsets,
+        records.data,
+        camera.eye is not None,
+        camera.eye or (0.0, 0.0, 0.0),
+        (-d[0], -d[1], -d[2]),
+        chord,
+        threads,
+    )
+
+
+def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """Edges at which a mesh contour is still an outline: no face there has been traced."""
+    known = np.zeros(len(scene.edges), bool)
+    faced = np.diff(scene.offsets) > 0
+    if len(scene.incident):
+        known[faced] = np.logical_or.reduceat(traced[face][scene.incident], scene.offsets[:-1][faced])
+    # A plane that a curved face runs into was taken for that face's outline.
+    return scene.edge_curved & ~known
+
+
+def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: float) -> Scene:
+    offsets, face = found["offsets"], found["face"]
+    n, m = len(scene.points), len(offsets) - 1
+    count = np.diff(offsets)
+    # Every two neighbours of one line are an edge.
+    inner = np.ones(len(found["points"]), bool)
+    inner[offsets[1:] - 1] = False
+    start = np.flatnonzero(inner).astype(np.int32)
+    line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
+    edges = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
+    part = (np.searchsorted(on.first, face, side="right") - 1).astype(np.int32)
+    # Groups follow faces: a face's triangles hang together.
+    group_of_face = np.zeros(len(on.number), np.int32)
+    group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
+    group = group_of_face[face]
+    inside_out = found["concave"] & ~scene.groups.cull[group]
+    sign = np.where(np.repeat(inside_out, count), -lift, lift)[:, None]
+    old_lift = scene.lift if scene.lift is not None else np.zeros((n, 3))
+    walks = Chains(
+        offsets=(offsets - np.arange(m + 1)).astype(np.int32),
+        edges=np.arange(len(edges), dtype=np.int32) + np.int32(len(scene.edges)),
+        reversed=np.zeros(len(edges), bool),
+        kind=np.full(m, EdgeClass.OUTLINE, np.uint8),
+        part=part,
+        index=np.full(m, -1, np.int32),
+        other=np.full(m, -1, np.int32),
+        face=(face - on.first[part]).astype(np.int32),
+    )
+    hidden = np.asarray(found["concave"] & scene.groups.cull[group])
+    more = len(edges)
+    return replace(
+        scene,
+        points=np.concatenate([scene.points, found["points"]]),
+        lift=np.concatenate([old_lift, found["normals"] * sign]),
+        edges=np.ascontiguousarray(np.concatenate([scene.edges, edges])),
+        offsets=np.concatenate([scene.offsets, np.full(more, scene.offsets[-1], np.int32)]),
+        edge_part=np.concatenate([scene.edge_part, part[line]]),
+        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line]])),
+        edge_kind=np.concatenate([scene.edge_kind, np.full(more, EdgeClass.OUTLINE, np.uint8)]),
+        edge_curved=np.concatenate([scene.edge_curved, np.zeros(more, bool)]),
+        edge_hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
+        chains=joined(scene.chains, walks),
+    )
