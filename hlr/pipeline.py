@@ -96,11 +96,18 @@ def _meshed(
         tell("scene", 0.0)
         scene = build(meshed, options.crease, finest)
         _lap(clock, "scene", started)
-        final = [at.fitted(c, options, scene.points) for c, at in zip(cameras, placed, strict=True)]
+        final = [_fitted(scene, c, at, options) for c, at in zip(cameras, placed, strict=True)]
         if min(at.tolerances.deflection for at in final) > 0.8 * finest:
             break
         placed = final
     return scene, final
+
+
+def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options) -> Placed:
+    """Outlines of curved faces reach beyond their mesh, by less than the accuracy: they are what has to fit."""
+    if options.fit is None:
+        return at
+    return at.fitted(camera, options, with_silhouettes(scene, camera, at.tolerances, options.threads).points)
 
 
 def _drawing(opened: Source, scene: Scene, camera: Camera, at: Placed, options: Options, clock: Clock) -> Drawing:

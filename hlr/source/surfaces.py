@@ -5,8 +5,8 @@ A record is a kind and a run of numbers:
     ::
 
         plane, cylinder, cone, sphere, torus   origin, x, y, z directions, then the radii (cone: radius, half angle)
-        revolution   a point of the axis, its direction, the curve's record
-        extrusion    the direction, the curve's record
+        revolution   a point of the axis, its direction, the kind of the curve, its numbers (`hlr.source.geometry`)
+        extrusion    the direction, the kind of the curve, its numbers
         spline       degrees u, v; pole counts u, v; periods u, v (0: none); knots u, v with repetition; poles (x, y, z, w),
                      v fastest
         offset       the distance, the kind of the basis, the basis's numbers
@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.source.geometry import curve_record
 from hlr.source.model import SurfaceRecords
 
 
@@ -106,10 +107,22 @@ def _of_surface(surface: Any) -> tuple[SurfaceKind, list[float]]:
             return SurfaceKind.SPLINE, _spline(surface)
         case "Geom_BezierSurface":
             return SurfaceKind.SPLINE, _bezier(surface)
+        case "Geom_SurfaceOfRevolution":
+            place, direction = surface.Location(), surface.Direction()
+            axis = [place.X(), place.Y(), place.Z(), direction.X(), direction.Y(), direction.Z()]
+            return _swept(SurfaceKind.REVOLUTION, axis, surface.BasisCurve())
+        case "Geom_SurfaceOfLinearExtrusion":
+            direction = surface.Direction()
+            return _swept(SurfaceKind.EXTRUSION, [direction.X(), direction.Y(), direction.Z()], surface.BasisCurve())
         case "Geom_OffsetSurface":
             kind, data = _of_surface(surface.BasisSurface())
             return (SurfaceKind.OFFSET, [surface.Offset(), float(kind), *data]) if kind else _UNKNOWN
     return _UNKNOWN
+
+
+def _swept(kind: SurfaceKind, along: list[float], curve: Any) -> tuple[SurfaceKind, list[float]]:
+    curve_kind, _, _, values = curve_record(curve, curve.FirstParameter(), curve.LastParameter())
+    return (kind, [*along, float(curve_kind), *values.tolist()]) if curve_kind else _UNKNOWN
 
 
 def _frame(axes: Any) -> list[float]:

@@ -154,7 +154,12 @@ def test_chord_error_and_turning_follow_the_request():
 
 
 def same(a: PartMesh, b: PartMesh) -> bool:
-    return all(np.array_equal(getattr(a, f.name), getattr(b, f.name)) for f in fields(PartMesh) if f.name != "color")
+    def equal(one: object, other: object, names: list[str]) -> bool:
+        return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
+
+    on = [f.name for f in fields(OnSurfaces) if f.name != "surfaces"]
+    own = [f.name for f in fields(PartMesh) if f.name not in ("color", "on_surfaces")]
+    return equal(a, b, own) and equal(a.on_surfaces, b.on_surfaces, on)
 
 
 @pytest.mark.parametrize("name", ["sinks", "fillets", "sphere", "revolved", "union"])

@@ -2,6 +2,7 @@
 //!
 //! The records are those of `hlr/source/surfaces.py`.
 
+use super::curve::Curve;
 use super::spline_surface::SplineSurface;
 use super::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 
@@ -22,6 +23,9 @@ pub enum Surface {
     Sphere(Frame, f64),
     /// Major and minor radius.
     Torus(Frame, f64, f64),
+    /// A point of the axis and its direction, about which the curve is turned.
+    Revolution(Vector, Vector, Box<Curve>),
+    Extrusion(Vector, Box<Curve>),
     Spline(Box<SplineSurface>),
     Offset(Box<Surface>, f64),
 }
@@ -44,6 +48,15 @@ impl Surface {
             3 => Surface::Cone(frame(2)?, data[12], data[13].sin(), data[13].cos()),
             4 => Surface::Sphere(frame(1)?, data[12]),
             5 => Surface::Torus(frame(2)?, data[12], data[13]),
+            6 => {
+                let [a, b, c, x, y, z, kind, curve @ ..] = data else { return None };
+                let curve = Curve::from_record(*kind as u8, curve)?;
+                Surface::Revolution([*a, *b, *c], [*x, *y, *z], Box::new(curve))
+            }
+            7 => {
+                let [x, y, z, kind, curve @ ..] = data else { return None };
+                Surface::Extrusion([*x, *y, *z], Box::new(Curve::from_record(*kind as u8, curve)?))
+            }
             8 => Surface::Spline(Box::new(SplineSurface::read(data)?)),
             9 => {
                 let (head, basis) = data.split_at_checked(2)?;
@@ -69,6 +82,20 @@ impl Surface {
             }
             Surface::Sphere(f, r) => f.ring(u, v, 0.0, *r),
             Surface::Torus(f, major, minor) => f.ring(u, v, *major, *minor),
+            Surface::Revolution(origin, axis, curve) => {
+                let [p, d, _] = curve.derivatives(v);
+                let (sin, cos) = u.sin_cos();
+                let turned = |w: &Vector| {
+                    let upright = scaled(axis, dot(axis, w) * (1.0 - cos));
+                    along(&along(&upright, w, cos), &cross(axis, w), sin)
+                };
+                let arm = turned(&sub(&p, origin));
+                (add(origin, &arm), cross(axis, &arm), turned(&d))
+            }
+            Surface::Extrusion(way, curve) => {
+                let [p, d, _] = curve.derivatives(u);
+                (along(&p, way, v), d, *way)
+            }
             Surface::Spline(s) => s.d1(u, v),
             Surface::Offset(basis, distance) => offset(basis, *distance, [u, v]),
         }

@@ -26,6 +26,8 @@ pub struct Crossing {
 pub enum Node {
     Crossing(u32),
     Vertex(u32),
+    /// A vertex at which every curve ends: an apex.
+    Apex(u32, u32),
 }
 
 /// A stretch of an edge between a face turned toward the viewer and one turned away.
@@ -42,6 +44,8 @@ pub struct Fold {
 pub struct Contour {
     pub crossings: Vec<Crossing>,
     pub folds: Vec<Fold>,
+    /// Pairs of crossings joined over a pole, in a triangle that has collapsed to an edge: (face, crossings).
+    pub over_poles: Vec<(i32, [u32; 2])>,
 }
 
 /// One triangle at an edge a-b: f at both, and the parameters of both.
@@ -115,13 +119,13 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         record.surface.is_some()
     };
     let curved = |t: i32| model.faces[model.triangle_face[t as usize] as usize].curved;
-    let found: Vec<(Vec<Crossing>, Vec<Fold>)> = (0..model.offsets.len() - 1)
+    let found: Vec<Contour> = (0..model.offsets.len() - 1)
         .into_par_iter()
         .chunks(1024)
         .map(|edges| {
-            let (mut crossings, mut folds) = (Vec::new(), Vec::new());
+            let (mut crossings, mut folds, mut over_poles) = (Vec::new(), Vec::new(), Vec::new());
             if stopped() {
-                return (crossings, folds);
+                return Contour { crossings, folds, over_poles };
             }
             for e in edges {
                 let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
@@ -153,25 +157,30 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                         crossings.push(Crossing { triangles: [side.triangle, -1], place });
                     }
                 }
-                if model.smooth[e] && around.len() == 2 && sides.len() == 2 {
+                if sides.len() == 2
+                    && let Some(pole) = pole(model, &sides)
+                {
+                    at_pole(&sides, pole, at, model.chord, &mut folds, &mut over_poles);
+                } else if model.smooth[e] && around.len() == 2 && sides.len() == 2 {
                     folded(model, e, &sides, at, &mut folds);
                 }
             }
-            (crossings, folds)
+            Contour { crossings, folds, over_poles }
         })
         .collect();
-    let mut out = Contour { crossings: Vec::new(), folds: Vec::new() };
-    for (crossings, folds) in found {
+    let mut out = Contour { crossings: Vec::new(), folds: Vec::new(), over_poles: Vec::new() };
+    for part in found {
         let first = out.crossings.len() as u32;
-        out.crossings.extend(crossings);
-        out.folds.extend(folds.into_iter().map(|mut fold| {
+        out.crossings.extend(part.crossings);
+        out.folds.extend(part.folds.into_iter().map(|mut fold| {
             for end in &mut fold.ends {
-                if let Node::Crossing(c) = end {
+                if let Node::Crossing(c) | Node::Apex(_, c) = end {
                     *c += first;
                 }
             }
             fold
         }));
+        out.over_poles.extend(part.over_poles.into_iter().map(|(face, ends)| (face, ends.map(|c| c + first))));
     }
     out
 }
@@ -211,6 +220,68 @@ fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Si
     let half = [0, 1].map(|k| 0.5 * (uv[i][k] + uv[j][k]));
     let normal = face.normal(half).or_else(|| face.normal(middle))?;
     Some(Side { triangle: t, number, corners: [a, b], uv: [uv[i], uv[j]], f, face: Some(face), normal })
+}
+
+/// Two triangles of one face that share one node of the edge only: the other end is a pole, where a triangle with two
+/// corners has collapsed between them. Some(which end).
+fn pole(model: &Model, sides: &[Side]) -> Option<usize> {
+    if sides[0].number != sides[1].number || sides[0].face.is_none() {
+        return None;
+    }
+    let node = |side: &Side, end: usize| {
+        let corners = &model.triangles[side.triangle as usize];
+        let k = corners.iter().position(|&c| c == side.corners[end])?;
+        Some(model.corner[side.triangle as usize][k])
+    };
+    let same = [0, 1].map(|end| node(&sides[0], end) == node(&sides[1], end));
+    match same {
+        [true, false] => Some(1),
+        [false, true] => Some(0),
+        _ => None,
+    }
+}
+
+/// In the collapsed triangle at a pole: where the surface is smooth the silhouette passes over it; into an apex, whose
+/// normal turns with the parameter, each ends there.
+fn at_pole(
+    sides: &[Side],
+    pole: usize,
+    at: [Option<(f64, u32, Place)>; 2],
+    chord: f64,
+    folds: &mut Vec<Fold>,
+    over_poles: &mut Vec<(i32, [u32; 2])>,
+) {
+    let Some(face) = &sides[0].face else { return };
+    let [one, two] = [0, 1].map(|k| sides[k].uv[pole]);
+    let beside = sides[0].uv[1 - pole];
+    let near = |p: [f64; 2]| face.normal([0, 1].map(|k| p[k] + 1e-6 * (beside[k] - p[k])));
+    // Toward the very same u or v as the pole's place, or the normal would be that of another generator.
+    let fixed = usize::from((two[0] - one[0]).abs() < (two[1] - one[1]).abs());
+    let toward = |p: [f64; 2]| {
+        let mut q = beside;
+        q[fixed] = p[fixed];
+        face.normal([0, 1].map(|k| p[k] + 1e-6 * (q[k] - p[k])))
+    };
+    let middle = [0, 1].map(|k| 0.5 * (one[k] + two[k]));
+    let smooth = match (toward(one).or_else(|| near(one)), toward(middle)) {
+        (Some(a), Some(b)) => dot(&a, &b) > 1.0 - 1e-6,
+        _ => false,
+    };
+    if let (true, [Some(a), Some(b)]) = (smooth, at) {
+        over_poles.push((sides[0].number, [a.1, b.1]));
+        return;
+    }
+    let vertex = sides[0].corners[pole] as u32;
+    let apex = face.point(one);
+    for (_, c, place) in at.into_iter().flatten() {
+        folds.push(Fold {
+            ends: [Node::Crossing(c), Node::Apex(vertex, c)],
+            points: [place.point, apex],
+            normal: place.normal,
+            face: sides[0].number,
+            concave: face.radial(place.uv) * chord < -1e-9,
+        });
+    }
 }
 
 /// The stretches of a smooth edge over which its two faces are turned differently.

@@ -34,16 +34,19 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Vec<S
     if stopped() {
         return None;
     }
-    let Contour { crossings, folds } = contour(model, &values, stopped);
+    let Contour { crossings, folds, over_poles } = contour(model, &values, stopped);
     let same = Same::new(&crossings, &folds, GAP * model.chord);
-    let across = over_triangles(&crossings);
+    let across: Vec<(i32, [u32; 2])> = over_triangles(&crossings)
+        .into_iter()
+        .map(|(t, ends)| (model.triangle_face[t as usize], ends))
+        .chain(over_poles)
+        .collect();
     let mut links: Vec<Link> = across
         .par_iter()
-        .filter_map(|&(t, ends)| {
+        .filter_map(|&(number, ends)| {
             if stopped() {
                 return None;
             }
-            let number = model.triangle_face[t as usize];
             let face = Face::new(model, number)?;
             let [from, to] = ends.map(|c| crossings[c as usize].place);
             let ends = ends.map(Node::Crossing);
