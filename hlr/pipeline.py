@@ -21,6 +21,7 @@ from hlr.view.camera import Camera, resolve
 from hlr.view.clip import clip, planes
 from hlr.view.scale import Placed, place
 from hlr.view.silhouettes import with_silhouettes
+from hlr.visibility.ends import at_outlines
 from hlr.visibility.segments import solve
 
 Clock = dict[str, float]
@@ -117,8 +118,8 @@ def _drawing(opened: Source, scene: Scene, camera: Camera, at: Placed, options: 
     plan = decide(seen, camera, options, tolerances)
     projected = camera.project(seen.points)
     started = _lap(clock, "plan", started)
-    lifted = projected if seen.lift is None else camera.project(seen.points + seen.lift)
-    segments = solve(seen, plan, lifted, options.threads)
+    lifted = projected if seen.silhouettes is None else camera.project(seen.points + seen.silhouettes.lift)
+    segments = at_outlines(seen, camera, solve(seen, plan, lifted, options.threads))
     started = _lap(clock, "visibility", started)
     lines, origin = draw_lines(
         seen, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads

@@ -51,8 +51,8 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
     role[tied] = np.where(drawn_kind[kind[tied]], DRAWN, 0)
     may_fold = scene.edge_curved & ((kind == INTERIOR) | (kind == EdgeClass.SMOOTH) | (kind == EdgeClass.SEAM))
     role[may_fold] |= OUTLINE
-    if scene.edge_hidden is not None:
-        role[scene.edge_hidden] = 0
+    if scene.silhouettes is not None:
+        role[scene.silhouettes.hidden] = 0
     delta, cap = _contact(scene, camera, tolerances)
     return Plan(
         role=role,

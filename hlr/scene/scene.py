@@ -58,6 +58,21 @@ class TrueSurfaces:
 
 
 @dataclass(frozen=True, slots=True)
+class Silhouettes:
+    """What the scene knows of the outlines of its true surfaces, which are lines without triangles among its edges.
+
+    lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
+    facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
+    meeting_edge (m,), meeting_at (m,): edges of the model that an outline reaches, and where, from first to second vertex
+    """
+
+    lift: Floats
+    hidden: npt.NDArray[np.bool_]
+    meeting_edge: Ints
+    meeting_at: Floats
+
+
+@dataclass(frozen=True, slots=True)
 class Chains:
     """Source edges as walks over mesh edges, sorted by part, then source edge.
 
@@ -99,9 +114,6 @@ class Scene:
     incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. edge_kind is an EdgeClass or INTERIOR;
     edge_curved tells the edges at which a curved surface may show its outline. Edges without triangles are wires, or
     intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
-
-    lift (n, 3): how far points are moved before visibility is decided, None where none is. Outlines of true surfaces
-    run within the tolerance of their own facets, which must not hide them. edge_hidden: what hides itself.
     """
 
     points: Floats
@@ -121,5 +133,4 @@ class Scene:
     parts: tuple[ScenePart, ...]
     notes: tuple[str, ...]
     true_surfaces: TrueSurfaces | None = None
-    lift: Floats | None = None
-    edge_hidden: npt.NDArray[np.bool_] | None = None
+    silhouettes: Silhouettes | None = None

@@ -7,12 +7,13 @@ may see a face from behind.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hlr import _kernel
-from hlr.scene.scene import INTERIOR, Chains, Groups, Scene
+from hlr.scene.scene import INTERIOR, Chains, Groups, Scene, Silhouettes
 from hlr.scene.topology import keys
 from hlr.source.model import Floats, Ints
 from hlr.view.camera import NEAR, Camera, Vector, dot
@@ -78,7 +79,7 @@ def _compact(scene: Scene) -> Scene:
     return replace(
         scene,
         points=scene.points[used],
-        lift=scene.lift[used] if scene.lift is not None else None,
+        silhouettes=replace(scene.silhouettes, lift=scene.silhouettes.lift[used]) if scene.silhouettes else None,
         triangles=np.ascontiguousarray(number[scene.triangles]),
         edges=np.ascontiguousarray(number[scene.edges]),
     )
@@ -95,10 +96,6 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     t = (height[a[crossing]] / (height[a[crossing]] - height[b[crossing]]))[:, None]
     pa, pb = scene.points[a[crossing]], scene.points[b[crossing]]
     points = np.concatenate([scene.points, pa + (pb - pa) * t])
-    lift = scene.lift
-    if lift is not None:
-        la, lb = lift[a[crossing]], lift[b[crossing]]
-        lift = np.concatenate([lift, la + (lb - la) * t])
 
     triangles, parent = _cut_triangles(scene, inside, new_vertex, n)
     edges, offsets, incident = _kernel.edge_table(triangles, len(points))
@@ -136,9 +133,8 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     return replace(
         scene,
         points=points,
-        lift=lift,
         true_surfaces=None,
-        edge_hidden=moved(scene.edge_hidden, 0) if scene.edge_hidden is not None else None,
+        silhouettes=_cut_silhouettes(scene, crossing, t, target, moved),
         triangles=triangles,
         triangle_part=scene.triangle_part[parent],
         triangle_group=scene.triangle_group[parent],
@@ -152,6 +148,23 @@ def _cut(scene: Scene, height: Floats) -> Scene:
         edge_curved=moved(scene.edge_curved, 0),
         groups=_opened(scene.groups, open_now),
         chains=_moved_chains(scene.chains, target, swapped),
+    )
+
+
+def _cut_silhouettes(
+    scene: Scene, crossing: np.ndarray, t: Floats, target: Ints, moved: Callable[[np.ndarray, int], np.ndarray]
+) -> Silhouettes | None:
+    """With new points at (k, 1) parameters t of crossing edges; edges that were shortened meet nothing any more."""
+    old = scene.silhouettes
+    if old is None:
+        return None
+    a, b = old.lift[scene.edges[crossing, 0]], old.lift[scene.edges[crossing, 1]]
+    whole = (target[old.meeting_edge] >= 0) & ~crossing[old.meeting_edge]
+    return Silhouettes(
+        lift=np.concatenate([old.lift, a + (b - a) * t]),
+        hidden=moved(old.hidden, 0),
+        meeting_edge=target[old.meeting_edge[whole]],
+        meeting_at=old.meeting_at[whole],
     )
 
 

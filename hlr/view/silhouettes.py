@@ -21,9 +21,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.scene.scene import INTERIOR, Chains, Scene, TrueSurfaces
+from hlr.scene.scene import INTERIOR, Chains, Scene, Silhouettes, TrueSurfaces
 from hlr.scene.topology import joined
-from hlr.source.model import EdgeClass, Floats, Ints
+from hlr.source.model import EdgeClass, Ints
 from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera
 
@@ -124,7 +124,6 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
     group = group_of_face[face]
     inside_out = found["concave"] & ~scene.groups.cull[group]
     sign = np.where(np.repeat(inside_out, count), -lift, lift)[:, None]
-    old_lift = scene.lift if scene.lift is not None else np.zeros((n, 3))
     walks = Chains(
         offsets=(offsets - np.arange(m + 1)).astype(np.int32),
         edges=np.arange(len(edges), dtype=np.int32) + np.int32(len(scene.edges)),
@@ -140,13 +139,17 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
     return replace(
         scene,
         points=np.concatenate([scene.points, found["points"]]),
-        lift=np.concatenate([old_lift, found["normals"] * sign]),
         edges=np.ascontiguousarray(np.concatenate([scene.edges, edges])),
         offsets=np.concatenate([scene.offsets, np.full(more, scene.offsets[-1], np.int32)]),
         edge_part=np.concatenate([scene.edge_part, part[line]]),
         edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line]])),
         edge_kind=np.concatenate([scene.edge_kind, np.full(more, EdgeClass.OUTLINE, np.uint8)]),
         edge_curved=np.concatenate([scene.edge_curved, np.zeros(more, bool)]),
-        edge_hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
+        silhouettes=Silhouettes(
+            lift=np.concatenate([np.zeros((n, 3)), found["normals"] * sign]),
+            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
+            meeting_edge=found["meeting_edge"],
+            meeting_at=found["meeting_at"],
+        ),
         chains=joined(scene.chains, walks),
     )

@@ -57,13 +57,13 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
     state, edge = found["state"], found["edge"]
     state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
     t0, t1 = found["t0"], found["t1"]
-    if scene.edge_hidden is not None and scene.edge_hidden.any():
-        known = np.flatnonzero(scene.edge_hidden).astype(np.int32)
-        order = np.argsort(np.concatenate([edge, known]), kind="stable")
-        edge = np.concatenate([edge, known])[order]
-        t0 = np.concatenate([t0, np.zeros(len(known))])[order]
-        t1 = np.concatenate([t1, np.ones(len(known))])[order]
-        state = np.concatenate([state, np.full(len(known), HIDDEN, np.uint8)])[order]
+    if scene.silhouettes is not None and scene.silhouettes.hidden.any():
+        own = np.flatnonzero(scene.silhouettes.hidden).astype(np.int32)
+        order = np.argsort(np.concatenate([edge, own]), kind="stable")
+        edge = np.concatenate([edge, own])[order]
+        t0 = np.concatenate([t0, np.zeros(len(own))])[order]
+        t1 = np.concatenate([t1, np.ones(len(own))])[order]
+        state = np.concatenate([state, np.full(len(own), HIDDEN, np.uint8)])[order]
     return Segments(
         edge=edge,
         t0=t0,

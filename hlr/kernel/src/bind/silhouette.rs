@@ -9,7 +9,7 @@ use super::running::run;
 use super::scan::{check_incidence, expect_below, expect_len, flat, rows};
 use crate::geometry::surface::Surface;
 use crate::lines::View;
-use crate::silhouette::trace::trace;
+use crate::silhouette::trace::{Traced, trace};
 use crate::silhouette::{FaceRecord, Model};
 
 #[pyfunction]
@@ -109,7 +109,7 @@ pub fn silhouettes<'py>(
         view,
         chord,
     };
-    let found =
+    let Traced { silhouettes: found, meetings } =
         run(py, threads, |stopped| trace(&model, stopped))?.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     let mut starts = vec![0i32];
     let (mut flat_points, mut normals): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
@@ -125,6 +125,8 @@ pub fn silhouettes<'py>(
     out.set_item("normals", normals.into_pyarray(py).reshape([n, 3])?)?;
     out.set_item("face", found.iter().map(|s| s.face).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("meeting_edge", meetings.iter().map(|m| m.0).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("meeting_at", meetings.iter().map(|m| m.1).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("traced", traced.into_pyarray(py))?;
     Ok(out)
 }

@@ -17,6 +17,8 @@ use crate::geometry::vector::{Vector, cross, dot, length, sub, unit};
 /// A change of sign on an edge, on one face of it, or on both where they are one surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
+    /// The edge, where it is the border of a face or parts it.
+    pub border: Option<u32>,
     pub triangles: [i32; 2],
     pub place: Place,
 }
@@ -137,7 +139,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     if side.changes()
                         && let Some(place) = side.at(side.change())
                     {
-                        crossings.push(Crossing { triangles: [around[0], around[1]], place });
+                        crossings.push(Crossing { border: None, triangles: [around[0], around[1]], place });
                     }
                     continue;
                 }
@@ -154,7 +156,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                         if k < 2 {
                             at[k] = Some((t, crossings.len() as u32, place));
                         }
-                        crossings.push(Crossing { triangles: [side.triangle, -1], place });
+                        crossings.push(Crossing { border: Some(e as u32), triangles: [side.triangle, -1], place });
                     }
                 }
                 if sides.len() == 2

@@ -8,7 +8,7 @@ use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::face::Face;
 use super::refine::{Stretch, stretches};
-use crate::geometry::vector::{Vector, length, sub};
+use crate::geometry::vector::{Vector, dot, length, sub};
 
 /// A curve over one face along which the surface curves in one way.
 #[derive(Clone, Debug)]
@@ -17,6 +17,13 @@ pub struct Silhouette {
     pub concave: bool,
     pub points: Vec<Vector>,
     pub normals: Vec<Vector>,
+}
+
+/// All that is found: the curves, and where they meet edges of the model.
+pub struct Traced {
+    pub silhouettes: Vec<Silhouette>,
+    /// (edge, parameter from its first to its second vertex)
+    pub meetings: Vec<(i32, f64)>,
 }
 
 /// Of the chord tolerance: a fold shorter than this closes a gap that is none.
@@ -29,7 +36,7 @@ struct Link {
     stretches: Vec<Stretch>,
 }
 
-pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Silhouette>> {
+pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Traced> {
     let values = values(model);
     if stopped() {
         return None;
@@ -73,7 +80,20 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Vec<S
     for walk in walks(&links) {
         parted(&links, &walk, &same, model.chord, &mut out);
     }
-    Some(out)
+    Some(Traced { silhouettes: out, meetings: meetings(model, &crossings) })
+}
+
+fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<(i32, f64)> {
+    crossings
+        .iter()
+        .filter_map(|c| {
+            let e = c.border?;
+            let [a, b] = model.edges[e as usize].map(|v| model.points[v as usize]);
+            let (way, to) = (sub(&b, &a), sub(&c.place.point, &a));
+            let square = dot(&way, &way);
+            (square > 0.0).then(|| (e as i32, (dot(&way, &to) / square).clamp(0.0, 1.0)))
+        })
+        .collect()
 }
 
 /// Triangles with their two crossings.
