@@ -39,6 +39,22 @@ def visibility(
     threads: int = 0,
 ) -> dict[str, Any]: ...
 def curve_points(kind: Bytes, offsets: Ints, values: Floats, which: Ints, parameters: Floats) -> Floats: ...
+def true_lines(
+    kind: Bytes,
+    ranges: Floats,
+    offsets: Ints,
+    values: Floats,
+    places: Floats,
+    projection: tuple[tuple[float, float, float, float], ...],
+    line_curve: Ints,
+    line_place: Ints,
+    line_offsets: Ints,
+    flat_points: Floats,
+    space_points: Floats,
+    accuracy: float,
+    model: float,
+    threads: int,
+) -> dict[str, Any]: ...
 def chain(edges: Ints, key: Ints) -> tuple[Ints, Ints, Bools]: ...
 def linework(
     flat_points: Floats,

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr.linework.curve import Curve
+
 Points = npt.NDArray[np.float64]
 
 
@@ -21,8 +23,9 @@ class Line:
     part     index into Drawing.parts
     edge     index in the part's TopExp edge map; None for meshes and outlines
     face     index in the part's TopExp face map for outlines; else None
-    points   (n, 2) millimetres on paper, y up
+    points   (n, 2) millimetres on paper, y up; along a curve within the accuracy
     points3  (n, 3) model coordinates, same count
+    curve    what the line is on paper, in millimetres; None: its points
     other    of an intersection line: index of the second part (the same one where a part meets itself); else None
     """
 
@@ -34,6 +37,7 @@ class Line:
     points: Points
     points3: Points
     other: int | None = None
+    curve: Curve | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +96,7 @@ class Drawing:
         """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""
         if not self.lines:
             return (0.0, 0.0, 0.0, 0.0)
-        points = np.concatenate([line.points for line in self.lines])
+        points = np.concatenate([line.curve.bounds() if line.curve else line.points for line in self.lines])
         low, high = points.min(axis=0), points.max(axis=0)
         return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 

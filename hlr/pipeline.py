@@ -8,6 +8,7 @@ from typing import Any
 
 from hlr.drawing import Drawing, DrawnPart, DrawnView
 from hlr.errors import OptionError, StrictError
+from hlr.linework.exact import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
 from hlr.plan.options import Options, View
 from hlr.plan.plan import decide
@@ -51,13 +52,13 @@ def draw_views(
 
     tell("tessellate", 0.0)
     placed = [place(c, options, opened, bounds) for c in cameras]
-    scene, placed = _meshed(opened, cameras, placed, options, tell, clock)
+    scene, curves, placed = _meshed(opened, cameras, placed, options, tell, clock)
     started = perf_counter()
 
     out = []
     for i, (camera, at) in enumerate(zip(cameras, placed, strict=True)):
         tell("visibility", i / len(cameras))
-        out.append(_drawing(opened, scene, camera, at, options, dict(clock)))
+        out.append(_drawing(opened, scene, curves, camera, at, options, dict(clock)))
     tell("linework", 1.0)
     for drawing in out:
         if options.strict and drawing.notes:
@@ -87,7 +88,7 @@ def _meshed(
     options: Options,
     tell: Progress,
     clock: Clock,
-) -> tuple[Scene, list[Placed]]:
+) -> tuple[Scene, EdgeCurveLookup, list[Placed]]:
     """The scene, meshed finely enough for every view; with --fit the true scale is known only afterwards."""
     for _ in range(2):
         started = perf_counter()
@@ -101,7 +102,7 @@ def _meshed(
         if min(at.tolerances.deflection for at in final) > 0.8 * finest:
             break
         placed = final
-    return scene, final
+    return scene, meshed.edge_curves, final
 
 
 def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options) -> Placed:
@@ -111,7 +112,15 @@ def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options) -> Place
     return at.fitted(camera, options, with_silhouettes(scene, camera, at.tolerances, options.threads).points)
 
 
-def _drawing(opened: Source, scene: Scene, camera: Camera, at: Placed, options: Options, clock: Clock) -> Drawing:
+def _drawing(
+    opened: Source,
+    scene: Scene,
+    curves: EdgeCurveLookup,
+    camera: Camera,
+    at: Placed,
+    options: Options,
+    clock: Clock,
+) -> Drawing:
     started = perf_counter()
     tolerances: Tolerances = at.tolerances
     seen, cuts = clip(with_silhouettes(scene, camera, tolerances, options.threads), planes(camera, at.aspect))
@@ -122,7 +131,7 @@ def _drawing(opened: Source, scene: Scene, camera: Camera, at: Placed, options: 
     segments = at_outlines(seen, camera, solve(seen, plan, lifted, options.threads))
     started = _lap(clock, "visibility", started)
     lines, origin = draw_lines(
-        seen, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads
+        seen, curves, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads
     )
     _lap(clock, "linework", started)
     clock["write"] = 0.0

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.drawing import Line
+from hlr.linework.exact import EdgeCurveLookup, on_curves
 from hlr.linework.outlines import LineChains, outlines
 from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
@@ -31,6 +32,7 @@ ones the nearer: what one would see. Only at the same depth does the kind decide
 
 def draw_lines(
     scene: Scene,
+    edge_curves: EdgeCurveLookup,
     plan: Plan,
     segments: Segments,
     camera: Camera,
@@ -73,11 +75,22 @@ def draw_lines(
     keep = np.flatnonzero(found["visible"] | hidden)
     if len(keep) == 0:
         return (), (0.0, 0.0)
-    offsets, flat, space = found["offsets"], found["flat"], found["space"]
-    shown = np.repeat(found["visible"] | hidden, np.diff(offsets))
-    low = flat[shown].min(axis=0)
-    flat = flat - low
     chain = found["chain"]
+    drawn = on_curves(
+        found["offsets"],
+        found["flat"],
+        found["space"],
+        chains.part[chain],
+        chains.edge[chain],
+        edge_curves,
+        camera,
+        per_model,
+        tolerances,
+        threads,
+    )
+    low = drawn.low(keep)
+    flat, offsets, curves = drawn.flat - low, drawn.offsets, drawn.curves(low)
+    space = drawn.space
     order = keep[np.lexsort((keep, *_identity(chains, chain[keep])))]
     names = [k.name.lower() for k in EdgeClass]
     kinds = chains.kind[chain].tolist()
@@ -93,6 +106,7 @@ def draw_lines(
             flat[start[i] : start[i + 1]],
             space[start[i] : start[i + 1]],
             other[i] if other[i] >= 0 else None,
+            curves.get(i),
         )
         for i in order.tolist()
     )

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from hlr.errors import SourceError
+from hlr.source.edge_curves import EdgeCurveReader, EdgeCurves
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
-from hlr.source.model import Floats, Frame, Meshed, OnSurfaces, PartInfo, PartMesh, Progress, Surfaces
+from hlr.source.model import Floats, Frame, Ints, Meshed, OnSurfaces, PartInfo, PartMesh, Progress, Surfaces
 from hlr.source.parts import Leaf, Part, Parts
 from hlr.source.tessellate import Tessellator
 from hlr.source.topology import Meshes
@@ -58,6 +59,7 @@ class BrepSource:
             self._notes.append(f"{_some(wires)} without faces ({edges} edges) left out.")
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
+        self._curves = EdgeCurveReader(self._roots)
 
     @property
     def name(self) -> str:
@@ -105,6 +107,7 @@ class BrepSource:
             self._tessellator = Tessellator(self._roots, float(np.sqrt(((high - low) ** 2).sum())))
         meshes, notes = self._tessellator.mesh(deflection, angle, progress)
         meshed = Meshed(parts=[], notes=notes)
+        kept: list[Part] = []
         surfaces = self._tessellator.surfaces
         shared = [_Shared(meshes, number, surfaces) for number in range(len(self._roots))]
         places = _placed_points([(part, shared[part.root].points) for part in self._parts])
@@ -116,10 +119,18 @@ class BrepSource:
                 )
             if len(mesh.triangles):
                 meshed.parts.append(mesh.placed(part, points))
+                kept.append(part)
             else:
                 meshed.notes.append(f'Part "{part.name}" has no triangles and was left out.')
         if not any(len(part.triangles) for part in meshed.parts):
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
+        roots = np.array([part.root for part in kept], np.int32)
+        places = np.array([part.transform[:3] for part in kept])
+
+        def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
+            return self._curves.read(roots[part], edge, part, places)
+
+        meshed.edge_curves = edge_curves
         return meshed
 
 

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from hlr.source.edge_curves import EdgeCurves
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
@@ -117,10 +120,14 @@ class PartInfo:
 
 @dataclass(slots=True)
 class Meshed:
-    """All parts of a source, tessellated."""
+    """All parts of a source, tessellated.
+
+    edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
+    """
 
     parts: list[PartMesh]
     notes: list[str] = field(default_factory=list)
+    edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
 
 
 class Source(Protocol):

@@ -5,6 +5,7 @@ pub mod clash;
 pub mod exact;
 pub mod geometry;
 pub mod lines;
+pub mod paper;
 pub mod scan;
 pub mod silhouette;
 
@@ -20,6 +21,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::geometry::true_lines, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;

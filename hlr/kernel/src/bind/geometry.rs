@@ -1,13 +1,17 @@
 //! Curves of B-rep edges as Python sees them.
 
-use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use rayon::prelude::*;
 
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat};
+use super::scan::{expect_below, expect_len, flat, rows};
 use crate::geometry::curve::Curve;
+use crate::paper::arc::grow;
+use crate::paper::project::Projection;
+use crate::paper::{Drawn, Form, Placed, drawn};
 
 /// Curves from packed records; None where a record makes none.
 pub fn curves(kind: &[u8], offsets: &[i32], values: &[f64]) -> PyResult<Vec<Option<Curve>>> {
@@ -39,4 +43,134 @@ pub fn curve_points<'py>(
     })?;
     let n = found.len();
     found.into_flattened().into_flattened().into_pyarray(py).reshape([n, 3, 3])
+}
+
+type Vec4 = [f64; 4];
+
+/// Forms of lines, as `hlr.linework.curve` reads them.
+const POLYLINE: u8 = 0;
+const STRAIGHT: u8 = 1;
+const ARC: u8 = 2;
+const QUADRATIC: u8 = 3;
+const CUBIC: u8 = 4;
+
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+pub fn true_lines<'py>(
+    py: Python<'py>,
+    kind: PyReadonlyArray1<'py, u8>,
+    ranges: PyReadonlyArray2<'py, f64>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    values: PyReadonlyArray1<'py, f64>,
+    places: PyReadonlyArray3<'py, f64>,
+    projection: [Vec4; 3],
+    line_curve: PyReadonlyArray1<'py, i32>,
+    line_place: PyReadonlyArray1<'py, i32>,
+    line_offsets: PyReadonlyArray1<'py, i32>,
+    flat_points: PyReadonlyArray2<'py, f64>,
+    space_points: PyReadonlyArray2<'py, f64>,
+    accuracy: f64,
+    model: f64,
+    threads: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let curves = curves(flat(&kind, "kind")?, flat(&offsets, "offsets")?, flat(&values, "values")?)?;
+    let ranges = rows::<f64, 2>(&ranges, "ranges")?;
+    expect_len("ranges", ranges.len(), curves.len())?;
+    let wrong = || PyValueError::new_err("places must be a C-contiguous (n, 3, 4) array");
+    if places.as_array().shape()[1..] != [3, 4] {
+        return Err(wrong());
+    }
+    let places = places.as_slice().map_err(|_| wrong())?.as_chunks::<4>().0.as_chunks::<3>().0;
+    let (line_curve, line_place) = (flat(&line_curve, "line_curve")?, flat(&line_place, "line_place")?);
+    let line_offsets = flat(&line_offsets, "line_offsets")?;
+    let flat_points = rows::<f64, 2>(&flat_points, "flat_points")?;
+    let space_points = rows::<f64, 3>(&space_points, "space_points")?;
+    let n = line_curve.len();
+    expect_len("line_place", line_place.len(), n)?;
+    expect_len("line_offsets", line_offsets.len(), n + 1)?;
+    expect_len("space_points", space_points.len(), flat_points.len())?;
+    expect_below("line_offsets", line_offsets.iter().copied(), flat_points.len() + 1)?;
+    expect_below("line_curve", line_curve.iter().copied().filter(|&c| c >= 0), curves.len())?;
+    expect_below("line_place", line_place.iter().copied(), places.len())?;
+    if line_offsets.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("line_offsets must ascend"));
+    }
+    let points = |i: usize| line_offsets[i] as usize..line_offsets[i + 1] as usize;
+    let found = run(py, threads, |_| {
+        let projection = Projection(projection);
+        // Lines of one curve in one place share its search table.
+        let mut order: Vec<u32> = (0..n as u32).filter(|&i| line_curve[i as usize] >= 0).collect();
+        order.sort_by_key(|&i| (line_curve[i as usize], line_place[i as usize], i));
+        let same = |a: &u32, b: &u32| {
+            let (a, b) = (*a as usize, *b as usize);
+            line_curve[a] == line_curve[b] && line_place[a] == line_place[b]
+        };
+        let groups: Vec<&[u32]> = order.chunk_by(same).collect();
+        let drawn: Vec<(u32, Drawn)> = groups
+            .into_par_iter()
+            .flat_map_iter(|group| {
+                let (c, p) = (line_curve[group[0] as usize] as usize, line_place[group[0] as usize] as usize);
+                let placed =
+                    curves[c].as_ref().map(|c_| Placed::new(c_.moved(&places[p]), ranges[c], &projection, model));
+                group.iter().filter_map(move |&i| {
+                    let at = points(i as usize);
+                    Some((i, drawn(placed.as_ref()?, &flat_points[at.clone()], &space_points[at], accuracy)?))
+                })
+            })
+            .collect();
+        let mut lines: Vec<Option<Drawn>> = (0..n).map(|_| None).collect();
+        for (i, d) in drawn {
+            lines[i as usize] = Some(d);
+        }
+        lines
+    })?;
+    let (mut form, mut data_offsets, mut data) = (Vec::with_capacity(n), vec![0i32], Vec::<f64>::new());
+    let (mut ends, mut space_ends, mut bounds) =
+        (Vec::with_capacity(4 * n), Vec::with_capacity(6 * n), Vec::<f64>::with_capacity(4 * n));
+    let mut intervals = Vec::with_capacity(2 * n);
+    for (i, line) in found.iter().enumerate() {
+        let Some(line) = line else {
+            form.push(POLYLINE);
+            data_offsets.push(data.len() as i32);
+            let at = points(i);
+            let mut low_high = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+            flat_points[at.clone()].iter().for_each(|p| grow(&mut low_high, p));
+            bounds.extend(low_high.as_flattened());
+            let none = ([f64::NAN; 2], [f64::NAN; 3]);
+            let end = |k: Option<usize>| k.map_or(none, |k| (flat_points[k], space_points[k]));
+            for (p, q) in [end(at.clone().next()), end(at.last())] {
+                ends.extend(p);
+                space_ends.extend(q);
+            }
+            intervals.extend([f64::NAN; 2]);
+            continue;
+        };
+        form.push(match &line.form {
+            Form::Straight => STRAIGHT,
+            Form::Arc(ellipse, angles) => {
+                data.extend(ellipse.centre);
+                data.extend(ellipse.axes.as_flattened());
+                data.extend(angles);
+                ARC
+            }
+            Form::Chain(chain) => {
+                data.extend(chain.points.as_flattened());
+                if chain.degree == 2 { QUADRATIC } else { CUBIC }
+            }
+        });
+        data_offsets.push(data.len() as i32);
+        ends.extend(line.flat.as_flattened());
+        space_ends.extend(line.space.as_flattened());
+        bounds.extend(line.bounds.as_flattened());
+        intervals.extend(line.range);
+    }
+    let out = PyDict::new(py);
+    out.set_item("form", form.into_pyarray(py))?;
+    out.set_item("offsets", data_offsets.into_pyarray(py))?;
+    out.set_item("data", data.into_pyarray(py))?;
+    out.set_item("interval", intervals.into_pyarray(py).reshape([n, 2])?)?;
+    out.set_item("flat", ends.into_pyarray(py).reshape([n, 2, 2])?)?;
+    out.set_item("space", space_ends.into_pyarray(py).reshape([n, 2, 3])?)?;
+    out.set_item("bounds", bounds.into_pyarray(py).reshape([n, 2, 2])?)?;
+    Ok(out)
 }

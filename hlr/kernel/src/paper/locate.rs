@@ -1,0 +1,230 @@
+//! Which interval of a curve a polyline runs along.
+
+use super::Placed;
+use super::fit::{dot, length, minus};
+use super::project::Vec2;
+use crate::geometry::curve::{Curve, Vec3};
+
+/// Places looked at per span of a B-spline before Newton's method begins.
+const PLACES: usize = 8;
+const STEPS: usize = 20;
+/// Of the accuracy: an end this close to the curve's own end is that end.
+const SNAP: f64 = 0.02;
+/// In accuracies: between two vertices the mesh may be off by more than at them, but not by this.
+const ASTRAY: f64 = 4.0;
+/// Of a period: what rounding may turn a step back by.
+const BACKLASH: f64 = 1e-7;
+
+/// How parameters of a curve hang together: its period, if it is closed, and places to begin a search from.
+pub struct Track {
+    period: Option<f64>,
+    /// A closed B-spline has parameters only inside its range.
+    bounded: Option<[f64; 2]>,
+    places: Vec<(f64, Vec3)>,
+}
+
+impl Track {
+    /// model: a length in the model below which two ends are one.
+    pub fn new(curve: &Curve, range: [f64; 2], model: f64) -> Track {
+        match curve {
+            Curve::Ellipse { .. } => Track { period: Some(std::f64::consts::TAU), bounded: None, places: Vec::new() },
+            Curve::Spline(n) => {
+                let (low, high) = n.domain();
+                let range = [range[0].max(low), range[1].min(high)];
+                let gap = distance(&curve.point(range[0]), &curve.point(range[1]));
+                let period = (gap <= model).then_some(range[1] - range[0]);
+                let mut places = Vec::new();
+                let mut stops = vec![range[0]];
+                stops.extend(n.knots.iter().copied().filter(|&u| u > range[0] && u < range[1]));
+                stops.push(range[1]);
+                stops.dedup();
+                for w in stops.windows(2) {
+                    places.extend((0..PLACES).map(|i| w[0] + (w[1] - w[0]) * (i as f64 / PLACES as f64)));
+                }
+                places.push(range[1]);
+                let places = places.into_iter().map(|t| (t, curve.point(t))).collect();
+                Track { period, bounded: Some(range), places }
+            }
+            _ => Track { period: None, bounded: None, places: Vec::new() },
+        }
+    }
+
+    /// A parameter that the curve can be evaluated at.
+    pub fn wrapped(&self, t: f64) -> f64 {
+        match (self.bounded, self.period) {
+            (Some([low, high]), Some(period)) if t > high || t < low => low + (t - low).rem_euclid(period),
+            (Some([low, high]), None) => t.clamp(low, high),
+            _ => t,
+        }
+    }
+
+    /// An interval as pieces that do not cross the seam, each inside the range.
+    pub fn unbroken(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
+        let (Some([low, high]), Some(period)) = (self.bounded, self.period) else { return vec![[from, to]] };
+        let mut out = Vec::new();
+        let turn = ((from - low) / period).floor();
+        let mut start = from - turn * period;
+        let mut left = to - from;
+        while left > 0.0 && out.len() < 3 {
+            let end = (start + left).min(high);
+            if end > start {
+                out.push([start, end]);
+            }
+            left -= end - start;
+            if end < high {
+                break;
+            }
+            start = low;
+        }
+        out
+    }
+
+    /// The parameter of the point of the curve nearest to p.
+    fn nearest(&self, curve: &Curve, p: &Vec3) -> f64 {
+        let start = match curve {
+            Curve::Ellipse { p: centre, a, b }
+            | Curve::Hyperbola { p: centre, a, b }
+            | Curve::Parabola { p: centre, a, b } => {
+                // Coordinates of the foot point in the plane of the curve.
+                let d = [0, 1, 2].map(|k| p[k] - centre[k]);
+                let (aa, ab, bb) = (dot3(a, a), dot3(a, b), dot3(b, b));
+                let (ad, bd) = (dot3(a, &d), dot3(b, &d));
+                let det = aa * bb - ab * ab;
+                let (x, y) = ((ad * bb - bd * ab) / det, (bd * aa - ad * ab) / det);
+                match curve {
+                    Curve::Ellipse { .. } => y.atan2(x),
+                    Curve::Hyperbola { .. } => y.asinh(),
+                    _ => y,
+                }
+            }
+            Curve::Line { p: origin, a } => {
+                return dot3(&[0, 1, 2].map(|k| p[k] - origin[k]), a) / dot3(a, a);
+            }
+            Curve::Spline(_) => {
+                let mut best = (f64::INFINITY, 0.0);
+                for (t, place) in &self.places {
+                    let d = distance(place, p);
+                    if d < best.0 {
+                        best = (d, *t);
+                    }
+                }
+                best.1
+            }
+        };
+        self.descend(curve, p, start)
+    }
+
+    /// Newton's method for the foot point, never farther away than it began.
+    fn descend(&self, curve: &Curve, p: &Vec3, start: f64) -> f64 {
+        let mut best = (f64::INFINITY, start);
+        let mut t = start;
+        for _ in 0..STEPS {
+            let [q, d1, d2] = curve.derivatives(t);
+            let away = [0, 1, 2].map(|k| q[k] - p[k]);
+            let far = dot3(&away, &away);
+            if far < best.0 {
+                best = (far, t);
+            } else {
+                // Halfway back to the best.
+                if (t - best.1).abs() <= 1e-12 * (1.0 + t.abs()) {
+                    break;
+                }
+                t = 0.5 * (t + best.1);
+                continue;
+            }
+            let speed = dot3(&d1, &d1);
+            let slope = speed + dot3(&away, &d2);
+            let step = dot3(&away, &d1) / if slope > 0.1 * speed { slope } else { speed.max(f64::MIN_POSITIVE) };
+            let mut next = t - step;
+            if let Some([low, high]) = self.bounded {
+                next = next.clamp(low, high);
+            }
+            if (next - t).abs() <= 1e-14 * (1.0 + t.abs()) {
+                break;
+            }
+            t = next;
+        }
+        best.1
+    }
+}
+
+/// The interval of a curve along which a line runs, forward or backward.
+pub fn range(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<[f64; 2]> {
+    let found: Vec<f64> = space.iter().map(|p| placed.track.nearest(&placed.curve, p)).collect();
+    if !found.iter().all(|t| t.is_finite()) {
+        return None;
+    }
+    // Polygons of edges run the way of their curve; a line runs back only where it was turned round.
+    [1.0, -1.0].into_iter().find_map(|sign| {
+        let mut t = unrolled(&found, placed.track.period, sign)?;
+        snap(placed, &mut t, accuracy);
+        follows(placed, &t, flat, accuracy).then(|| [t[0], t[t.len() - 1]])
+    })
+}
+
+/// Parameters one after another in one direction, or None where they are not.
+fn unrolled(found: &[f64], period: Option<f64>, sign: f64) -> Option<Vec<f64>> {
+    let mut out = vec![found[0]];
+    let mut total = 0.0;
+    let extent = found.iter().fold(0.0, |m: f64, t| m.max((t - found[0]).abs()));
+    for w in found.windows(2) {
+        let mut step = sign * (w[1] - w[0]);
+        if let Some(period) = period {
+            step = step.rem_euclid(period);
+            if step > (1.0 - BACKLASH) * period {
+                step -= period;
+            }
+        } else if step < -BACKLASH * extent {
+            return None;
+        }
+        total += step;
+        out.push(out[0] + sign * total);
+    }
+    match period {
+        // From a point all round to itself.
+        Some(period) if total <= BACKLASH * period && found.len() > 2 => None,
+        Some(period) if total > (1.0 + BACKLASH) * period => None,
+        _ => (total > 0.0).then_some(out),
+    }
+}
+
+/// Ends that are the curve's own ends become exactly those.
+fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
+    let last = t.len() - 1;
+    let whole = placed.range[1] - placed.range[0];
+    for i in [0, last] {
+        for end in placed.range {
+            let turns = placed.track.period.map_or(0.0, |p| ((t[i] - end) / p).round() * p);
+            let goal = end + turns;
+            let apart = length(&minus(&placed.on_paper(t[i])[0], &placed.on_paper(goal)[0]));
+            if (goal - t[i]).abs() < 0.05 * whole && apart <= SNAP * accuracy {
+                t[i] = goal;
+                break;
+            }
+        }
+    }
+}
+
+/// Whether the curve passes the line's vertices within the accuracy, and stays near it in between.
+fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64) -> bool {
+    let near = |t: f64, a: &Vec2, b: &Vec2, most: f64| {
+        let p = placed.on_paper(t)[0];
+        let (d, way) = (minus(&p, a), minus(b, a));
+        let s = if way == [0.0; 2] { 0.0 } else { (dot(&d, &way) / dot(&way, &way)).clamp(0.0, 1.0) };
+        length(&minus(&d, &way.map(|c| c * s))) <= most
+    };
+    (0..flat.len()).all(|i| near(t[i], &flat[i], &flat[i], accuracy))
+        && (1..flat.len()).all(|i| {
+            let (a, b) = (&flat[i - 1], &flat[i]);
+            [0.25, 0.5, 0.75].iter().all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, ASTRAY * accuracy))
+        })
+}
+
+fn dot3(a: &Vec3, b: &Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn distance(a: &Vec3, b: &Vec3) -> f64 {
+    let d = [0, 1, 2].map(|k| a[k] - b[k]);
+    dot3(&d, &d).sqrt()
+}

@@ -1,0 +1,123 @@
+//! From polylines along mesh edges to intervals of the true curves on paper:
+//!
+//! 1. `locate`   the parameters of a line's vertices on its edge's curve in space, checked against the line
+//! 2. `project`  the curve on paper
+//! 3. `straight`, `arc`, `bezier`, `fit`: the first of these that can say it exactly, or within its share
+//!
+//! A curve that is farther from its line than the accuracy is not believed: the line stays what it was.
+
+pub mod arc;
+pub mod bezier;
+pub mod fit;
+pub mod locate;
+pub mod project;
+pub mod straight;
+
+use arc::{Ellipse, grow};
+use bezier::Chain;
+use locate::Track;
+use project::{Paper, Projection, Vec2};
+
+use crate::geometry::curve::{Curve, Vec3};
+
+/// Of the accuracy: what a fitted curve may be off.
+const FIT: f64 = 0.2;
+
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    Straight,
+    Arc(Ellipse, [f64; 2]),
+    Chain(Chain),
+}
+
+/// A line as it is drawn: the interval of its curve, the ends of that, and its form.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    pub form: Form,
+    pub range: [f64; 2],
+    pub flat: [Vec2; 2],
+    pub space: [Vec3; 2],
+    pub bounds: [Vec2; 2],
+}
+
+/// A curve where it stands, in space and on paper.
+pub struct Placed {
+    pub curve: Curve,
+    pub paper: Paper,
+    pub range: [f64; 2],
+    pub track: Track,
+    ellipse: Option<Ellipse>,
+}
+
+impl Placed {
+    pub fn new(curve: Curve, range: [f64; 2], projection: &Projection, model: f64) -> Placed {
+        let paper = Paper::of(&curve, projection);
+        let ellipse = match &paper {
+            Paper::Ellipse { p, a, b } => Ellipse::image(p, a, b),
+            _ => None,
+        };
+        let track = Track::new(&curve, range, model);
+        Placed { curve, paper, range, track, ellipse }
+    }
+
+    /// A point on paper; the curve of a straight edge has none of its own there.
+    fn on_paper(&self, t: f64) -> [Vec2; 2] {
+        self.paper.at(self.track.wrapped(t))
+    }
+}
+
+/// The interval of the curve that a line (on paper and in space) runs along, or None where it does not.
+pub fn drawn(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Drawn> {
+    if flat.len() < 2 || matches!(placed.paper, Paper::Line) {
+        return None;
+    }
+    let range = locate::range(placed, flat, space, accuracy)?;
+    piece(placed, range, accuracy)
+}
+
+/// What is drawn of an interval of a curve; it may run backward, and on beyond the seam of a closed one.
+pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
+    let ends = |range: [f64; 2]| {
+        (range.map(|t| placed.on_paper(t)[0]), range.map(|t| placed.curve.point(placed.track.wrapped(t))))
+    };
+    let curve = |t: f64| placed.on_paper(t);
+    if let Some(extremes) = straight::straight(placed, range, accuracy) {
+        let (flat, space) = ends(extremes);
+        let mut bounds = [flat[0], flat[0]];
+        grow(&mut bounds, &flat[1]);
+        return Some(Drawn { form: Form::Straight, range: extremes, flat, space, bounds });
+    }
+    let (flat, space) = ends(range);
+    if !flat.iter().flatten().all(|c| c.is_finite()) {
+        return None;
+    }
+    if let Some(ellipse) = &placed.ellipse {
+        let angles = range.map(|t| ellipse.angle(t));
+        let bounds = ellipse.bounds(angles[0], angles[1]);
+        return Some(Drawn { form: Form::Arc(*ellipse, angles), range, flat, space, bounds });
+    }
+    let (low, high) = (range[0].min(range[1]), range[0].max(range[1]));
+    let mut chain: Option<Chain> = None;
+    // Beyond the seam of a closed curve its beginning goes on.
+    for [a, b] in placed.track.unbroken(low, high) {
+        let mut next = bezier::exact(&placed.paper, a, b).unwrap_or_else(|| {
+            let (corners, spans) = (placed.paper.corners(a, b), placed.paper.spans(a, b));
+            fit::fit(&|t| placed.paper.at(t), a, b, &corners, spans, FIT * accuracy)
+        });
+        match &mut chain {
+            Some(chain) => chain.points.extend(next.points.drain(1..)),
+            None => chain = Some(next),
+        }
+    }
+    let mut chain = chain?;
+    if range[0] > range[1] {
+        chain.points.reverse();
+    }
+    let last = chain.points.len() - 1;
+    (chain.points[0], chain.points[last]) = (curve(range[0])[0], curve(range[1])[0]);
+    if !chain.points.iter().flatten().all(|c| c.is_finite()) {
+        return None;
+    }
+    let bounds = chain.bounds();
+    Some(Drawn { form: Form::Chain(chain), range, flat, space, bounds })
+}

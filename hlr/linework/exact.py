@@ -1,0 +1,145 @@
+"""Lines of B-rep edges as intervals of their edges' true curves.
+
+The visibility pass works on mesh edges. What it found stays what decides: each polyline becomes the interval of its
+edge's curve between its two ends, on paper an arc, a chain of Bezier curves or a straight line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.linework.curve import Arc, Bezier, Curve
+from hlr.source.edge_curves import EdgeCurves
+from hlr.source.model import Floats, Ints
+from hlr.tolerance import Tolerances
+from hlr.view.camera import Camera, Vector
+
+EdgeCurveLookup = Callable[[Ints, Ints], EdgeCurves] | None
+"""The curves of edges, given their parts and indices; None where the source has none."""
+
+POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
+"""Forms of lines, as the kernel names them."""
+
+SAME_PLACE = 0.01
+"""Of the accuracy, in the model: a curve whose ends are this close is closed."""
+
+Row = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnLines:
+    """Lines on paper: polylines, and what they are exactly.
+
+    offsets (n+1,) into flat (.., 2) and space (.., 3); form (n,); data_offsets (n+1,) into data; bounds (n, 2, 2)
+    """
+
+    offsets: Ints
+    flat: Floats
+    space: Floats
+    form: Ints
+    data_offsets: Ints
+    data: Floats
+    bounds: Floats
+
+    def low(self, keep: Ints) -> Floats:
+        """(2,) lower left corner of some of the lines."""
+        corner: Floats = self.bounds[keep, 0].min(axis=0)
+        return corner
+
+    def curves(self, low: Floats) -> dict[int, Curve]:
+        """The curves of lines that have one, by line, with `low` as origin."""
+        result: dict[int, Curve] = {}
+        form, start = self.form, self.data_offsets.tolist()
+        for i in np.flatnonzero(form == ARC).tolist():
+            values = self.data[start[i] : start[i + 1]]
+            result[i] = Arc(values[:2] - low, values[2:6].reshape(2, 2), values[6:8])
+        for i in np.flatnonzero(form >= QUADRATIC).tolist():
+            values = self.data[start[i] : start[i + 1]]
+            result[i] = Bezier(2 if form[i] == QUADRATIC else 3, values.reshape(-1, 2) - low)
+        return result
+
+
+def on_curves(
+    offsets: Ints,
+    flat: Floats,
+    space: Floats,
+    part: Ints,
+    edge: Ints,
+    edge_curves: EdgeCurveLookup,
+    camera: Camera,
+    per_model: float,
+    tolerances: Tolerances,
+    threads: int,
+) -> DrawnLines:
+    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges (n,) of parts (n,); edge -1: none."""
+    tied = np.flatnonzero(edge >= 0)
+    if edge_curves is None or len(tied) == 0:
+        return _polylines(offsets, flat, space)
+    found = edge_curves(part[tied], edge[tied])
+    which, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
+    which[tied], place[tied] = found.which, found.place
+    curves = found.curves
+    drawn = _kernel.true_lines(
+        curves.kind,
+        np.ascontiguousarray(curves.range),
+        curves.offsets,
+        curves.values,
+        np.ascontiguousarray(found.places),
+        projection(camera, per_model),
+        which,
+        place,
+        offsets,
+        flat,
+        space,
+        tolerances.accuracy,
+        SAME_PLACE * tolerances.accuracy / per_model,
+        threads,
+    )
+    form = drawn["form"].astype(np.int32)
+    offsets, flat, space = _with_true_ends(offsets, flat, space, form, drawn["flat"], drawn["space"])
+    return DrawnLines(offsets, flat, space, form, drawn["offsets"], drawn["data"], drawn["bounds"])
+
+
+def projection(camera: Camera, per_model: float) -> tuple[Row, Row, Row]:
+    """The matrix from (x, y, z, 1) in the model to (x w, y w, w) on paper, as Camera.project maps."""
+    if camera.eye is None or camera.distance is None:
+        return (*(_row(v, per_model, (0.0, 0.0, 0.0)) for v in (camera.right, camera.up)), (0.0, 0.0, 0.0, 1.0))
+    factor = camera.distance * per_model
+    right, up = (_row(v, factor, camera.eye) for v in (camera.right, camera.up))
+    return right, up, _row(camera.direction, -1.0, camera.eye)
+
+
+def _row(v: Vector, factor: float, origin: Vector) -> Row:
+    x, y, z = (c * factor for c in v)
+    return x, y, z, -(x * origin[0] + y * origin[1] + z * origin[2])
+
+
+def _with_true_ends(
+    offsets: Ints, flat: Floats, space: Floats, form: Ints, ends: Floats, space_ends: Floats
+) -> tuple[Ints, Floats, Floats]:
+    """Polylines that end where their curves do; straight ones are left with their two ends."""
+    first, last = offsets[:-1], offsets[1:] - 1
+    curved = form != POLYLINE
+    flat, space = flat.copy(), space.copy()
+    for at, k in ((first, 0), (last, 1)):
+        flat[at[curved]] = ends[curved, k]
+        space[at[curved]] = space_ends[curved, k]
+    keep = np.repeat(form != STRAIGHT, np.diff(offsets))
+    keep[first] = True
+    keep[last] = True
+    counts = np.add.reduceat(keep, first, dtype=np.int64) if len(first) else np.zeros(0, np.int64)
+    result = np.zeros(len(offsets), np.int32)
+    np.cumsum(counts, out=result[1:])
+    return result, flat[keep], space[keep]
+
+
+def _polylines(offsets: Ints, flat: Floats, space: Floats) -> DrawnLines:
+    first = offsets[:-1]
+    bounds = np.stack([np.minimum.reduceat(flat, first), np.maximum.reduceat(flat, first)], axis=1)
+    count = len(first)
+    none = np.zeros(count, np.int32)
+    return DrawnLines(offsets, flat, space, none, np.zeros(count + 1, np.int32), np.zeros(0), bounds)
