@@ -55,6 +55,17 @@ def true_lines(
     model: float,
     threads: int,
 ) -> dict[str, Any]: ...
+def arc_rows(arcs: Floats, ends: Floats, places: int, accuracy: float, cubic: bool) -> dict[str, Any]: ...
+def path_data(
+    points: npt.NDArray[np.int64],
+    op: Bytes,
+    arc: Ints,
+    shapes: npt.NDArray[np.int64],
+    starts: npt.NDArray[np.int64],
+    closed: Bools,
+    places: int,
+    as_pdf: bool,
+) -> tuple[bytes, npt.NDArray[np.int64]]: ...
 def chain(edges: Ints, key: Ints) -> tuple[Ints, Ints, Bools]: ...
 def linework(
     flat_points: Floats,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.linework.curve import Curve
+from hlr.linework.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
 
 Points = npt.NDArray[np.float64]
 
@@ -96,7 +96,12 @@ class Drawing:
         """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""
         if not self.lines:
             return (0.0, 0.0, 0.0, 0.0)
-        points = np.concatenate([line.curve.bounds() if line.curve else line.points for line in self.lines])
+        boxes = [line.points for line in self.lines if line.curve is None]
+        arcs = [line.curve for line in self.lines if isinstance(line.curve, Arc)]
+        chains = [line.curve for line in self.lines if isinstance(line.curve, Bezier)]
+        boxes += [arc_bounds(arcs)] if arcs else []
+        boxes += [bezier_bounds(chains)] if chains else []
+        points = np.concatenate(boxes)
         low, high = points.min(axis=0), points.max(axis=0)
         return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 

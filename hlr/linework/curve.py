@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, ceil, cos, floor, hypot, pi, sin, tau
+from math import hypot, tau
 
 import numpy as np
 import numpy.typing as npt
@@ -44,14 +45,7 @@ class Arc:
 
     def bounds(self) -> Points:
         """(2, 2) lower and upper corner."""
-        (cx, cy), (ax, ay), (bx, by) = self.centre.tolist(), *self.axes.tolist()
-        low, high = sorted(self.angles.tolist())
-        angles = [low, high]
-        for k in (atan2(bx, ax), atan2(by, ay)):
-            angles += [k + n * pi for n in range(ceil((low - k) / pi), floor((high - k) / pi) + 1)]
-        x = [cx + cos(t) * ax + sin(t) * bx for t in angles]
-        y = [cy + cos(t) * ay + sin(t) * by for t in angles]
-        return np.array([[min(x), min(y)], [max(x), max(y)]])
+        return arc_bounds([self])
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,23 +72,53 @@ class Bezier:
 
     def bounds(self) -> Points:
         """(2, 2) lower and upper corner, exact."""
-        degree, ends = self.degree, self.points[:: self.degree]
-        d = np.stack([self.points[j + 1 :: degree][: len(ends) - 1] for j in range(degree)])
-        d -= np.stack([self.points[j::degree][: len(ends) - 1] for j in range(degree)])
-        with np.errstate(all="ignore"):
-            if degree == 2:
-                roots = (d[0] / (d[0] - d[1]))[None]
-            else:
-                p, q, r = d[0] - 2.0 * d[1] + d[2], d[1] - d[0], d[0]
-                far = -(q + np.copysign(np.sqrt(np.maximum(q * q - p * r, 0.0)), q))
-                roots = np.stack([far / p, r / far])
-            inside = (roots > 0.0) & (roots < 1.0)
-        found = [ends]
-        _, piece, _ = np.nonzero(inside)
-        if len(piece):
-            found.append(self.at(piece + roots[inside]))
-        every = np.concatenate(found)
-        return np.stack([every.min(axis=0), every.max(axis=0)])
+        return bezier_bounds([self])
+
+
+def arc_bounds(arcs: Sequence[Arc]) -> Points:
+    """(2, 2) lower and upper corner of all arcs, exact."""
+    centre, axes, angles = (np.array([getattr(arc, name) for arc in arcs]) for name in ("centre", "axes", "angles"))
+    low, high = angles.min(axis=1), angles.max(axis=1)
+    # In x and in y alike there are extremes half a turn apart, those of a full turn at most three inside it.
+    first = np.arctan2(axes[:, 1], axes[:, 0])
+    turn = np.ceil((low[:, None] - first) / np.pi)[:, :, None] + np.arange(3)
+    extremes = (first[:, :, None] + turn * np.pi).reshape(len(arcs), -1)
+    t = np.concatenate([angles, np.where(extremes <= high[:, None], extremes, low[:, None])], axis=1)[..., None]
+    points = centre[:, None] + np.cos(t) * axes[:, None, 0] + np.sin(t) * axes[:, None, 1]
+    return np.stack([points.min(axis=(0, 1)), points.max(axis=(0, 1))])
+
+
+def bezier_bounds(chains: Sequence[Bezier]) -> Points:
+    """(2, 2) lower and upper corner of all chains, exact."""
+    cubic = np.concatenate([(chain if chain.degree == 3 else raised(chain)).points[:-1] for chain in chains])
+    last = np.concatenate([chain.points[-1:] for chain in chains])
+    pieces = cubic.reshape(-1, 3, 2)
+    count = np.array([(len(chain.points) - 1) // chain.degree for chain in chains])
+    # A piece ends where the next one begins, or where its chain does.
+    ends = np.concatenate([pieces[1:, 0], last[-1:]])
+    ends[np.cumsum(count) - 1] = last
+    a, b, c, d = pieces[:, 0], pieces[:, 1], pieces[:, 2], ends
+    e0, e1, e2 = b - a, c - b, d - c
+    found = [a, last]
+    with np.errstate(all="ignore"):
+        p, q = e0 - 2.0 * e1 + e2, e1 - e0
+        far = -(q + np.copysign(np.sqrt(np.maximum(q * q - p * e0, 0.0)), q))
+        for t in (far / p, e0 / far):
+            s = 1.0 - t
+            at = s * s * s * a + 3.0 * s * t * (s * b + t * c) + t * t * t * d
+            found.append(np.where((t > 0.0) & (t < 1.0), at, a))
+    every = np.concatenate(found)
+    return np.stack([every.min(axis=0), every.max(axis=0)])
+
+
+def raised(chain: Bezier) -> Bezier:
+    """A quadratic chain as a cubic one, the same curve."""
+    ends, middle = chain.points[::2], chain.points[1::2]
+    points = np.empty((3 * len(middle) + 1, 2))
+    points[::3] = ends
+    points[1::3] = ends[:-1] + (middle - ends[:-1]) * (2.0 / 3.0)
+    points[2::3] = ends[1:] + (middle - ends[1:]) * (2.0 / 3.0)
+    return Bezier(3, points)
 
 
 Curve = Arc | Bezier

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.linework.curve import Arc, Bezier, Curve
@@ -45,7 +47,7 @@ class DrawnLines:
     data: Floats
     bounds: Floats
 
-    def low(self, keep: Ints) -> Floats:
+    def low(self, keep: npt.NDArray[Any]) -> Floats:
         """(2,) lower left corner of some of the lines."""
         corner: Floats = self.bounds[keep, 0].min(axis=0)
         return corner
@@ -107,7 +109,8 @@ def on_curves(
 def projection(camera: Camera, per_model: float) -> tuple[Row, Row, Row]:
     """The matrix from (x, y, z, 1) in the model to (x w, y w, w) on paper, as Camera.project maps."""
     if camera.eye is None or camera.distance is None:
-        return (*(_row(v, per_model, (0.0, 0.0, 0.0)) for v in (camera.right, camera.up)), (0.0, 0.0, 0.0, 1.0))
+        right, up = (_row(v, per_model, (0.0, 0.0, 0.0)) for v in (camera.right, camera.up))
+        return right, up, (0.0, 0.0, 0.0, 1.0)
     factor = camera.distance * per_model
     right, up = (_row(v, factor, camera.eye) for v in (camera.right, camera.up))
     return right, up, _row(camera.direction, -1.0, camera.eye)

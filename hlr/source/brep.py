@@ -125,10 +125,10 @@ class BrepSource:
         if not any(len(part.triangles) for part in meshed.parts):
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
         roots = np.array([part.root for part in kept], np.int32)
-        places = np.array([part.transform[:3] for part in kept])
+        transforms = np.array([part.transform[:3] for part in kept])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
-            return self._curves.read(roots[part], edge, part, places)
+            return self._curves.read(roots[part], edge, part, transforms)
 
         meshed.edge_curves = edge_curves
         return meshed

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from hlr.drawing import Drawing
+from hlr.drawing import Drawing, Line
+from hlr.linework.curve import Arc
 from hlr.writers.number import decimals, encode, grid
 
 FORMAT = "hlr-drawing"
@@ -62,6 +64,7 @@ def _lines(drawing: Drawing) -> list[str]:
     paper, paper_at = _nested(np.concatenate([line.points for line in lines]), counts, accuracy)
     in_model = accuracy / (drawing.scale * drawing.unit)
     space, space_at = _nested(np.concatenate([line.points3 for line in lines]), counts, in_model)
+    curves = _curves(lines, accuracy)
     out = []
     for i, line in enumerate(lines):
         edge = "null" if line.edge is None else line.edge
@@ -70,8 +73,30 @@ def _lines(drawing: Drawing) -> list[str]:
         out.append(
             f'{{"class": "{line.kind}", "visible": {"true" if line.visible else "false"}, "part": {line.part}, '
             f'"edge": {edge}, "face": {face}, {other}"points": [{paper[paper_at[i] : paper_at[i + 1]]}]], '
-            f'"points3": [{space[space_at[i] : space_at[i + 1]]}]]}}'
+            f'"points3": [{space[space_at[i] : space_at[i + 1]]}]]{curves.get(i, "")}}}'
         )
+    return out
+
+
+def _curves(lines: Sequence[Line], accuracy: float) -> dict[int, str]:
+    """The field `curve` of lines that have one, by line, with the comma before it."""
+    curved = [(i, line.curve) for i, line in enumerate(lines) if line.curve is not None]
+    if not curved:
+        return {}
+    vectors = [np.vstack([c.centre, c.axes]) if isinstance(c, Arc) else c.points for _, c in curved]
+    counts = np.array([len(v) for v in vectors], dtype=np.int64)
+    text, at = _nested(np.concatenate(vectors), counts, accuracy)
+    out = {}
+    for k, (i, curve) in enumerate(curved):
+        points = text[at[k] : at[k + 1]]
+        if isinstance(curve, Arc):
+            centre, axes = points.split("],", 1)
+            # An angle moves a point by so much more as the radius is larger.
+            places = decimals(accuracy / max(1.0, curve.radii[0]), share=_SHARE)
+            angles = ", ".join(f"{angle + 0.0:.{places}f}" for angle in curve.angles.tolist())
+            out[i] = f', "curve": {{"type": "arc", "centre": {centre}], "axes": [{axes}]], "angles": [{angles}]}}'
+        else:
+            out[i] = f', "curve": {{"type": "bezier", "degree": {curve.degree}, "points": [{points}]]}}'
     return out
 
 

@@ -21,7 +21,7 @@ Bytes = npt.NDArray[np.uint8]
 MAX_DECIMALS = 12
 # Beyond 2**53 a double no longer has a unit digit: more decimals would be invented.
 _MAX_GRID = float(2**53)
-_NOT_FINITE = "the drawing has a point that is not finite; it cannot be written"
+NOT_FINITE = "the drawing has a point that is not finite; it cannot be written"
 # Rows of the byte matrix made at once: small enough to stay in the cache.
 _CHUNK = 1 << 15
 
@@ -35,7 +35,7 @@ def decimals(accuracy: float, extent: float = 0.0, share: float = 0.1) -> int:
     if not (math.isfinite(accuracy) and accuracy > 0.0):
         raise WriteError(f"the drawing states no usable accuracy ({accuracy!r}); it must be a positive length in mm")
     if not math.isfinite(extent):
-        raise WriteError(_NOT_FINITE)
+        raise WriteError(NOT_FINITE)
     # Half a grid step in x and in y: the point moves by at most step / sqrt(2).
     step = accuracy * share * math.sqrt(2.0)
     wanted = math.ceil(-math.log10(step) + 1e-12)
@@ -46,7 +46,7 @@ def decimals(accuracy: float, extent: float = 0.0, share: float = 0.1) -> int:
 def grid(values: npt.NDArray[np.float64], places: int) -> Ints:
     """Round to whole grid steps of 10**-places (same shape, int64). Raises WriteError for NaN or infinity."""
     if not np.isfinite(values).all():
-        raise WriteError(_NOT_FINITE)
+        raise WriteError(NOT_FINITE)
     return np.rint(values * 10.0**places).astype(np.int64)
 
 

@@ -9,13 +9,13 @@ import io
 import math
 import zlib
 
-import numpy as np
 import pydyf
 
+from hlr import _kernel
 from hlr.drawing import Drawing
 from hlr.writers import style
-from hlr.writers.number import encode, number
-from hlr.writers.strokes import Layer, Strokes, strokes
+from hlr.writers.number import number
+from hlr.writers.strokes import Strokes, strokes
 from hlr.writers.svg import title
 
 _POINTS_PER_MM = 72.0 / 25.4
@@ -27,7 +27,7 @@ _LEVEL = 4
 
 def pdf(drawing: Drawing) -> bytes:
     """The drawing as a PDF file. Raises WriteError where a point is not finite."""
-    page = strokes(drawing)
+    page = strokes(drawing, cubic=True)
     document = pydyf.PDF()
     layers = []
     for layer in page.layers:
@@ -83,24 +83,12 @@ def _content(page: Strokes, factor: float) -> bytes:
         cap = 0 if dash else 1
         width = number(style.width(layer.kind, layer.visible))
         out.append(f"/OC /L{index} BDC {width} w {cap} J [{pattern}] 0 d\n".encode("ascii"))
-        out.extend(_paths(layer, page.places))
+        data, _ = _kernel.path_data(
+            layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, page.places, True
+        )
+        out.append(data)
         out.append(b"EMC\n")
     return b"".join(out)
-
-
-def _paths(layer: Layer, places: int) -> list[bytes]:
-    """One painted path per stroke: a single path for a whole layer is slow in viewers."""
-    n = len(layer.points)
-    starts = layer.starts[:-1]
-    before = np.zeros((n, 2, 3), np.uint8)
-    before[:, 0] = np.frombuffer(b" l ", np.uint8)
-    before[starts + 1, 0] = np.frombuffer(b" m ", np.uint8)
-    before[starts, 0] = 0
-    before[:, 1, 0] = ord(" ")
-    text, ends = encode(layer.points.reshape(-1), places, before.reshape(2 * n, 3))
-    offsets = ends[2 * layer.starts].tolist()
-    spans = zip(offsets[:-1], offsets[1:], layer.closed.tolist(), strict=True)
-    return [text[start:end] + (b" l s\n" if closed else b" l S\n") for start, end, closed in spans]
 
 
 def _real(value: float) -> str:

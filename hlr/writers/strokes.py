@@ -8,23 +8,37 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
 
-from hlr.drawing import Drawing, Line, Points
+from hlr import _kernel
+from hlr.drawing import Drawing, Line
+from hlr.errors import WriteError
+from hlr.linework.curve import Arc, raised
 from hlr.writers import number, style
 
 Ints = npt.NDArray[np.int64]
 Bools = npt.NDArray[np.bool_]
+Bytes = npt.NDArray[np.uint8]
+
+
+START, LINE, CONTROL, QUADRATIC, CUBIC, ARC, WHOLE = range(7)
+"""What a row of a stroke is: where it starts; a straight line to here; a control point of the curve that the next
+QUADRATIC or CUBIC row ends; the end of an arc; the centre of a whole circle or ellipse, the only row of its stroke."""
 
 
 @dataclass(frozen=True, slots=True)
 class Layer:
     """All strokes of one line class and visibility.
 
-    points   (n, 2) grid steps, y up; neighbours within a stroke differ; the last point of a closed one is left out
-    starts   (s + 1,) where each stroke starts in `points`; each has at least two points
+    points   (n, 2) grid steps, y up; a line leads somewhere else; the last point of a loop of lines is left out
+    op       (n,) uint8 what leads to each point, as above
+    arc      (n,) int32 of an arc or a whole: index into `shapes`; else -1
+    shapes   (a, 5) int64 two radii and the rotation of the first, as the kernel rounds them; whether the arc is the
+             large one; whether it runs counter-clockwise
+    starts   (s + 1,) where each stroke starts in `points`; each but a whole has at least two points
     closed   (s,)
     part     per stroke: index of its part
     edge     per stroke: index of its edge, or None
@@ -34,6 +48,9 @@ class Layer:
     kind: str
     visible: bool
     points: Ints
+    op: Bytes
+    arc: npt.NDArray[np.int32]
+    shapes: Ints
     starts: Ints
     closed: Bools
     part: list[int]
@@ -53,20 +70,18 @@ class Strokes:
     layers: tuple[Layer, ...]
 
 
-def strokes(drawing: Drawing) -> Strokes:
-    """Sort and join the lines of a drawing: hidden layers first, so that visible lines lie on top."""
+def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
+    """Sort and join the lines of a drawing: hidden layers first, so that visible lines lie on top.
+
+    cubic: arcs and quadratic curves become cubic ones, for formats that know no others.
+    """
     groups: dict[tuple[bool, str], list[Line]] = {(v, k): [] for v in (False, True) for k in style.KINDS}
     for line in drawing.lines:
         groups[line.visible, line.kind].append(line)
-    arrays = {key: _arrays(lines) for key, lines in groups.items() if lines}
-    box = np.zeros((2, 2))
-    if any(len(points) for points, _ in arrays.values()):
-        everything = np.concatenate([points for points, _ in arrays.values()])
-        box = np.array([everything.min(axis=0), everything.max(axis=0)])
-    places = number.decimals(float(drawing.accuracy["used"]), float(np.abs(box).max()))
-    layers = [
-        _layer(*key, groups[key], number.grid(points, places), counts) for key, (points, counts) in arrays.items()
-    ]
+    box = np.array(drawing.bounds()).reshape(2, 2)
+    accuracy = float(drawing.accuracy["used"])
+    places = number.decimals(accuracy, float(np.abs(box).max()))
+    layers = [_layer(*key, lines, _rows(lines, places, accuracy, cubic)) for key, lines in groups.items() if lines]
     corners = number.grid(box, places)
     border = math.ceil((style.MARGIN + style.WIDE) * 10**places)
     left, bottom = (int(v) - border for v in corners[0])
@@ -74,14 +89,72 @@ def strokes(drawing: Drawing) -> Strokes:
     return Strokes(places, left, bottom, right - left, top - bottom, tuple(x for x in layers if len(x.closed)))
 
 
-def _arrays(lines: Sequence[Line]) -> tuple[Points, Ints]:
-    """All points of some lines (n, 2), and how many each line has."""
-    points = [line.points for line in lines]
-    return np.concatenate(points), np.fromiter(map(len, points), np.int64, len(points))
+@dataclass(slots=True)
+class _Rows:
+    """Rows of some lines one after another, and how many each line has."""
+
+    points: Ints
+    op: Bytes
+    arc: npt.NDArray[np.int32]
+    shapes: Ints
+    counts: Ints
 
 
-def _layer(visible: bool, kind: str, lines: Sequence[Line], points: Ints, counts: Ints) -> Layer:
+def _rows(lines: Sequence[Line], places: int, accuracy: float, cubic: bool) -> _Rows:
+    round_ = [i for i, line in enumerate(lines) if isinstance(line.curve, Arc)]
+    points, ops = [], []
+    for line in lines:
+        curve = line.curve
+        if curve is None:
+            points.append(line.points)
+            ops.append(_ops(LINE, len(line.points)))
+        elif isinstance(curve, Arc):
+            points.append(_NO_POINTS)
+            ops.append(_ops(LINE, 0))
+        else:
+            chain = raised(curve) if cubic and curve.degree == 2 else curve
+            points.append(chain.points)
+            ops.append(_ops(QUADRATIC if chain.degree == 2 else CUBIC, len(chain.points)))
+    counts = np.fromiter(map(len, points), np.int64, len(points))
+    grid = number.grid(np.concatenate(points), places)
+    op = np.concatenate(ops)
+    arc = np.full(len(op), -1, np.int32)
+    if not round_:
+        return _Rows(grid, op, arc, np.zeros((0, 5), np.int64), counts)
+    arcs = [line.curve for line in lines if isinstance(line.curve, Arc)]
+    values = np.concatenate([np.concatenate([c.centre, c.axes.ravel(), c.angles]) for c in arcs]).reshape(-1, 8)
+    ends = np.concatenate([lines[i].points[[0, -1]] for i in round_]).reshape(-1, 4)
+    if not (np.isfinite(values).all() and np.isfinite(ends).all()):
+        raise WriteError(number.NOT_FINITE)
+    found = _kernel.arc_rows(values, ends, places, accuracy, cubic)
+    # Each arc's rows at its line's place among the others.
+    where = np.repeat((np.cumsum(counts) - counts)[round_], found["counts"])
+    counts[round_] = found["counts"]
+    return _Rows(
+        np.insert(grid, where, found["points"], axis=0),
+        np.insert(op, where, found["op"]),
+        np.insert(arc, where, found["arc"]),
+        found["shapes"],
+        counts,
+    )
+
+
+_NO_POINTS = np.zeros((0, 2))
+
+
+@cache
+def _ops(op: int, count: int) -> Bytes:
+    """What the rows of a polyline or of a chain of curves are."""
+    degree = {QUADRATIC: 2, CUBIC: 3}.get(op, 1)
+    result = np.full(count, CONTROL, np.uint8)
+    result[::degree] = op
+    result[:1] = START
+    return result
+
+
+def _layer(visible: bool, kind: str, lines: Sequence[Line], rows: _Rows) -> Layer:
     """One layer: drop points that coincide on the grid, join consecutive lines, find closed strokes."""
+    points, op, arc, counts = rows.points, rows.op.copy(), rows.arc, rows.counts
     owner = np.repeat(np.arange(len(lines)), counts)
     first, last = np.cumsum(counts) - counts, np.cumsum(counts) - 1
     part = np.fromiter((line.part for line in lines), np.int64, len(lines))
@@ -95,25 +168,33 @@ def _layer(visible: bool, kind: str, lines: Sequence[Line], points: Ints, counts
     joins[1:] &= (other[1:] == other[:-1]) & ~loop[1:] & ~loop[:-1]
     new = np.zeros(len(points), np.bool_)
     new[first[~joins]] = True
-    keep = new.copy()
+    op[(op == START) & ~new] = LINE
+    keep = new | ((op != LINE) & (op != ARC))
     keep[1:] |= ~_same(points[1:], points[:-1])
-    points, owner, new = points[keep], owner[keep], new[keep]
+    points, op, arc, owner, new = points[keep], op[keep], arc[keep], owner[keep], new[keep]
 
     # What has shrunk to a single point is below the rounding and is not drawn.
     stroke = np.cumsum(new) - 1
-    keep = np.bincount(stroke)[stroke] > 1
-    points, owner, new = points[keep], owner[keep], new[keep]
+    keep = (np.bincount(stroke)[stroke] > 1) | (op == WHOLE)
+    points, op, arc, owner, new = points[keep], op[keep], arc[keep], owner[keep], new[keep]
     starts = np.flatnonzero(new)
     ends = np.append(starts, len(points))[1:] - 1
 
-    closed = _same(points[starts], points[ends]) & (ends - starts >= 3)
+    # There and back along lines is no loop; along a curve it is.
+    curved = np.zeros(len(starts), np.bool_)
+    curved[(np.cumsum(new) - 1)[op > LINE]] = True
+    closed = _same(points[starts], points[ends]) & ((ends - starts >= 3) | (curved & (ends > starts)))
+    dropped = closed & (op[ends] == LINE)
     keep = np.ones(len(points), np.bool_)
-    keep[ends[closed]] = False
+    keep[ends[dropped]] = False
     return Layer(
         kind,
         visible,
         points[keep],
-        np.append(0, np.cumsum(ends - starts + 1 - closed)),
+        op[keep],
+        arc[keep],
+        rows.shapes,
+        np.append(0, np.cumsum(ends - starts + 1 - dropped)),
         closed,
         part[owner[starts]].tolist(),
         [None if e < 0 else e for e in edge[owner[starts]].tolist()],

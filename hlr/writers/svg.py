@@ -17,12 +17,11 @@ import re
 from itertools import groupby
 from xml.sax.saxutils import escape, quoteattr
 
-import numpy as np
-
+from hlr import _kernel
 from hlr.drawing import Drawing
 from hlr.writers import style
-from hlr.writers.number import encode, number
-from hlr.writers.strokes import Layer, strokes
+from hlr.writers.number import number
+from hlr.writers.strokes import WHOLE, Layer, strokes
 
 # Characters that XML 1.0 cannot carry, escaped or not.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
@@ -74,54 +73,23 @@ def _narrow(layer: Layer) -> bool:
 
 def _paths(layer: Layer, places: int) -> list[str]:
     """One element per stroke."""
-    text, offsets = _path_data(layer, places)
+    data, offsets = _kernel.path_data(
+        layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, places, False
+    )
+    text, at = data.decode("ascii"), offsets.tolist()
+    whole = (layer.op[layer.starts[:-1]] == WHOLE).tolist()
     out = []
-    spans = zip(offsets[:-1], offsets[1:], layer.closed.tolist(), layer.part, layer.edge, layer.other, strict=True)
-    for start, end, closed, part, edge, other in spans:
+    spans = zip(at[:-1], at[1:], whole, layer.part, layer.edge, layer.other, strict=True)
+    for start, end, alone, part, edge, other in spans:
         tie = "" if edge is None else f' data-edge="{edge}"'
         tie += "" if other is None else f' data-other="{other}"'
-        out.append(f'<path data-part="{part}"{tie} d="{text[start:end]}{"z" if closed else ""}"/>\n')
+        drawn = text[start:end]
+        if alone:
+            name = "ellipse" if ' rx="' in drawn else "circle"
+            out.append(f'<{name} data-part="{part}"{tie} {drawn}/>\n')
+        else:
+            out.append(f'<path data-part="{part}"{tie} d="{drawn}"/>\n')
     return out
-
-
-def _path_data(layer: Layer, places: int) -> tuple[str, list[int]]:
-    """The `d` of all strokes in one text, and where each starts in it (s + 1 offsets).
-
-    A stroke starts with an absolute M and goes on with relative h, v or l; the letter and the space are left out
-    where the grammar allows it.
-    """
-    points = layer.points * np.array([1, -1])
-    n = len(points)
-    starts = layer.starts[:-1]
-    head = np.zeros(n, np.bool_)
-    head[starts] = True
-    values = np.diff(points, axis=0, prepend=0)
-    values[head] = points[head]
-
-    # Two numbers per point, except where a relative one is zero.
-    shown = (values != 0) | head[:, None]
-    command = np.full(n, ord("l"), np.uint8)
-    command[~shown[:, 1]] = ord("h")
-    command[~shown[:, 0]] = ord("v")
-    command[head] = ord("M")
-    again = np.zeros(n, np.bool_)
-    again[1:] = (command[1:] == command[:-1]) & ~head[1:]
-    lead = np.zeros((n, 2), np.uint8)
-    lead[:, 0] = np.where(again, 0, command)
-    only_y = ~shown[:, 0]
-    lead[only_y, 1] = lead[only_y, 0]
-
-    flat, before = values[shown], lead[shown]
-    whole = 10**places
-    fraction = flat % whole != 0
-    follows_fraction = np.concatenate([[False], fraction[:-1]])
-    starts_with_dot = (np.abs(flat) < whole) & (flat != 0)
-    apart = (before == 0) & (flat >= 0) & ~(starts_with_dot & follows_fraction)
-    before[apart] = ord(" ")
-
-    text, ends = encode(flat, places, before[:, None])
-    first_number = np.concatenate([[0], np.cumsum(shown.sum(axis=1))])[layer.starts]
-    return text.decode("ascii"), ends[first_number].tolist()
 
 
 def _metadata(drawing: Drawing) -> str:

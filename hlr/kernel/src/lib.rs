@@ -4,6 +4,7 @@ pub mod bind;
 pub mod clash;
 pub mod exact;
 pub mod geometry;
+pub mod ink;
 pub mod lines;
 pub mod paper;
 pub mod scan;
@@ -22,6 +23,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::true_lines, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::ink::arc_rows, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::ink::path_data, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;

@@ -2,6 +2,7 @@
 
 pub mod clash;
 pub mod geometry;
+pub mod ink;
 pub mod lines;
 pub mod running;
 pub mod scan;

@@ -1,0 +1,160 @@
+"""How far the emitted curves lie from the true ones: `python tests/peers/curves.py FOLDER`.
+
+For every B-rep model of a folder, in an orthographic and a perspective view, each line of an edge is sampled densely
+and measured against OpenCASCADE's own evaluation of that edge, projected to paper. Beside it, the size of the SVG and
+that of CadQuery's.
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import hlr
+from hlr.drawing import Drawing, Line
+from hlr.linework.curve import Arc
+from hlr.source import open_source
+from hlr.source.locations import moved
+from hlr.source.parts import explored
+from hlr.writers import render
+
+ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
+DENSE = 600
+"""Samples per edge, and per line a tenth of that."""
+
+
+def true_curves(source: Any) -> dict[tuple[str, int], Any]:
+    """A function from a part's name and an edge's index to (n, 3) points of OpenCASCADE's curve; None: it has none."""
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopoDS import TopoDS
+
+    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source._roots]
+    parts = {part.name: part for part in source._parts}
+    known: dict[tuple[str, int], Any] = {}
+
+    def at(name: str, edge: int) -> Any:
+        if (name, edge) not in known:
+            part = parts[name]
+            curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.root][edge]))
+            places = np.linspace(curve.FirstParameter(), curve.LastParameter(), DENSE)
+            values = [curve.Value(float(t)) for t in places]
+            known[name, edge] = moved(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
+        return known[name, edge]
+
+    return at
+
+
+def on_paper(drawing: Drawing, points: np.ndarray) -> np.ndarray:
+    """As the exchange format describes it."""
+    view, origin = drawing.view, np.array(drawing.origin)
+    axes = np.array([view.right, view.up]).T
+    factor = drawing.unit * drawing.scale
+    if view.eye is None:
+        return points @ axes * factor - origin
+    away = points - np.array(view.eye)
+    depth = -(away @ np.array(view.direction))
+    with np.errstate(all="ignore"):
+        return away @ axes * (view.distance / depth)[:, None] * factor - origin
+
+
+def samples(line: Line) -> np.ndarray:
+    """Points along what is drawn."""
+    count = DENSE // 10
+    if line.curve is None:
+        t = np.linspace(0.0, 1.0, max(2, count // len(line.points)))[:, None]
+        return np.concatenate([a + (b - a) * t for a, b in zip(line.points, line.points[1:], strict=False)])
+    if isinstance(line.curve, Arc):
+        return line.curve.at(np.linspace(*line.curve.angles, count))
+    pieces = (len(line.curve.points) - 1) // line.curve.degree
+    return line.curve.at(np.linspace(0.0, pieces, max(count, 8 * pieces)))
+
+
+def distance(points: np.ndarray, path: np.ndarray) -> float:
+    """Largest distance of points to a polyline."""
+    a, way = path[:-1], np.diff(path, axis=0)
+    d = points[:, None] - a
+    size = np.maximum((way * way).sum(axis=1), 1e-300)
+    t = np.clip((d * way).sum(axis=2) / size, 0.0, 1.0)[..., None]
+    return float(np.sqrt(((d - way * t) ** 2).sum(axis=2)).min(axis=1).max())
+
+
+def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], str]:
+    """Largest distance of curves and of polylines, in accuracies; how many lines of each form; which was the worst."""
+    accuracy = float(drawing.accuracy["used"])
+    worst = {"curve": 0.0, "polyline": 0.0}
+    forms: Counter[str] = Counter()
+    where = ""
+    for line in drawing.lines:
+        if line.edge is None:
+            continue
+        straight = line.curve is None and len(line.points) == 2
+        forms["straight" if straight else type(line.curve).__name__.replace("NoneType", "polyline")] += 1
+        try:
+            path = on_paper(drawing, true(drawing.parts[line.part].name, line.edge))
+        except Exception:  # no curve in space
+            forms["without curve"] += 1
+            continue
+        path = path[np.isfinite(path).all(axis=1)]
+        off = distance(samples(line), path) / accuracy
+        key = "polyline" if line.curve is None and not straight else "curve"
+        if off > worst[key]:
+            worst[key] = off
+            if key == "curve":
+                where = f"{drawing.parts[line.part].name} {line.edge}"
+    return worst["curve"], worst["polyline"], forms, where
+
+
+def cadquery_size(path: Path) -> int | None:
+    """Bytes of CadQuery's SVG in the same view; None where it cannot read the file."""
+    import cadquery as cq
+    from cadquery import exporters
+
+    if path.suffix.lower() not in (".stp", ".step"):
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "out.svg"
+        exporters.export(cq.importers.importStep(str(path)), str(target), opt={"projectionDir": (1, -1, 1)})
+        return target.stat().st_size
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--only", default="", help="part of a file's name")
+    parser.add_argument("--cadquery", action="store_true", help="measure CadQuery's SVG as well")
+    arguments = parser.parse_args()
+    print(
+        "| model | view | curves off by | polylines | forms | SVG | CadQuery | worst |",
+        "|---|---|---|---|---|---|---|---|",
+        sep="\n",
+    )
+    for path in sorted(arguments.folder.rglob("*")):
+        if path.suffix.lower() not in ENDINGS or arguments.only not in path.name:
+            continue
+        try:
+            source = open_source(path)
+            drawings = hlr.draw_views(path, ["iso"])
+            drawings += hlr.draw_views(path, [(3, -2, 1.5)], hlr.Options(perspective=hlr.Perspective()))
+        except hlr.HlrError as error:
+            print(f"| {path.name} | {error} |")
+            continue
+        theirs = cadquery_size(path) if arguments.cadquery else None
+        true = true_curves(source)
+        for drawing in drawings:
+            curve, polyline, forms, where = measured(drawing, true)
+            told = ", ".join(f"{n} {name}" for name, n in sorted(forms.items()))
+            print(
+                f"| {path.name} | {drawing.view.projection} | {curve:.3f} | {polyline:.3f} | {told} "
+                f"| {len(render(drawing, 'svg'))} | {theirs or ''} | {where} |",
+                flush=True,
+            )
+
+
+if __name__ == "__main__":
+    main()
