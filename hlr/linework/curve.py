@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from math import hypot, tau
 
 import numpy as np
@@ -67,7 +68,7 @@ class Bezier:
         s = (t - piece)[..., None]
         p = [self.points[self.degree * piece + j] for j in range(self.degree + 1)]
         while len(p) > 1:
-            p = [a + (b - a) * s for a, b in zip(p, p[1:], strict=False)]
+            p = [a + (b - a) * s for a, b in pairwise(p)]
         return np.asarray(p[0])
 
     def bounds(self) -> Points:
