@@ -51,8 +51,13 @@ def true_lines(
     line_offsets: Ints,
     flat_points: Floats,
     space_points: Floats,
+    line_chain: Ints,
+    line_visible: Bools,
+    eye: tuple[float, float, float],
+    away: tuple[float, float, float],
     accuracy: float,
     model: float,
+    contact: float,
     threads: int,
 ) -> dict[str, Any]: ...
 def arc_rows(arcs: Floats, ends: Floats, places: int, accuracy: float, cubic: bool) -> dict[str, Any]: ...

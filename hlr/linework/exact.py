@@ -71,6 +71,8 @@ def on_curves(
     space: Floats,
     part: Ints,
     edge: Ints,
+    chain: Ints,
+    visible: npt.NDArray[np.bool_],
     edge_curves: EdgeCurveLookup,
     camera: Camera,
     per_model: float,
@@ -97,12 +99,17 @@ def on_curves(
         offsets,
         flat,
         space,
+        chain,
+        visible,
+        camera.eye or (0.0, 0.0, 0.0),
+        (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
         tolerances.accuracy,
         SAME_PLACE * tolerances.accuracy / per_model,
+        tolerances.contact,
         threads,
     )
     form = drawn["form"].astype(np.int32)
-    offsets, flat, space = _with_true_ends(offsets, flat, space, form, drawn["flat"], drawn["space"])
+    offsets, flat, space = _with_true_ends(offsets, flat, space, drawn["inner"], drawn["flat"], drawn["space"])
     return DrawnLines(offsets, flat, space, form, drawn["offsets"], drawn["data"], drawn["bounds"])
 
 
@@ -122,16 +129,17 @@ def _row(v: Vector, factor: float, origin: Vector) -> Row:
 
 
 def _with_true_ends(
-    offsets: Ints, flat: Floats, space: Floats, form: Ints, ends: Floats, space_ends: Floats
+    offsets: Ints, flat: Floats, space: Floats, inner: Ints, ends: Floats, space_ends: Floats
 ) -> tuple[Ints, Floats, Floats]:
-    """Polylines that end where their curves do; straight ones are left with their two ends."""
+    """Polylines that end where their curves do; inner (n, 2): the points between that are kept, from and to."""
     first, last = offsets[:-1], offsets[1:] - 1
-    curved = form != POLYLINE
     flat, space = flat.copy(), space.copy()
     for at, k in ((first, 0), (last, 1)):
-        flat[at[curved]] = ends[curved, k]
-        space[at[curved]] = space_ends[curved, k]
-    keep = np.repeat(form != STRAIGHT, np.diff(offsets))
+        flat[at] = ends[:, k]
+        space[at] = space_ends[:, k]
+    place = np.arange(len(flat)) - np.repeat(first, np.diff(offsets))
+    kept = np.repeat(inner, np.diff(offsets), axis=0)
+    keep = (place >= kept[:, 0]) & (place < kept[:, 1])
     keep[first] = True
     keep[last] = True
     counts = np.add.reduceat(keep, first, dtype=np.int64) if len(first) else np.zeros(0, np.int64)

@@ -82,6 +82,8 @@ def draw_lines(
         found["space"],
         chains.part[chain],
         chains.edge[chain],
+        chain,
+        found["visible"],
         edge_curves,
         camera,
         per_model,

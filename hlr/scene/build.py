@@ -130,9 +130,7 @@ def _true_surfaces(parts: list[PartMesh]) -> TrueSurfaces | None:
     counts = [len(p.face_planar) for p in parts]
 
     def joined(of: Callable[[OnSurfaces], Any], fill: float, shape: tuple[int, ...], dtype: Any) -> Any:
-        rows = [
-            of(o) if o is not None else np.full((n, *shape), fill, dtype) for o, n in zip(on, counts, strict=True)
-        ]
+        rows = [of(o) if o is not None else np.full((n, *shape), fill, dtype) for o, n in zip(on, counts, strict=True)]
         return np.concatenate(rows)
 
     corner = [

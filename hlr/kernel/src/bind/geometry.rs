@@ -9,9 +9,11 @@ use rayon::prelude::*;
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::geometry::curve::Curve;
+use crate::geometry::curve::Vec3;
 use crate::paper::arc::grow;
-use crate::paper::project::Projection;
-use crate::paper::{Drawn, Form, Placed, drawn};
+use crate::paper::junction::{Route, junctions};
+use crate::paper::project::{Projection, Vec2};
+use crate::paper::{Drawn, Form, Placed, located, piece};
 
 /// Curves from packed records; None where a record makes none.
 pub fn curves(kind: &[u8], offsets: &[i32], values: &[f64]) -> PyResult<Vec<Option<Curve>>> {
@@ -69,8 +71,13 @@ pub fn true_lines<'py>(
     line_offsets: PyReadonlyArray1<'py, i32>,
     flat_points: PyReadonlyArray2<'py, f64>,
     space_points: PyReadonlyArray2<'py, f64>,
+    line_chain: PyReadonlyArray1<'py, i32>,
+    line_visible: PyReadonlyArray1<'py, bool>,
+    eye: [f64; 3],
+    away: [f64; 3],
     accuracy: f64,
     model: f64,
+    contact: f64,
     threads: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let curves = curves(flat(&kind, "kind")?, flat(&offsets, "offsets")?, flat(&values, "values")?)?;
@@ -86,7 +93,10 @@ pub fn true_lines<'py>(
     let flat_points = rows::<f64, 2>(&flat_points, "flat_points")?;
     let space_points = rows::<f64, 3>(&space_points, "space_points")?;
     let n = line_curve.len();
+    let (line_chain, line_visible) = (flat(&line_chain, "line_chain")?, flat(&line_visible, "line_visible")?);
     expect_len("line_place", line_place.len(), n)?;
+    expect_len("line_chain", line_chain.len(), n)?;
+    expect_len("line_visible", line_visible.len(), n)?;
     expect_len("line_offsets", line_offsets.len(), n + 1)?;
     expect_len("space_points", space_points.len(), flat_points.len())?;
     expect_below("line_offsets", line_offsets.iter().copied(), flat_points.len() + 1)?;
@@ -106,42 +116,85 @@ pub fn true_lines<'py>(
             line_curve[a] == line_curve[b] && line_place[a] == line_place[b]
         };
         let groups: Vec<&[u32]> = order.chunk_by(same).collect();
-        let drawn: Vec<(u32, Drawn)> = groups
-            .into_par_iter()
-            .flat_map_iter(|group| {
+        let stand: Vec<Option<Placed>> = groups
+            .par_iter()
+            .map(|group| {
                 let (c, p) = (line_curve[group[0] as usize] as usize, line_place[group[0] as usize] as usize);
-                let placed =
-                    curves[c].as_ref().map(|c_| Placed::new(c_.moved(&places[p]), ranges[c], &projection, model));
-                group.iter().filter_map(move |&i| {
-                    let at = points(i as usize);
-                    Some((i, drawn(placed.as_ref()?, &flat_points[at.clone()], &space_points[at], accuracy)?))
-                })
+                let curve = curves[c].as_ref()?.moved(&places[p]);
+                Some(Placed::new(curve, ranges[c], &projection, model))
             })
             .collect();
-        let mut lines: Vec<Option<Drawn>> = (0..n).map(|_| None).collect();
-        for (i, d) in drawn {
-            lines[i as usize] = Some(d);
+        let mut placed: Vec<Option<&Placed>> = vec![None; n];
+        for (group, stand) in groups.iter().zip(&stand) {
+            group.iter().for_each(|&i| placed[i as usize] = stand.as_ref());
         }
-        lines
+        let mut routes: Vec<Route> = (0..n)
+            .into_par_iter()
+            .map(|i| {
+                let (flat, space) = (&flat_points[points(i)], &space_points[points(i)]);
+                let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy)?)));
+                Route { chain: line_chain[i], visible: line_visible[i], flat, space, curve }
+            })
+            .collect();
+        let depth = |p: &[f64; 3]| (0..3).map(|k| (p[k] - eye[k]) * away[k]).sum::<f64>();
+        let moves = junctions(&routes, accuracy, contact, &depth);
+        // Ends of polylines that move; those of curves move with their interval.
+        let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
+        for (i, end, t) in moves {
+            let to = (routes[i].at(t)[0], routes[i].in_space(t));
+            match &mut routes[i].curve {
+                Some((_, ts)) => {
+                    let at = end * (ts.len() - 1);
+                    let rest = ts[ts.len() - 1 - at];
+                    // Never past the other end.
+                    if (ts[at] - rest) * (t - rest) > 0.0 {
+                        ts[at] = t;
+                    }
+                }
+                None => moved[i][end] = Some(to),
+            }
+        }
+        let drawn: Vec<(Option<Drawn>, Vec<f64>)> = routes
+            .into_par_iter()
+            .map(|route| {
+                let Some((p, ts)) = route.curve else { return (None, Vec::new()) };
+                (piece(p, [ts[0], ts[ts.len() - 1]], accuracy), ts)
+            })
+            .collect();
+        (drawn, moved)
     })?;
+    let (found, moved) = found;
     let (mut form, mut data_offsets, mut data) = (Vec::with_capacity(n), vec![0i32], Vec::<f64>::new());
     let (mut ends, mut space_ends, mut bounds) =
         (Vec::with_capacity(4 * n), Vec::with_capacity(6 * n), Vec::<f64>::with_capacity(4 * n));
     let mut intervals = Vec::with_capacity(2 * n);
-    for (i, line) in found.iter().enumerate() {
+    let mut inner = Vec::with_capacity(2 * n);
+    for (i, (line, ts)) in found.iter().enumerate() {
+        // A line that turns back over itself on paper is drawn between its extremes, without the points beyond them.
+        let all = points(i).len() as i32;
+        inner.extend(line.as_ref().map_or([0, all], |line| {
+            let (low, high) = (line.range[0].min(line.range[1]), line.range[0].max(line.range[1]));
+            let inside = |t: &f64| *t > low && *t < high;
+            let first = ts.iter().position(inside).unwrap_or(0) as i32;
+            [first, ts.iter().rposition(inside).map_or(first, |k| k as i32 + 1)]
+        }));
         let Some(line) = line else {
             form.push(POLYLINE);
             data_offsets.push(data.len() as i32);
             let at = points(i);
             let mut low_high = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
             flat_points[at.clone()].iter().for_each(|p| grow(&mut low_high, p));
-            bounds.extend(low_high.as_flattened());
             let none = ([f64::NAN; 2], [f64::NAN; 3]);
             let end = |k: Option<usize>| k.map_or(none, |k| (flat_points[k], space_points[k]));
-            for (p, q) in [end(at.clone().next()), end(at.last())] {
+            for (k, (p, q)) in [end(at.clone().next()), end(at.last())].into_iter().enumerate() {
+                let (p, q) = moved[i][k].unwrap_or((p, q));
+                if p[0].is_finite() {
+                    grow(&mut low_high, &p);
+                }
                 ends.extend(p);
                 space_ends.extend(q);
             }
+            bounds.extend(low_high.as_flattened());
             intervals.extend([f64::NAN; 2]);
             continue;
         };
@@ -169,6 +222,7 @@ pub fn true_lines<'py>(
     out.set_item("offsets", data_offsets.into_pyarray(py))?;
     out.set_item("data", data.into_pyarray(py))?;
     out.set_item("interval", intervals.into_pyarray(py).reshape([n, 2])?)?;
+    out.set_item("inner", inner.into_pyarray(py).reshape([n, 2])?)?;
     out.set_item("flat", ends.into_pyarray(py).reshape([n, 2, 2])?)?;
     out.set_item("space", space_ends.into_pyarray(py).reshape([n, 2, 3])?)?;
     out.set_item("bounds", bounds.into_pyarray(py).reshape([n, 2, 2])?)?;

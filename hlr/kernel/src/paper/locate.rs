@@ -58,6 +58,11 @@ impl Track {
         }
     }
 
+    /// Whether an interval is all of a closed curve.
+    pub fn closes(&self, range: [f64; 2]) -> bool {
+        self.period.is_some_and(|p| (range[1] - range[0]).abs() >= (1.0 - 1e-12) * p)
+    }
+
     /// An interval as pieces that do not cross the seam, each inside the range.
     pub fn unbroken(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
         let (Some([low, high]), Some(period)) = (self.bounded, self.period) else { return vec![[from, to]] };
@@ -148,8 +153,8 @@ impl Track {
     }
 }
 
-/// The interval of a curve along which a line runs, forward or backward.
-pub fn range(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<[f64; 2]> {
+/// The parameters of a line's points on the curve along which it runs, rising or falling.
+pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Vec<f64>> {
     let found: Vec<f64> = space.iter().map(|p| placed.track.nearest(&placed.curve, p)).collect();
     if !found.iter().all(|t| t.is_finite()) {
         return None;
@@ -158,7 +163,7 @@ pub fn range(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> O
     [1.0, -1.0].into_iter().find_map(|sign| {
         let mut t = unrolled(&found, placed.track.period, sign)?;
         snap(placed, &mut t, accuracy);
-        follows(placed, &t, flat, accuracy).then(|| [t[0], t[t.len() - 1]])
+        follows(placed, &t, flat, accuracy).then_some(t)
     })
 }
 

@@ -2,13 +2,15 @@
 //!
 //! 1. `locate`   the parameters of a line's vertices on its edge's curve in space, checked against the line
 //! 2. `project`  the curve on paper
-//! 3. `straight`, `arc`, `bezier`, `fit`: the first of these that can say it exactly, or within its share
+//! 3. `junction`  ends where another line hides this one moved to where the two curves cross
+//! 4. `straight`, `arc`, `bezier`, `fit`: the first of these that can say it exactly, or within its share
 //!
 //! A curve that is farther from its line than the accuracy is not believed: the line stays what it was.
 
 pub mod arc;
 pub mod bezier;
 pub mod fit;
+pub mod junction;
 pub mod locate;
 pub mod project;
 pub mod straight;
@@ -66,21 +68,24 @@ impl Placed {
     }
 }
 
-/// The interval of the curve that a line (on paper and in space) runs along, or None where it does not.
-pub fn drawn(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Drawn> {
+/// The parameters of a line's points (on paper and in space) on its curve, or None where it does not run along it.
+pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Vec<f64>> {
     if flat.len() < 2 || matches!(placed.paper, Paper::Line) {
         return None;
     }
-    let range = locate::range(placed, flat, space, accuracy)?;
-    piece(placed, range, accuracy)
+    locate::along(placed, flat, space, accuracy)
 }
 
 /// What is drawn of an interval of a curve; it may run backward, and on beyond the seam of a closed one.
 pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
     let ends = |range: [f64; 2]| {
-        (range.map(|t| placed.on_paper(t)[0]), range.map(|t| placed.curve.point(placed.track.wrapped(t))))
+        let (mut flat, mut space) =
+            (range.map(|t| placed.on_paper(t)[0]), range.map(|t| placed.curve.point(placed.track.wrapped(t))));
+        if placed.track.closes(range) {
+            (flat[1], space[1]) = (flat[0], space[0]);
+        }
+        (flat, space)
     };
-    let curve = |t: f64| placed.on_paper(t);
     if let Some(extremes) = straight::straight(placed, range, accuracy) {
         let (flat, space) = ends(extremes);
         let mut bounds = [flat[0], flat[0]];
@@ -114,7 +119,7 @@ pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
         chain.points.reverse();
     }
     let last = chain.points.len() - 1;
-    (chain.points[0], chain.points[last]) = (curve(range[0])[0], curve(range[1])[0]);
+    (chain.points[0], chain.points[last]) = (flat[0], flat[1]);
     if !chain.points.iter().flatten().all(|c| c.is_finite()) {
         return None;
     }

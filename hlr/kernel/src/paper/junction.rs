@@ -1,0 +1,224 @@
+//! T-junctions: where a line disappears behind another, both are known exactly, and so is where they cross.
+//!
+//! ```text
+//!     visible      |            the change was found where the tessellations cross (x);
+//!   ------------x- | - - - -    it moves along its own curve to the other's (|)
+//!                  | hidden
+//! ```
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::Placed;
+use super::fit::{length, minus};
+use super::project::Vec2;
+use crate::geometry::curve::Vec3;
+
+/// In accuracies: how far the other line's polyline may be from the change.
+const NEAR: f64 = 2.0;
+/// In accuracies: how far a change may move.
+const MOST: f64 = 1.0;
+/// Sine of the angle below which two lines touch rather than cross.
+const GRAZING: f64 = 0.1;
+const STEPS: usize = 12;
+/// Of the accuracy: when two curves have met.
+const MET: f64 = 1e-4;
+
+/// A line with its curve, if it has one, and the curve's parameters at its points.
+pub struct Route<'a> {
+    pub chain: i32,
+    pub visible: bool,
+    pub flat: &'a [Vec2],
+    pub space: &'a [Vec3],
+    pub curve: Option<(&'a Placed, Vec<f64>)>,
+}
+
+impl Route<'_> {
+    fn parameter(&self, i: usize, s: f64) -> f64 {
+        match &self.curve {
+            Some((_, t)) => t[i] + (t[i + 1] - t[i]) * s,
+            None => i as f64 + s,
+        }
+    }
+
+    fn segment(&self, t: f64) -> (usize, f64) {
+        let i = t.floor().clamp(0.0, (self.flat.len() - 2) as f64) as usize;
+        (i, t - i as f64)
+    }
+
+    /// Point and derivative; a polyline goes straight on beyond its ends.
+    pub fn at(&self, t: f64) -> [Vec2; 2] {
+        if let Some((placed, _)) = &self.curve {
+            return placed.on_paper(t);
+        }
+        let (i, s) = self.segment(t);
+        let way = minus(&self.flat[i + 1], &self.flat[i]);
+        [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
+    }
+
+    /// The point in space, on a polyline taken as if on paper: near its ends that is near enough.
+    pub fn in_space(&self, t: f64) -> Vec3 {
+        if let Some((placed, _)) = &self.curve {
+            return placed.curve.point(placed.track.wrapped(t));
+        }
+        let (i, s) = self.segment(t);
+        [0, 1, 2].map(|k| self.space[i][k] + (self.space[i + 1][k] - self.space[i][k]) * s)
+    }
+}
+
+/// Changes of visibility that move: (line, 0 for its start or 1 for its end, parameter). `depth` grows away from the
+/// viewer; what lies less than `contact` behind may still hide.
+pub fn junctions(
+    routes: &[Route],
+    accuracy: f64,
+    contact: f64,
+    depth: &(dyn Fn(&Vec3) -> f64 + Sync),
+) -> Vec<(usize, usize, f64)> {
+    let mut meeting: HashMap<(i32, u64, u64), Vec<(usize, usize)>> = HashMap::new();
+    for (i, route) in routes.iter().enumerate().filter(|(_, r)| r.flat.len() > 1) {
+        for end in [0, 1] {
+            let p = route.flat[end * (route.flat.len() - 1)];
+            meeting.entry((route.chain, p[0].to_bits(), p[1].to_bits())).or_default().push((i, end));
+        }
+    }
+    // A change is where a visible and a hidden line of one edge meet; both move alike.
+    let mut changes: Vec<(Vec2, Vec<(usize, usize)>)> = meeting
+        .into_values()
+        .filter(|ends| ends.iter().any(|e| routes[e.0].visible) && ends.iter().any(|e| !routes[e.0].visible))
+        .map(|ends| {
+            let (i, end) = ends[0];
+            (routes[i].flat[end * (routes[i].flat.len() - 1)], ends)
+        })
+        .collect();
+    changes.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.0[1].total_cmp(&b.0[1])).then(a.1.cmp(&b.1)));
+    let reach = NEAR * accuracy;
+    let mut near: Vec<(usize, usize, usize)> = routes
+        .par_iter()
+        .enumerate()
+        .filter(|(_, route)| route.visible)
+        .flat_map_iter(|(j, route)| {
+            let changes = &changes;
+            route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
+                let from = changes.partition_point(|c| c.0[0] < w[0][0].min(w[1][0]) - reach);
+                let to = changes.partition_point(|c| c.0[0] <= w[0][0].max(w[1][0]) + reach);
+                (from..to).filter(move |&c| apart(&changes[c].0, &w[0], &w[1]).0 <= reach).map(move |c| (c, j, k))
+            })
+        })
+        .collect();
+    near.sort_unstable();
+    near.chunk_by(|a, b| a.0 == b.0)
+        .flat_map(|group| {
+            let (p, ends) = &changes[group[0].0];
+            let (i, end) = ends[0];
+            let own = &routes[i];
+            let start = own.parameter(end * (own.flat.len() - 2), end as f64);
+            let here = own.at(start)[0];
+            let mut best = (MOST * accuracy, None);
+            for &(_, j, k) in group {
+                let other = &routes[j];
+                if other.chain == own.chain {
+                    continue;
+                }
+                let s = apart(p, &other.flat[k], &other.flat[k + 1]).1;
+                let Some((t, u)) = crossing(own, start, other, other.parameter(k, s), accuracy) else { continue };
+                let moved = length(&minus(&own.at(t)[0], &here));
+                let before = depth(&other.in_space(u)) <= depth(&own.in_space(t)) + contact;
+                if moved < best.0 && before && within(other, u, reach) {
+                    best = (moved, Some(t));
+                }
+            }
+            // All lines of one edge count its parameter alike, up to turns; polylines do from their own beginnings.
+            let alike = ends.iter().all(|e| routes[e.0].curve.is_some() == own.curve.is_some());
+            let target = best.1.filter(|_| alike);
+            ends.iter()
+                .filter_map(move |&(i, end)| {
+                    let (route, t) = (&routes[i], target?);
+                    let last = route.parameter(end * (route.flat.len() - 2), end as f64);
+                    match (&own.curve, &route.curve) {
+                        (Some(_), Some(_)) => Some((i, end, last + (t - start))),
+                        (None, None) => {
+                            let (goal, [q, way]) = (own.at(t)[0], route.at(last));
+                            let d = minus(&goal, &q);
+                            let along = (d[0] * way[0] + d[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+                            along.is_finite().then_some((i, end, last + along))
+                        }
+                        _ => None,
+                    }
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// Distance of a point to a segment, and where on it.
+fn apart(p: &Vec2, a: &Vec2, b: &Vec2) -> (f64, f64) {
+    let (d, way) = (minus(p, a), minus(b, a));
+    let size = way[0] * way[0] + way[1] * way[1];
+    let s = if size > 0.0 { ((d[0] * way[0] + d[1] * way[1]) / size).clamp(0.0, 1.0) } else { 0.0 };
+    (length(&minus(&d, &way.map(|c| c * s))), s)
+}
+
+/// Newton's method for own(t) = other(u).
+fn crossing(own: &Route, t: f64, other: &Route, u: f64, accuracy: f64) -> Option<(f64, f64)> {
+    let (mut t, mut u) = (t, u);
+    for _ in 0..STEPS {
+        let ([p, a], [q, b]) = (own.at(t), other.at(u));
+        let d = minus(&q, &p);
+        let cross = a[0] * b[1] - a[1] * b[0];
+        if !(cross.abs() > GRAZING * length(&a) * length(&b)) {
+            return None;
+        }
+        if length(&d) <= MET * accuracy {
+            return Some((t, u));
+        }
+        t += (d[0] * b[1] - d[1] * b[0]) / cross;
+        u += (d[0] * a[1] - d[1] * a[0]) / cross;
+    }
+    None
+}
+
+/// Whether a parameter lies on the line itself, or on from its end by less than `reach`.
+fn within(route: &Route, u: f64, reach: f64) -> bool {
+    let (first, last) = (route.parameter(0, 0.0), route.parameter(route.flat.len() - 2, 1.0));
+    let (low, high) = (first.min(last), first.max(last));
+    if (low..=high).contains(&u) {
+        return true;
+    }
+    let end = if u < low { low } else { high };
+    length(&minus(&route.at(u)[0], &route.at(end)[0])) <= reach
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
+        Route { chain, visible, flat, space, curve: None }
+    }
+
+    #[test]
+    fn a_change_moves_onto_the_line_that_hides() {
+        let deep = [[0.0, 0.0, 5.0]; 2];
+        let (seen, hidden) = ([[0.0, 0.0], [1.02, 0.0]], [[1.02, 0.0], [3.0, 0.0]]);
+        let wall = [[1.0, -1.0], [1.0, 1.0]];
+        let mut routes = vec![
+            straight(0, true, &seen, &deep),
+            straight(0, false, &hidden, &deep),
+            straight(1, true, &wall, &[[0.0; 3]; 2]),
+        ];
+        let depth = |p: &Vec3| p[2];
+        let found = junctions(&routes, 0.05, 0.1, &depth);
+        assert_eq!(found.len(), 2);
+        for (i, _, t) in found {
+            assert!((routes[i].at(t)[0][0] - 1.0).abs() < 1e-12);
+        }
+        // Too far, behind, or of the same edge: nothing moves.
+        assert!(junctions(&routes, 0.01, 0.1, &depth).is_empty());
+        routes[2].space = &[[0.0, 0.0, 9.0]; 2];
+        assert!(junctions(&routes, 0.05, 0.1, &depth).is_empty());
+        routes[2].space = &[[0.0; 3]; 2];
+        routes[2].chain = 0;
+        assert!(junctions(&routes, 0.05, 0.1, &depth).is_empty());
+    }
+}
