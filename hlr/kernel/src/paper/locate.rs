@@ -124,7 +124,8 @@ impl Track {
         let mut best = (f64::INFINITY, start);
         let mut t = start;
         for _ in 0..STEPS {
-            let [q, d1, d2] = curve.derivatives(t);
+            // From one side of a seam the way may lead to the other.
+            let [q, d1, d2] = curve.derivatives(self.wrapped(t));
             let away = [0, 1, 2].map(|k| q[k] - p[k]);
             let far = dot3(&away, &away);
             if far < best.0 {
@@ -141,7 +142,7 @@ impl Track {
             let slope = speed + dot3(&away, &d2);
             let step = dot3(&away, &d1) / if slope > 0.1 * speed { slope } else { speed.max(f64::MIN_POSITIVE) };
             let mut next = t - step;
-            if let Some([low, high]) = self.bounded {
+            if let (Some([low, high]), None) = (self.bounded, self.period) {
                 next = next.clamp(low, high);
             }
             if (next - t).abs() <= 1e-14 * (1.0 + t.abs()) {
@@ -149,7 +150,7 @@ impl Track {
             }
             t = next;
         }
-        best.1
+        self.wrapped(best.1)
     }
 }
 
