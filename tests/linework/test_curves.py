@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from peers.curves import distance, measured, on_paper, samples, true_curves
+from peers.curves import DENSE, distance, measured, on_paper, samples, true_curves
 
 import hlr
 from hlr.linework.curve import Arc, Bezier, arc_bounds, bezier_bounds, raised
@@ -140,7 +140,7 @@ def test_t_junctions_close() -> None:
     pin = cq.Workplane("XZ", origin=(9, -30, 0)).circle(8).extrude(10)
     both = cq.Assembly().add(plate, name="plate").add(pin, name="pin")
     drawing = hlr.draw(both, (0.2, -1, 0.3))
-    near = [samples(line) for line in drawing.lines if line.visible and drawing.parts[line.part].name == "pin"]
+    near = [samples(line, DENSE) for line in drawing.lines if line.visible and drawing.parts[line.part].name == "pin"]
     ends = {True: set(), False: set()}
     for line in drawing.lines:
         if drawing.parts[line.part].name == "plate" and isinstance(line.curve, Arc):
@@ -163,7 +163,7 @@ def test_a_line_hidden_in_between_is_one_line_interrupted() -> None:
             whole.setdefault(line.edge, []).append(line)
     broken = [lines for lines in whole.values() if len(lines) == 3]
     assert broken
-    rims = [samples(line) for line in drawing.lines if line.visible and drawing.parts[line.part].name == "bar"]
+    rims = [samples(line, DENSE) for line in drawing.lines if line.visible and drawing.parts[line.part].name == "bar"]
     for lines in broken:
         (hidden,) = [line for line in lines if not line.visible]
         for end in hidden.points[[0, -1]]:

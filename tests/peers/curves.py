@@ -63,9 +63,8 @@ def on_paper(drawing: Drawing, points: np.ndarray) -> np.ndarray:
         return away @ axes * (view.distance / depth)[:, None] * factor - origin
 
 
-def samples(line: Line) -> np.ndarray:
+def samples(line: Line, count: int = DENSE // 10) -> np.ndarray:
     """Points along what is drawn."""
-    count = DENSE // 10
     if line.curve is None:
         t = np.linspace(0.0, 1.0, max(2, count // len(line.points)))[:, None]
         return np.concatenate([a + (b - a) * t for a, b in zip(line.points, line.points[1:], strict=False)])
