@@ -166,7 +166,7 @@ fn crossing(own: &Route, t: f64, other: &Route, u: f64, accuracy: f64) -> Option
         let ([p, a], [q, b]) = (own.at(t), other.at(u));
         let d = minus(&q, &p);
         let cross = a[0] * b[1] - a[1] * b[0];
-        if !(cross.abs() > GRAZING * length(&a) * length(&b)) {
+        if cross.is_nan() || cross.abs() <= GRAZING * length(&a) * length(&b) {
             return None;
         }
         if length(&d) <= MET * accuracy {

@@ -39,7 +39,7 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
         let d = minus(p, &points[other]);
         (d[0] * way[1] - d[1] * way[0]).abs()
     };
-    if points.iter().any(|p| !(off(p) <= BULGE * accuracy)) {
+    if !points.iter().all(|p| off(p) <= BULGE * accuracy) {
         return None;
     }
     // Extremes inside the piece are turning points: narrowed down from the neighbouring places.
