@@ -31,6 +31,7 @@ DENSE = 600
 def true_curves(source: Any) -> dict[tuple[str, int], Any]:
     """A function from a part's name and an edge's index to (n, 3) points of OpenCASCADE's curve; None: it has none."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.GeomAbs import GeomAbs_CurveType
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
@@ -42,7 +43,10 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
         if (name, edge) not in known:
             part = parts[name]
             curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.root][edge]))
-            places = np.linspace(curve.FirstParameter(), curve.LastParameter(), DENSE)
+            spline = curve.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve
+            # A helix of many turns is one B-spline of many spans.
+            count = max(DENSE, 24 * curve.NbKnots()) if spline else DENSE
+            places = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
             values = [curve.Value(float(t)) for t in places]
             known[name, edge] = moved(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
         return known[name, edge]
