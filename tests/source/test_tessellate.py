@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hlr.source import open_source
-from hlr.source.model import EdgeClass, PartMesh
+from hlr.source.model import EdgeClass, OnSurfaces, PartMesh
 
 cq = pytest.importorskip("cadquery")
 

@@ -31,7 +31,7 @@ pub enum Surface {
 }
 
 /// Of the longer derivative's square: an area below says that the surface has no normal there.
-const SINGULAR: f64 = 1e-18;
+const SINGULAR: f64 = 1e-13;
 /// Of the way to a point beside: where the normal of a singular point is taken.
 const BESIDE: f64 = 1e-6;
 

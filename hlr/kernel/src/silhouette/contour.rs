@@ -46,8 +46,6 @@ pub struct Fold {
 pub struct Contour {
     pub crossings: Vec<Crossing>,
     pub folds: Vec<Fold>,
-    /// Pairs of crossings joined over a pole, in a triangle that has collapsed to an edge: (face, crossings).
-    pub over_poles: Vec<(i32, [u32; 2])>,
 }
 
 /// One triangle at an edge a-b: f at both, and the parameters of both.
@@ -125,16 +123,16 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         .into_par_iter()
         .chunks(1024)
         .map(|edges| {
-            let (mut crossings, mut folds, mut over_poles) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut crossings, mut folds) = (Vec::new(), Vec::new());
             if stopped() {
-                return Contour { crossings, folds, over_poles };
+                return Contour { crossings, folds };
             }
             for e in edges {
                 let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
                 if !around.iter().any(|&t| traced(t) && curved(t)) {
                     continue;
                 }
-                if around.len() == 2 && same_nodes(model, around) {
+                if around.len() == 2 && same_nodes(model, values, e, around) {
                     let Some(side) = side(model, values, e, around[0]) else { continue };
                     if side.changes()
                         && let Some(place) = side.at(side.change())
@@ -159,18 +157,14 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                         crossings.push(Crossing { border: Some(e as u32), triangles: [side.triangle, -1], place });
                     }
                 }
-                if sides.len() == 2
-                    && let Some(pole) = pole(model, &sides)
-                {
-                    at_pole(&sides, pole, at, model.chord, &mut folds, &mut over_poles);
-                } else if model.smooth[e] && around.len() == 2 && sides.len() == 2 {
+                if model.smooth[e] && around.len() == 2 && sides.len() == 2 {
                     folded(model, e, &sides, at, &mut folds);
                 }
             }
-            Contour { crossings, folds, over_poles }
+            Contour { crossings, folds }
         })
         .collect();
-    let mut out = Contour { crossings: Vec::new(), folds: Vec::new(), over_poles: Vec::new() };
+    let mut out = Contour { crossings: Vec::new(), folds: Vec::new() };
     for part in found {
         let first = out.crossings.len() as u32;
         out.crossings.extend(part.crossings);
@@ -182,18 +176,25 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
             }
             fold
         }));
-        out.over_poles.extend(part.over_poles.into_iter().map(|(face, ends)| (face, ends.map(|c| c + first))));
     }
     out
 }
 
-/// Two triangles of one face that share both nodes: the crossing is one and the same.
-fn same_nodes(model: &Model, around: &[i32]) -> bool {
+/// Two triangles of one face that share both nodes: the crossing is one and the same. The nodes of a pole are one, for
+/// their parameter along it means nothing.
+fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
     let (s, t) = (around[0] as usize, around[1] as usize);
     if model.triangle_face[s] != model.triangle_face[t] {
         return false;
     }
-    model.corner[s].iter().filter(|c| model.corner[t].contains(c)).count() == 2
+    let node = |t: usize, v: i32| {
+        let k = model.triangles[t].iter().position(|&c| c == v);
+        k.map(|k| model.corner[t][k])
+    };
+    model.edges[e].iter().all(|&v| match (node(s, v), node(t, v)) {
+        (Some(x), Some(y)) => x == y || (values[x as usize].is_nan() && values[y as usize].is_nan()),
+        _ => false,
+    })
 }
 
 fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Side<'a>> {
@@ -214,76 +215,22 @@ fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Si
     if uv.iter().flatten().any(|x| !x.is_finite()) {
         return None;
     }
-    let middle = [0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0);
-    let f = [i, j].map(|k| {
-        let known = values[nodes[k] as usize];
-        if known.is_nan() { face.f_toward(uv[k], middle).unwrap_or(0.0) } else { known }
+    let pole = [i, j].map(|k| values[nodes[k] as usize].is_nan());
+    let mut ends = [uv[i], uv[j]];
+    for k in 0..2 {
+        if pole[k] {
+            // The parameter that means nothing there is that of the other end.
+            let speed = face.speeds(ends[k]);
+            let idle = usize::from(speed[1] < speed[0]);
+            ends[k][idle] = ends[1 - k][idle];
+        }
+    }
+    let f = [0, 1].map(|k| {
+        if pole[k] { face.f_toward(ends[k], ends[1 - k]).unwrap_or(0.0) } else { values[nodes[[i, j][k]] as usize] }
     });
-    let half = [0, 1].map(|k| 0.5 * (uv[i][k] + uv[j][k]));
-    let normal = face.normal(half).or_else(|| face.normal(middle))?;
-    Some(Side { triangle: t, number, corners: [a, b], uv: [uv[i], uv[j]], f, face: Some(face), normal })
-}
-
-/// Two triangles of one face that share one node of the edge only: the other end is a pole, where a triangle with two
-/// corners has collapsed between them. Some(which end).
-fn pole(model: &Model, sides: &[Side]) -> Option<usize> {
-    if sides[0].number != sides[1].number || sides[0].face.is_none() {
-        return None;
-    }
-    let node = |side: &Side, end: usize| {
-        let corners = &model.triangles[side.triangle as usize];
-        let k = corners.iter().position(|&c| c == side.corners[end])?;
-        Some(model.corner[side.triangle as usize][k])
-    };
-    let same = [0, 1].map(|end| node(&sides[0], end) == node(&sides[1], end));
-    match same {
-        [true, false] => Some(1),
-        [false, true] => Some(0),
-        _ => None,
-    }
-}
-
-/// In the collapsed triangle at a pole: where the surface is smooth the silhouette passes over it; into an apex, whose
-/// normal turns with the parameter, each ends there.
-fn at_pole(
-    sides: &[Side],
-    pole: usize,
-    at: [Option<(f64, u32, Place)>; 2],
-    chord: f64,
-    folds: &mut Vec<Fold>,
-    over_poles: &mut Vec<(i32, [u32; 2])>,
-) {
-    let Some(face) = &sides[0].face else { return };
-    let [one, two] = [0, 1].map(|k| sides[k].uv[pole]);
-    let beside = sides[0].uv[1 - pole];
-    let near = |p: [f64; 2]| face.normal([0, 1].map(|k| p[k] + 1e-6 * (beside[k] - p[k])));
-    // Toward the very same u or v as the pole's place, or the normal would be that of another generator.
-    let fixed = usize::from((two[0] - one[0]).abs() < (two[1] - one[1]).abs());
-    let toward = |p: [f64; 2]| {
-        let mut q = beside;
-        q[fixed] = p[fixed];
-        face.normal([0, 1].map(|k| p[k] + 1e-6 * (q[k] - p[k])))
-    };
-    let middle = [0, 1].map(|k| 0.5 * (one[k] + two[k]));
-    let smooth = match (toward(one).or_else(|| near(one)), toward(middle)) {
-        (Some(a), Some(b)) => dot(&a, &b) > 1.0 - 1e-6,
-        _ => false,
-    };
-    if let (true, [Some(a), Some(b)]) = (smooth, at) {
-        over_poles.push((sides[0].number, [a.1, b.1]));
-        return;
-    }
-    let vertex = sides[0].corners[pole] as u32;
-    let apex = face.point(one);
-    for (_, c, place) in at.into_iter().flatten() {
-        folds.push(Fold {
-            ends: [Node::Crossing(c), Node::Apex(vertex, c)],
-            points: [place.point, apex],
-            normal: place.normal,
-            face: sides[0].number,
-            concave: face.radial(place.uv) * chord < -1e-9,
-        });
-    }
+    let half = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
+    let normal = face.normal(half)?;
+    Some(Side { triangle: t, number, corners: [a, b], uv: ends, f, face: Some(face), normal })
 }
 
 /// The stretches of a smooth edge over which its two faces are turned differently.

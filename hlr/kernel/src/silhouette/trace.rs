@@ -41,19 +41,17 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     if stopped() {
         return None;
     }
-    let Contour { crossings, folds, over_poles } = contour(model, &values, stopped);
+    let Contour { crossings, mut folds } = contour(model, &values, stopped);
     let same = Same::new(&crossings, &folds, GAP * model.chord);
-    let across: Vec<(i32, [u32; 2])> = over_triangles(&crossings)
-        .into_iter()
-        .map(|(t, ends)| (model.triangle_face[t as usize], ends))
-        .chain(over_poles)
-        .collect();
+    let (across, lone) = over_triangles(&crossings);
+    folds.extend(lone.into_iter().filter_map(|(t, c)| into_apex(model, &values, t, c, &crossings[c as usize])));
     let mut links: Vec<Link> = across
         .par_iter()
-        .filter_map(|&(number, ends)| {
+        .filter_map(|&(t, ends)| {
             if stopped() {
                 return None;
             }
+            let number = model.triangle_face[t as usize];
             let face = Face::new(model, number)?;
             let [from, to] = ends.map(|c| crossings[c as usize].place);
             let ends = ends.map(Node::Crossing);
@@ -96,8 +94,8 @@ fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<(i32, f64)> {
         .collect()
 }
 
-/// Triangles with their two crossings.
-fn over_triangles(crossings: &[Crossing]) -> Vec<(i32, [u32; 2])> {
+/// Triangles with their two crossings, and those with one.
+fn over_triangles(crossings: &[Crossing]) -> (Vec<(i32, [u32; 2])>, Vec<(i32, u32)>) {
     let mut uses: Vec<(i32, u32)> = crossings
         .iter()
         .enumerate()
@@ -105,7 +103,32 @@ fn over_triangles(crossings: &[Crossing]) -> Vec<(i32, [u32; 2])> {
         .filter(|&(t, _)| t >= 0)
         .collect();
     uses.sort_unstable();
-    uses.chunk_by(|a, b| a.0 == b.0).filter(|run| run.len() == 2).map(|run| (run[0].0, [run[0].1, run[1].1])).collect()
+    let (mut pairs, mut lone) = (Vec::new(), Vec::new());
+    for run in uses.chunk_by(|a, b| a.0 == b.0) {
+        match run {
+            [one] => lone.push(*one),
+            [one, two] => pairs.push((one.0, [one.1, two.1])),
+            _ => {}
+        }
+    }
+    (pairs, lone)
+}
+
+/// At an apex the normal turns with a parameter that has no length: along both sides of a triangle there, f keeps its
+/// sign, and the silhouette that enters over the third runs into the apex.
+fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing) -> Option<Fold> {
+    let nodes = &model.corner[t as usize];
+    let k = nodes.iter().position(|&n| values[n as usize].is_nan())?;
+    let vertex = model.triangles[t as usize][k];
+    let number = model.triangle_face[t as usize];
+    let face = Face::new(model, number)?;
+    Some(Fold {
+        ends: [Node::Crossing(c), Node::Apex(vertex as u32, c)],
+        points: [crossing.place.point, model.points[vertex as usize]],
+        normal: crossing.place.normal,
+        face: number,
+        concave: face.radial(crossing.place.uv) * model.chord < -1e-9,
+    })
 }
 
 /// Nodes that are one place: the ends of folds too short to be drawn.
