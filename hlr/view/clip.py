@@ -165,6 +165,7 @@ def _cut_silhouettes(
         hidden=moved(old.hidden, 0),
         meeting_edge=target[old.meeting_edge[whole]],
         meeting_at=old.meeting_at[whole],
+        dents=target[old.dents][target[old.dents] >= 0],
     )
 
 

@@ -43,8 +43,6 @@ def with_silhouettes(scene: Scene, camera: Camera, tolerances: Tolerances, threa
     smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
     found = _traced(scene, on, face, smooth, camera, CHORD * tolerances.deflection, threads)
     scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
-    if len(found["face"]) == 0:
-        return scene
     return _with_lines(scene, on, found, LIFT * tolerances.deflection)
 
 
@@ -150,6 +148,7 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
             hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
             meeting_edge=found["meeting_edge"],
             meeting_at=found["meeting_at"],
+            dents=found["dents"],
         ),
         chains=joined(scene.chains, walks),
     )

@@ -1,7 +1,8 @@
 """Where an edge of the model turns behind its own curved face: at the end of that face's outline, not at a mesh node.
 
-The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it between two nodes. The
-change of visibility moves from the node to there, or a gap as long as half a chord would be left between the two lines.
+The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it between two nodes, at
+most a chord away. Within a chord of an outline's end a change of visibility that stands at a node is the contour's: it
+moves to the outline, or a gap as long as half a chord would be left between the two lines.
 
 ::
 
@@ -15,49 +16,64 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.scene.scene import Scene
+from hlr.source.model import Floats, Ints
 from hlr.view.camera import Camera
-from hlr.visibility.segments import HIDDEN, VISIBLE, Segments
+from hlr.visibility.segments import VISIBLE, Segments
+
+REACH = 1
+"""Chords to both sides of an outline's end."""
+
+NONE = 255
+"""No state: the edge is not drawn."""
 
 
 def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     """The segments with the changes next to an outline's end moved there."""
     found = scene.silhouettes
-    if found is None or len(found.meeting_edge) == 0:
+    if found is None:
         return segments
-    chains = scene.chains
+    segments = _undented(scene, found.dents, segments)
+    if len(found.meeting_edge) == 0:
+        return segments
     # One meeting per edge: where both faces of an edge fold, the two ends are one.
     met, first = np.unique(found.meeting_edge, return_index=True)
     at = np.full(len(scene.edges), np.nan)
     at[met] = _on_paper(scene, camera, met, found.meeting_at[first])
+    chains = scene.chains
     place = np.flatnonzero(~np.isnan(at[chains.edges]))
-    owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))
-    inner = (place > chains.offsets[owner[place]]) & (place + 1 < chains.offsets[owner[place] + 1])
-    place = place[inner]
     begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1))
-    count = np.diff(begin)
-    before, own, after = (chains.edges[place + k] for k in (-1, 0, 1))
-    drawn = (count[before] > 0) & (count[own] == 1) & (count[after] > 0)
-    place, before, own, after = place[drawn], before[drawn], own[drawn], after[drawn]
+    uniform = np.diff(begin) == 1
+    around = {k: _neighbours(scene, place, k) for k in range(-REACH - 1, REACH + 2)}
+    whole = np.logical_and.reduce([uniform[chains.edges[around[k]]] for k in range(-REACH, REACH + 1)])
 
-    def state(edge: np.ndarray, step: int, last: bool) -> np.ndarray:
-        """Of an edge's last or first piece, as it is walked."""
-        backward = chains.reversed[place + step]
-        return segments.state[np.where(backward ^ last, begin[edge + 1] - 1, begin[edge])]
+    def beyond(k: int) -> npt.NDArray[np.uint8]:
+        """The state of the chord beyond the reach, at its end toward the meeting."""
+        edge = chains.edges[around[k]]
+        last = chains.reversed[around[k]] ^ (k < 0)
+        piece = np.minimum(np.where(last, begin[edge + 1] - 1, begin[edge]), len(segments.state) - 1)
+        return np.where(np.diff(begin)[edge] > 0, segments.state[piece], NONE)
 
-    left, right = state(before, -1, True), state(after, 1, False)
-    changes = (left != right) & (np.minimum(left, right) == VISIBLE) & (np.maximum(left, right) == HIDDEN)
-    place, own, left, right = place[changes], own[changes], left[changes], right[changes]
-    # An edge that stands in several chains is changed once.
-    _, once = np.unique(own, return_index=True)
-    own, left, right, backward = own[once], left[once], right[once], chains.reversed[place[once]]
-    inside = (at[own] > 0.0) & (at[own] < 1.0)
-    own, left, right, backward = own[inside], left[inside], right[inside], backward[inside]
+    left, right = beyond(-REACH - 1), beyond(REACH + 1)
+    whole &= (left != NONE) & (right != NONE)
+    place = place[whole]
+    left, right = left[whole], right[whole]
+    states, t1 = segments.state.copy(), segments.t1.copy()
+    for k in range(-REACH, REACH + 1):
+        if k:
+            states[begin[chains.edges[around[k][whole]]]] = left if k < 0 else right
+    own, backward = chains.edges[place], chains.reversed[place]
     low, high = np.where(backward, right, left), np.where(backward, left, right)
     piece = begin[own]
-    t1, states = segments.t1.copy(), segments.state.copy()
-    t1[piece], states[piece] = at[own], low
+    states[piece] = np.where(at[own] > 0.0, low, high)
+    # An edge that stands in several chains is parted once.
+    parted = np.zeros(len(own), bool)
+    parted[np.unique(own, return_index=True)[1]] = True
+    parted &= (low != high) & (at[own] > 0.0) & (at[own] < 1.0)
+    own, high, piece = own[parted], high[parted], piece[parted]
+    t1[piece] = at[own]
     order = np.argsort(np.concatenate([segments.edge, own]), kind="stable")
     return replace(
         segments,
@@ -68,7 +84,52 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     )
 
 
-def _on_paper(scene: Scene, camera: Camera, edges: np.ndarray, t: np.ndarray) -> np.ndarray:
+def _undented(scene: Scene, dents: Ints, segments: Segments) -> Segments:
+    """A face turned toward the viewer does not hide its own border, though its triangles there may be turned away.
+
+    Runs of such chords between visible ends become visible; what something else hides goes on beyond them.
+    """
+    chains = scene.chains
+    doubtful = np.zeros(len(scene.edges), bool)
+    doubtful[dents] = True
+    begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1))
+    dented = doubtful[chains.edges]
+    # What lies between two of them is beside them.
+    dented[1:-1] |= dented[:-2] & dented[2:]
+    place = np.flatnonzero(dented)
+    if len(place) == 0:
+        return segments
+    owner = np.searchsorted(chains.offsets, place, side="right") - 1
+    head = np.ones(len(place), bool)
+    head[1:] = (np.diff(place) > 1) | (np.diff(owner) > 0)
+    run = np.cumsum(head) - 1
+    first, last = place[head], place[np.append(head[1:], True)]
+    seen = np.ones(len(first), bool)
+    for at, step in ((first, -1), (last, 1)):
+        beyond = _neighbours(scene, at, step)
+        edge = chains.edges[beyond]
+        final = chains.reversed[beyond] ^ (step < 0)
+        piece = np.minimum(np.where(final, begin[edge + 1] - 1, begin[edge]), len(segments.state) - 1)
+        seen &= (begin[edge + 1] > begin[edge]) & (segments.state[piece] == VISIBLE) & (beyond != at)
+    mended = np.zeros(len(scene.edges), bool)
+    mended[chains.edges[place[seen[run]]]] = True
+    return replace(segments, state=np.where(mended[segments.edge], np.uint8(VISIBLE), segments.state))
+
+
+def _neighbours(scene: Scene, place: Ints, step: int) -> Ints:
+    """Places in the chains `step` further on: round the end of a closed chain, else not beyond the end."""
+    chains = scene.chains
+    owner = np.searchsorted(chains.offsets, place, side="right") - 1
+    first, last = chains.offsets[owner], chains.offsets[owner + 1] - 1
+    a, b = (scene.edges[chains.edges[k]] for k in (first, last))
+    start = np.where(chains.reversed[first], a[:, 1], a[:, 0])
+    end = np.where(chains.reversed[last], b[:, 0], b[:, 1])
+    moved = place + step
+    round_ = first + (moved - first) % (last - first + 1)
+    return np.asarray(np.where(start == end, round_, np.clip(moved, first, last)))
+
+
+def _on_paper(scene: Scene, camera: Camera, edges: Ints, t: Floats) -> Floats:
     """Parameters along edges in space, as parameters of their images."""
     if camera.eye is None:
         return t

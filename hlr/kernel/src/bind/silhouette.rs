@@ -109,7 +109,7 @@ pub fn silhouettes<'py>(
         view,
         chord,
     };
-    let Traced { silhouettes: found, meetings } =
+    let Traced { silhouettes: found, meetings, dents } =
         run(py, threads, |stopped| trace(&model, stopped))?.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     let mut starts = vec![0i32];
     let (mut flat_points, mut normals): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
@@ -127,6 +127,7 @@ pub fn silhouettes<'py>(
     out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("meeting_edge", meetings.iter().map(|m| m.0).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("meeting_at", meetings.iter().map(|m| m.1).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("dents", dents.iter().map(|&e| e as i32).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("traced", traced.into_pyarray(py))?;
     Ok(out)
 }

@@ -32,8 +32,8 @@ pub enum Surface {
 
 /// Of the longer derivative's square: an area below says that the surface has no normal there.
 const SINGULAR: f64 = 1e-13;
-/// Of the way to a point beside: where the normal of a singular point is taken.
-const BESIDE: f64 = 1e-6;
+/// Of the way to a point beside: where the normal of a singular point is taken, which turns by as little.
+const BESIDE: f64 = 1e-8;
 
 impl Surface {
     /// None for a kind that is not known, and for numbers that are not those of its kind.
@@ -109,7 +109,10 @@ impl Surface {
 
     /// The unit normal; at a pole or an apex that of a place close by, toward the parameters `beside`.
     pub fn normal_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Vector> {
-        self.normal(uv).or_else(|| self.normal([0, 1].map(|k| uv[k] + BESIDE * (beside[k] - uv[k]))))
+        self.normal(uv).or_else(|| {
+            let (_, du, dv) = self.d1([0, 1].map(|k| uv[k] + BESIDE * (beside[k] - uv[k])));
+            unit(&cross(&du, &dv))
+        })
     }
 }
 

@@ -14,6 +14,9 @@ use super::face::{Face, Place, mean, root};
 use super::{Model, TIE};
 use crate::geometry::vector::{Vector, cross, dot, length, sub, unit};
 
+/// Sine: a triangle seen at less is edge-on, and rounding decides what it hides.
+const EDGE_ON: f64 = 1e-6;
+
 /// A change of sign on an edge, on one face of it, or on both where they are one surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
@@ -46,6 +49,8 @@ pub struct Fold {
 pub struct Contour {
     pub crossings: Vec<Crossing>,
     pub folds: Vec<Fold>,
+    /// Borders of faces turned toward the viewer whose triangle there is turned away: the chord cuts a bend off.
+    pub dents: Vec<u32>,
 }
 
 /// One triangle at an edge a-b: f at both, and the parameters of both.
@@ -81,13 +86,8 @@ impl Side<'_> {
 
     fn at(&self, t: f64) -> Option<Place> {
         let uv = [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * t);
-        let face = self.face.as_ref()?;
-        let near = |s: f64| [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * s);
-        // At a pole: the point is there, the normal that of a place close by.
-        face.at(uv).or_else(|| {
-            let beside = face.normal(near(t + (0.5 - t) * 1e-6))?;
-            Some(Place { uv, point: face.point(uv), normal: beside })
-        })
+        // At a pole the normal is that of a place close by.
+        self.face.as_ref()?.at_toward(uv, self.uv[usize::from(t < 0.5)])
     }
 }
 
@@ -123,9 +123,9 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         .into_par_iter()
         .chunks(1024)
         .map(|edges| {
-            let (mut crossings, mut folds) = (Vec::new(), Vec::new());
+            let (mut crossings, mut folds, mut dents) = (Vec::new(), Vec::new(), Vec::new());
             if stopped() {
-                return Contour { crossings, folds };
+                return Contour { crossings, folds, dents };
             }
             for e in edges {
                 let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
@@ -146,6 +146,9 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     .filter(|&&t| traced(t) && (curved(t) || model.smooth[e]))
                     .filter_map(|&t| side(model, values, e, t))
                     .collect();
+                if sides.iter().any(|side| dented(model, side)) {
+                    dents.push(e as u32);
+                }
                 let mut at = [None; 2];
                 for (k, side) in sides.iter().enumerate() {
                     if side.changes() && side.face.is_some() {
@@ -161,12 +164,13 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     folded(model, e, &sides, at, &mut folds);
                 }
             }
-            Contour { crossings, folds }
+            Contour { crossings, folds, dents }
         })
         .collect();
-    let mut out = Contour { crossings: Vec::new(), folds: Vec::new() };
+    let mut out = Contour { crossings: Vec::new(), folds: Vec::new(), dents: Vec::new() };
     for part in found {
         let first = out.crossings.len() as u32;
+        out.dents.extend(part.dents);
         out.crossings.extend(part.crossings);
         out.folds.extend(part.folds.into_iter().map(|mut fold| {
             for end in &mut fold.ends {
@@ -195,6 +199,15 @@ fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
         (Some(x), Some(y)) => x == y || (values[x as usize].is_nan() && values[y as usize].is_nan()),
         _ => false,
     })
+}
+
+fn dented(model: &Model, side: &Side) -> bool {
+    if side.face.is_none() || side.f.iter().any(|&f| f > TIE) {
+        return false;
+    }
+    let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
+    let normal = cross(&sub(&q, &p), &sub(&r, &p));
+    dot(&normal, &model.sight(&p)) > -EDGE_ON * length(&normal)
 }
 
 fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Side<'a>> {

@@ -59,6 +59,12 @@ impl<'a> Face<'a> {
         Some(dot(&n, &self.model.sight(&self.point(uv))))
     }
 
+    /// The same at a pole.
+    pub fn at_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Place> {
+        let normal = self.outward(self.surface.normal_toward(uv, beside))?;
+        Some(Place { uv, point: self.point(uv), normal })
+    }
+
     pub fn at(&self, uv: [f64; 2]) -> Option<Place> {
         Some(Place { uv, point: self.point(uv), normal: self.normal(uv)? })
     }

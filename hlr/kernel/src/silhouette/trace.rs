@@ -24,6 +24,8 @@ pub struct Traced {
     pub silhouettes: Vec<Silhouette>,
     /// (edge, parameter from its first to its second vertex)
     pub meetings: Vec<(i32, f64)>,
+    /// As `Contour` says.
+    pub dents: Vec<u32>,
 }
 
 /// Of the chord tolerance: a fold shorter than this closes a gap that is none.
@@ -41,7 +43,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     if stopped() {
         return None;
     }
-    let Contour { crossings, mut folds } = contour(model, &values, stopped);
+    let Contour { crossings, mut folds, dents } = contour(model, &values, stopped);
     let same = Same::new(&crossings, &folds, GAP * model.chord);
     let (across, lone) = over_triangles(&crossings);
     folds.extend(lone.into_iter().filter_map(|(t, c)| into_apex(model, &values, t, c, &crossings[c as usize])));
@@ -78,7 +80,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     for walk in walks(&links) {
         parted(&links, &walk, &same, model.chord, &mut out);
     }
-    Some(Traced { silhouettes: out, meetings: meetings(model, &crossings) })
+    Some(Traced { silhouettes: out, meetings: meetings(model, &crossings), dents })
 }
 
 fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<(i32, f64)> {
