@@ -1,8 +1,8 @@
 """Where an edge of the model turns behind its own curved face: at the end of that face's outline, not at a mesh node.
 
-The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it between two nodes, at
-most a chord away. Within a chord of an outline's end a change of visibility that stands at a node is the contour's: it
-moves to the outline, or a gap as long as half a chord would be left between the two lines.
+The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it on a chord beside that
+node. A change of visibility at the end of that very chord is the contour's: it moves to the outline, or a gap as long as
+half a chord would be left between the two lines.
 
 ::
 
@@ -23,9 +23,6 @@ from hlr.source.model import Floats, Ints
 from hlr.view.camera import Camera
 from hlr.visibility.segments import VISIBLE, Segments
 
-REACH = 1
-"""Chords to both sides of an outline's end."""
-
 NONE = 255
 """No state: the edge is not drawn."""
 
@@ -45,25 +42,20 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     chains = scene.chains
     place = np.flatnonzero(~np.isnan(at[chains.edges]))
     begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1))
-    uniform = np.diff(begin) == 1
-    around = {k: _neighbours(scene, place, k) for k in range(-REACH - 1, REACH + 2)}
-    whole = np.logical_and.reduce([uniform[chains.edges[around[k]]] for k in range(-REACH, REACH + 1)])
+    whole = np.diff(begin)[chains.edges[place]] == 1
 
-    def beyond(k: int) -> npt.NDArray[np.uint8]:
-        """The state of the chord beyond the reach, at its end toward the meeting."""
-        edge = chains.edges[around[k]]
-        last = chains.reversed[around[k]] ^ (k < 0)
-        piece = np.minimum(np.where(last, begin[edge + 1] - 1, begin[edge]), len(segments.state) - 1)
-        return np.where(np.diff(begin)[edge] > 0, segments.state[piece], NONE)
+    def beyond(step: int) -> npt.NDArray[np.uint8]:
+        """The state of the chord before or after, at its end toward this one."""
+        at = _neighbours(scene, place, step)
+        edge = chains.edges[at]
+        piece = np.where(chains.reversed[at] ^ (step < 0), begin[edge + 1] - 1, begin[edge])
+        known = segments.state[np.minimum(piece, len(segments.state) - 1)]
+        return np.where(begin[edge + 1] > begin[edge], known, NONE)
 
-    left, right = beyond(-REACH - 1), beyond(REACH + 1)
-    whole &= (left != NONE) & (right != NONE)
-    place = place[whole]
-    left, right = left[whole], right[whole]
+    left, right = beyond(-1), beyond(1)
+    whole &= (left != NONE) & (right != NONE) & (left != right)
+    place, left, right = place[whole], left[whole], right[whole]
     states, t1 = segments.state.copy(), segments.t1.copy()
-    for k in range(-REACH, REACH + 1):
-        if k:
-            states[begin[chains.edges[around[k][whole]]]] = left if k < 0 else right
     own, backward = chains.edges[place], chains.reversed[place]
     low, high = np.where(backward, right, left), np.where(backward, left, right)
     piece = begin[own]

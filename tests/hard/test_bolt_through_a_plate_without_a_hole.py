@@ -56,7 +56,6 @@ def test_the_plate_hides_the_shank_from_where_it_enters(picture):
     picture(drawing, twice=1.0)
 
 
-@pytest.mark.xfail(strict=True, reason="the outline follows the mesh: it enters the plate beside the true generator")
 def test_the_generators_enter_at_the_very_height():
     drawing = hlr.draw(model(), VIEW)
     for x in (SHANK, -SHANK):

@@ -49,9 +49,6 @@ def test_beyond_it_two_generators_and_the_near_part_of_the_rim(degrees, picture)
         picture(drawing, "side")
 
 
-@pytest.mark.xfail(
-    strict=True, reason="near the apex the mesher folds triangles over, and the fold is drawn as outline"
-)
 @pytest.mark.parametrize("nurbs", [False, True])
 def test_half_a_cone_alone_has_no_outline_from_above(nurbs):
     """The face looks up everywhere. (Seen on the cones of plate_mode_samples_creo.stp of BRL-CAD.)"""

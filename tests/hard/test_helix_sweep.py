@@ -28,7 +28,6 @@ def test_by_rays():
         assert {line.kind for line in drawing.lines} == {"sharp", "outline"}
 
 
-@pytest.mark.xfail(strict=True, reason="the contour of the mesh turns to and fro across its chords and lies on itself")
 def test_its_outline_is_there_once():
     once(hlr.draw(spring(), "front"))
 
