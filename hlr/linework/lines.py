@@ -48,6 +48,9 @@ def draw_lines(
     """
     chains = _all_chains(scene, plan, segments)
     rank = np.array([KIND_RANK[EdgeClass(k)] for k in range(6)], np.uint8)[chains.kind]
+    if scene.silhouettes is not None:
+        # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
+        rank += scene.silhouettes.hidden[chains.edges[chains.offsets[:-1]]]
     found = _kernel.linework(
         np.ascontiguousarray(projected[:, :2] * per_model),
         scene.points,

@@ -40,7 +40,7 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     at = np.full(len(scene.edges), np.nan)
     at[met] = _on_paper(scene, camera, met, found.meeting_at[first])
     chains = scene.chains
-    place = np.flatnonzero(~np.isnan(at[chains.edges]))
+    place = np.flatnonzero(~np.isnan(at[chains.edges])).astype(np.int32)
     begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1))
     whole = np.diff(begin)[chains.edges[place]] == 1
 
@@ -88,7 +88,7 @@ def _undented(scene: Scene, dents: Ints, segments: Segments) -> Segments:
     dented = doubtful[chains.edges]
     # What lies between two of them is beside them.
     dented[1:-1] |= dented[:-2] & dented[2:]
-    place = np.flatnonzero(dented)
+    place = np.flatnonzero(dented).astype(np.int32)
     if len(place) == 0:
         return segments
     owner = np.searchsorted(chains.offsets, place, side="right") - 1

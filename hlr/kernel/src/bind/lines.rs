@@ -130,9 +130,12 @@ pub fn linework<'py>(
         if stopped() {
             return None;
         }
+        // Rounding is not to decide which of two lines at one depth is the nearer.
+        let grain = 1e-6 * space_tolerance.max(f64::MIN_POSITIVE / 1e-6);
         let nearest: Vec<f64> = lines
             .par_iter()
             .map(|line| line.space.iter().map(|p| view.depth(p)).fold(f64::INFINITY, f64::min))
+            .map(|depth| (depth / grain).round() + 0.0)
             .collect();
         let ranks = ranked(&lines, rank, &nearest);
         let mut lines = uncovered(lines, &ranks, Widths { same: width, under }, &view);
@@ -145,8 +148,7 @@ pub fn linework<'py>(
 }
 
 /// A strict order of lines: visible before hidden, then by rank in sixteens, then nearer, then by rank, then by
-/// geometry; order in the input
-/// decides only between lines that are the same in every coordinate.
+/// geometry; order in the input decides only between lines that are the same in every coordinate.
 fn ranked(lines: &[Polyline], rank: &[u8], nearest: &[f64]) -> Vec<u32> {
     let mut order: Vec<u32> = (0..lines.len() as u32).collect();
     order.par_sort_by(|&i, &j| {

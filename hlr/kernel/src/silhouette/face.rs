@@ -177,11 +177,14 @@ pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
     (near && dot(&place.normal, &sight).abs() < 1e-8).then_some(place)
 }
 
+/// Of a chord: a curve over one triangle bows out by less, for the normals turn by half a radian at most.
+const BOW: f64 = 0.2;
+
 /// The middle of two places of one face, moved onto the silhouette.
 pub fn between(face: &Face, a: &Place, b: &Place, share: f64) -> Option<Place> {
     let size = length(&sub(&b.point, &a.point));
     let uv = [0, 1].map(|k| a.uv[k] + (b.uv[k] - a.uv[k]) * share);
-    let place = onto(face, uv, 0.5 * size)?;
+    let place = onto(face, uv, BOW * size)?;
     // It has to lie between them, or the curve would turn back.
     let chord = sub(&b.point, &a.point);
     let at = dot(&sub(&place.point, &a.point), &chord) / (size * size);

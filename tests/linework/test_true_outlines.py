@@ -1,0 +1,172 @@
+"""Outlines of true surfaces: how many there are, that they lie where N . v = 0, and that they meet at borders of faces.
+
+Points are judged by OpenCASCADE's own evaluation: the nearest place on the face's surface, and the normal there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import hlr
+from hlr import Perspective
+from hlr.scene.build import build
+from hlr.source import open_source
+from hlr.tolerance import derive
+from hlr.view.camera import Camera, resolve
+from hlr.view.silhouettes import with_silhouettes
+
+cq = pytest.importorskip("cadquery")
+
+VIEWS = [tuple(v / np.linalg.norm(v)) for v in np.random.default_rng(4).normal(size=(10, 3))]
+CAMERAS = [None, Perspective(fov=40.0)]
+
+
+def torus():
+    return cq.Solid.makeTorus(20, 6)
+
+
+def wave():
+    """A B-spline surface over a square, with hills and hollows."""
+    points = [[cq.Vector(x, y, 3 * np.sin(x / 4) * np.cos(y / 5)) for y in range(0, 31, 3)] for x in range(0, 31, 3)]
+    return cq.Face.makeSplineApprox(points)
+
+
+def vase():
+    """A surface of revolution of a spline."""
+    profile = cq.Workplane("XZ").spline([(5, 0), (9, 8), (4, 16), (7, 24)]).wire()
+    return profile.revolve(360, (0, 0, 0), (0, 1, 0))
+
+
+def extruded():
+    return cq.Workplane().spline([(0, 0), (5, 4), (10, -3), (15, 0)]).wire().extrude(20)
+
+
+def offset():
+    """The spline surface moved along its own normals: an offset surface."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
+    from OCP.Geom import Geom_OffsetSurface
+
+    surface = Geom_OffsetSurface(wave()._geomAdaptor(), 2.0)
+    return cq.Face(BRepBuilderAPI_MakeFace(surface, 1e-6).Face())
+
+
+def traced(shape, view, perspective):
+    """The scene with its outlines, the camera, the faces in the order of their map, the accuracy in the model."""
+    source = open_source(shape)
+    options = hlr.Options(perspective=perspective)
+    bounds = source.bounds()
+    camera = resolve(view, options, source.frame, bounds)
+    tolerances = derive(0.02, 1.0, 0.0, brep=True)
+    scene = build(source.mesh(tolerances.deflection, tolerances.angle), 30.0, tolerances.deflection)
+    return with_silhouettes(scene, camera, tolerances, 1), camera, tolerances
+
+
+def outlines(scene) -> Iterator[tuple[int, np.ndarray]]:
+    """(face, points) of every outline before visibility."""
+    chains = scene.chains
+    for c in np.flatnonzero(chains.face >= 0):
+        edges = chains.edges[chains.offsets[c] : chains.offsets[c + 1]]
+        ends = scene.edges[edges]
+        yield int(chains.face[c]), scene.points[np.append(ends[:, 0], ends[-1, 1])]
+
+
+def slopes(shape, face, points, camera: Camera) -> tuple[np.ndarray, np.ndarray]:
+    """|N . v| and distances from the surface, by OpenCASCADE."""
+    from OCP.BRep import BRep_Tool
+    from OCP.GeomAPI import GeomAPI_ProjectPointOnSurf
+    from OCP.GeomLProp import GeomLProp_SLProps
+    from OCP.gp import gp_Pnt
+
+    value = shape.val() if isinstance(shape, cq.Workplane) else shape
+    surface = BRep_Tool.Surface_s(([value] if isinstance(value, cq.Face) else value.Faces())[face].wrapped)
+    slope, away = [], []
+    for p in points:
+        found = GeomAPI_ProjectPointOnSurf(gp_Pnt(*p), surface)
+        away.append(found.LowerDistance())
+        normal = GeomLProp_SLProps(surface, *found.LowerDistanceParameters(), 1, 1e-12).Normal()
+        sight = -np.asarray(camera.direction) if camera.eye is None else p - np.asarray(camera.eye)
+        slope.append(abs(np.dot((normal.X(), normal.Y(), normal.Z()), sight / np.linalg.norm(sight))))
+    return np.array(slope), np.array(away)
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
+@pytest.mark.parametrize("view", [(0.8, -0.6, 0.1), (1, 0.3, -0.05), (-0.9, -0.4, 0.03)])
+@pytest.mark.parametrize("shape", [torus, wave, vase, extruded, offset])
+def test_the_points_lie_on_the_surface_where_it_is_seen_edge_on(shape, view, camera):
+    shape = shape()
+    scene, seen, _ = traced(shape, view, camera)
+    found = list(outlines(scene))
+    assert found
+    for face, points in found:
+        slope, away = slopes(shape, face, points, seen)
+        assert slope.max() <= 1e-6
+        assert away.max() <= 1e-9
+
+
+def count(drawing):
+    """(visible, hidden) outlines."""
+    kinds = [line.visible for line in drawing.lines if line.kind == "outline"]
+    return sum(kinds), len(kinds) - sum(kinds)
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
+def test_spheres_have_one_outline_and_cylinders_two(camera):
+    sphere, cylinder = cq.Workplane().sphere(10), cq.Solid.makeCylinder(5, 20)
+    for view in VIEWS:
+        assert count(hlr.draw(sphere, view, perspective=camera)) == (1, 0)
+        found = hlr.draw(cylinder, view, perspective=camera)
+        assert count(found) == (2, 0)
+        assert all(len(line.points) == 2 for line in found.lines if line.kind == "outline")
+
+
+def test_cones_have_two_outlines_or_none():
+    """None where the apex is seen within the base."""
+    slope = 20 / 10
+    for view in VIEWS:
+        outside = np.hypot(view[0], view[1]) * slope > abs(view[2])
+        found = hlr.draw(cq.Solid.makeCone(10, 0, 20), view)
+        assert sum(count(found)) == (2 if outside else 0)
+
+
+def test_a_torus_has_as_many_outlines_as_its_angle_says():
+    """One closed curve outside; inside one closed curve without cusps where the sight is steep, else four arcs between
+    four cusps, of which the two concave ones are hidden."""
+    for view in VIEWS:
+        scene, _, _ = traced(torus(), view, None)
+        found = [points for _, points in outlines(scene)]
+        steep = _cusps(np.sqrt(1 - view[2] ** 2), abs(view[2]))
+        assert len(found) == (5 if steep else 2), view
+
+
+def _cusps(sine: float, cosine: float) -> bool:
+    """Whether the inner outline of the torus 20, 6 has cusps: the curvature along the sight changes sign on it."""
+    u = np.linspace(0, 2 * np.pi, 20001)
+    # N = (cos v cos u, cos v sin u, sin v); N . v = 0 for the sight (sine, 0, cosine): tan v = -tan a cos u.
+    v = np.arctan2(-sine * np.cos(u), cosine) + np.pi
+    radius = 20 + 6 * np.cos(v)
+    du, dv = -np.sin(u) * sine, -np.sin(v) * np.cos(u) * sine + np.cos(v) * cosine
+    bend = np.cos(v) / radius * du**2 + dv**2 / 6
+    return bool((bend < 0).any() and (bend > 0).any())
+
+
+def test_the_outline_goes_on_over_smooth_borders():
+    """Ends of outlines that lie on a smooth edge are there twice: those of both faces, in one point."""
+    body = cq.Workplane().box(20, 30, 10).edges().fillet(2)
+    for view in VIEWS[:4]:
+        scene, _, tolerances = traced(body, view, None)
+        ends = np.concatenate([points[[0, -1]] for _, points in outlines(scene)])
+        apart = np.linalg.norm(ends[:, None] - ends[None], axis=2) + 1e9 * np.eye(len(ends))
+        assert apart.min(axis=1).max() < 0.1 * 2 * tolerances.deflection
+
+
+@pytest.mark.parametrize("view", ["front", "top", "right"])
+def test_a_fillet_tangent_to_a_plane_seen_edge_on_has_one_line(view):
+    body = cq.Workplane().box(20, 30, 10).edges().fillet(2)
+    drawing = hlr.draw(body, view)
+    assert count(drawing)[1] == 0
+    ink = sum(float(np.hypot(*np.diff(line.points, axis=0).T).sum()) for line in drawing.lines)
+    width, height = drawing.bounds()[2:]
+    assert ink == pytest.approx(2 * (width + height) - 8 * 2 + 2 * np.pi * 2, rel=1e-3)
