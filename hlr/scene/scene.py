@@ -64,7 +64,7 @@ class Silhouettes:
     lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
     facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
     dents (k,): edges of faces turned toward the viewer, beside a triangle that is not
-    meeting_edge (m,), meeting_at (m,): edges of the model that an outline reaches, and where, from first to second vertex
+    meeting_edge (m,), meeting_at (m,): edges of the model that an outline reaches, and where, from the first vertex
     """
 
     lift: Floats

@@ -7,12 +7,12 @@ A record is a kind and a run of numbers:
         plane, cylinder, cone, sphere, torus   origin, x, y, z directions, then the radii (cone: radius, half angle)
         revolution   a point of the axis, its direction, the kind of the curve, its numbers (`hlr.source.geometry`)
         extrusion    the direction, the kind of the curve, its numbers
-        spline       degrees u, v; pole counts u, v; periods u, v (0: none); knots u, v with repetition; poles (x, y, z, w),
-                     v fastest
+        spline       degrees u, v; pole counts u, v; periods u, v (0: none); knots u, v with repetition; poles
+                     (x, y, z, w), v fastest
         offset       the distance, the kind of the basis, the basis's numbers
 
-The parameters are OpenCASCADE's own: the tessellation's (u, v) are used with them as they are. What can only be had with
-other parameters is UNKNOWN, and its outline stays that of the mesh.
+The parameters are OpenCASCADE's own: the tessellation's (u, v) are used with them as they are. What can only be had
+with other parameters is UNKNOWN, and its outline stays that of the mesh.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Outlines of the true surfaces, added to the scene as lines of their own before the visibility pass.
 
-The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets, by
-up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
+The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets,
+by up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
 compared with them: its own facets are then beside it and cannot hide it, while everything else still does.
 
 ::

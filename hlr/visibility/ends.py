@@ -1,8 +1,8 @@
 """Where an edge of the model turns behind its own curved face: at the end of that face's outline, not at a mesh node.
 
-The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it on a chord beside that
-node. A change of visibility at the end of that very chord is the contour's: it moves to the outline, or a gap as long as
-half a chord would be left between the two lines.
+The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it on a chord beside
+that node. A change of visibility at the end of that very chord is the contour's: it moves to the outline, or a gap as
+long as half a chord would be left between the two lines.
 
 ::
 
