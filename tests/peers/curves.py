@@ -44,8 +44,8 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
             part = parts[name]
             curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.root][edge]))
             spline = curve.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve
-            # A helix of many turns is one B-spline of many spans.
-            count = max(DENSE, 24 * curve.NbKnots()) if spline else DENSE
+            # A helix of many turns is one B-spline.
+            count = 8 * DENSE if spline else DENSE
             places = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
             values = [curve.Value(float(t)) for t in places]
             known[name, edge] = moved(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
