@@ -68,7 +68,7 @@ pub fn silhouettes<'py>(
     expect_below("triangle_face", triangle_face.iter().copied(), face_surface.len())?;
     expect_below("surface_offsets", at.iter().copied(), data.len() + 1)?;
     check_incidence(edges.len(), offsets, incident, triangles.len())?;
-    if at.windows(2).any(|w| w[0] > w[1]) || !(chord > 0.0) {
+    if at.windows(2).any(|w| w[0] > w[1]) || chord.is_nan() || chord <= 0.0 {
         return Err(PyValueError::new_err("surface_offsets must ascend, chord must be positive"));
     }
     let surfaces: Vec<Option<Surface>> =

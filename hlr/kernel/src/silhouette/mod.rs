@@ -4,11 +4,13 @@
 //! tessellation, taken from the exact normals, parts the mesh in front and back; the border of the parts crosses each
 //! triangle at most once, so it never branches and never turns back on the facets, as the contour of the mesh does.
 //!
+//! ```text
 //! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at an
 //!               edge do not change at the same place, the edge itself folds between, so that no gap is left
 //! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
 //! 4. `trace`    joined into curves, which part where the face or the way the surface curves changes
+//! ```
 //!
 //! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the surface,
 //! and in that zeros at nodes (views along an axis) count as turned away, on every face alike: a plane seen edge-on that

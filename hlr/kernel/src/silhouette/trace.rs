@@ -96,8 +96,11 @@ fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<(i32, f64)> {
         .collect()
 }
 
+/// A triangle and its two crossings.
+type Crossed = (i32, [u32; 2]);
+
 /// Triangles with their two crossings, and those with one.
-fn over_triangles(crossings: &[Crossing]) -> (Vec<(i32, [u32; 2])>, Vec<(i32, u32)>) {
+fn over_triangles(crossings: &[Crossing]) -> (Vec<Crossed>, Vec<(i32, u32)>) {
     let mut uses: Vec<(i32, u32)> = crossings
         .iter()
         .enumerate()
