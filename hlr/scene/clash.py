@@ -72,7 +72,9 @@ def clashes(
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
     touch = touching(groups, CONTACT * deflection, PLANAR * deflection)[group].max(axis=1, initial=0.0)
     touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
-    reach = _reach(points, triangles, mesh, found["triangles"])
+    reach, flat = _reach(points, triangles, mesh, found["triangles"])
+    # Where the triangles of both surfaces end along the crossing, none of them goes deep: their planes do.
+    depth = np.maximum(found["depth"], flat)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
     ends = found["edges"].astype(np.int64)
@@ -80,7 +82,7 @@ def clashes(
     fresh = np.ones(len(order), bool)
     fresh[1:] = (pair[order][1:] != pair[order][:-1]) | (ends[order][1:] != ends[order][:-1]).any(axis=1)
     one, first = order[fresh], np.flatnonzero(fresh)
-    beyond = np.maximum.reduceat((found["depth"] - touch)[order], first) if len(one) else np.zeros(0)
+    beyond = np.maximum.reduceat((depth - touch)[order], first) if len(one) else np.zeros(0)
     sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
     reach = np.maximum.reduceat(reach[order], first) if len(one) else np.zeros(0)
     flush = (reach < FLUSH * deflection) & (sine >= SLIGHT_ANGLE)
@@ -101,9 +103,11 @@ def clashes(
     )
 
 
-def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> Floats:
+def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tuple[Floats, Floats]:
     """(m,) how far each of two triangles (m, 2), with those beyond its edges, reaches beyond the other's plane on its
     shallower side; the lesser of both. Where that is nothing, one surface stands flush on the other.
+
+    And (m,) the same with no others than go on in the triangle's plane beyond an edge along the crossing.
 
     ::
 
@@ -130,13 +134,24 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> Flo
     beyond = mesh.incident[np.where(there, other, first)]
     apex = triangles[beyond].sum(axis=1, dtype=np.int64) - mesh.edges[edge].sum(axis=1, dtype=np.int64)
     around[own[there], 3 + place[there]] = apex[there]
-    out = np.full(len(pairs), np.inf)
+    border = np.zeros((len(used), 6, 2), np.int64) - 1
+    border[own[there], 3 + place[there]] = mesh.edges[edge[there]]
+    bend = np.einsum("ukc,uc->uk", points[around] - points[around[:, :1]], mesh.normals[used])
+    little = ROUNDING * np.ptp(points[around], axis=1).max(axis=1, initial=0.0)[:, None]
+    goes_on = (np.abs(bend) <= little) & (border[:, :, 0] >= 0)
+    every, level = np.full(len(pairs), np.inf), np.full(len(pairs), np.inf)
     for s, t in ((0, 1), (1, 0)):
         plane = pairs[:, s]
         away = points[around[number[:, t]]] - points[triangles[plane, 0]][:, None]
         height = np.einsum("mkc,mc->mk", away, mesh.normals[plane])
-        out = np.minimum(out, np.minimum(height.max(axis=1), -height.min(axis=1)))
-    return out
+        every = np.minimum(every, np.minimum(height.max(axis=1), -height.min(axis=1)))
+        ends = points[border[number[:, t]]] - points[triangles[plane, 0]][:, None, None]
+        off = np.abs(np.einsum("mkec,mc->mke", ends, mesh.normals[plane])).max(axis=2)
+        taken = goes_on[number[:, t]] & (off <= little[number[:, t]])
+        taken[:, :3] = True
+        height = np.where(taken, height, height[:, :1])
+        level = np.minimum(level, np.minimum(height.max(axis=1), -height.min(axis=1)))
+    return every, level
 
 
 def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[np.bool_]:
