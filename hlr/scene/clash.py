@@ -40,6 +40,13 @@ SELF = 0.1
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
 solids facets cross by a fifth of a deflection at most."""
 
+BRIDGE = 4.0
+"""In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point
+differ by less than the tolerance over 2.8 of these."""
+
+DEEP_ENOUGH = 0.03
+"""Of the contact tolerance: what was rounded goes less deep than that; facets that cross at a small angle go deeper."""
+
 ROUNDING = 1e-9
 """Of a group's size: planar faces are flat within this share of it."""
 
@@ -86,7 +93,9 @@ def clashes(
     sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
     reach = np.maximum.reduceat(reach[order], first) if len(one) else np.zeros(0)
     flush = (reach < FLUSH * deflection) & (sine >= SLIGHT_ANGLE)
-    kept = one[_real(pair[one], ends[one], beyond, sine) & ~flush]
+    width = (groups.high - groups.low).max(axis=1)[group].min(axis=1, initial=np.inf)
+    gap = BRIDGE * np.sqrt(touch * width)
+    kept = one[_real(pair[one], ends[one], beyond, touch[one], sine, found["points"], gap[one]) & ~flush]
     through = np.zeros(len(itself), bool)
     through[group[kept, 0][group[kept, 0] == group[kept, 1]]] = True
     size = np.ptp(points[triangles[found["triangles"][kept]]], axis=2).max(axis=(1, 2), initial=0.0)
@@ -154,11 +163,14 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tup
     return every, level
 
 
-def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[np.bool_]:
+def _real(
+    pair: Keys, ends: Keys, beyond: Floats, touch: Floats, sine: Floats, points: Floats, gap: Floats
+) -> npt.NDArray[np.bool_]:
     """(m,) bool: segments of real intersections.
 
-    pair (m,): which two groups; ends (m, 2); beyond (m,): depth over the contact tolerance. What is neither deep nor
-    steep is a contact, unless it closes a gap: where surfaces that cross are tangent at a point.
+    pair (m,): which two groups; ends (m, 2); beyond (m,): depth over the contact tolerance touch (m,); gap (m,): a
+    length. What is neither deep nor steep is a contact, unless it closes a gap: where surfaces that cross are tangent
+    at a point.
     """
     node = _nodes(pair, ends)
     clear = (beyond >= 0.0) | (sine >= SLIGHT_ANGLE)
@@ -172,8 +184,21 @@ def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[n
     bridge = _figures(node[slight])
     held_nodes = np.unique(np.stack([np.repeat(bridge, 2)[held.ravel()], node[slight].ravel()[held.ravel()]]), axis=1)
     holds = np.bincount(held_nodes[0], minlength=int(bridge.max(initial=-1)) + 1)
-    out[slight] = holds[bridge] > 1
+    # Faces in one plane cross all over by what was rounded: that joins lines over any distance, and is nowhere deep.
+    depth = np.zeros(len(holds))
+    np.maximum.at(depth, bridge, beyond[slight] / touch[slight] + 1.0)
+    closes = (holds > 1) & (depth >= DEEP_ENOUGH)
+    out[slight] = closes[bridge] & (_extents(bridge, points[ends[slight]]) < gap[slight])
     return out
+
+
+def _extents(figure: Ints, places: Floats) -> Floats:
+    """(m,) the longest side of the box of each segment's figure. figure (m,), places (m, 2, 3)."""
+    low, high = np.full((len(figure), 3), np.inf), np.full((len(figure), 3), -np.inf)
+    for k in (0, 1):
+        np.minimum.at(low, figure, places[:, k])
+        np.maximum.at(high, figure, places[:, k])
+    return np.asarray((high - low).max(axis=1, initial=0.0)[figure])
 
 
 def _small(pair: Keys, ends: Keys, points: Floats, size: Floats) -> npt.NDArray[np.bool_]:
@@ -183,13 +208,9 @@ def _small(pair: Keys, ends: Keys, points: Floats, size: Floats) -> npt.NDArray[
     the tessellation's, not the shape's.
     """
     figure = _figures(_nodes(pair, ends))
-    low, high = np.full((len(figure), 3), np.inf), np.full((len(figure), 3), -np.inf)
     largest = np.zeros(len(figure))
-    for k in (0, 1):
-        np.minimum.at(low, figure, points[ends[:, k]])
-        np.maximum.at(high, figure, points[ends[:, k]])
     np.maximum.at(largest, figure, size)
-    return np.asarray(((high - low).max(axis=1, initial=0.0) < 2.0 * largest)[figure])
+    return np.asarray(_extents(figure, points[ends]) < 2.0 * largest[figure])
 
 
 def _nodes(pair: Keys, ends: Keys) -> Keys:
