@@ -4,7 +4,7 @@ It grows its first facet while points lie exactly on one circle, nearest to the 
 and where rounding contradicts itself there it follows pointers that were never set. A box that is square and an outline
 that mirrors one arc in its diagonal make such points: up to one in fifty quarters of a disc, ring or polygon, depending
 on how finely it is meshed (tests/source/test_delabella.py). Other symmetries have normals that are exactly zero in some
-coordinate, and did no harm in a hundred thousand faces.
+coordinate, and did no harm in a hundred thousand tries.
 """
 
 from __future__ import annotations
