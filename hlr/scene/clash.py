@@ -29,12 +29,13 @@ from hlr.tolerance import CONTACT
 SLIGHT_ANGLE = 0.35
 """Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most."""
 
-FLUSH = 2.0
-"""In deflections, an accuracy: a wall that reaches less far beyond a face stands on it, and has no line there but its
-own edge."""
+FLUSH = 0.25
+"""In deflections, an eighth of the accuracy: a wall that reaches less far beyond a planar face stands on it, and has no
+line there but its own edge. That has to be forgiven in view depth as well, which is more, the more obliquely one looks:
+`hlr.tolerance` gives it ten times as much."""
 
-PLANAR = 0.25
-"""In deflections: planar faces are off by what their files round, and their triangles may be small."""
+PLANAR = 2.0
+"""In deflections: what counts as touching where planar parts meet at a small angle."""
 
 SELF = 0.1
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
@@ -72,16 +73,22 @@ def clashes(
     group_of: Ints,
     groups: Groups,
     itself: npt.NDArray[np.bool_],
+    curved: npt.NDArray[np.bool_],
     deflection: float,
 ) -> Clashes:
-    """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves."""
+    """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves.
+
+    curved (t,) bool: triangles of faces that are not planar, or that may be anything.
+    """
     found = _kernel.clashes(points, triangles, group_of, itself)
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
     touch = touching(groups, CONTACT * deflection, PLANAR * deflection)[group].max(axis=1, initial=0.0)
     touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
-    reach, flat = _reach(points, triangles, mesh, found["triangles"])
-    # Where the triangles of both surfaces end along the crossing, none of them goes deep: their planes do.
-    depth = np.maximum(found["depth"], flat)
+    reach, level = _reach(points, triangles, mesh, found["triangles"])
+    # A planar face is where it is, and how far a wall goes beyond it is known; a facet is not.
+    steep = found["sine"] >= SLIGHT_ANGLE
+    known = steep[:, None] & ~curved[found["triangles"]]
+    spare = (level - np.where(known, np.minimum(FLUSH * deflection, touch[:, None]), touch[:, None])).min(axis=1)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
     ends = found["edges"].astype(np.int64)
@@ -89,7 +96,7 @@ def clashes(
     fresh = np.ones(len(order), bool)
     fresh[1:] = (pair[order][1:] != pair[order][:-1]) | (ends[order][1:] != ends[order][:-1]).any(axis=1)
     one, first = order[fresh], np.flatnonzero(fresh)
-    beyond = np.maximum.reduceat((depth - touch)[order], first) if len(one) else np.zeros(0)
+    beyond = np.maximum.reduceat(spare[order], first) if len(one) else np.zeros(0)
     sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
     reach = np.maximum.reduceat(reach[order], first) if len(one) else np.zeros(0)
     flush = (reach < FLUSH * deflection) & (sine >= SLIGHT_ANGLE)
@@ -116,7 +123,8 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tup
     """(m,) how far each of two triangles (m, 2), with those beyond its edges, reaches beyond the other's plane on its
     shallower side; the lesser of both. Where that is nothing, one surface stands flush on the other.
 
-    And (m,) the same with no others than go on in the triangle's plane beyond an edge along the crossing.
+    And (m, 2) how far the other triangle reaches beyond the plane of each, with no more than what goes on in its own
+    plane beyond an edge along the crossing.
 
     ::
 
@@ -148,7 +156,7 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tup
     bend = np.einsum("ukc,uc->uk", points[around] - points[around[:, :1]], mesh.normals[used])
     little = ROUNDING * np.ptp(points[around], axis=1).max(axis=1, initial=0.0)[:, None]
     goes_on = (np.abs(bend) <= little) & (border[:, :, 0] >= 0)
-    every, level = np.full(len(pairs), np.inf), np.full(len(pairs), np.inf)
+    every, level = np.full(len(pairs), np.inf), np.empty((len(pairs), 2))
     for s, t in ((0, 1), (1, 0)):
         plane = pairs[:, s]
         away = points[around[number[:, t]]] - points[triangles[plane, 0]][:, None]
@@ -159,7 +167,7 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tup
         taken = goes_on[number[:, t]] & (off <= little[number[:, t]])
         taken[:, :3] = True
         height = np.where(taken, height, height[:, :1])
-        level = np.minimum(level, np.minimum(height.max(axis=1), -height.min(axis=1)))
+        level[:, s] = np.minimum(height.max(axis=1), -height.min(axis=1))
     return every, level
 
 
