@@ -28,8 +28,8 @@ CONTACT = 5.0
 
 CONTACT_PLANAR = 2.5
 """In deflections: planar faces are off only by what their files round, but parts are put down on one another with gaps
-and overlaps that are nothing on paper. Ten times what a wall may sink into a face without a line of its own: so its edge is
-still seen there from all but the most oblique directions."""
+and overlaps that are nothing on paper. Ten times what a wall may sink into a face without a line of its own: so its
+edge is still seen there from all but the most oblique directions."""
 
 ROUNDING = 0.04
 """In deflections: what lies in a plane is off by what its file rounds."""

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from hlr.scene.sides import numbered, one_of_each
 from hlr.source.model import Floats, Ints, PartMesh
 from hlr.source.weld import equal_rows
 
@@ -16,7 +17,7 @@ Indices = npt.NDArray[np.intp]
 def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
     """The part without repeated triangles and faces, and how many triangles that left out.
 
-    Of several the first is kept: duplicated faces neither hide more nor bound a volume, but they would make every edge
+    Of several one is kept: duplicated faces neither hide more nor bound a volume, but they would make every edge
     between them non-manifold, or follow one another as two surfaces in contact.
     """
     found = len(part.triangles)
@@ -26,9 +27,10 @@ def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
 
 
 def _without_repeated_triangles(part: PartMesh) -> PartMesh:
-    """Without triangles of the same corners as an earlier one, in either orientation."""
-    first = _first_equal(np.sort(part.triangles, axis=1), len(part.points))
-    return _only(part, first == np.arange(len(first)))
+    """Without triangles of the same corners as another one, in either orientation."""
+    kept = np.zeros(len(part.triangles), bool)
+    kept[one_of_each(part.points, part.triangles, part.triangle_face)] = True
+    return _only(part, kept)
 
 
 def _without_repeated_faces(part: PartMesh) -> PartMesh:
@@ -66,13 +68,9 @@ def _may_coincide(points: Floats) -> bool:
 
 def _first_equal(corners: Ints, n: int) -> Indices:
     """(t,) for each row of three numbers below n the first equal row."""
-    if len(corners) == 0:
-        return np.zeros(0, np.intp)
-    corners = corners.astype(np.int64)
-    # Three indices do not fit 64 bits for large meshes: the first two are ranked, then joined with the third.
-    _, pair = np.unique(corners[:, 0] * n + corners[:, 1], return_inverse=True)
-    _, first, rank = np.unique(pair.ravel() * n + corners[:, 2], return_index=True, return_inverse=True)
-    return np.asarray(first[rank.ravel()], np.intp)
+    number = numbered(corners, n)
+    _, first = np.unique(number, return_index=True)
+    return np.asarray(first[number], np.intp)
 
 
 def _only(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:

@@ -1,8 +1,8 @@
 """A box, and a boss, put down on a plate a little too deep or too high: by hundredths of the accuracy, or by several.
 
-Too deep, its lower edges are hidden, and where it enters the plate there is a line; much less deep it rests on the plate
-and shows its own edges. Somewhere one takes over from the other: there must be no depth between at which neither is
-drawn, from no direction.
+Too deep, its lower edges are hidden, and where it enters the plate there is a line; much less deep it rests on the
+plate and shows its own edges. Somewhere one takes over from the other: there must be no depth between at which neither
+is drawn, from no direction.
 """
 
 from __future__ import annotations

@@ -79,7 +79,7 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
         .zip(by_line.into_par_iter())
         .flat_map_iter(|(line, covered)| {
             let width = if line.visible { widths.same } else { widths.under };
-            if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width, widths.same, view) }
+            if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width, view) }
         })
         .collect()
 }
@@ -208,9 +208,9 @@ fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f
     (u1 > u0).then_some((u0, u1))
 }
 
-/// What is left of a line without the covered stretches (in arc length). Between two of them a rest of less than two
-/// widths goes with them, at the line's ends one of less than twice `over`.
-fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, over: f64, view: &View) -> Vec<Polyline> {
+/// What is left of a line without the covered stretches (in arc length); rests of less than two widths go with them: a
+/// line that slants off under another one's ink would leave dots beside it.
+fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, view: &View) -> Vec<Polyline> {
     covered.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let total = line.length();
     let mut merged: Vec<(f64, f64)> = Vec::new();
@@ -221,12 +221,12 @@ fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, over: f6
         }
     }
     if let Some(first) = merged.first_mut()
-        && first.0 <= 2.0 * over
+        && first.0 <= 2.0 * width
     {
         first.0 = 0.0;
     }
     if let Some(last) = merged.last_mut()
-        && last.1 >= total - 2.0 * over
+        && last.1 >= total - 2.0 * width
     {
         last.1 = total;
     }
