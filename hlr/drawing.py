@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.linework.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
+from hlr.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
 
 Points = npt.NDArray[np.float64]
 

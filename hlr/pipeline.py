@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from time import perf_counter
 from typing import Any
 
+import numpy as np
+
 from hlr.drawing import Drawing, DrawnPart, DrawnView
 from hlr.errors import OptionError, StrictError
 from hlr.linework.exact import EdgeCurveLookup
@@ -109,7 +111,9 @@ def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options) -> Place
     """Outlines of curved faces reach beyond their mesh, by less than the accuracy: they are what has to fit."""
     if options.fit is None:
         return at
-    return at.fitted(camera, options, with_silhouettes(scene, camera, at.tolerances, options.threads).points)
+    on = scene.true_surfaces
+    curved = on is not None and bool(on.curved.any() or (np.diff(scene.chains.offsets) > 1).any())
+    return at.fitted(camera, options, with_silhouettes(scene, camera, at.tolerances, options.threads).points, curved)
 
 
 def _drawing(

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 STAGES = ("source", "scene", "view", "plan", "visibility", "linework", "writers")
 
 # What every stage may import: no stage, and none of them imports one.
-COMMON = ("errors", "tolerance", "drawing", "_kernel")
+COMMON = ("errors", "tolerance", "curve", "drawing", "_kernel")
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.source.model", "hlr.plan.options")

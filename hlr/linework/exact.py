@@ -14,9 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.linework.curve import Arc, Bezier, Curve
-from hlr.source.edge_curves import EdgeCurves
-from hlr.source.model import Floats, Ints
+from hlr.curve import Arc, Bezier, Curve
+from hlr.source.geometry import together
+from hlr.source.model import Curves, EdgeCurves, Floats, Ints
 from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera, Vector
 
@@ -71,28 +71,40 @@ def on_curves(
     space: Floats,
     part: Ints,
     edge: Ints,
+    outline: Ints,
     chain: Ints,
     visible: npt.NDArray[np.bool_],
+    hides: npt.NDArray[np.bool_],
     edge_curves: EdgeCurveLookup,
+    outlines: Curves | None,
     camera: Camera,
     per_model: float,
     tolerances: Tolerances,
     threads: int,
 ) -> DrawnLines:
-    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges (n,) of parts (n,); edge -1: none."""
-    tied = np.flatnonzero(edge >= 0)
-    if edge_curves is None or len(tied) == 0:
+    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges (n,) of parts (n,), or of outlines.
+
+    edge, outline (n,): -1 for none; hides (n,): others may disappear behind what ends there
+    """
+    if edge_curves is None:
         return _polylines(offsets, flat, space)
-    found = edge_curves(part[tied], edge[tied])
     which, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
+    tied = np.flatnonzero(edge >= 0)
+    found = edge_curves(part[tied], edge[tied])
     which[tied], place[tied] = found.which, found.place
-    curves = found.curves
+    curves, places = found.curves, found.places
+    if outlines is not None:
+        # They lie where they are: no place moves them.
+        own = np.flatnonzero((edge < 0) & (outline >= 0))
+        which[own], place[own] = outline[own] + len(curves.kind), len(places)
+        curves = together(curves, outlines)
+        places = np.concatenate([places, np.eye(3, 4)[None]])
     drawn = _kernel.true_lines(
         curves.kind,
         np.ascontiguousarray(curves.range),
         curves.offsets,
         curves.values,
-        np.ascontiguousarray(found.places),
+        np.ascontiguousarray(places),
         projection(camera, per_model),
         which,
         place,
@@ -101,6 +113,7 @@ def on_curves(
         space,
         chain,
         visible,
+        hides,
         camera.eye or (0.0, 0.0, 0.0),
         (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
         tolerances.accuracy,

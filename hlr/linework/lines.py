@@ -30,6 +30,10 @@ KIND_RANK = {
 ones the nearer: what one would see. Only at the same depth does the kind decide."""
 
 
+HIDING = (EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.OUTLINE)
+"""Where a surface may end in the image: lines on which others disappear."""
+
+
 def draw_lines(
     scene: Scene,
     edge_curves: EdgeCurveLookup,
@@ -79,15 +83,19 @@ def draw_lines(
     if len(keep) == 0:
         return (), (0.0, 0.0)
     chain = found["chain"]
+    edge, outline = _guides(scene, chains)
     drawn = on_curves(
         found["offsets"],
         found["flat"],
         found["space"],
         chains.part[chain],
-        chains.edge[chain],
+        edge[chain],
+        outline[chain],
         chain,
         found["visible"],
+        np.isin(chains.kind, HIDING)[chain],
         edge_curves,
+        scene.silhouettes.curves if scene.silhouettes is not None else None,
         camera,
         per_model,
         tolerances,
@@ -99,14 +107,14 @@ def draw_lines(
     order = keep[np.lexsort((keep, *_identity(chains, chain[keep])))]
     names = [k.name.lower() for k in EdgeClass]
     kinds = chains.kind[chain].tolist()
-    part, edge, face, other = (a[chain].tolist() for a in (chains.part, chains.edge, chains.face, chains.other))
+    part, tie, face, other = (a[chain].tolist() for a in (chains.part, chains.edge, chains.face, chains.other))
     visible, start = found["visible"].tolist(), offsets.tolist()
     lines = tuple(
         Line(
             names[kinds[i]],
             visible[i],
             part[i],
-            edge[i] if edge[i] >= 0 else None,
+            tie[i] if tie[i] >= 0 else None,
             face[i] if face[i] >= 0 else None,
             flat[start[i] : start[i + 1]],
             space[start[i] : start[i + 1]],
@@ -116,6 +124,16 @@ def draw_lines(
         for i in order.tolist()
     )
     return lines, (float(low[0]), float(low[1]))
+
+
+def _guides(scene: Scene, chains: LineChains) -> tuple[Ints, Ints]:
+    """Per chain the edge of the model along which it runs, and the outline; -1 for none."""
+    silhouettes = scene.silhouettes
+    if silhouettes is None:
+        return chains.edge, np.full(len(chains.edge), -1, np.int32)
+    outline = silhouettes.number[chains.edges[chains.offsets[:-1]]]
+    source = np.append(silhouettes.source, np.int32(-1))[outline]
+    return np.where(source >= 0, source, chains.edge).astype(np.int32), outline
 
 
 def _identity(chains: LineChains, chain: Ints) -> tuple[npt.NDArray[Any], ...]:

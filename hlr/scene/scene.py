@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hlr.source.model import Color, Floats, Ints, Surfaces
+from hlr.source.model import Color, Curves, Floats, Ints, Surfaces
 
 INTERIOR = 255
 """Kind of a mesh edge that no source edge runs along."""
@@ -64,6 +64,8 @@ class Silhouettes:
     lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
     facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
     dents (k,): edges of faces turned toward the viewer, beside a triangle that is not
+    number (e,): of the outline to which an edge belongs, -1 for none
+    curves of the outlines; NONE where one is straight, or runs along an edge of the model: source (o,) int32, else -1
     meeting_edge (m,), meeting_at (m,): edges of the model that an outline reaches, and where, from the first vertex
     """
 
@@ -72,6 +74,9 @@ class Silhouettes:
     meeting_edge: Ints
     meeting_at: Floats
     dents: Ints
+    number: Ints
+    curves: Curves
+    source: Ints
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from hlr.errors import SourceError
-from hlr.source.edge_curves import EdgeCurveReader, EdgeCurves
+from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
-from hlr.source.model import Floats, Frame, Ints, Meshed, OnSurfaces, PartInfo, PartMesh, Progress, Surfaces
+from hlr.source.model import EdgeCurves, Floats, Frame, Ints, Meshed, OnSurfaces, PartInfo, PartMesh, Progress, Surfaces
 from hlr.source.parts import Leaf, Part, Parts
 from hlr.source.tessellate import Tessellator
 from hlr.source.topology import Meshes

@@ -3,26 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from hlr.source.geometry import UNKNOWN, Curves, Record, edge_record, packed
-from hlr.source.model import Floats, Ints
-
-
-@dataclass(frozen=True, slots=True)
-class EdgeCurves:
-    """Curves of m edges: edge i is that of record which[i], moved by places[place[i]].
-
-    which (m,), place (m,); places (p, 3, 4)
-    """
-
-    curves: Curves
-    which: Ints
-    place: Ints
-    places: Floats
+from hlr.source.geometry import UNKNOWN, Record, edge_record, packed
+from hlr.source.model import EdgeCurves, Floats, Ints
 
 
 class EdgeCurveReader:

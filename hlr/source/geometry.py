@@ -6,7 +6,8 @@ All curves are affine forms, so that a placement, a mirror image or a scale move
     ELLIPSE     p + cos t a + sin t b          p, a, b; circles as well
     PARABOLA    p + t^2 a + t b                p, a, b
     HYPERBOLA   p + cosh t a + sinh t b        p, a, b
-    SPLINE      B-spline                       degree, poles, rational, flat knots, then x y z w per pole
+    SPLINE      B-spline                       degree, poles, rational, flat knots, then x y z w per pole;
+                                               rational 2: places of another curve, which it follows closely
 
 Bezier curves become B-splines, periodic B-splines are unrolled as far as the edge goes, offset curves are approximated.
 """
@@ -14,14 +15,13 @@ Bezier curves become B-splines, periodic B-splines are unrolled as far as the ed
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.source.locations import moved
-from hlr.source.model import Floats, Ints
+from hlr.source.model import Curves, Floats, Ints
 from hlr.source.tables import starts
 
 NONE, LINE, ELLIPSE, PARABOLA, HYPERBOLA, SPLINE = range(6)
@@ -31,21 +31,6 @@ APPROXIMATION = 1e-6
 
 MOST_SEGMENTS, MOST_DEGREE = 500, 8
 """Of such an approximation; a curve that needs more stays unknown."""
-
-
-@dataclass(frozen=True, slots=True)
-class Curves:
-    """Records of n curves.
-
-    kind    (n,) uint8, NONE where the curve is not known
-    range   (n, 2) first and last parameter; the curve is run through in rising order
-    offsets (n+1,) into values: the numbers of each record, as the module describes them
-    """
-
-    kind: npt.NDArray[np.uint8]
-    range: Floats
-    offsets: Ints
-    values: Floats
 
 
 Record = tuple[int, float, float, Floats]
@@ -61,6 +46,16 @@ def packed(records: Sequence[Record]) -> Curves:
         range=np.array([(r[1], r[2]) for r in records], np.float64).reshape(-1, 2),
         offsets=starts([len(r[3]) for r in records]),
         values=np.concatenate([np.zeros(0), *[r[3] for r in records]]),
+    )
+
+
+def together(one: Curves, other: Curves) -> Curves:
+    """The records of one, then those of the other."""
+    return Curves(
+        kind=np.concatenate([one.kind, other.kind]),
+        range=np.concatenate([one.range, other.range]),
+        offsets=np.concatenate([one.offsets, other.offsets[1:] + one.offsets[-1]]).astype(np.int32),
+        values=np.concatenate([one.values, other.values]),
     )
 
 

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
-
-if TYPE_CHECKING:
-    from hlr.source.edge_curves import EdgeCurves
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
@@ -116,6 +113,34 @@ class PartInfo:
     faces: int
     edges: int
     solids: int
+
+
+@dataclass(frozen=True, slots=True)
+class Curves:
+    """Records of n curves.
+
+    kind    (n,) uint8, 0 where the curve is not known
+    range   (n, 2) first and last parameter; the curve is run through in rising order
+    offsets (n+1,) into values: the numbers of each record, as `hlr.source.geometry` describes them
+    """
+
+    kind: npt.NDArray[np.uint8]
+    range: Floats
+    offsets: Ints
+    values: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeCurves:
+    """Curves of m edges: edge i is that of record which[i], moved by places[place[i]].
+
+    which (m,), place (m,); places (p, 3, 4)
+    """
+
+    curves: Curves
+    which: Ints
+    place: Ints
+    places: Floats
 
 
 @dataclass(slots=True)

@@ -163,6 +163,9 @@ def _cut_silhouettes(
     return Silhouettes(
         lift=np.concatenate([old.lift, a + (b - a) * t]),
         hidden=moved(old.hidden, 0),
+        number=moved(old.number, -1),
+        curves=old.curves,
+        source=old.source,
         meeting_edge=target[old.meeting_edge[whole]],
         meeting_at=old.meeting_at[whole],
         dents=target[old.dents][target[old.dents] >= 0],

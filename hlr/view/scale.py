@@ -17,6 +17,9 @@ from hlr.view.clip import ASPECT
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
 
+BULGE = 0.2
+"""Of the accuracy: how far a curve may be fitted off the true one."""
+
 MOST_MAGNIFIED = 50.0
 """Nearer to the eye than this share of the target's distance the accuracy is no longer kept: a tessellation that fine
 would not end."""
@@ -38,11 +41,17 @@ class Placed:
     magnified: float
     notes: tuple[str, ...] = ()
 
-    def fitted(self, camera: Camera, options: Options, points: Floats) -> Placed:
-        """The same with the size taken from the mesh itself; (n, 3) model coordinates."""
+    def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placed:
+        """The same with the size taken from the mesh itself; (n, 3) model coordinates.
+
+        Curves bulge over their chords, and are drawn within a share of the accuracy.
+        """
         if options.fit is None:
             return self
         width, height = _extent(camera, points, self.aspect)
+        if curved and not camera.framed:
+            bulge = max(self.tolerances.deflection * self.magnified, BULGE * self.tolerances.accuracy / self.per_model)
+            width, height = width + 2.0 * bulge, height + 2.0 * bulge
         return replace(_sized(width, height, options, self), notes=self.notes)
 
 

@@ -23,7 +23,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.scene.scene import INTERIOR, Chains, Scene, Silhouettes, TrueSurfaces
 from hlr.scene.topology import joined
-from hlr.source.model import EdgeClass, Ints
+from hlr.source.model import Curves, EdgeClass, Ints
 from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera
 
@@ -69,6 +69,13 @@ def _traced(
     surface = np.full(len(wanted), -1, np.int32)
     surface[wanted] = which
     records = on.surfaces.records(used.tolist())
+    # Where several run along one chord, any of them tells the fold's curve.
+    source = np.full(len(scene.edges), -1, np.int32)
+    tied = np.flatnonzero(scene.chains.index >= 0)
+    count = np.diff(scene.chains.offsets)
+    of_chain = np.full(len(count), -1, np.int32)
+    of_chain[tied] = tied
+    source[scene.chains.edges] = np.repeat(of_chain, count)
     d = camera.direction
     return _kernel.silhouettes(
         scene.points,
@@ -78,6 +85,7 @@ def _traced(
         scene.offsets,
         scene.incident,
         smooth,
+        source,
         on.corner,
         on.uv,
         surface,
@@ -106,7 +114,7 @@ def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.ND
 
 
 def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: float) -> Scene:
-    offsets, face = found["offsets"], found["face"]
+    offsets, face, source = found["offsets"], found["face"], found["source"]
     n, m = len(scene.points), len(offsets) - 1
     count = np.diff(offsets)
     # Every two neighbours of one line are an edge.
@@ -149,6 +157,9 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
             meeting_edge=found["meeting_edge"],
             meeting_at=found["meeting_at"],
             dents=found["dents"],
+            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line]),
+            curves=Curves(*(found[f"curve_{name}"] for name in ("kind", "range", "offsets", "values"))),
+            source=np.where(source >= 0, scene.chains.index[source], -1).astype(np.int32),
         ),
         chains=joined(scene.chains, walks),
     )

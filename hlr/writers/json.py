@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr.curve import Arc
 from hlr.drawing import Drawing, Line
-from hlr.linework.curve import Arc
 from hlr.writers.number import decimals, encode, grid
 
 FORMAT = "hlr-drawing"

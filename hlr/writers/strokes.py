@@ -14,9 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.curve import Arc, raised
 from hlr.drawing import Drawing, Line
 from hlr.errors import WriteError
-from hlr.linework.curve import Arc, raised
 from hlr.writers import number, style
 
 Ints = npt.NDArray[np.int64]

@@ -28,6 +28,8 @@ Floats = npt.NDArray[np.float64]
 
 PICTURES = Path(__file__).with_name("pictures")
 SVG = "{http://www.w3.org/2000/svg}"
+NUMBER = r"-?\d*\.?\d+"
+FINE = 64
 META = "{urn:hlr:drawing:1}"
 
 UNDER = 3.0
@@ -199,18 +201,27 @@ def read_picture(path: Path) -> Ink:
     for visibility in ("visible", "hidden"):
         group = root.find(f"{SVG}g[@id='{visibility}']")
         paths = [] if group is None else [p.attrib["d"] for p in group.iter(f"{SVG}path")]
-        found[visibility] = pieces(walk * [1, -1] + origin for d in paths for walk in _walks(d))
+        walks = [walk for d in paths for walk in _walks(d)]
+        if group is not None:
+            walks += [_round(shape) for name in ("circle", "ellipse") for shape in group.iter(SVG + name)]
+        found[visibility] = pieces(walk * [1, -1] + origin for walk in walks)
     return Ink(**found)
 
 
 def _walks(d: str) -> Iterator[Floats]:
-    """Polylines of a path of M, l, h, v and z, as the writer uses them."""
+    """Polylines of a path of M, l, h, v, z, q, c and a, as the writer uses them; curves as FINE chords each."""
     for run in re.findall(r"M[^M]*", d):
         walk: list[tuple[float, float]] = []
-        for command, text in re.findall(r"([Mlhvz])([^Mlhvz]*)", run):
-            numbers = [float(n) for n in re.findall(r"-?\d*\.?\d+", text)]
+        for command, text in re.findall(r"([Mlhvzqca])([^Mlhvzqca]*)", run):
+            numbers = _arc_numbers(text) if command == "a" else [float(n) for n in re.findall(NUMBER, text)]
             if command == "z":
                 walk.append(walk[0])
+            elif command in "qca":
+                count = {"q": 4, "c": 6, "a": 7}[command]
+                for k in range(0, len(numbers), count):
+                    start, given = np.array(walk[-1]), numbers[k : k + count]
+                    curve = _arc(start, given) if command == "a" else _bezier(start, np.reshape(given, (-1, 2)))
+                    walk += [(x, y) for x, y in curve[1:].tolist()]
             elif command in "hv":
                 for n in numbers:
                     x, y = walk[-1]
@@ -220,6 +231,54 @@ def _walks(d: str) -> Iterator[Floats]:
                     x, y = walk[-1] if walk else (0.0, 0.0)
                     walk.append((x + dx, y + dy))
         yield np.array(walk)
+
+
+def _arc_numbers(text: str) -> list[float]:
+    """Radii, turn, two flags of one digit that need nothing between them, and the end; any number of arcs."""
+    flags = r"[\s,]*([01])[\s,]*([01])[\s,]*"
+    three = rf"({NUMBER})[\s,]*({NUMBER})[\s,]+({NUMBER})"
+    found = re.findall(rf"[\s,]*{three}{flags}({NUMBER})[\s,]*({NUMBER})", text)
+    return [float(n) for arc in found for n in arc]
+
+
+def _bezier(start: Floats, others: Floats) -> Floats:
+    p = np.concatenate([[start], start + others])[:, None]
+    t = np.linspace(0.0, 1.0, FINE + 1)[:, None]
+    while len(p) > 1:
+        p = p[:-1] + (p[1:] - p[:-1]) * t
+    return np.asarray(p[0])
+
+
+def _arc(start: Floats, given: Sequence[float]) -> Floats:
+    """Points of an elliptical arc, by the formulas of the SVG specification (implementation notes, B.2.4)."""
+    rx, ry, turn, large, sweep, dx, dy = given
+    c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+    # In the frame of the axes, in half axes, with the middle of the chord as origin.
+    half = np.array([-(c * dx + s * dy) / (2 * rx), (s * dx - c * dy) / (2 * ry)])
+    size = float(np.hypot(*half))
+    rx, ry, half = rx * max(1.0, size), ry * max(1.0, size), half / max(1.0, size)
+    far = np.sqrt(max(0.0, 1.0 / float(half @ half) - 1.0)) * (-1.0 if large == sweep else 1.0)
+    centre = far * np.array([half[1], -half[0]])
+    first, last = (np.arctan2(*(end - centre)[::-1]) for end in (half, -half))
+    angle = (last - first) % (2 * np.pi) - (0.0 if sweep else 2 * np.pi)
+    t = first + angle * np.linspace(0.0, 1.0, FINE + 1)
+    x, y = rx * (np.cos(t) + centre[0]), ry * (np.sin(t) + centre[1])
+    return start + np.array([dx, dy]) / 2 + np.stack([c * x - s * y, s * x + c * y], axis=1)
+
+
+def _round(shape: ElementTree.Element) -> Floats:
+    """Points of a circle or an ellipse."""
+    given = shape.attrib
+    rx, ry = (float(given.get(name, given.get("r", 0))) for name in ("rx", "ry"))
+    t = np.linspace(0.0, 2 * np.pi, 4 * FINE + 1)
+    points = np.stack([float(given["cx"]) + rx * np.cos(t), float(given["cy"]) + ry * np.sin(t)], axis=1)
+    turned = re.fullmatch(
+        rf"rotate\(({NUMBER})[ ,]+({NUMBER})[ ,]+({NUMBER})\)", given.get("transform", "rotate(0 0 0)")
+    )
+    assert turned, given
+    angle, *pivot = (float(n) for n in turned.groups())
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    return np.asarray((points - pivot) @ np.array([[c, s], [-s, c]]) + pivot)
 
 
 def wrong_by_rays(drawing: Drawing, points: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[int, int]:

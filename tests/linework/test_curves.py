@@ -12,7 +12,7 @@ import pytest
 from peers.curves import DENSE, distance, measured, on_paper, samples, true_curves
 
 import hlr
-from hlr.linework.curve import Arc, Bezier, arc_bounds, bezier_bounds, raised
+from hlr.curve import Arc, Bezier, arc_bounds, bezier_bounds, raised
 from hlr.source import open_source
 from hlr.writers import render
 

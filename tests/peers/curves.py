@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 
 import hlr
+from hlr.curve import Arc
 from hlr.drawing import Drawing, Line
-from hlr.linework.curve import Arc
 from hlr.source import open_source
 from hlr.source.locations import moved
 from hlr.source.parts import explored

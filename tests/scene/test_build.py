@@ -175,7 +175,7 @@ def test_repeated_triangles_are_dropped_and_counted():
 
 
 def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():
-    one = part_of(cq.Workplane().box(10, 20, 30).edges("|Z").fillet(3))
+    one = replace(part_of(cq.Workplane().box(10, 20, 30).edges("|Z").fillet(3)), on_surfaces=None)
     n = len(one.points)
     twice = replace(
         one,

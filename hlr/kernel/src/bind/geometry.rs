@@ -10,8 +10,9 @@ use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::geometry::curve::Curve;
 use crate::geometry::curve::Vec3;
+use crate::lines::View;
 use crate::paper::arc::grow;
-use crate::paper::junction::{Route, junctions};
+use crate::paper::junction::{Goal, Move, Route, junctions};
 use crate::paper::project::{Projection, Vec2};
 use crate::paper::{Drawn, Form, Placed, located, piece};
 
@@ -49,7 +50,7 @@ pub fn curve_points<'py>(
 
 type Vec4 = [f64; 4];
 
-/// Forms of lines, as `hlr.linework.curve` reads them.
+/// Forms of lines, as `hlr.curve` reads them.
 const POLYLINE: u8 = 0;
 const STRAIGHT: u8 = 1;
 const ARC: u8 = 2;
@@ -73,6 +74,7 @@ pub fn true_lines<'py>(
     space_points: PyReadonlyArray2<'py, f64>,
     line_chain: PyReadonlyArray1<'py, i32>,
     line_visible: PyReadonlyArray1<'py, bool>,
+    line_hides: PyReadonlyArray1<'py, bool>,
     eye: [f64; 3],
     away: [f64; 3],
     accuracy: f64,
@@ -94,6 +96,8 @@ pub fn true_lines<'py>(
     let space_points = rows::<f64, 3>(&space_points, "space_points")?;
     let n = line_curve.len();
     let (line_chain, line_visible) = (flat(&line_chain, "line_chain")?, flat(&line_visible, "line_visible")?);
+    let line_hides = flat(&line_hides, "line_hides")?;
+    expect_len("line_hides", line_hides.len(), n)?;
     expect_len("line_place", line_place.len(), n)?;
     expect_len("line_chain", line_chain.len(), n)?;
     expect_len("line_visible", line_visible.len(), n)?;
@@ -133,17 +137,16 @@ pub fn true_lines<'py>(
             .map(|i| {
                 let (flat, space) = (&flat_points[points(i)], &space_points[points(i)]);
                 let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy)?)));
-                Route { chain: line_chain[i], visible: line_visible[i], flat, space, curve }
+                Route { chain: line_chain[i], visible: line_visible[i], hides: line_hides[i], flat, space, curve }
             })
             .collect();
-        let depth = |p: &[f64; 3]| (0..3).map(|k| (p[k] - eye[k]) * away[k]).sum::<f64>();
-        let moves = junctions(&routes, accuracy, contact, &depth);
+        let view = View { origin: eye, away, perspective: !projection.parallel() };
+        let moves = junctions(&routes, accuracy, contact, &view);
         // Ends of polylines that move; those of curves move with their interval.
         let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
-        for (i, end, t) in moves {
-            let to = (routes[i].at(t)[0], routes[i].in_space(t));
-            match &mut routes[i].curve {
-                Some((_, ts)) => {
+        for Move { line, end, to } in moves {
+            match (&mut routes[line].curve, to) {
+                (Some((_, ts)), Goal::Parameter(t)) => {
                     let at = end * (ts.len() - 1);
                     let rest = ts[ts.len() - 1 - at];
                     // Never past the other end.
@@ -151,7 +154,8 @@ pub fn true_lines<'py>(
                         ts[at] = t;
                     }
                 }
-                None => moved[i][end] = Some(to),
+                (None, Goal::Point(flat, space)) => moved[line][end] = Some((flat, space)),
+                _ => {}
             }
         }
         let drawn: Vec<(Option<Drawn>, Vec<f64>)> = routes

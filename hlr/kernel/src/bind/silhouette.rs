@@ -7,13 +7,16 @@ use pyo3::types::PyDict;
 
 use super::running::run;
 use super::scan::{check_incidence, expect_below, expect_len, flat, rows};
+use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::lines::View;
 use crate::silhouette::trace::{Traced, trace};
 use crate::silhouette::{FaceRecord, Model};
 
+const TURN: [f64; 2] = [0.0, std::f64::consts::TAU];
+
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_face, edges, offsets, incident, smooth, corner, uv, face_surface,
+#[pyo3(signature = (points, triangles, triangle_face, edges, offsets, incident, smooth, source, corner, uv, face_surface,
     face_place, face_inward, face_curved, surface_kind, surface_offsets, surface_data, perspective, eye, away, chord,
     threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
@@ -26,6 +29,7 @@ pub fn silhouettes<'py>(
     offsets: PyReadonlyArray1<'py, i32>,
     incident: PyReadonlyArray1<'py, i32>,
     smooth: PyReadonlyArray1<'py, bool>,
+    source: PyReadonlyArray1<'py, i32>,
     corner: PyReadonlyArray2<'py, i32>,
     uv: PyReadonlyArray2<'py, f64>,
     face_surface: PyReadonlyArray1<'py, i32>,
@@ -46,7 +50,7 @@ pub fn silhouettes<'py>(
     let triangle_face = flat(&triangle_face, "triangle_face")?;
     let edges = rows::<i32, 2>(&edges, "edges")?;
     let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
-    let smooth = flat(&smooth, "smooth")?;
+    let (smooth, source) = (flat(&smooth, "smooth")?, flat(&source, "source")?);
     let corner = rows::<i32, 3>(&corner, "corner")?;
     let uv = rows::<f64, 2>(&uv, "uv")?;
     let (face_surface, face_place) =
@@ -57,6 +61,7 @@ pub fn silhouettes<'py>(
     expect_len("triangle_face", triangle_face.len(), triangles.len())?;
     expect_len("corner", corner.len(), triangles.len())?;
     expect_len("smooth", smooth.len(), edges.len())?;
+    expect_len("source", source.len(), edges.len())?;
     for (name, found) in
         [("face_place", face_place.len()), ("face_inward", inward.len()), ("face_curved", curved.len())]
     {
@@ -102,6 +107,7 @@ pub fn silhouettes<'py>(
         offsets,
         incident,
         smooth,
+        source,
         corner,
         uv,
         faces,
@@ -118,12 +124,25 @@ pub fn silhouettes<'py>(
         normals.extend(s.normals.iter().flatten());
         starts.push((flat_points.len() / 3) as i32);
     }
+    let (mut curve_kind, mut curve_range, mut curve_starts, mut curve_values) = (vec![], vec![], vec![0i32], vec![]);
+    for s in &found {
+        let range =
+            s.curve.as_ref().map_or([0.0; 2], |c| if let Curve::Spline(n) = c { n.domain().into() } else { TURN });
+        curve_kind.push(s.curve.as_ref().map_or(0, |c| c.record(&mut curve_values)));
+        curve_range.extend(range);
+        curve_starts.push(curve_values.len() as i32);
+    }
     let n = flat_points.len() / 3;
     let out = PyDict::new(py);
     out.set_item("offsets", starts.into_pyarray(py))?;
     out.set_item("points", flat_points.into_pyarray(py).reshape([n, 3])?)?;
     out.set_item("normals", normals.into_pyarray(py).reshape([n, 3])?)?;
     out.set_item("face", found.iter().map(|s| s.face).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("source", found.iter().map(|s| s.source).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("curve_kind", curve_kind.into_pyarray(py))?;
+    out.set_item("curve_range", curve_range.into_pyarray(py).reshape([found.len(), 2])?)?;
+    out.set_item("curve_offsets", curve_starts.into_pyarray(py))?;
+    out.set_item("curve_values", curve_values.into_pyarray(py))?;
     out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("meeting_edge", meetings.iter().map(|m| m.0).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("meeting_at", meetings.iter().map(|m| m.1).collect::<Vec<_>>().into_pyarray(py))?;

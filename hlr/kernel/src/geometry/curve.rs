@@ -29,8 +29,8 @@ pub const HYPERBOLA: u8 = 4;
 pub const SPLINE: u8 = 5;
 
 impl Curve {
-    /// From the numbers of a record: three vectors, or (degree, poles, rational, knots, poles of x y z w).
-    /// None where they do not make a curve.
+    /// From the numbers of a record: three vectors, or (degree, poles, rational, knots, poles of x y z w); where it is
+    /// sampled, rational is 2. None where they do not make a curve.
     pub fn from_record(kind: u8, values: &[f64]) -> Option<Curve> {
         if kind == SPLINE {
             let [degree, count, rational, rest @ ..] = values else { return None };
@@ -43,7 +43,13 @@ impl Curve {
                 return None;
             }
             let poles = poles.as_chunks::<4>().0.iter().map(|&[x, y, z, w]| [x * w, y * w, z * w, w]).collect();
-            return Some(Curve::Spline(Nurbs { degree, rational: *rational != 0.0, knots: knots.to_vec(), poles }));
+            return Some(Curve::Spline(Nurbs {
+                degree,
+                rational: *rational == 1.0,
+                sampled: *rational == 2.0,
+                knots: knots.to_vec(),
+                poles,
+            }));
         }
         let [p, a, b] = values.as_chunks::<3>().0 else { return None };
         let (p, a, b) = (*p, *a, *b);
@@ -54,6 +60,25 @@ impl Curve {
             HYPERBOLA => Some(Curve::Hyperbola { p, a, b }),
             _ => None,
         }
+    }
+
+    /// The record of the curve, its numbers appended to `values`.
+    pub fn record(&self, values: &mut Vec<f64>) -> u8 {
+        let (kind, three) = match self {
+            Curve::Line { p, a } => (LINE, [*p, *a, [0.0; 3]]),
+            Curve::Ellipse { p, a, b } => (ELLIPSE, [*p, *a, *b]),
+            Curve::Parabola { p, a, b } => (PARABOLA, [*p, *a, *b]),
+            Curve::Hyperbola { p, a, b } => (HYPERBOLA, [*p, *a, *b]),
+            Curve::Spline(n) => {
+                let form = if n.sampled { 2.0 } else { f64::from(u8::from(n.rational)) };
+                values.extend([n.degree as f64, n.poles.len() as f64, form]);
+                values.extend(&n.knots);
+                values.extend(n.poles.iter().flat_map(|[x, y, z, w]| [x / w, y / w, z / w, *w]));
+                return SPLINE;
+            }
+        };
+        values.extend(three.as_flattened());
+        kind
     }
 
     /// Moved by a (3, 4) matrix.
@@ -122,6 +147,8 @@ mod tests {
         let nine = [1.0, 2.0, 3.0, 0.5, 0.0, 1.0, 0.0, 2.0, 0.0];
         for kind in [LINE, ELLIPSE, PARABOLA, HYPERBOLA] {
             let Some(curve) = Curve::from_record(kind, &nine) else { panic!() };
+            let mut values = Vec::new();
+            assert_eq!((curve.record(&mut values), &values[..]), (kind, &nine[..]));
             let (a, b) = (curve.moved(&m).point(0.7), apply(curve.point(0.7)));
             assert!((0..3).all(|k| (a[k] - b[k]).abs() < 1e-12));
         }

@@ -9,6 +9,8 @@ pub const MOST_DEGREE: usize = 25;
 pub struct Nurbs {
     pub degree: usize,
     pub rational: bool,
+    /// Made from places of another curve, which it follows closely: nothing to be taken over pole by pole.
+    pub sampled: bool,
     pub knots: Vec<f64>,
     pub poles: Vec<[f64; 4]>,
 }
@@ -139,6 +141,7 @@ mod tests {
         let quarter = Nurbs {
             degree: 2,
             rational: true,
+            sampled: false,
             knots: vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
             poles: vec![[1.0, 0.0, 0.0, 1.0], [s, s, 0.0, s], [0.0, 1.0, 0.0, 1.0]],
         };
@@ -156,6 +159,7 @@ mod tests {
         let curve = Nurbs {
             degree: 3,
             rational: true,
+            sampled: false,
             knots: vec![0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 2.5, 3.0, 3.0, 3.0, 3.0],
             poles: (0..7u8)
                 .map(|i| [f64::from(i), f64::from(i * i % 5), f64::from(i % 3), 1.0 + 0.1 * f64::from(i % 2)])

@@ -101,6 +101,20 @@ impl Surface {
         }
     }
 
+    /// A point of the axis of revolution and its direction.
+    pub fn axis(&self) -> Option<(Vector, Vector)> {
+        match self {
+            Surface::Torus(f, ..) => Some((f.origin, f.z)),
+            Surface::Revolution(origin, axis, _) => Some((*origin, *axis)),
+            _ => None,
+        }
+    }
+
+    /// The centre of a sphere.
+    pub fn centre(&self) -> Option<Vector> {
+        if let Surface::Sphere(f, _) = self { Some(f.origin) } else { None }
+    }
+
     /// The unit normal du x dv; None where the surface has none.
     pub fn normal(&self, uv: [f64; 2]) -> Option<Vector> {
         let (_, du, dv) = self.d1(uv);

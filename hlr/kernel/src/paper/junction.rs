@@ -14,6 +14,7 @@ use super::Placed;
 use super::fit::{length, minus};
 use super::project::Vec2;
 use crate::geometry::curve::Vec3;
+use crate::lines::View;
 
 /// In accuracies: how far the other line's polyline may be from the change.
 const NEAR: f64 = 2.0;
@@ -29,6 +30,9 @@ const MET: f64 = 1e-4;
 pub struct Route<'a> {
     pub chain: i32,
     pub visible: bool,
+    /// Whether a surface may end here in the image, and hide what goes on behind it. Where surfaces meet, and along
+    /// smooth edges, none does.
+    pub hides: bool,
     pub flat: &'a [Vec2],
     pub space: &'a [Vec3],
     pub curve: Option<(&'a Placed, Vec<f64>)>,
@@ -57,24 +61,37 @@ impl Route<'_> {
         [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
     }
 
-    /// The point in space, on a polyline taken as if on paper: near its ends that is near enough.
-    pub fn in_space(&self, t: f64) -> Vec3 {
+    /// The point in space that `at` is the image of.
+    pub fn in_space(&self, t: f64, view: &View) -> Vec3 {
         if let Some((placed, _)) = &self.curve {
             return placed.curve.point(placed.track.wrapped(t));
         }
         let (i, s) = self.segment(t);
-        [0, 1, 2].map(|k| self.space[i][k] + (self.space[i + 1][k] - self.space[i][k]) * s)
+        let (a, b) = (&self.space[i], &self.space[i + 1]);
+        let s = view.in_space(s, view.depth(a), view.depth(b));
+        [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * s)
     }
 }
 
-/// Changes of visibility that move: (line, 0 for its start or 1 for its end, parameter). `depth` grows away from the
-/// viewer; what lies less than `contact` behind may still hide.
-pub fn junctions(
-    routes: &[Route],
-    accuracy: f64,
-    contact: f64,
-    depth: &(dyn Fn(&Vec3) -> f64 + Sync),
-) -> Vec<(usize, usize, f64)> {
+/// An end that moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Move {
+    pub line: usize,
+    /// 0 for the line's start, 1 for its end.
+    pub end: usize,
+    pub to: Goal,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub enum Goal {
+    /// A parameter of the line's curve.
+    Parameter(f64),
+    /// For polylines: all that meet there go to one point, on paper and in space.
+    Point(Vec2, Vec3),
+}
+
+/// Changes of visibility that move. What lies less than `contact` behind may still hide.
+pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
     let mut meeting: HashMap<(i32, u64, u64), Vec<(usize, usize)>> = HashMap::new();
     for (i, route) in routes.iter().enumerate().filter(|(_, r)| r.flat.len() > 1) {
         for end in [0, 1] {
@@ -96,7 +113,7 @@ pub fn junctions(
     let mut near: Vec<(usize, usize, usize)> = routes
         .par_iter()
         .enumerate()
-        .filter(|(_, route)| route.visible)
+        .filter(|(_, route)| route.visible && route.hides)
         .flat_map_iter(|(j, route)| {
             let changes = &changes;
             route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
@@ -123,7 +140,7 @@ pub fn junctions(
                 let s = apart(p, &other.flat[k], &other.flat[k + 1]).1;
                 let Some((t, u)) = crossing(own, start, other, other.parameter(k, s), accuracy) else { continue };
                 let moved = length(&minus(&own.at(t)[0], &here));
-                let before = depth(&other.in_space(u)) <= depth(&own.in_space(t)) + contact;
+                let before = view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
                 if moved < best.0 && before && within(other, u, reach) {
                     best = (moved, Some(t));
                 }
@@ -132,19 +149,15 @@ pub fn junctions(
             let alike = ends.iter().all(|e| routes[e.0].curve.is_some() == own.curve.is_some());
             let target = best.1.filter(|_| alike);
             ends.iter()
-                .filter_map(move |&(i, end)| {
-                    let (route, t) = (&routes[i], target?);
-                    let last = route.parameter(end * (route.flat.len() - 2), end as f64);
-                    match (&own.curve, &route.curve) {
-                        (Some(_), Some(_)) => Some((i, end, last + (t - start))),
-                        (None, None) => {
-                            let (goal, [q, way]) = (own.at(t)[0], route.at(last));
-                            let d = minus(&goal, &q);
-                            let along = (d[0] * way[0] + d[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
-                            along.is_finite().then_some((i, end, last + along))
-                        }
-                        _ => None,
-                    }
+                .filter_map(move |&(line, end)| {
+                    let (route, t) = (&routes[line], target?);
+                    let to = if route.curve.is_some() {
+                        let last = route.parameter(end * (route.flat.len() - 2), end as f64);
+                        Goal::Parameter(last + (t - start))
+                    } else {
+                        Goal::Point(own.at(t)[0], own.in_space(t, view))
+                    };
+                    Some(Move { line, end, to })
                 })
                 .collect::<Vec<_>>()
         })
@@ -194,7 +207,7 @@ mod tests {
     use super::*;
 
     fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
-        Route { chain, visible, flat, space, curve: None }
+        Route { chain, visible, hides: true, flat, space, curve: None }
     }
 
     #[test]
@@ -207,18 +220,22 @@ mod tests {
             straight(0, false, &hidden, &deep),
             straight(1, true, &wall, &[[0.0; 3]; 2]),
         ];
-        let depth = |p: &Vec3| p[2];
-        let found = junctions(&routes, 0.05, 0.1, &depth);
+        let view = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+        let found = junctions(&routes, 0.05, 0.1, &view);
         assert_eq!(found.len(), 2);
-        for (i, _, t) in found {
-            assert!((routes[i].at(t)[0][0] - 1.0).abs() < 1e-12);
+        for step in found {
+            let Goal::Point(flat, space) = step.to else { panic!() };
+            assert!((flat[0] - 1.0).abs() < 1e-12 && space == deep[0]);
         }
-        // Too far, behind, or of the same edge: nothing moves.
-        assert!(junctions(&routes, 0.01, 0.1, &depth).is_empty());
+        // Too far, no border of a surface, behind, or of the same edge: nothing moves.
+        assert!(junctions(&routes, 0.01, 0.1, &view).is_empty());
+        routes[2].hides = false;
+        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+        routes[2].hides = true;
         routes[2].space = &[[0.0, 0.0, 9.0]; 2];
-        assert!(junctions(&routes, 0.05, 0.1, &depth).is_empty());
+        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
         routes[2].space = &[[0.0; 3]; 2];
         routes[2].chain = 0;
-        assert!(junctions(&routes, 0.05, 0.1, &depth).is_empty());
+        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
     }
 }

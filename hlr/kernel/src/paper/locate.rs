@@ -38,8 +38,10 @@ impl Track {
                 stops.extend(n.knots.iter().copied().filter(|&u| u > range[0] && u < range[1]));
                 stops.push(range[1]);
                 stops.dedup();
+                // Short cubic pieces hold no surprise between their ends.
+                let count = if n.sampled { 1 } else { PLACES };
                 for w in stops.windows(2) {
-                    places.extend((0..PLACES).map(|i| w[0] + (w[1] - w[0]) * (i as f64 / PLACES as f64)));
+                    places.extend((0..count).map(|i| w[0] + (w[1] - w[0]) * (i as f64 / count as f64)));
                 }
                 places.push(range[1]);
                 let places = places.into_iter().map(|t| (t, curve.point(t))).collect();

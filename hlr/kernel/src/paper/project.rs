@@ -57,7 +57,7 @@ impl Paper {
             }
             Curve::Spline(n) => Paper::Spline {
                 degree: n.degree,
-                rational: n.rational || !projection.parallel(),
+                rational: n.rational || n.sampled || !projection.parallel(),
                 knots: n.knots.clone(),
                 poles: n.poles.iter().map(|q| projection.homogeneous(&[q[0], q[1], q[2]], q[3])).collect(),
             },

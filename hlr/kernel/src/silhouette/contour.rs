@@ -43,6 +43,8 @@ pub struct Fold {
     pub normal: Vector,
     /// The face turned toward the viewer.
     pub face: i32,
+    /// The edge of the B-rep, -1 for none.
+    pub source: i32,
     pub concave: bool,
 }
 
@@ -269,6 +271,7 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
             points: [pair[0].2, pair[1].2],
             normal: mean(&sides[0].normal, &sides[1].normal),
             face: sides[front].number,
+            source: model.source[e],
             concave: concave(model, e, sides, t),
         });
     }

@@ -69,10 +69,33 @@ impl<'a> Face<'a> {
         Some(Place { uv, point: self.point(uv), normal: self.normal(uv)? })
     }
 
-    /// Lengths of the derivatives in the model.
-    pub fn speeds(&self, uv: [f64; 2]) -> [f64; 2] {
+    /// The derivatives by both parameters.
+    pub fn derivatives(&self, uv: [f64; 2]) -> [Vector; 2] {
         let (_, du, dv) = self.surface.d1(uv);
-        [length(&self.turned(&du)), length(&self.turned(&dv))]
+        [self.turned(&du), self.turned(&dv)]
+    }
+
+    /// Their lengths.
+    pub fn speeds(&self, uv: [f64; 2]) -> [f64; 2] {
+        self.derivatives(uv).map(|d| length(&d))
+    }
+
+    /// A point of the axis of revolution and its direction; not of a sphere.
+    pub fn axis(&self) -> Option<(Vector, Vector)> {
+        let (origin, axis) = self.surface.axis()?;
+        Some((self.moved(&origin), unit(&self.turned(&axis))?))
+    }
+
+    /// Centre and axis of the circle in which a sphere through p is seen edge-on.
+    pub fn circle_of_sphere(&self, p: &Vector) -> Option<(Vector, Vector)> {
+        let centre = self.moved(&self.surface.centre()?);
+        if !self.model.view.perspective {
+            return Some((centre, self.model.view.away));
+        }
+        let away = sub(&centre, &self.model.view.origin);
+        let arm = sub(p, &centre);
+        // The circle of contact of the cone from the eye.
+        Some((along(&centre, &away, -dot(&arm, &arm) / dot(&away, &away)), unit(&away)?))
     }
 
     /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before and

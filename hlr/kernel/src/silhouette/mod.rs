@@ -9,7 +9,8 @@
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at an
 //!               edge do not change at the same place, the edge itself folds between, so that no gap is left
 //! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
-//! 4. `trace`    joined into curves, which part where the face or the way the surface curves changes
+//! 4. `trace`    joined into curves, which part where the face, the edge or the way the surface curves changes
+//! 5. `exact`    circles, and cubic pieces through the points with their tangents
 //! ```
 //!
 //! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the surface,
@@ -17,6 +18,7 @@
 //! runs into a fillet is a fold along its nearer border only.
 
 pub mod contour;
+pub mod exact;
 pub mod face;
 pub mod refine;
 pub mod trace;
@@ -38,6 +40,8 @@ pub struct Model<'a> {
     pub incident: &'a [i32],
     /// Edges across which the surface goes on smoothly.
     pub smooth: &'a [bool],
+    /// The edge of the B-rep of which an edge is a chord, -1 for none.
+    pub source: &'a [i32],
     /// Per triangle corner its place in uv.
     pub corner: &'a [[i32; 3]],
     pub uv: &'a [[f64; 2]],

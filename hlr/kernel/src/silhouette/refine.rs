@@ -1,5 +1,6 @@
 //! Between two crossings of one triangle: more points on the surface, and cusps.
 
+use super::exact::tangent;
 use super::face::{Face, Place, between};
 use crate::geometry::vector::{Vector, from_line, length, sub};
 
@@ -9,6 +10,10 @@ pub struct Stretch {
     pub from: Vector,
     pub to: Vector,
     pub normals: [Vector; 2],
+    /// Either way; None where it is not known.
+    pub tangents: [Option<Vector>; 2],
+    /// The edge of the B-rep along which it runs, -1 for none.
+    pub source: i32,
     /// The surface bends toward its normal along the line of sight: a body hides this by itself.
     pub concave: bool,
 }
@@ -29,17 +34,18 @@ pub fn stretches(face: &Face, from: Place, to: Place, chord: f64) -> Vec<Stretch
         let clear = x.abs() > STRAIGHT && y.abs() > STRAIGHT;
         if clear && (x < 0.0) != (y < 0.0) {
             let c = cusp(face, a, b, x < 0.0);
-            out.push(piece(a, &c, x < 0.0));
-            out.push(piece(&c, b, y < 0.0));
+            out.push(piece(face, a, &c, chord, x < 0.0));
+            out.push(piece(face, &c, b, chord, y < 0.0));
         } else {
-            out.push(piece(a, b, x.min(y) < -STRAIGHT));
+            out.push(piece(face, a, b, chord, x.min(y) < -STRAIGHT));
         }
     }
     out
 }
 
-fn piece(a: &Place, b: &Place, concave: bool) -> Stretch {
-    Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], concave }
+fn piece(face: &Face, a: &Place, b: &Place, chord: f64, concave: bool) -> Stretch {
+    let tangents = [a, b].map(|place| tangent(face, place, chord));
+    Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], tangents, source: -1, concave }
 }
 
 fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut Vec<Place>) {

@@ -6,9 +6,11 @@ use rayon::prelude::*;
 
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
+use super::exact::{circle, through};
 use super::face::Face;
 use super::refine::{Stretch, stretches};
-use crate::geometry::vector::{Vector, dot, length, sub};
+use crate::geometry::curve::Curve;
+use crate::geometry::vector::{Vector, along, cross, dot, length, sub};
 
 /// A curve over one face along which the surface curves in one way.
 #[derive(Clone, Debug)]
@@ -17,6 +19,9 @@ pub struct Silhouette {
     pub concave: bool,
     pub points: Vec<Vector>,
     pub normals: Vec<Vector>,
+    /// None where it is straight, or runs along an edge of the B-rep: `source`, else -1.
+    pub curve: Option<Curve>,
+    pub source: i32,
 }
 
 /// All that is found: the curves, and where they meet edges of the model.
@@ -30,6 +35,12 @@ pub struct Traced {
 
 /// Of the chord tolerance: a fold shorter than this closes a gap that is none.
 const GAP: f64 = 0.5;
+
+/// Cosine of the turn that is one back.
+const BACK: f64 = 0.7;
+/// Radians; a curve that closes after one turn stays whole.
+const TURN: f64 = std::f64::consts::TAU;
+const SLACK: f64 = 0.2;
 
 /// A piece between two nodes: over one triangle, or along an edge.
 struct Link {
@@ -70,6 +81,8 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
             from: fold.points[0],
             to: fold.points[1],
             normals: [fold.normal; 2],
+            tangents: [None; 2],
+            source: fold.source,
             concave: fold.concave,
         }],
     }));
@@ -78,7 +91,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     }
     let mut out = Vec::new();
     for walk in walks(&links) {
-        parted(&links, &walk, &same, model.chord, &mut out);
+        parted(&links, &walk, &same, model, &mut out);
     }
     Some(Traced { silhouettes: out, meetings: meetings(model, &crossings), dents })
 }
@@ -132,6 +145,7 @@ fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing)
         points: [crossing.place.point, model.points[vertex as usize]],
         normal: crossing.place.normal,
         face: number,
+        source: -1,
         concave: face.radial(crossing.place.uv) * model.chord < -1e-9,
     })
 }
@@ -212,8 +226,8 @@ fn walks(links: &[Link]) -> Vec<Vec<(usize, bool)>> {
     out
 }
 
-/// One walk cut where the face or the way of curving changes.
-fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, chord: f64, out: &mut Vec<Silhouette>) {
+/// One walk cut where the face, the edge or the way of curving changes, and where its image turns back.
+fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, out: &mut Vec<Silhouette>) {
     let mut pieces: Vec<(i32, Stretch)> = Vec::new();
     for &(i, backward) in walk {
         let link = &links[i];
@@ -229,27 +243,81 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, chord: f64, out: 
         if backward {
             own.reverse();
             for s in &mut own {
-                *s = Stretch { from: s.to, to: s.from, normals: [s.normals[1], s.normals[0]], concave: s.concave };
+                (s.from, s.to) = (s.to, s.from);
+                s.normals.reverse();
+                s.tangents.reverse();
             }
         }
         pieces.extend(own.into_iter().map(|s| (link.face, s)));
     }
     let closed = pieces.len() > 1 && pieces[0].1.from == pieces[pieces.len() - 1].1.to;
-    pieces.retain(|(_, s)| length(&sub(&s.to, &s.from)) > 1e-6 * chord);
+    pieces.retain(|(_, s)| length(&sub(&s.to, &s.from)) > 1e-6 * model.chord);
     if pieces.is_empty() {
         return;
     }
-    let key = |p: &(i32, Stretch)| (p.0, p.1.concave);
-    if closed && let Some(k) = (1..pieces.len()).find(|&k| key(&pieces[k]) != key(&pieces[k - 1])) {
+    let key = |p: &(i32, Stretch)| (p.0, p.1.concave, p.1.source);
+    let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !turns_back(model, &a.1, &b.1);
+    if closed && let Some(k) = (1..pieces.len()).find(|&k| !goes_on(&pieces[k - 1], &pieces[k])) {
         pieces.rotate_left(k);
     }
-    for run in pieces.chunk_by(|a, b| key(a) == key(b)) {
+    let whole = pieces.len();
+    for run in pieces.chunk_by(goes_on).flat_map(|run| unwound(model, run, closed && run.len() == whole)) {
         let mut points = vec![run[0].1.from];
         let mut normals = vec![run[0].1.normals[0]];
+        let mut tangents = vec![run[0].1.tangents[0]];
         for (_, s) in run {
             points.push(s.to);
             normals.push(s.normals[1]);
+            tangents.push(s.tangents[1]);
         }
-        out.push(Silhouette { face: run[0].0, concave: run[0].1.concave, points, normals });
+        let (face, Stretch { concave, source, .. }) = (run[0].0, run[0].1);
+        let curve = if source >= 0 { None } else { along_points(model, face, &points, &tangents) };
+        out.push(Silhouette { face, concave, points, normals, curve, source });
     }
+}
+
+/// The curve through points of a face's silhouette; two points are a straight line.
+fn along_points(model: &Model, face: i32, points: &[Vector], tangents: &[Option<Vector>]) -> Option<Curve> {
+    if points.len() < 3 {
+        return None;
+    }
+    let round = Face::new(model, face).and_then(|face| circle(&face, points, model.chord));
+    round.or_else(|| through(points, tangents).map(Curve::Spline))
+}
+
+/// Whether the image of two stretches goes back from where they meet, so that the two may lie on one another.
+fn turns_back(model: &Model, a: &Stretch, b: &Stretch) -> bool {
+    let sight = model.sight(&b.from);
+    let (p, q) = (image(a, &sight), image(b, &sight));
+    dot(&p, &q) < -BACK * length(&p) * length(&q)
+}
+
+/// A curve whose image winds round more than once may lie on itself: it is cut after every turn.
+fn unwound<'a>(model: &Model, run: &'a [(i32, Stretch)], closed: bool) -> Vec<&'a [(i32, Stretch)]> {
+    let turns: Vec<f64> = run.windows(2).map(|w| turn(model, &w[0].1, &w[1].1)).collect();
+    if closed && turns.iter().sum::<f64>().abs() < TURN + SLACK {
+        return vec![run];
+    }
+    let (mut out, mut first, mut total) = (Vec::new(), 0, 0.0f64);
+    for (k, turn) in turns.iter().enumerate() {
+        total += turn;
+        if total.abs() > TURN - SLACK {
+            out.push(&run[first..=k]);
+            (first, total) = (k + 1, 0.0);
+        }
+    }
+    out.push(&run[first..]);
+    out
+}
+
+/// The angle between the images of two stretches.
+fn turn(model: &Model, a: &Stretch, b: &Stretch) -> f64 {
+    let sight = model.sight(&b.from);
+    let (p, q) = (image(a, &sight), image(b, &sight));
+    dot(&cross(&p, &q), &sight).atan2(dot(&p, &q))
+}
+
+fn image(s: &Stretch, sight: &Vector) -> Vector {
+    let way = sub(&s.to, &s.from);
+    along(&way, sight, -dot(&way, sight))
 }

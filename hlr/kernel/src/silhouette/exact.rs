@@ -1,0 +1,121 @@
+//! The curve along a silhouette: a circle where that is known in closed form, else cubic pieces through its points with
+//! the tangents there.
+
+use super::face::{Face, Place};
+use crate::geometry::curve::Curve;
+use crate::geometry::nurbs::Nurbs;
+use crate::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
+
+/// Of the chord tolerance: how far a point of a circle may be from it.
+const ON: f64 = 1e-3;
+/// Of the chord tolerance: the step over which f is differentiated.
+const STEP: f64 = 0.05;
+/// Cosine between a tangent and the way from point to point below which it is not believed.
+const ASTRAY: f64 = 0.3;
+
+/// The direction on the surface along which f stays 0; None where f does not change to any side.
+pub fn tangent(face: &Face, place: &Place, chord: f64) -> Option<Vector> {
+    let [du, dv] = face.derivatives(place.uv);
+    let speed = [length(&du), length(&dv)];
+    if speed[0] == 0.0 || speed[1] == 0.0 {
+        return None;
+    }
+    let step = STEP * chord;
+    let slope = |k: usize| {
+        let mut beside = [place.uv; 2];
+        beside[0][k] -= step / speed[k];
+        beside[1][k] += step / speed[k];
+        Some(face.f(beside[1])? - face.f(beside[0])?)
+    };
+    let (fu, fv) = (slope(0)?, slope(1)?);
+    unit(&sub(&scaled(&du, fv / speed[0]), &scaled(&dv, fu / speed[1])))
+}
+
+/// The circle on which all points lie, where the surface is one of revolution seen along its axis, or a sphere.
+pub fn circle(face: &Face, points: &[Vector], chord: f64) -> Option<Curve> {
+    if points.len() < 4 {
+        return None;
+    }
+    let (centre, axis) = match face.axis() {
+        Some((origin, axis)) => (along(&origin, &axis, dot(&sub(&points[0], &origin), &axis)), axis),
+        None => face.circle_of_sphere(&points[0])?,
+    };
+    let arm = sub(&points[0], &centre);
+    let radius = length(&arm);
+    let on = |p: &Vector| {
+        let q = sub(p, &centre);
+        dot(&q, &axis).abs() <= ON * chord && (length(&q) - radius).abs() <= ON * chord
+    };
+    // It runs the way of the points.
+    let way = cross(&arm, &sub(&points[1], &points[0]));
+    let axis = if dot(&way, &axis) < 0.0 { scaled(&axis, -1.0) } else { axis };
+    points.iter().all(on).then(|| Curve::Ellipse { p: centre, a: arm, b: cross(&axis, &arm) })
+}
+
+/// Cubic pieces through the points, as a B-spline with a continuous tangent.
+pub fn through(points: &[Vector], tangents: &[Option<Vector>]) -> Option<Nurbs> {
+    let last = points.len() - 1;
+    let closed = points[0] == points[last];
+    let ways: Vec<Vector> = (0..=last)
+        .map(|i| {
+            let before = if i > 0 {
+                i - 1
+            } else if closed {
+                last - 1
+            } else {
+                i
+            };
+            let after = if i < last {
+                i + 1
+            } else if closed {
+                1
+            } else {
+                i
+            };
+            let way = unit(&sub(&points[after], &points[before])).unwrap_or([0.0; 3]);
+            let Some(t) = tangents[i] else { return way };
+            let t = if dot(&t, &way) < 0.0 { scaled(&t, -1.0) } else { t };
+            if dot(&t, &way) < ASTRAY { way } else { t }
+        })
+        .collect();
+    let mut knots = vec![0.0; 4];
+    let mut poles = vec![points[0]];
+    for i in 0..last {
+        let (p, q, t, u) = (&points[i], &points[i + 1], &ways[i], &ways[i + 1]);
+        // Arms as long as those of a circular arc that turns as much.
+        let half = (0.5 * (1.0 + dot(t, u).clamp(-0.5, 1.0))).sqrt();
+        let span = 2.0 * length(&sub(q, p)) / (1.0 + half);
+        poles.push(add(p, &scaled(t, span / 3.0)));
+        poles.push(along(q, u, -span / 3.0));
+        let end = knots[knots.len() - 1] + span;
+        knots.extend([end; 2]);
+    }
+    poles.push(points[last]);
+    let end = knots[knots.len() - 1];
+    knots.extend([end; 2]);
+    let rising = knots[3..knots.len() - 3].chunks(2).all(|w| w.len() < 2 || w[0] <= w[1]) && end > 0.0;
+    let poles = poles.into_iter().map(|[x, y, z]| [x, y, z, 1.0]).collect();
+    (rising && end.is_finite()).then_some(Nurbs { degree: 3, rational: false, sampled: true, knots, poles })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_through_a_helix_stay_near_it() {
+        let at = |t: f64| ([t.cos(), t.sin(), 0.3 * t], unit(&[-t.sin(), t.cos(), 0.3]));
+        let (points, mut tangents): (Vec<Vector>, Vec<_>) = (0..=20).map(|i| at(f64::from(i) * 0.2)).unzip();
+        // Turned round, not known, or not to be believed: the others hold.
+        tangents[3] = tangents[3].map(|t| scaled(&t, -1.0));
+        let Some(curve) = through(&points, &tangents) else { panic!() };
+        let (low, high) = curve.domain();
+        let curve = Curve::Spline(curve);
+        let worst = (0..=500).map(|i| {
+            let [x, y, z] = curve.point(low + (high - low) * f64::from(i) / 500.0);
+            let (sin, cos) = (z / 0.3).sin_cos();
+            length(&[x - cos, y - sin, 0.0])
+        });
+        assert!(worst.fold(0.0, f64::max) < 1e-5);
+    }
+}
