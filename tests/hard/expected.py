@@ -30,6 +30,7 @@ PICTURES = Path(__file__).with_name("pictures")
 SVG = "{http://www.w3.org/2000/svg}"
 NUMBER = r"-?\d*\.?\d+"
 FINE = 64
+COUNTS = {"q": 4, "t": 2, "c": 6, "s": 4, "a": 7}
 META = "{urn:hlr:drawing:1}"
 
 UNDER = 3.0
@@ -209,18 +210,26 @@ def read_picture(path: Path) -> Ink:
 
 
 def _walks(d: str) -> Iterator[Floats]:
-    """Polylines of a path of M, l, h, v, z, q, c and a, as the writer uses them; curves as FINE chords each."""
+    """Polylines of a path of M, l, h, v, z, q, t, c, s and a, as the writer uses them; curves as FINE chords each."""
     for run in re.findall(r"M[^M]*", d):
         walk: list[tuple[float, float]] = []
-        for command, text in re.findall(r"([Mlhvzqca])([^Mlhvzqca]*)", run):
+        # The last control point before an end, from it: what t and s go on from.
+        arm = np.zeros(2)
+        for command, text in re.findall(r"([Mlhvzqtcsa])([^Mlhvzqtcsa]*)", run):
             numbers = _arc_numbers(text) if command == "a" else [float(n) for n in re.findall(NUMBER, text)]
             if command == "z":
                 walk.append(walk[0])
-            elif command in "qca":
-                count = {"q": 4, "c": 6, "a": 7}[command]
-                for k in range(0, len(numbers), count):
-                    start, given = np.array(walk[-1]), numbers[k : k + count]
-                    curve = _arc(start, given) if command == "a" else _bezier(start, np.reshape(given, (-1, 2)))
+            elif command in COUNTS:
+                for k in range(0, len(numbers), COUNTS[command]):
+                    start, given = np.array(walk[-1]), numbers[k : k + COUNTS[command]]
+                    if command == "a":
+                        curve = _arc(start, given)
+                    else:
+                        others = np.reshape(given, (-1, 2))
+                        if command in "ts":
+                            others = np.concatenate([[-arm], others])
+                        arm = others[-2] - others[-1]
+                        curve = _bezier(start, others)
                     walk += [(x, y) for x, y in curve[1:].tolist()]
             elif command in "hv":
                 for n in numbers:

@@ -12,8 +12,10 @@ import pytest
 
 import hlr
 from hlr import Perspective
+from hlr.curve import Arc
 from hlr.scene.build import build
 from hlr.source import open_source
+from hlr.source.geometry import evaluated
 from hlr.tolerance import derive
 from hlr.view.camera import Camera, resolve
 from hlr.view.silhouettes import with_silhouettes
@@ -170,3 +172,62 @@ def test_a_fillet_tangent_to_a_plane_seen_edge_on_has_one_line(view):
     ink = sum(float(np.hypot(*np.diff(line.points, axis=0).T).sum()) for line in drawing.lines)
     width, height = drawing.bounds()[2:]
     assert ink == pytest.approx(2 * (width + height) - 8 * 2 + 2 * np.pi * 2, rel=1e-3)
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
+@pytest.mark.parametrize("view", [(0.8, -0.6, 0.1), (1, 0.3, -0.05)])
+@pytest.mark.parametrize("shape", [torus, wave, vase, offset])
+def test_between_its_points_too_a_curve_follows_the_surface(shape, view, camera):
+    """Within a twentieth of the deflection, where the polyline is allowed a fifth."""
+    shape = shape()
+    scene, seen, tolerances = traced(shape, view, camera)
+    silhouettes = scene.silhouettes
+    faces = scene.chains.face[scene.chains.face >= 0]
+    assert len(faces) == len(silhouettes.source)
+    assert (silhouettes.curves.kind > 0).any()
+    for k in np.flatnonzero(silhouettes.curves.kind > 0):
+        t = np.linspace(*silhouettes.curves.range[k], 200)
+        points = evaluated(silhouettes.curves, np.full(len(t), k, np.int32), t)[:, 0]
+        slope, away = slopes(shape, faces[k], points, seen)
+        assert away.max() <= 0.05 * tolerances.deflection
+        assert slope.max() <= 0.01
+
+
+@pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
+def test_a_sphere_is_drawn_as_one_ellipse(camera):
+    """Of a sphere beside the centre of a perspective view an ellipse is seen, the longer the farther."""
+    box = cq.Workplane().box(1, 1, 1).translate((60, 0, 0))
+    drawing = hlr.draw(cq.Workplane().sphere(10).add(box), "front", perspective=camera)
+    (line,) = (line for line in drawing.lines if line.kind == "outline")
+    assert isinstance(line.curve, Arc)
+    assert line.curve.whole
+    a, b = line.curve.radii
+    if camera is None:
+        assert (a, b) == pytest.approx((10, 10), rel=1e-12)
+        return
+    # The cone of sight about the way to the centre, cut by the plane of the image.
+    view = drawing.view
+    way = -np.asarray(view.eye)
+    far = np.linalg.norm(way)
+    slant, half = np.arccos(-way @ view.direction / far), np.arcsin(10 / far)
+    assert slant > 0.1
+    ends = [view.distance * np.tan(slant + s * half) for s in (-1, 1)]
+    assert a == pytest.approx((ends[1] - ends[0]) / 2, rel=1e-9)
+    assert b < a
+
+
+def test_a_torus_seen_along_its_axis_is_two_circles():
+    drawing = hlr.draw(torus(), "top")
+    assert sorted(line.curve.radii[0] for line in drawing.lines) == pytest.approx([14, 26], rel=1e-12)
+    assert all(line.curve.whole for line in drawing.lines)
+
+
+def test_a_fold_along_an_edge_has_the_curve_of_the_edge():
+    """Fillets of a box seen from the front: quarter circles about known centres, though all are outlines."""
+    drawing = hlr.draw(cq.Workplane().box(20, 30, 10).edges().fillet(2), "front")
+    arcs = [line.curve for line in drawing.lines if line.curve is not None]
+    assert len(arcs) == 4
+    assert all(isinstance(arc, Arc) for arc in arcs)
+    centres = sorted(tuple(np.round(arc.centre + drawing.origin, 9).tolist()) for arc in arcs)
+    assert centres == [(-8, -3), (-8, 3), (8, -3), (8, 3)]
+    assert all(arc.radii == pytest.approx((2, 2), rel=1e-9) for arc in arcs)

@@ -271,7 +271,8 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
             points: [pair[0].2, pair[1].2],
             normal: mean(&sides[0].normal, &sides[1].normal),
             face: sides[front].number,
-            source: model.source[e],
+            // A seam is no edge of the surface: the outline goes on beside it.
+            source: if sides[0].number == sides[1].number { -1 } else { model.source[e] },
             concave: concave(model, e, sides, t),
         });
     }

@@ -22,10 +22,17 @@ const DEEPEST: u32 = 6;
 /// Curvature along the sight times the chord tolerance: less is straight.
 const STRAIGHT: f64 = 1e-9;
 
+/// |N . v| in the middle of what can only be a short cut from one curve to another.
+const ASTRAY: f64 = 0.3;
+
+/// The stretch between two crossings; none where a triangle is so large that two curves which leave the face cross it.
 pub fn stretches(face: &Face, from: Place, to: Place, chord: f64) -> Vec<Stretch> {
     let mut places = vec![from];
     divide(face, &from, &to, chord, 0, &mut places);
     places.push(to);
+    if places.len() == 2 && astray(face, &from, &to, chord) {
+        return Vec::new();
+    }
     let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
     let mut out = Vec::with_capacity(places.len());
     for k in 1..places.len() {
@@ -74,4 +81,9 @@ fn cusp(face: &Face, a: &Place, b: &Place, concave_at_a: bool) -> Place {
         }
     }
     low
+}
+
+fn astray(face: &Face, a: &Place, b: &Place, chord: f64) -> bool {
+    let middle = [0, 1].map(|k| 0.5 * (a.uv[k] + b.uv[k]));
+    length(&sub(&b.point, &a.point)) > chord && face.f(middle).is_some_and(|f| f.abs() > ASTRAY)
 }

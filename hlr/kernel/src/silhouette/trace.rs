@@ -1,6 +1,6 @@
 //! Crossings and folds joined into silhouettes.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use rayon::prelude::*;
 
@@ -38,6 +38,8 @@ const GAP: f64 = 0.5;
 
 /// Cosine of the turn that is one back.
 const BACK: f64 = 0.7;
+/// Cosine of the turn up to which two curves are one.
+const ON: f64 = 0.95;
 /// Radians; a curve that closes after one turn stays whole.
 const TURN: f64 = std::f64::consts::TAU;
 const SLACK: f64 = 0.2;
@@ -68,7 +70,8 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
             let face = Face::new(model, number)?;
             let [from, to] = ends.map(|c| crossings[c as usize].place);
             let ends = ends.map(Node::Crossing);
-            Some(Link { ends, face: number, stretches: stretches(&face, from, to, model.chord) })
+            let stretches = stretches(&face, from, to, model.chord);
+            (!stretches.is_empty()).then_some(Link { ends, face: number, stretches })
         })
         .collect();
     if stopped() {
@@ -89,6 +92,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     for link in &mut links {
         link.ends = link.ends.map(|end| same.root(end));
     }
+    through_poles(&mut links);
     let mut out = Vec::new();
     for walk in walks(&links) {
         parted(&links, &walk, &same, model, &mut out);
@@ -148,6 +152,38 @@ fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing)
         source: -1,
         concave: face.radial(crossing.place.uv) * model.chord < -1e-9,
     })
+}
+
+/// Where two curves that run into one apex go on as one, it is but a pole of the parameters.
+fn through_poles(links: &mut [Link]) {
+    let poles: HashSet<u32> = links
+        .iter()
+        .flat_map(|link| link.ends)
+        .filter_map(|end| if let Node::Apex(vertex, _) = end { Some(vertex) } else { None })
+        .collect();
+    let mut ends: Vec<(u32, usize, usize)> = Vec::new();
+    for (i, link) in links.iter().enumerate() {
+        for k in 0..2 {
+            match link.ends[k] {
+                Node::Apex(vertex, _) => ends.push((vertex, i, k)),
+                Node::Vertex(vertex) if poles.contains(&vertex) => ends.push((vertex, i, k)),
+                _ => {}
+            }
+        }
+    }
+    ends.sort_unstable();
+    for pair in ends.chunk_by(|a, b| a.0 == b.0) {
+        let [(vertex, i, k), (_, j, l)] = *pair else { continue };
+        let away = |link: &Link, k: usize| {
+            let s = &link.stretches[if k == 0 { 0 } else { link.stretches.len() - 1 }];
+            if k == 0 { sub(&s.to, &s.from) } else { sub(&s.from, &s.to) }
+        };
+        let (a, b) = (away(&links[i], k), away(&links[j], l));
+        if i != j && links[i].face == links[j].face && dot(&a, &b) < -ON * length(&a) * length(&b) {
+            links[i].ends[k] = Node::Vertex(vertex);
+            links[j].ends[l] = Node::Vertex(vertex);
+        }
+    }
 }
 
 /// Nodes that are one place: the ends of folds too short to be drawn.
@@ -254,6 +290,15 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
     pieces.retain(|(_, s)| length(&sub(&s.to, &s.from)) > 1e-6 * model.chord);
     if pieces.is_empty() {
         return;
+    }
+    // Near a pole rounding decides how the surface bends: over less than the tolerance it says nothing.
+    let n = pieces.len();
+    for k in if closed { 0..n } else { 1..n.max(2) - 1 } {
+        let (before, after) = (pieces[(k + n - 1) % n].1.concave, pieces[(k + 1) % n].1.concave);
+        let s = &mut pieces[k].1;
+        if before == after && length(&sub(&s.to, &s.from)) < model.chord {
+            s.concave = before;
+        }
     }
     let key = |p: &(i32, Stretch)| (p.0, p.1.concave, p.1.source);
     let goes_on = |a: &(i32, Stretch), b: &(i32, Stretch)| key(a) == key(b) && !turns_back(model, &a.1, &b.1);
