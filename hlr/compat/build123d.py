@@ -8,6 +8,7 @@ from hlr.compat import viewport
 from hlr.compat.edges import edges
 from hlr.drawing import Drawing, Line
 from hlr.errors import OptionError, SourceError, ViewError
+from hlr.view.camera import Vector
 
 if TYPE_CHECKING:
     from build123d import Edge, ShapeList
@@ -64,18 +65,19 @@ def _shape(thing: Any) -> Any:
     from build123d import Builder, Shape
 
     if isinstance(thing, Builder):
-        thing = next((getattr(thing, n) for n in ("part", "sketch", "line") if getattr(thing, n, None) is not None), thing)
+        built = (getattr(thing, name, None) for name in ("part", "sketch", "line"))
+        thing = next((shape for shape in built if shape is not None), thing)
     if not isinstance(thing, Shape):
         raise SourceError(f"An object of type {type(thing).__name__} cannot be projected: pass a build123d shape.")
     return thing
 
 
-def _point(value: Any, what: str) -> viewport.Vector:
+def _point(value: Any, what: str) -> Vector:
     """What build123d takes for a vector, as three finite numbers."""
-    from build123d import Vector
+    from build123d import Vector as VectorOf
 
     try:
-        point = Vector(value)
+        point = VectorOf(value)
     except (TypeError, ValueError, AttributeError):
         raise OptionError(f"{what} needs three finite numbers, such as (1, -1, 1), not {value!r}") from None
     return viewport.vector((point.X, point.Y, point.Z), what)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from hlr.compat import viewport
-from hlr.compat.cadquery_options import PictureOptions, checked
+from hlr.compat.cadquery_options import checked
 from hlr.compat.cadquery_page import Page, lay_out, to_pdf, to_svg
 from hlr.errors import OptionError
 from hlr.source.model import Floats

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -105,7 +105,7 @@ def _yes_or_no(value: Any, what: str) -> bool:
         raise OptionError(f"{what} is yes or no: give True or False, not {value!r}") from None
 
 
-_CHECKS = {
+_CHECKS: dict[str, Callable[[Any, str], Any]] = {
     "width": _length,
     "height": _length,
     "marginLeft": real,
