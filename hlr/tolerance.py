@@ -26,8 +26,13 @@ its pieces count as touching."""
 CONTACT = 5.0
 """In deflections: the tessellations of two touching curved surfaces may be off by one each, obliquely seen."""
 
-CONTACT_PLANAR = 0.04
-"""In deflections: planar faces are off only by what their files round."""
+CONTACT_PLANAR = 2.5
+"""In deflections: planar faces are off only by what their files round, but parts are put down on one another with gaps
+and overlaps that are nothing on paper. Ten times what a wall may sink into a face without a line of its own: so its
+edge is still seen there from all but the most oblique directions."""
+
+ROUNDING = 0.04
+"""In deflections: what lies in a plane is off by what its file rounds."""
 
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9
@@ -43,6 +48,7 @@ class Tolerances:
     angle          turning per chord, radians
     contact        depth within which two curved things count as touching, in the model
     contact_planar the same for planar parts
+    rounding       the same for lines that lie on surfaces, and for open sheets
     short          no piece shorter than this is drawn on its own, on paper
     stub           a doubtful piece shorter than this beside a hidden one is the contact tolerance's own, on paper
     width          lines of one visibility this close coincide, on paper
@@ -56,6 +62,7 @@ class Tolerances:
     angle: float
     contact: float
     contact_planar: float
+    rounding: float
     short: float
     stub: float
     width: float
@@ -98,6 +105,7 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         angle=ANGLE,
         contact=CONTACT * deflection,
         contact_planar=CONTACT_PLANAR * deflection,
+        rounding=ROUNDING * deflection,
         short=accuracy,
         stub=10.0 * accuracy,
         width=0.5 * accuracy,

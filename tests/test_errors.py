@@ -8,29 +8,12 @@ import trimesh
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from linework.models import box
+from refusals import drawn_or_refused
 
 import hlr
 from hlr import HlrError, Options, Perspective
 
 BOX = box((10, 20, 30))
-
-
-def drawn_or_refused(source, view="iso", **options):
-    """True where it was drawn; an error other than ours escapes."""
-    try:
-        drawing = hlr.draw(source, view, **options)
-    except HlrError as error:
-        text = str(error)
-        assert text
-        assert "\n" not in text
-        assert "Traceback" not in text
-        assert len(text) < 300
-        return False
-    for line in drawing.lines:
-        assert np.isfinite(line.points).all()
-        assert np.isfinite(line.points3).all()
-        assert len(line.points) >= 2
-    return True
 
 
 def test_every_error_is_an_hlr_error():

@@ -67,10 +67,11 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
 def _contact(scene: Scene, camera: Camera, tolerances: Tolerances) -> tuple[Floats, Floats]:
     groups = scene.groups
     delta = touching(groups, tolerances.contact, tolerances.contact_planar)
+    delta = np.where(groups.tight, tolerances.rounding, delta)
     used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])
     # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet has none: only
     # what a file rounds is forgiven there.
-    cap = np.where(groups.closed, 0.5 * groups.extent, np.maximum(0.5 * groups.extent, tolerances.contact_planar))
+    cap = np.where(groups.closed, 0.5 * groups.extent, np.maximum(0.5 * groups.extent, tolerances.rounding))
     if camera.eye is None or camera.distance is None:
         return delta, cap
     # Depth in perspective is -distance^2 / z. Its slope at the group's centre, or, where the group surrounds the eye,

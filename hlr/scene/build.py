@@ -60,7 +60,7 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
     group_of, group_part = grouped(whole, triangles, part_of, len(points))
     groups = checked(points, triangles, group_of, group_part, edges, offsets, incident, balance, brep, curved)
     suspect = may_fold_into_itself(points, triangles, mesh, group_of, groups)
-    met = clashes(points, triangles, mesh, group_of, groups, suspect, deflection)
+    met = clashes(points, triangles, mesh, group_of, groups, suspect, curved, deflection)
     found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, crossed_parts(met, group_part))
     groups = distrusted(groups, met.through)
 

@@ -29,16 +29,24 @@ from hlr.tolerance import CONTACT
 SLIGHT_ANGLE = 0.35
 """Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most."""
 
-FLUSH = 2.0
-"""In deflections, an accuracy: a wall that reaches less far beyond a face stands on it, and has no line there but its
-own edge."""
+FLUSH = 0.25
+"""In deflections, an eighth of the accuracy: a wall that reaches less far beyond a planar face stands on it, and has no
+line there but its own edge. That has to be forgiven in view depth as well, which is more, the more obliquely one looks:
+`hlr.tolerance` gives it ten times as much."""
 
-PLANAR = 0.25
-"""In deflections: planar faces are off by what their files round, and their triangles may be small."""
+PLANAR = 2.0
+"""In deflections: what counts as touching where planar parts meet at a small angle."""
 
 SELF = 0.1
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
 solids facets cross by a fifth of a deflection at most."""
+
+BRIDGE = 4.0
+"""In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point
+differ by less than the tolerance over 2.8 of these."""
+
+DEEP_ENOUGH = 0.03
+"""Of the contact tolerance: what was rounded goes less deep than that; facets that cross at a small angle go deeper."""
 
 ROUNDING = 1e-9
 """Of a group's size: planar faces are flat within this share of it."""
@@ -65,14 +73,22 @@ def clashes(
     group_of: Ints,
     groups: Groups,
     itself: npt.NDArray[np.bool_],
+    curved: npt.NDArray[np.bool_],
     deflection: float,
 ) -> Clashes:
-    """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves."""
+    """All real intersections of different groups, and of the groups chosen by `itself` (g,) with themselves.
+
+    curved (t,) bool: triangles of faces that are not planar, or that may be anything.
+    """
     found = _kernel.clashes(points, triangles, group_of, itself)
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
     touch = touching(groups, CONTACT * deflection, PLANAR * deflection)[group].max(axis=1, initial=0.0)
     touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
-    reach = _reach(points, triangles, mesh, found["triangles"])
+    reach, level = _reach(points, triangles, mesh, found["triangles"])
+    # A planar face is where it is, and how far a wall goes beyond it is known; a facet is not.
+    steep = found["sine"] >= SLIGHT_ANGLE
+    known = steep[:, None] & ~curved[found["triangles"]]
+    spare = (level - np.where(known, np.minimum(FLUSH * deflection, touch[:, None]), touch[:, None])).min(axis=1)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
     ends = found["edges"].astype(np.int64)
@@ -80,11 +96,13 @@ def clashes(
     fresh = np.ones(len(order), bool)
     fresh[1:] = (pair[order][1:] != pair[order][:-1]) | (ends[order][1:] != ends[order][:-1]).any(axis=1)
     one, first = order[fresh], np.flatnonzero(fresh)
-    beyond = np.maximum.reduceat((found["depth"] - touch)[order], first) if len(one) else np.zeros(0)
+    beyond = np.maximum.reduceat(spare[order], first) if len(one) else np.zeros(0)
     sine = np.maximum.reduceat(found["sine"][order], first) if len(one) else np.zeros(0)
     reach = np.maximum.reduceat(reach[order], first) if len(one) else np.zeros(0)
     flush = (reach < FLUSH * deflection) & (sine >= SLIGHT_ANGLE)
-    kept = one[_real(pair[one], ends[one], beyond, sine) & ~flush]
+    width = (groups.high - groups.low).max(axis=1)[group].min(axis=1, initial=np.inf)
+    gap = BRIDGE * np.sqrt(touch * width)
+    kept = one[_real(pair[one], ends[one], beyond, touch[one], sine, found["points"], gap[one]) & ~flush]
     through = np.zeros(len(itself), bool)
     through[group[kept, 0][group[kept, 0] == group[kept, 1]]] = True
     size = np.ptp(points[triangles[found["triangles"][kept]]], axis=2).max(axis=(1, 2), initial=0.0)
@@ -101,9 +119,12 @@ def clashes(
     )
 
 
-def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> Floats:
+def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tuple[Floats, Floats]:
     """(m,) how far each of two triangles (m, 2), with those beyond its edges, reaches beyond the other's plane on its
     shallower side; the lesser of both. Where that is nothing, one surface stands flush on the other.
+
+    And (m, 2) how far the other triangle reaches beyond the plane of each, with no more than what goes on in its own
+    plane beyond an edge along the crossing.
 
     ::
 
@@ -130,20 +151,34 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> Flo
     beyond = mesh.incident[np.where(there, other, first)]
     apex = triangles[beyond].sum(axis=1, dtype=np.int64) - mesh.edges[edge].sum(axis=1, dtype=np.int64)
     around[own[there], 3 + place[there]] = apex[there]
-    out = np.full(len(pairs), np.inf)
+    border = np.zeros((len(used), 6, 2), np.int64) - 1
+    border[own[there], 3 + place[there]] = mesh.edges[edge[there]]
+    bend = np.einsum("ukc,uc->uk", points[around] - points[around[:, :1]], mesh.normals[used])
+    little = ROUNDING * np.ptp(points[around], axis=1).max(axis=1, initial=0.0)[:, None]
+    goes_on = (np.abs(bend) <= little) & (border[:, :, 0] >= 0)
+    every, level = np.full(len(pairs), np.inf), np.empty((len(pairs), 2))
     for s, t in ((0, 1), (1, 0)):
         plane = pairs[:, s]
         away = points[around[number[:, t]]] - points[triangles[plane, 0]][:, None]
         height = np.einsum("mkc,mc->mk", away, mesh.normals[plane])
-        out = np.minimum(out, np.minimum(height.max(axis=1), -height.min(axis=1)))
-    return out
+        every = np.minimum(every, np.minimum(height.max(axis=1), -height.min(axis=1)))
+        ends = points[border[number[:, t]]] - points[triangles[plane, 0]][:, None, None]
+        off = np.abs(np.einsum("mkec,mc->mke", ends, mesh.normals[plane])).max(axis=2)
+        taken = goes_on[number[:, t]] & (off <= little[number[:, t]])
+        taken[:, :3] = True
+        height = np.where(taken, height, height[:, :1])
+        level[:, s] = np.minimum(height.max(axis=1), -height.min(axis=1))
+    return every, level
 
 
-def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[np.bool_]:
+def _real(
+    pair: Keys, ends: Keys, beyond: Floats, touch: Floats, sine: Floats, points: Floats, gap: Floats
+) -> npt.NDArray[np.bool_]:
     """(m,) bool: segments of real intersections.
 
-    pair (m,): which two groups; ends (m, 2); beyond (m,): depth over the contact tolerance. What is neither deep nor
-    steep is a contact, unless it closes a gap: where surfaces that cross are tangent at a point.
+    pair (m,): which two groups; ends (m, 2); beyond (m,): depth over the contact tolerance touch (m,); gap (m,): a
+    length. What is neither deep nor steep is a contact, unless it closes a gap: where surfaces that cross are tangent
+    at a point.
     """
     node = _nodes(pair, ends)
     clear = (beyond >= 0.0) | (sine >= SLIGHT_ANGLE)
@@ -157,8 +192,21 @@ def _real(pair: Keys, ends: Keys, beyond: Floats, sine: Floats) -> npt.NDArray[n
     bridge = _figures(node[slight])
     held_nodes = np.unique(np.stack([np.repeat(bridge, 2)[held.ravel()], node[slight].ravel()[held.ravel()]]), axis=1)
     holds = np.bincount(held_nodes[0], minlength=int(bridge.max(initial=-1)) + 1)
-    out[slight] = holds[bridge] > 1
+    # Faces in one plane cross all over by what was rounded: that joins lines over any distance, and is nowhere deep.
+    depth = np.zeros(len(holds))
+    np.maximum.at(depth, bridge, beyond[slight] / touch[slight] + 1.0)
+    closes = (holds > 1) & (depth >= DEEP_ENOUGH)
+    out[slight] = closes[bridge] & (_extents(bridge, points[ends[slight]]) < gap[slight])
     return out
+
+
+def _extents(figure: Ints, places: Floats) -> Floats:
+    """(m,) the longest side of the box of each segment's figure. figure (m,), places (m, 2, 3)."""
+    low, high = np.full((len(figure), 3), np.inf), np.full((len(figure), 3), -np.inf)
+    for k in (0, 1):
+        np.minimum.at(low, figure, places[:, k])
+        np.maximum.at(high, figure, places[:, k])
+    return np.asarray((high - low).max(axis=1, initial=0.0)[figure])
 
 
 def _small(pair: Keys, ends: Keys, points: Floats, size: Floats) -> npt.NDArray[np.bool_]:
@@ -168,13 +216,9 @@ def _small(pair: Keys, ends: Keys, points: Floats, size: Floats) -> npt.NDArray[
     the tessellation's, not the shape's.
     """
     figure = _figures(_nodes(pair, ends))
-    low, high = np.full((len(figure), 3), np.inf), np.full((len(figure), 3), -np.inf)
     largest = np.zeros(len(figure))
-    for k in (0, 1):
-        np.minimum.at(low, figure, points[ends[:, k]])
-        np.maximum.at(high, figure, points[ends[:, k]])
     np.maximum.at(largest, figure, size)
-    return np.asarray(((high - low).max(axis=1, initial=0.0) < 2.0 * largest)[figure])
+    return np.asarray(_extents(figure, points[ends]) < 2.0 * largest[figure])
 
 
 def _nodes(pair: Keys, ends: Keys) -> Keys:

@@ -5,32 +5,81 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
-from hlr.source.model import Ints, PartMesh
+from hlr.scene.sides import numbered, one_of_each
+from hlr.source.model import Floats, Ints, PartMesh
+from hlr.source.weld import equal_rows
+
+Indices = npt.NDArray[np.intp]
 
 
 def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
-    """The part without repeated triangles (same corners, either orientation), and how many there were.
+    """The part without repeated triangles and faces, and how many triangles that left out.
 
-    Of several the first is kept: duplicated faces neither hide more nor bound a volume, but they would make every edge
-    between them non-manifold.
+    Of several one is kept: duplicated faces neither hide more nor bound a volume, but they would make every edge
+    between them non-manifold, or follow one another as two surfaces in contact.
     """
-    triangles = part.triangles
-    if len(triangles) == 0:
-        return part, 0
-    corners = np.sort(triangles, axis=1).astype(np.int64)
-    n = np.int64(len(part.points))
-    # Three indices do not fit 64 bits for large meshes: the first two are ranked, then joined with the third.
-    _, pair = np.unique(corners[:, 0] * n + corners[:, 1], return_inverse=True)
-    _, first = np.unique(pair.ravel() * n + corners[:, 2], return_index=True)
-    if len(first) == len(triangles):
-        return part, 0
-    keep: Ints = np.sort(first).astype(np.int32)
+    found = len(part.triangles)
+    part = _without_repeated_triangles(part)
+    part = _without_repeated_faces(part)
+    return part, found - len(part.triangles)
+
+
+def _without_repeated_triangles(part: PartMesh) -> PartMesh:
+    """Without triangles of the same corners as another one, in either orientation."""
+    kept = np.zeros(len(part.triangles), bool)
+    kept[one_of_each(part.points, part.triangles, part.triangle_face)] = True
+    return _only(part, kept)
+
+
+def _without_repeated_faces(part: PartMesh) -> PartMesh:
+    """Without faces that lie triangle by triangle on others, the same way round, but have nodes of their own.
+
+    Such are two equal solids in one place. Only whole faces: slivers of neighbours may coincide where they lap over
+    each other, and without them there would be holes. And only the same way round: two bodies that touch with equal
+    faces are each closed by its own.
+    """
+    if not _may_coincide(part.points):
+        return part
+    _, place = equal_rows(part.points + 0.0)  # minus zero becomes zero: equal numbers, equal bits
+    turned = np.argmin(place[part.triangles], axis=1)[:, None]
+    nodes = np.take_along_axis(part.triangles, (turned + np.arange(3)) % 3, axis=1)
+    first = _first_equal(place[nodes], len(part.points))
+    own = first == np.arange(len(first))
+    # A face that holds the first of its kind keeps it, so nothing that is left out is lost.
+    kept = np.bincount(part.triangle_face, weights=own, minlength=len(part.face_planar))[part.triangle_face] > 0
+    if kept.all():
+        return part
+    # What runs along the lost nodes, such as the edges of the lost faces, now runs along those that they lay on.
+    node = np.arange(len(part.points), dtype=np.int32)
+    node[nodes[~kept]] = nodes[first[~kept]]
+    used = np.unique(part.triangles[kept])
+    node[used] = used
+    return replace(_only(part, kept), edge_nodes=node[part.edge_nodes])
+
+
+def _may_coincide(points: Floats) -> bool:
+    """Whether two points may be equal; this costs little where none are, as in most parts."""
+    x, y, z = points.T
+    key = np.sort(x + 0.7548776662466927 * y + 0.5698402909980532 * z)
+    return bool((key[1:] == key[:-1]).any())
+
+
+def _first_equal(corners: Ints, n: int) -> Indices:
+    """(t,) for each row of three numbers below n the first equal row."""
+    number = numbered(corners, n)
+    _, first = np.unique(number, return_index=True)
+    return np.asarray(first[number], np.intp)
+
+
+def _only(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
+    if kept.all():
+        return part
     on = part.on_surfaces
-    kept = replace(
+    return replace(
         part,
-        triangles=triangles[keep],
-        triangle_face=part.triangle_face[keep],
-        on_surfaces=replace(on, corner=on.corner[keep]) if on is not None else None,
+        triangles=part.triangles[kept],
+        triangle_face=part.triangle_face[kept],
+        on_surfaces=replace(on, corner=on.corner[kept]) if on is not None else None,
     )
-    return kept, len(triangles) - len(keep)

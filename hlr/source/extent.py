@@ -1,4 +1,4 @@
-"""How large a model may be."""
+"""How large and how small a model may be."""
 
 from __future__ import annotations
 
@@ -7,16 +7,18 @@ import numpy as np
 from hlr.errors import SourceError
 from hlr.source.model import Floats
 
-LARGEST = 1e60
-"""Model units. Products of five coordinates are still numbers; no true model comes near."""
+LARGEST, SMALLEST = 1e60, 1e-60
+"""Model units. Products of five lengths neither overflow nor vanish; no true model comes near."""
 
 
 def checked(name: str, bounds: Floats) -> Floats:
     """The bounds (2, 3), if they can be calculated with.
 
     Raises:
-        SourceError: a coordinate is beyond LARGEST, or is no number.
+        SourceError: a coordinate is beyond LARGEST or is no number; or no side reaches SMALLEST, and not all are zero.
     """
     if not (np.abs(bounds) < LARGEST).all():  # also where one is NaN
         raise SourceError(f"{name} has no finite size, or coordinates beyond {LARGEST:g}: repair the model.")
+    if 0.0 < (size := float((bounds[1] - bounds[0]).max())) < SMALLEST:
+        raise SourceError(f"{name} is only {size:.3g} large, where {SMALLEST:g} is the least: scale the model up.")
     return bounds

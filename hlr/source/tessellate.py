@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.source.delabella import treacherous, without
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
@@ -52,6 +53,8 @@ class Tessellator:
                     self._faces.append(TopoDS.Face_s(face))
         self._flat = [_is_flat(face, FLAT * size) for face in self._faces]
         self.surfaces = FaceSurfaces(self._faces)
+        kept = zip(self._faces, self._flat, strict=True)
+        self._kept_back = {face.TShape() for face, flat in kept if flat and treacherous(face)}
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> tuple[Meshes, list[str]]:
         """All roots at this chord error and turning angle (radians), and notes on what failed."""
@@ -67,6 +70,8 @@ class Tessellator:
                 progress("tessellate", done / len(self._batches))
             for failed in self._mesh_batch(batch, deflection, angle):
                 notes.append(failed)
+        # With their neighbours, so that their common edges keep their polygons.
+        self._retry([r for r in self._roots if self._for_delabella(r) is not r], deflection, angle)
         self._retry(self._lost(), deflection, angle)
         tables, first = self._sound(deflection, angle)
         faces = np.flatnonzero(tables.kind == FACE)[first:]
@@ -81,13 +86,16 @@ class Tessellator:
 
     def _mesh_batch(self, batch: list[int], deflection: float, angle: float) -> Iterator[str]:
         try:
-            _run_mesher(compound([self._roots[i] for i in batch]), deflection, angle)
+            _run_mesher(compound([self._for_delabella(self._roots[i]) for i in batch]), deflection, angle)
         except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
             if len(batch) == 1:
                 yield f"Part {batch[0]} could not be meshed completely ({type(error).__name__})."
                 return
             for number in batch:
                 yield from self._mesh_batch([number], deflection, angle)
+
+    def _for_delabella(self, root: Any) -> Any:
+        return without(root, self._kept_back) if self._kept_back else root
 
     def _tables(self) -> tuple[Tables, int]:
         """Tables of all roots, and how many faces that only carry normals come first."""
@@ -121,7 +129,7 @@ class Tessellator:
         return self._tables() if changed else (tables, first)
 
     def _lost(self) -> list[Any]:
-        """Faces that Delabella could not triangulate at all."""
+        """Faces that nothing has triangulated so far."""
         from OCP.BRep import BRep_Tool
         from OCP.TopLoc import TopLoc_Location
 

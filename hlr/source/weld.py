@@ -45,7 +45,7 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
     kept = np.flatnonzero(used)
     points = points[kept]
     number = np.zeros(len(used), dtype=np.int32)
-    first, rank = _equal_rows(points)
+    first, rank = equal_rows(points)
     number[kept] = rank
     faces = number[faces]
     a, b, c = faces.T
@@ -54,7 +54,7 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
     return Clean(points[first], np.ascontiguousarray(faces[whole]), not_finite, out_of_range, degenerate)
 
 
-def _equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:
+def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:
     """(first occurrence of each distinct row, in order; for every row the rank of its first occurrence)."""
     if not len(points):
         return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.int32)

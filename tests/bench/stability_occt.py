@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from bench.scenes import compound
 from bench.stability_hlr import Model, nodes, turn
 from bench.stability_measure import Stroke
 from peers import occt
@@ -34,7 +35,7 @@ def shape_of(model: Model, path: Path, crease: float = 30.0) -> Any:
     """The file as OpenCASCADE reads it; a mesh becomes a polyhedron whose faces are its triangles."""
     if path.suffix.lower() in BREP:
         return read_shape(path)
-    return _compound([polyhedron(part.points, part.triangles, crease) for part in model.parts])
+    return compound([polyhedron(part.points, part.triangles, crease) for part in model.parts])
 
 
 def polyhedron(points: Floats, triangles: npt.NDArray[np.int32], crease: float) -> Any:
@@ -90,7 +91,7 @@ class Poly:
 
         self._model, self._camera = model, camera_of(model)
         pieces = [BRepBuilderAPI_Copy(piece, True, False).Shape() for piece in _pieces(shape_of(model, path))]
-        self._shape = _compound(pieces)
+        self._shape = compound(pieces)
         BRepMesh_IncrementalMesh(self._shape, model.deflection, False, 0.5, True)
         self._faces: list[tuple[Any, Floats, Floats, npt.NDArray[np.int64]]] = []
         self._parts: list[Floats] = []
@@ -142,13 +143,13 @@ class Poly:
         result = HLRBRep_PolyHLRToShape()
         result.Update(algorithm)
         lines: list[Stroke] = []
-        for visible, compound in (
+        for visible, found in (
             (True, result.VCompound()),
             (True, result.OutLineVCompound()),
             (False, result.HCompound()),
             (False, result.OutLineHCompound()),
         ):
-            for edge in occt.edges_of(compound):
+            for edge in occt.edges_of(found):
                 ends = [BRep_Tool.Pnt_s(end(edge)).Coord()[:2] for end in (TopExp.FirstVertex_s, TopExp.LastVertex_s)]
                 lines.append((visible, np.array(ends) * self._model.per_model))
         return lines
@@ -208,14 +209,3 @@ def _pieces(shape: Any) -> Iterator[Any]:
         while explorer.More():
             yield explorer.Current()
             explorer.Next()
-
-
-def _compound(shapes: list[Any]) -> Any:
-    from OCP.BRep import BRep_Builder
-    from OCP.TopoDS import TopoDS_Compound
-
-    result, builder = TopoDS_Compound(), BRep_Builder()
-    builder.MakeCompound(result)
-    for shape in shapes:
-        builder.Add(result, shape)
-    return result

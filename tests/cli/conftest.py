@@ -1,6 +1,9 @@
+import os
+import select
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -8,6 +11,29 @@ import fake_pipeline as fake
 import pytest
 
 FAKE = [sys.executable, str(Path(fake.__file__))]
+
+# The command line with a file that takes its time, to be written and to be removed.
+WRITE_SLOWLY = """
+import pathlib, sys, time
+sys.path.insert(0, sys.argv.pop(1))
+import fake_pipeline as fake
+from hlr.cli import main
+from hlr.writers import files
+
+def fill(beside, data, target):
+    beside.write_bytes(data)
+    print("writing", file=sys.stderr, flush=True)
+    time.sleep(20)
+
+def unlink(path, missing_ok=False):
+    time.sleep(0.3)
+    remove(path, missing_ok)
+
+remove, pathlib.Path.unlink = pathlib.Path.unlink, unlink
+files._fill = fill
+fake.install()
+main()
+"""
 
 
 class Result(NamedTuple):
@@ -45,16 +71,72 @@ def hlr_command(hlr_real, monkeypatch):
 
 
 @pytest.fixture
-def child(tmp_path):
-    """Start the command line as a process of its own, on the stand-in pipeline."""
-    started = []
+def started(tmp_path):
+    """Start a program with arguments in an empty folder; what still runs after the test is killed."""
+    processes = []
 
-    def start(*arguments, **options):
-        process = subprocess.Popen([*FAKE, *arguments], cwd=tmp_path, **options)
-        started.append(process)
+    def start(program, *arguments, **options):
+        process = subprocess.Popen([*program, *arguments], cwd=tmp_path, **options)
+        processes.append(process)
         return process
 
     yield start
-    for process in started:
+    for process in processes:
         process.kill()
         process.wait()
+
+
+@pytest.fixture
+def child(started):
+    """Start the command line as a process of its own, on the stand-in pipeline."""
+
+    def start(*arguments, **options):
+        return started(FAKE, *arguments, **options)
+
+    return start
+
+
+@pytest.fixture
+def slow_writer(started, tmp_path):
+    """Start the command line and return while it writes over `a.svg`, which says "old"."""
+
+    def start(**options):
+        (tmp_path / "a.svg").write_text("old")
+        program = [sys.executable, "-P", "-c", WRITE_SLOWLY, str(Path(fake.__file__).parent)]
+        process = started(program, "draw", "a.step", "-o", "a.svg", stderr=subprocess.PIPE, **options)
+        assert process.stderr.readline() == b"writing\n"
+        return process
+
+    return start
+
+
+@pytest.fixture
+def on_terminal(child):
+    """Run the command with a terminal as standard error: what it shows there, and its exit code.
+
+    interrupt: press Ctrl-C when this is shown.
+    """
+    pty = pytest.importorskip("pty")
+
+    def run(*arguments, columns=80, seconds=20.0, interrupt=None):
+        control, terminal = pty.openpty()
+        environment = os.environ | {"TERM": "xterm", "COLUMNS": str(columns)}
+        process = child(*arguments, stderr=terminal, start_new_session=True, env=environment)
+        os.close(terminal)
+        shown, end = b"", time.monotonic() + seconds
+        while time.monotonic() < end:
+            if select.select([control], [], [], 0.05)[0]:
+                try:
+                    piece = os.read(control, 65536)
+                except OSError:  # Linux reports the last writer's end as an error
+                    break
+                if not piece:
+                    break
+                shown += piece
+                if interrupt and interrupt.encode() in shown:
+                    os.killpg(process.pid, signal.SIGINT)  # as the terminal does: to the whole group
+                    interrupt = None
+        os.close(control)
+        return shown.decode(), process.wait(timeout=5)
+
+    return run

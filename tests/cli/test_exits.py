@@ -80,31 +80,10 @@ def test_ctrl_c_ends_the_process_at_once_while_the_interpreter_is_held(child, tm
     assert list(tmp_path.iterdir()) == []
 
 
-WRITE_SLOWLY = """
-import os, sys, time
-sys.path.insert(0, sys.argv.pop(1))
-import fake_pipeline as fake
-from hlr.cli import main
-from hlr.writers import files
-
-def fill(beside, data, target):
-    beside.write_bytes(data)
-    print("writing", file=sys.stderr, flush=True)
-    time.sleep(20)
-
-files._fill = fill
-fake.install()
-main()
-"""
-
-
 @posix
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_while_writing_leaves_no_partial_file(tmp_path, number):
-    (tmp_path / "a.svg").write_text("old")
-    command = [sys.executable, "-c", WRITE_SLOWLY, str(Path(__file__).parents[1]), "draw", "a.step", "-o", "a.svg"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE)
-    assert process.stderr.readline() == b"writing\n"
+def test_a_signal_while_writing_leaves_no_partial_file(slow_writer, tmp_path, number):
+    process = slow_writer()
     assert len(list(tmp_path.iterdir())) == 2
     process.send_signal(number)
     assert process.wait(timeout=2) == -number

@@ -29,29 +29,6 @@ main()
 """
 OLD = b"old"
 
-# A file that takes its time, to be written and to be removed.
-WRITE_SLOWLY = """
-import pathlib, sys, time
-sys.path.insert(0, sys.argv.pop(1))
-import fake_pipeline as fake
-from hlr.cli import main
-from hlr.writers import files
-
-def fill(beside, data, target):
-    beside.write_bytes(data)
-    print("writing", file=sys.stderr, flush=True)
-    time.sleep(20)
-
-def unlink(path, missing_ok=False):
-    time.sleep(0.3)
-    remove(path, missing_ok)
-
-remove, pathlib.Path.unlink = pathlib.Path.unlink, unlink
-files._fill = fill
-fake.install()
-main()
-"""
-
 
 def finished(process, seconds=30.0):
     out, err = process.communicate(timeout=seconds)
@@ -140,24 +117,10 @@ def test_a_crash_after_all_was_written_is_none(child, tmp_path):
     assert (tmp_path / "a.svg").read_bytes().endswith(b"</svg>\n")
 
 
-def test_the_progress_bar_is_gone_before_the_sentence(child):
-    pty = pytest.importorskip("pty")
-    control, terminal = pty.openpty()
-    environment = os.environ | {"TERM": "xterm", "COLUMNS": "200"}
-    process = child("draw", "crash-slowly.step", stderr=terminal, start_new_session=True, env=environment)
-    os.close(terminal)
-    shown = b""
-    while select.select([control], [], [], 20)[0]:
-        try:
-            piece = os.read(control, 65536)
-        except OSError:  # Linux reports the last writer's end as an error
-            break
-        if not piece:
-            break
-        shown += piece
-    os.close(control)
-    assert process.wait(timeout=5) == 1
-    bar, sentence = shown.decode().rsplit("\x1b[2K", 1)
+def test_the_progress_bar_is_gone_before_the_sentence(on_terminal):
+    shown, code = on_terminal("draw", "crash-slowly.step", columns=200)
+    assert code == 1
+    bar, sentence = shown.rsplit("\x1b[2K", 1)
     assert "visibility" in bar
     assert bar.count("\x1b[?25h") == bar.count("\x1b[?25l") > 0
     assert sentence.startswith("hlr: internal error: CrashError")
@@ -217,12 +180,9 @@ def test_help_needs_no_worker(tmp_path):
         assert b"ZeroDivisionError" not in done.stderr
 
 
-def test_two_signals_do_not_disturb_the_tidying(tmp_path):
+def test_two_signals_do_not_disturb_the_tidying(slow_writer, tmp_path):
     """Ctrl-C reaches the worker from the terminal and from the waiting process."""
-    (tmp_path / "a.svg").write_bytes(OLD)
-    command = [sys.executable, "-P", "-c", WRITE_SLOWLY, str(TESTS), "draw", "a.step", "-o", "a.svg"]
-    process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, start_new_session=True)
-    assert process.stderr.readline() == b"writing\n"
+    process = slow_writer(start_new_session=True)
     for _ in range(3):
         os.killpg(process.pid, signal.SIGINT)
         time.sleep(0.001)

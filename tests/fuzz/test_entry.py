@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import refusals
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
@@ -80,18 +81,7 @@ def meshes(draw: st.DrawFn) -> tuple[np.ndarray, np.ndarray]:
 def drawn_or_refused(source: Any, view: Any = "iso", **options: Any) -> bool:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
-        try:
-            drawing = hlr.draw(source, view, **options)
-        except HlrError as error:
-            text = str(error)
-            assert text
-            assert "\n" not in text
-            assert len(text) < 400
-            return False
-    for line in drawing.lines:
-        assert np.isfinite(line.points).all()
-        assert np.isfinite(line.points3).all()
-    return True
+        return refusals.drawn_or_refused(source, view, longest=400, **options)
 
 
 @given(any_array, any_array)

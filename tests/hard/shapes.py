@@ -83,6 +83,12 @@ def rotation(axis: Vector, angle: float) -> Floats:
     return np.asarray(np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k)
 
 
+def cells(number: npt.NDArray[np.integer]) -> Ints:
+    """Triangles between points numbered in rows and columns (n, m); a number may come again where a surface closes."""
+    corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
+    return split(np.stack(corners, axis=-1).reshape(-1, 4))
+
+
 def grid(points: Floats, *, around: bool = False, along: bool = False) -> Mesh:
     """A surface through an array of points (n, m, 3); closed over the second index with `around`, the first `along`."""
     n, m = points.shape[:2]
@@ -91,8 +97,7 @@ def grid(points: Floats, *, around: bool = False, along: bool = False) -> Mesh:
         number = np.concatenate([number, number[:, :1]], axis=1)
     if along:
         number = np.concatenate([number, number[:1]], axis=0)
-    corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
-    return points.reshape(-1, 3), split(np.stack(corners, axis=-1).reshape(-1, 4))
+    return points.reshape(-1, 3), cells(number)
 
 
 def torus(major: float, minor: float, n: int, m: int) -> Mesh:

@@ -1,4 +1,4 @@
-"""The same solid twice at one place, as copies in an assembly and as one shape used twice: drawn like one.
+"""The same solid twice at one place: in an assembly, as one shape used twice, within one part: drawn like one.
 
 Equal depths everywhere: with the wrong rule for ties each hides the other, or every line is there twice.
 """
@@ -9,6 +9,8 @@ import cadquery as cq
 import pytest
 from hard.brep import box_edges, compound, like, once, same
 from hard.expected import expect
+from OCP.BRep import BRep_Builder
+from OCP.TopoDS import TopoDS_Solid
 
 import hlr
 
@@ -37,6 +39,22 @@ def turned_over():
     return compound(part(), part().rotate((0, 0, 0), (1, 0, 0), 180))
 
 
+def faces_of_both():
+    """Loose faces, as a file of surfaces has them: one part in which every face is there twice, with its own edges."""
+    return compound(*part().Faces(), *part().Faces())
+
+
+def shells_of_both():
+    solid, builder = TopoDS_Solid(), BRep_Builder()
+    builder.MakeSolid(solid)
+    for shell in (*part().Shells(), *part().Shells()):
+        builder.Add(solid, shell.wrapped)
+    return cq.Solid(solid)
+
+
+MODELS = [in_an_assembly, one_shape_twice, built_twice, turned_over, faces_of_both, shells_of_both]
+
+
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
 def test_a_box_three_times_is_twelve_edges(view):
     box = cq.Solid.makeBox(30, 20, 10)
@@ -45,10 +63,35 @@ def test_a_box_three_times_is_twelve_edges(view):
 
 
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
-@pytest.mark.parametrize("model", [in_an_assembly, one_shape_twice, built_twice, turned_over])
+@pytest.mark.parametrize(
+    "model", [in_an_assembly, one_shape_twice, built_twice, turned_over, faces_of_both, shells_of_both]
+)
 def test_it_is_drawn_like_one(model, view, picture):
     drawing = hlr.draw(model(), view)
     same(hlr.draw(part(), view), drawing)
     once(drawing)
     if view == "iso" and model is built_twice:
         picture(drawing, twice=1.0)
+
+
+@pytest.mark.parametrize("model", [faces_of_both, shells_of_both])
+def test_within_one_part_it_is_said(model):
+    (one,) = hlr.info(part()).parts
+    (found,) = hlr.info(model()).parts
+    assert found.triangles == one.triangles and found.closed
+    assert found.defects == (f"{one.triangles} duplicated triangles",)
+    (note,) = hlr.draw(model()).notes
+    assert note.endswith("duplicated triangles.")
+
+
+def test_one_face_too_many():
+    extra = part().faces(">Z").copy()
+    (found,) = hlr.info(compound(*part().Faces(), extra)).parts
+    assert found.closed and len(found.defects) == 1 and "duplicated" in found.defects[0]
+
+
+def test_bodies_that_touch_with_equal_faces_keep_both():
+    box = cq.Solid.makeBox(10, 10, 10)
+    both = compound(*box.Faces(), *box.moved(cq.Location((0, 0, 10))).Faces())
+    (found,) = hlr.info(both).parts
+    assert (found.triangles, found.closed, found.defects) == (24, True, ())

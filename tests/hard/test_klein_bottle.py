@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from hard.expected import defects, of_kind, wrong_by_rays
-from hard.shapes import split
+from hard.shapes import cells
 
 import hlr
 
@@ -23,8 +23,7 @@ def bottle(n=160, m=64):
     # After one round v becomes -v.
     number = np.concatenate([number, number[:1, (-np.arange(m)) % m]])
     number = np.concatenate([number, number[:, :1]], axis=1)
-    quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1)
-    return points, split(quads.reshape(-1, 4))
+    return points, cells(number)
 
 
 @pytest.mark.parametrize("view", ["iso", "front", (1, 2, 3), (1, 1, 0.1)])

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hard.expected import defects, expect, of_kind, wrong_by_rays
-from hard.shapes import split
+from hard.shapes import cells
 from linework.measures import length
 
 import hlr
@@ -26,8 +26,7 @@ def strip(n=240, m=9, twists=TWISTS):
     points = np.stack([r * np.cos(u), r * np.sin(u), w * np.sin(twists * u / 2)], axis=-1).reshape(-1, 3)
     number = np.arange(n * m).reshape(n, m)
     number = np.concatenate([number, number[:1, :: -1 if twists % 2 else 1]])
-    quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1)
-    return points, split(quads.reshape(-1, 4))
+    return points, cells(number)
 
 
 @pytest.mark.parametrize("twists", [0, 1, 2, 3])

@@ -59,7 +59,6 @@ def test_triangles_and_the_place_of_intersection_lines():
     assert everything(draw(shuffled, "iso", accuracy)) == everything(draw(model, "iso", accuracy))
 
 
-@pytest.mark.xfail(strict=True, reason="of two triangles back to back the one listed first is kept")
 def test_triangles_of_a_box_drawn_from_both_sides():
     box = assembly([BLOCK], brep=False)
     part = box.parts[0]

@@ -55,9 +55,6 @@ def test_the_intersection_lines_of_two_boxes():
     expect_same_ink(*(draw(m, "front", ACCURACY) for m in (model, changes.split(model, np.random.default_rng(0)))))
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a crossing may be lost where it ends at faces in one plane, depending on the triangles"
-)
 def test_the_intersection_lines_of_two_tetrahedra_with_faces_in_one_plane():
     """One face of each crosses the other's from (6, 2, 7.5) to (6.5, 2, 6), however fine the triangles."""
     pair = (Piece("tetrahedron", (6, 0, 6), (1, 4, 3)), Piece("tetrahedron", (6, 2, 6), (1, 4, 3)))

@@ -174,6 +174,36 @@ def test_repeated_triangles_are_dropped_and_counted():
     assert scene.groups.cull.all()
 
 
+def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():
+    one = part_of(cq.Workplane().box(10, 20, 30).edges("|Z").fillet(3))
+    n = len(one.points)
+    twice = replace(
+        one,
+        points=np.concatenate([one.points, one.points]),
+        triangles=np.concatenate([one.triangles, np.roll(one.triangles, 1, axis=1) + n]).astype(np.int32),
+        triangle_face=np.concatenate([one.triangle_face, one.triangle_face + len(one.face_planar)]),
+        face_planar=np.concatenate([one.face_planar, one.face_planar]),
+        edge_nodes=np.concatenate([one.edge_nodes, one.edge_nodes + n]).astype(np.int32),
+        edge_offsets=np.concatenate([one.edge_offsets, one.edge_offsets[1:] + one.edge_offsets[-1]]),
+        edge_index=np.concatenate([one.edge_index, one.edge_index + len(one.edge_index)]),
+        edge_class=np.concatenate([one.edge_class, one.edge_class]),
+    )
+    kept, count = without_duplicates(twice)
+    assert count == len(one.triangles)
+    assert (kept.triangles == one.triangles).all()
+    assert (kept.edge_nodes == np.concatenate([one.edge_nodes, one.edge_nodes])).all()
+    scene = build(Meshed([kept], []), 30.0, 0.05)
+    check(scene)
+    assert scene.groups.closed.all()
+    # Not the part of a face: where neighbours lap over each other, a triangle may be there twice and be needed.
+    most = replace(twice, triangles=twice.triangles[:-1], triangle_face=twice.triangle_face[:-1].copy())
+    most.triangle_face[-1] = twice.triangle_face[0]
+    assert without_duplicates(most)[1] < count
+    # Not turned over: there two bodies touch.
+    back = replace(twice, triangles=np.concatenate([one.triangles, one.triangles[:, ::-1] + n]).astype(np.int32))
+    assert without_duplicates(back) == (back, 0)
+
+
 @pytest.mark.parametrize(("crease", "sharp"), [(30.0, 12), (89.0, 12), (91.0, 0), (180.0, 0)])
 def test_the_crease_angle_decides(crease, sharp):
     scene = scene_of(box((10, 20, 30)), crease)

@@ -158,7 +158,7 @@ fn sweep(
                 continue;
             }
             let width = if worse.visible == better.visible { widths.same } else { widths.under };
-            if let Some((u0, u1)) = covered(worse, better, width) {
+            if let Some((u0, u1)) = covered(worse, better, width, widths.same) {
                 found.push((id, u0, u1));
                 if (u0, u1) == (0.0, 1.0) {
                     whole.insert(id);
@@ -175,8 +175,14 @@ fn heading(s: &Side, t: &Side) -> f64 {
     (s.to[0] - s.from[0]) * (t.to[0] - t.from[0]) + (s.to[1] - s.from[1]) * (t.to[1] - t.from[1])
 }
 
-/// The stretch of `worse` within `width` of `better`, as parameters on `worse`.
-fn covered(worse: &Side, better: &Side, width: f64) -> Option<(f64, f64)> {
+/// The stretch of `worse` within `width` beside `better`, and `over` beyond its ends, as parameters on `worse`.
+///
+/// ```text
+///              _______________________          the ink of a line hides what runs beside it,
+///   - - - - - |=======================|- - -    but not what goes on where it ends
+///              ‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾
+/// ```
+fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f64)> {
     let (a, b, p, q) = (&worse.from, &worse.to, &better.from, &better.to);
     let (vx, vy) = (q[0] - p[0], q[1] - p[1]);
     let (ux, uy) = (b[0] - a[0], b[1] - a[1]);
@@ -187,7 +193,7 @@ fn covered(worse: &Side, better: &Side, width: f64) -> Option<(f64, f64)> {
     let away = |x: &[f64; 2]| (vx * (x[1] - p[1]) - vy * (x[0] - p[0])) / m;
     let along = |x: &[f64; 2]| (vx * (x[0] - p[0]) + vy * (x[1] - p[1])) / m;
     let (mut u0, mut u1) = (0.0f64, 1.0f64);
-    for (start, end, low, high) in [(away(a), away(b), -width, width), (along(a), along(b), -width, m + width)] {
+    for (start, end, low, high) in [(away(a), away(b), -width, width), (along(a), along(b), -over, m + over)] {
         let slope = end - start;
         if slope == 0.0 {
             if start < low || start > high {
@@ -202,7 +208,8 @@ fn covered(worse: &Side, better: &Side, width: f64) -> Option<(f64, f64)> {
     (u1 > u0).then_some((u0, u1))
 }
 
-/// What is left of a line without the covered stretches (in arc length).
+/// What is left of a line without the covered stretches (in arc length); rests of less than two widths go with them: a
+/// line that slants off under another one's ink would leave dots beside it.
 fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, view: &View) -> Vec<Polyline> {
     covered.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let total = line.length();
