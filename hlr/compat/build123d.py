@@ -8,7 +8,7 @@ from hlr.compat import viewport
 from hlr.compat.edges import edges
 from hlr.drawing import Drawing, Line
 from hlr.errors import OptionError, SourceError, ViewError
-from hlr.view.camera import Vector
+from hlr.view.camera import CLOSEST, Vector
 
 if TYPE_CHECKING:
     from build123d import Edge, ShapeList
@@ -45,7 +45,7 @@ def project_to_viewport(
     origin = _point(viewport_origin, "viewport_origin")
     target = _point(shape.center() if look_at is None else look_at, "look_at")
     x, y, z = (o - t for o, t in zip(origin, target, strict=True))
-    if x == y == z == 0.0:
+    if max(abs(x), abs(y), abs(z)) <= CLOSEST * max(1.0, *map(abs, origin)):
         raise ViewError("viewport_origin is the point it looks at: move it away from look_at")
     up = _point(viewport_up, "viewport_up")
     length = viewport.positive(focus, "focus") if focus else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +11,11 @@ from hlr.compat.cadquery_options import checked
 from hlr.compat.cadquery_page import Page, lay_out, to_pdf, to_svg
 from hlr.errors import OptionError
 from hlr.source.model import Floats
+from hlr.source.objects import is_shape_like
 from hlr.tolerance import SMALL_DRAWING
 from hlr.writers import files
 
-PIXEL_SHARE = 0.05
+PIXEL_SHARE = 0.1
 """Of a pixel: the accuracy of lines."""
 
 DRAWN = {"SVG": to_svg, "PDF": to_pdf}
@@ -63,7 +64,8 @@ def export(
     """
     kind = exportType or str(fname).rpartition(".")[2].upper()
     if kind in DRAWN:
-        _save(w, Path(fname), kind, opt)
+        several = isinstance(w, Iterable) and not is_shape_like(w)
+        _save(list(w) if several else w, Path(fname), kind, opt)
         return
     from cadquery import exporters
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-import pydyf
 
 from hlr import _kernel
 from hlr.compat.cadquery_options import DEFAULT_DIRECTION, PictureOptions
@@ -137,6 +136,8 @@ def _axes_svg(height: float) -> str:
 
 def to_pdf(page: Page) -> bytes:
     """The same picture as a PDF page; a pixel is three quarters of a point."""
+    import pydyf
+
     layers, places = page.layers(cubic=True)
     options, k = page.options, POINTS_PER_PIXEL
     # Points of the page, y up from its lower edge, by one matrix from the projected model.

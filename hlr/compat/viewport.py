@@ -7,9 +7,10 @@ a focus the eye stands that far before the origin, and what lies in the plane th
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Real
 from typing import Any
 
@@ -21,7 +22,7 @@ from hlr.pipeline import draw_views
 from hlr.plan.options import Options, Perspective
 from hlr.plan.request import WIDEST
 from hlr.source import open_source
-from hlr.source.model import Floats
+from hlr.source.model import Floats, Source
 from hlr.tolerance import DEFAULT_ACCURACY
 from hlr.view.camera import Vector, normalized
 
@@ -95,12 +96,42 @@ def draw(
     (drawing,) = draw_views(opened, [viewport.direction], options)
     for note in drawing.notes:
         if not note.startswith(SIZE_NOTE):
-            warnings.warn(note, stacklevel=3)
+            warnings.warn(note, stacklevel=_caller())
+    drawing = replace(drawing, lines=_sewn(drawing, opened, seam))
     shift = np.array(drawing.origin)
     if perspective is None:
         # In perspective the axis through the eye is the origin of the plane already.
         shift -= [_dot(viewport.origin, drawing.view.right), _dot(viewport.origin, drawing.view.up)]
     return Picture(drawing, shift)
+
+
+def _sewn(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
+    """A drawing's lines; tangent edges that OpenCASCADE knows to be more than tangent are seams.
+
+    Such edges only divide a surface, as those between the halves of a cylinder do. Where no seams are drawn, they are
+    not drawn either.
+    """
+    from hlr.source.brep import BrepSource
+
+    if not isinstance(opened, BrepSource) or all(line.kind != "smooth" for line in drawing.lines):
+        return drawing.lines
+    from OCP.BRep import BRep_Tool
+    from OCP.GeomAbs import GeomAbs_Shape
+
+    curvature = int(GeomAbs_Shape.GeomAbs_G2)
+    divides: dict[tuple[int, int], bool] = {}
+    for line in drawing.lines:
+        if line.kind == "smooth" and line.edge is not None and (line.part, line.edge) not in divides:
+            edge = opened.edge_shape(drawing.parts[line.part].name, line.edge)
+            divides[line.part, line.edge] = int(BRep_Tool.MaxContinuity_s(edge)) >= curvature
+    found = []
+    for line in drawing.lines:
+        if line.kind == "smooth" and line.edge is not None and divides[line.part, line.edge]:
+            if not seam:
+                continue
+            line = replace(line, kind="seam")  # noqa: PLW2901
+        found.append(line)
+    return tuple(found)
 
 
 def flat_extent(bounds: Floats, viewport: Viewport) -> tuple[float, float]:
@@ -135,6 +166,14 @@ def positive(value: Any, what: str) -> float:
     if number <= 0.0:
         raise OptionError(f"{what} must be above zero, not {number:g}")
     return number
+
+
+def _caller() -> int:
+    """The stack level, for whoever asks, of the first caller that is not hlr itself."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("hlr."):
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 def _fine(bounds: Floats) -> float:
