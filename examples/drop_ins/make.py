@@ -41,7 +41,7 @@ def by_cadquery(shape, options):
 
 def by_build123d(shape, origin, **how):
     def exported(edges):
-        svg = bd.ExportSVG(scale=4, line_weight=0.35)
+        svg = bd.ExportSVG(scale=4, margin=1, line_weight=0.35)
         svg.add_layer("hidden", line_color=bd.Color(0.6, 0.6, 0.6), line_weight=0.2, line_type=bd.LineType.ISO_DASH)
         for layer, found in zip(("", "hidden"), edges, strict=True):
             svg.add_shape(found, layer=layer)
