@@ -58,7 +58,7 @@ def test_perspective(focus):
 
 
 def test_a_sphere_in_perspective():
-    """Where OpenCASCADE draws the outline of parallel rays: a circle 0.7 % too small."""
+    """Where OpenCASCADE draws a coarse polygon, seen from another eye, a hundredth too short."""
     centre, origin, focus, radius = (1, 2, 3), (100, -80, 70), 90, 9
     visible, hidden = project_to_viewport(bd.Pos(*centre) * bd.Sphere(radius), origin, focus=focus)
     away = math.dist(centre, origin) + focus

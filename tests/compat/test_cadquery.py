@@ -65,7 +65,7 @@ def test_the_frame_is_that_of_cadquery(opts):
     ours, theirs = facts(getSVG(plate().val(), opts)), facts(original(plate().val(), opts))
     perspective = bool(opts.get("focus"))
     for name in ("size", "place", "widths", "axes place"):
-        # In perspective OpenCASCADE's outlines are a little off.
+        # In perspective OpenCASCADE's curves are coarse polygons.
         assert ours[name] == pytest.approx(theirs[name], rel=1e-3 if perspective else 1e-5, abs=1e-6), name
     for name in ("colors", "axes", "hidden"):
         assert ours[name] == theirs[name], name
