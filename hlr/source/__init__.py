@@ -34,7 +34,8 @@ def open_source(thing: Any) -> Source:
 
     Args:
         thing: the name of a file (see `ENDINGS`), a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a
-            list of CAD objects, or a pair (vertices (n, 3), faces (m, 3)).
+            list of CAD objects, or a pair (vertices (n, 3), faces (m, 3)). A source that is open already stays as it
+            is.
 
     Raises:
         SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
@@ -43,6 +44,9 @@ def open_source(thing: Any) -> Source:
         return _open_path(Path(os.fspath(thing)))
     from hlr.source.objects import family
 
+    if type(thing).__module__.startswith("hlr.source."):
+        opened: Source = thing
+        return opened
     root = family(thing)
     if root == "trimesh":
         from hlr.source.meshes import open_trimesh

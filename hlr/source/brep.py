@@ -60,6 +60,8 @@ class BrepSource:
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._curves = EdgeCurveReader(self._roots)
+        self._edge_maps: dict[int, Any] = {}
+        self._root_of = {part.name: part.root for part in self._parts}
 
     @property
     def name(self) -> str:
@@ -95,6 +97,19 @@ class BrepSource:
             every = np.concatenate(corners)
             self._bounds = checked(self._name, np.stack((every.min(axis=0), every.max(axis=0))))
         return self._bounds.copy()
+
+    def edge_shape(self, part: str, index: int) -> Any:
+        """The TopoDS_Edge with this number in the TopExp edge map of the part of that name, without its placement."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopExp import TopExp
+        from OCP.TopoDS import TopoDS
+        from OCP.TopTools import TopTools_IndexedMapOfShape
+
+        root = self._root_of[part]
+        if root not in self._edge_maps:
+            self._edge_maps[root] = TopTools_IndexedMapOfShape()
+            TopExp.MapShapes_s(self._roots[root], Kind.TopAbs_EDGE, self._edge_maps[root])
+        return TopoDS.Edge_s(self._edge_maps[root].FindKey(index + 1))
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).

@@ -47,7 +47,7 @@ def svg(drawing: Drawing) -> bytes:
         for layer in layers:
             thin = f' stroke-width="{number(style.NARROW)}"' if layer.visible and _narrow(layer) else ""
             out.append(f'<g class="{layer.kind}"{thin}>\n')
-            out.extend(_paths(layer, page.places))
+            out.extend(paths(layer, page.places))
             out.append("</g>\n")
         out.append("</g>\n")
     out.append("</svg>\n")
@@ -71,7 +71,7 @@ def _narrow(layer: Layer) -> bool:
     return style.width(layer.kind, layer.visible) == style.NARROW
 
 
-def _paths(layer: Layer, places: int) -> list[str]:
+def paths(layer: Layer, places: int) -> list[str]:
     """One element per stroke."""
     data, offsets = _kernel.path_data(
         layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, places, False

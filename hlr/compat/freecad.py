@@ -1,0 +1,31 @@
+"""FreeCAD: TechDraw.projectEx on OpenCASCADE, CadQuery and build123d shapes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hlr.compat import viewport
+from hlr.compat.edges import compound
+
+KINDS = (("sharp", "boundary", "intersection"), ("smooth",), ("seam",), ("outline",), ())
+"""The kinds of lines in each of five compounds: sharp, smooth, sewn, outline, isoparametric."""
+
+
+def project_ex(shape: Any, direction: Any = (0.0, 0.0, 1.0)) -> list[Any]:
+    """Project a shape, and sort its edges by visibility and kind.
+
+    Args:
+        shape: an OpenCASCADE shape, a CadQuery or build123d object, or whatever else `hlr.draw` takes.
+        direction: toward the viewer, three numbers or a FreeCAD.Vector.
+
+    Returns:
+        Ten TopoDS_Compound of edges in the XY plane, in model units: [V, V1, VN, VO, VI, H, H1, HN, HO, HI], visible
+        and then hidden sharp, smooth, sewn, outline and isoparametric lines. One without lines is empty, not None.
+        Isoparametric lines are never drawn. Sewn lines are the seams of closed faces. Lines in which parts pass through
+        one another, which OpenCASCADE does not know, are among the sharp ones.
+
+    Raises:
+        HlrError: the shape or the direction cannot be drawn; the message says why.
+    """
+    picture = viewport.draw(shape, viewport.along(direction, "direction"), seam=True)
+    return [compound(picture.lines(kinds, visible), picture.shift) for visible in (True, False) for kinds in KINDS]
