@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from hlr.curve import Arc, Bezier
 from hlr.drawing import Line, Points
-from hlr.linework.curve import Arc, Bezier
 
 CIRCLE = 1e-9
 """Relative: an ellipse whose radii differ by no more is a circle."""

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hlr.compat.edges import compound, edges
+from hlr.curve import Arc, Bezier
 from hlr.drawing import Line
-from hlr.linework.curve import Arc, Bezier
 
 pytest.importorskip("OCP")
 SHIFT = np.array([3.0, -7.0])
