@@ -140,7 +140,7 @@ def _true_surfaces(parts: list[PartMesh]) -> TrueSurfaces | None:
     transform = np.repeat(np.array([p.transform[:3] for p in parts]), counts, axis=0)
     place = joined(lambda o: o.place, 0.0, (3, 4), np.float64)
     return TrueSurfaces(
-        corner=np.concatenate(corner).astype(np.int32),
+        corner=np.concatenate(corner).astype(np.int32, order="C"),
         uv=np.concatenate([o.uv for o in known]),
         first=_firsts(counts),
         number=joined(lambda o: o.number, -1, (), np.int32),

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 from properties.frozen import Frozen
 
-from hlr.source.model import PartMesh
+from hlr.source.model import OnSurfaces, PartMesh
 
 Random = np.random.Generator
 
@@ -20,10 +20,24 @@ def moved(model: Frozen, matrix: np.ndarray, offset: Sequence[float] = (0.0, 0.0
     def each(part: PartMesh) -> PartMesh:
         x, y, z = part.points.T
         points = np.stack([x * row[0] + y * row[1] + z * row[2] for row in matrix], axis=1) + np.asarray(offset)
-        triangles = part.triangles[:, [0, 2, 1]] if flip else part.triangles
-        return replace(part, points=points, triangles=np.ascontiguousarray(triangles))
+        turn = [0, 2, 1] if flip else [0, 1, 2]
+        placed = np.eye(4)
+        placed[:3, :3], placed[:3, 3] = matrix, offset
+        return replace(
+            part,
+            points=points,
+            triangles=np.ascontiguousarray(part.triangles[:, turn]),
+            transform=placed @ part.transform,
+            on_surfaces=_corners(part, lambda corner: corner[:, turn]),
+        )
 
     return replace(model, parts=tuple(each(part) for part in model.parts))
+
+
+def _corners(part: PartMesh, change: Callable[[np.ndarray], np.ndarray]) -> OnSurfaces | None:
+    """Where triangles lie on their surfaces goes with them."""
+    on = part.on_surfaces
+    return replace(on, corner=np.ascontiguousarray(change(on.corner))) if on is not None else None
 
 
 def reordered(model: Frozen, order: Sequence[int]) -> Frozen:
@@ -38,7 +52,12 @@ def shuffled_triangles(model: Frozen, rng: Random) -> Frozen:
         order = rng.permutation(len(part.triangles))
         turn = (np.arange(3) + rng.integers(0, 3, len(order))[:, None]) % 3
         triangles = np.take_along_axis(part.triangles[order], turn, axis=1)
-        return replace(part, triangles=np.ascontiguousarray(triangles), triangle_face=part.triangle_face[order])
+        return replace(
+            part,
+            triangles=np.ascontiguousarray(triangles),
+            triangle_face=part.triangle_face[order],
+            on_surfaces=_corners(part, lambda corner: np.take_along_axis(corner[order], turn, axis=1)),
+        )
 
     return replace(model, parts=tuple(each(part) for part in model.parts))
 
@@ -49,7 +68,10 @@ def shuffled_faces(model: Frozen, rng: Random) -> tuple[Frozen, list[np.ndarray]
     for part in model.parts:
         order = rng.permutation(len(part.face_planar))
         triangle_face = np.argsort(order)[part.triangle_face].astype(np.int32)
-        parts.append(replace(part, triangle_face=triangle_face, face_planar=part.face_planar[order]))
+        on = part.on_surfaces
+        if on is not None:
+            on = replace(on, number=on.number[order], place=on.place[order], reversed=on.reversed[order])
+        parts.append(replace(part, triangle_face=triangle_face, face_planar=part.face_planar[order], on_surfaces=on))
         orders.append(order)
     return replace(model, parts=tuple(parts)), orders
 
@@ -107,7 +129,8 @@ def _split(part: PartMesh, rng: Random) -> PartMesh:
     number = np.full(len(key), -1)
     number[wanted] = n + which.ravel()
     a, b = part.points[known // n], part.points[known % n]
-    middle = a + (b - a) * (rng.integers(1, 4, len(known)) / 4.0)[:, None]
+    share = rng.integers(1, 4, len(known)) / 4.0
+    middle = a + (b - a) * share[:, None]
     i, j, k = part.triangles.T
     ij, jk, ki = number[: len(sides)].reshape(3, -1)
     four = [np.stack(t, axis=1) for t in ((i, ij, ki), (ij, j, jk), (ki, jk, k), (ij, jk, ki))]
@@ -121,9 +144,28 @@ def _split(part: PartMesh, rng: Random) -> PartMesh:
         points=np.concatenate([part.points, middle]),
         triangles=np.concatenate(four).astype(np.int32),
         triangle_face=np.tile(part.triangle_face, 4),
+        on_surfaces=_split_surfaces(part, share[number[: len(sides)] - n]),
         edge_nodes=nodes.astype(np.int32),
         edge_offsets=np.cumsum([0, *counts]).astype(np.int32),
     )
+
+
+def _split_surfaces(part: PartMesh, share: np.ndarray) -> OnSurfaces | None:
+    """The same in parameters; share (3 m,) of each side, from its node of the lower number."""
+    on = part.on_surfaces
+    if on is None:
+        return None
+    k, m = len(on.uv), len(part.triangles)
+    ends = np.concatenate([on.corner[:, [0, 1]], on.corner[:, [1, 2]], on.corner[:, [2, 0]]])
+    nodes = np.concatenate([part.triangles[:, [0, 1]], part.triangles[:, [1, 2]], part.triangles[:, [2, 0]]])
+    ends = np.where((nodes[:, 0] > nodes[:, 1])[:, None], ends[:, ::-1], ends)
+    _, first, which = np.unique(ends @ np.array([k, 1], np.int64), return_index=True, return_inverse=True)
+    a, b = on.uv[ends[first, 0]], on.uv[ends[first, 1]]
+    between = (k + which.ravel()).reshape(3, m)
+    corners = np.concatenate([on.corner.T, between])
+    four = [corners[list(t)].T for t in ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5))]
+    uv = np.concatenate([on.uv, a + (b - a) * share[first][:, None]])
+    return replace(on, corner=np.concatenate(four).astype(np.int32, order="C"), uv=uv)
 
 
 def jiggled(model: Frozen, amount: float, rng: Random) -> Frozen:

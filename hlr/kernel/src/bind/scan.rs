@@ -1,6 +1,8 @@
 //! `edge_table` and `visibility` as Python sees them.
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,7 +20,8 @@ pub fn rows<'a, T: numpy::Element, const N: usize>(
 ) -> PyResult<&'a [[T; N]]> {
     let wrong = || PyValueError::new_err(format!("{name} must be a C-contiguous (n, {N}) array"));
     let slice = array.as_slice().map_err(|_| wrong())?;
-    if array.as_array().shape()[1] != N {
+    // An array in Fortran's order is contiguous as well, but its slice runs down the columns.
+    if array.as_array().shape()[1] != N || !array.is_c_contiguous() {
         return Err(wrong());
     }
     let (rows, _) = slice.as_chunks::<N>();

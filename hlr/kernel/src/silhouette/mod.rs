@@ -18,6 +18,7 @@
 //! runs into a fillet is a fold along its nearer border only.
 
 pub mod contour;
+pub mod cut;
 pub mod exact;
 pub mod face;
 pub mod refine;

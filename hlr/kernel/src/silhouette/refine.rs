@@ -18,6 +18,14 @@ pub struct Stretch {
     pub concave: bool,
 }
 
+impl Stretch {
+    pub fn turn_round(&mut self) {
+        (self.from, self.to) = (self.to, self.from);
+        self.normals.reverse();
+        self.tangents.reverse();
+    }
+}
+
 const DEEPEST: u32 = 6;
 /// Curvature along the sight times the chord tolerance: less is straight.
 const STRAIGHT: f64 = 1e-9;

@@ -6,11 +6,12 @@ use rayon::prelude::*;
 
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
+use super::cut::{canonical, in_order, turns_back, unwound};
 use super::exact::{circle, through};
 use super::face::Face;
 use super::refine::{Stretch, stretches};
 use crate::geometry::curve::Curve;
-use crate::geometry::vector::{Vector, along, cross, dot, length, sub};
+use crate::geometry::vector::{Vector, dot, length, sub};
 
 /// A curve over one face along which the surface curves in one way.
 #[derive(Clone, Debug)]
@@ -36,13 +37,8 @@ pub struct Traced {
 /// Of the chord tolerance: a fold shorter than this closes a gap that is none.
 const GAP: f64 = 0.5;
 
-/// Cosine of the turn that is one back.
-const BACK: f64 = 0.7;
 /// Cosine of the turn up to which two curves are one.
 const ON: f64 = 0.95;
-/// Radians; a curve that closes after one turn stays whole.
-const TURN: f64 = std::f64::consts::TAU;
-const SLACK: f64 = 0.2;
 
 /// A piece between two nodes: over one triangle, or along an edge.
 struct Link {
@@ -97,6 +93,8 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     for walk in walks(&links) {
         parted(&links, &walk, &same, model, &mut out);
     }
+    // The order of triangles is not to be seen.
+    out.sort_by(|a, b| a.face.cmp(&b.face).then_with(|| in_order(&a.points, &b.points)));
     Some(Traced { silhouettes: out, meetings: meetings(model, &crossings), dents })
 }
 
@@ -279,9 +277,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
         if backward {
             own.reverse();
             for s in &mut own {
-                (s.from, s.to) = (s.to, s.from);
-                s.normals.reverse();
-                s.tangents.reverse();
+                s.turn_round();
             }
         }
         pieces.extend(own.into_iter().map(|s| (link.face, s)));
@@ -307,10 +303,11 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
     }
     let whole = pieces.len();
     for run in pieces.chunk_by(goes_on).flat_map(|run| unwound(model, run, closed && run.len() == whole)) {
+        let run = canonical(run, closed && run.len() == whole);
         let mut points = vec![run[0].1.from];
         let mut normals = vec![run[0].1.normals[0]];
         let mut tangents = vec![run[0].1.tangents[0]];
-        for (_, s) in run {
+        for (_, s) in &run {
             points.push(s.to);
             normals.push(s.normals[1]);
             tangents.push(s.tangents[1]);
@@ -328,41 +325,4 @@ fn along_points(model: &Model, face: i32, points: &[Vector], tangents: &[Option<
     }
     let round = Face::new(model, face).and_then(|face| circle(&face, points, model.chord));
     round.or_else(|| through(points, tangents).map(Curve::Spline))
-}
-
-/// Whether the image of two stretches goes back from where they meet, so that the two may lie on one another.
-fn turns_back(model: &Model, a: &Stretch, b: &Stretch) -> bool {
-    let sight = model.sight(&b.from);
-    let (p, q) = (image(a, &sight), image(b, &sight));
-    dot(&p, &q) < -BACK * length(&p) * length(&q)
-}
-
-/// A curve whose image winds round more than once may lie on itself: it is cut after every turn.
-fn unwound<'a>(model: &Model, run: &'a [(i32, Stretch)], closed: bool) -> Vec<&'a [(i32, Stretch)]> {
-    let turns: Vec<f64> = run.windows(2).map(|w| turn(model, &w[0].1, &w[1].1)).collect();
-    if closed && turns.iter().sum::<f64>().abs() < TURN + SLACK {
-        return vec![run];
-    }
-    let (mut out, mut first, mut total) = (Vec::new(), 0, 0.0f64);
-    for (k, turn) in turns.iter().enumerate() {
-        total += turn;
-        if total.abs() > TURN - SLACK {
-            out.push(&run[first..=k]);
-            (first, total) = (k + 1, 0.0);
-        }
-    }
-    out.push(&run[first..]);
-    out
-}
-
-/// The angle between the images of two stretches.
-fn turn(model: &Model, a: &Stretch, b: &Stretch) -> f64 {
-    let sight = model.sight(&b.from);
-    let (p, q) = (image(a, &sight), image(b, &sight));
-    dot(&cross(&p, &q), &sight).atan2(dot(&p, &q))
-}
-
-fn image(s: &Stretch, sight: &Vector) -> Vector {
-    let way = sub(&s.to, &s.from);
-    along(&way, sight, -dot(&way, sight))
 }
