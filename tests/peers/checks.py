@@ -2,8 +2,9 @@
 
     python tests/peers/checks.py FOLDER_OR_FILES... [--random 10]
 
-Each model is drawn from the named views and from random ones, fitted into a sheet. Per model: drawn edges, edges whose check failed (decided
-again polygon by polygon), edges where even that contradicted itself, and what is wrong with the model's parts.
+Each model is drawn from the named views and from random ones, fitted into a sheet. Per model: drawn edges, edges whose
+check failed (decided again polygon by polygon), edges where even that contradicted itself, and what is wrong with the
+model's parts.
 Exit code 1 if a model without defects has a failed check.
 """
 
