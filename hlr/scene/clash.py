@@ -88,6 +88,7 @@ def clashes(
     # A planar face is where it is, and how far a wall goes beyond it is known; a facet is not.
     steep = found["sine"] >= SLIGHT_ANGLE
     known = steep[:, None] & ~curved[found["triangles"]]
+    level = np.where(known, level * _lever(points, triangles, found["triangles"]), level)
     spare = (level - np.where(known, np.minimum(FLUSH * deflection, touch[:, None]), touch[:, None])).min(axis=1)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
@@ -169,6 +170,20 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tup
         height = np.where(taken, height, height[:, :1])
         level[:, s] = np.minimum(height.max(axis=1), -height.min(axis=1))
     return every, level
+
+
+def _lever(points: Floats, triangles: Ints, pairs: Ints) -> Floats:
+    """(m, 2) at most 1: how much of what is measured from a triangle's plane is certain, so far out as the other goes.
+
+    What is rounded at the corners of a sliver tilts its plane, the more, the less high it is.
+    """
+    corners = points[triangles[pairs]]
+    sides = np.roll(corners, -1, axis=2) - corners
+    longest = np.sqrt((sides**2).sum(axis=3).max(axis=2, initial=0.0))
+    area = np.sqrt((np.cross(sides[:, :, 0], sides[:, :, 1]) ** 2).sum(axis=2))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        lever = area / longest / longest[:, ::-1]
+    return np.asarray(np.minimum(np.nan_to_num(lever, nan=0.0), 1.0))
 
 
 def _real(

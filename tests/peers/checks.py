@@ -2,8 +2,9 @@
 
     python tests/peers/checks.py FOLDER_OR_FILES... [--random 10]
 
-Each model is drawn from the named views and from random ones. Per model: drawn edges, edges whose check failed (decided
-again polygon by polygon), edges where even that contradicted itself, and what is wrong with the model's parts.
+Each model is drawn from the named views and from random ones, fitted into a sheet. Per model: drawn edges, edges whose
+check failed (decided again polygon by polygon), edges where even that contradicted itself, and what is wrong with the
+model's parts.
 Exit code 1 if a model without defects has a failed check.
 """
 
@@ -17,6 +18,9 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from peers.referee import files, random_views
+
+SHEET = (277.0, 190.0)
+"""Millimetres: at full size a hammer of 39 metres would have millions of triangles."""
 
 NAMED = ("front", "back", "left", "right", "top", "bottom", "iso", "iso-sw", "iso-ne", "iso-nw")
 
@@ -35,7 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print("| --- | --- | --- | --- | --- | --- |")
     for path in files(given.paths):
         try:
-            drawings = hlr.draw_views(path, list(views))
+            drawings = hlr.draw_views(path, list(views), hlr.Options(fit=SHEET))
         except HlrError as error:
             print(f"| {path.name} | | | | | refused: {error} |", flush=True)
             continue
