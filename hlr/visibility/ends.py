@@ -21,7 +21,7 @@ import numpy.typing as npt
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
 from hlr.view.camera import Camera
-from hlr.visibility.segments import VISIBLE, Segments
+from hlr.visibility.segments import VISIBLE, WITHIN, Segments
 
 NONE = 255
 """No state: the edge is not drawn."""
@@ -42,7 +42,7 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     chains = scene.chains
     place = np.flatnonzero(~np.isnan(at[chains.edges])).astype(np.int32)
     begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1))
-    whole = np.diff(begin)[chains.edges[place]] == 1
+    pieces = np.diff(begin)[chains.edges[place]]
 
     def beyond(step: int) -> npt.NDArray[np.uint8]:
         """The state of the chord before or after, at its end toward this one."""
@@ -53,24 +53,31 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
         return np.where(begin[edge + 1] > begin[edge], known, NONE)
 
     left, right = beyond(-1), beyond(1)
-    whole &= (left != NONE) & (right != NONE) & (left != right)
-    place, left, right = place[whole], left[whole], right[whole]
-    states, t1 = segments.state.copy(), segments.t1.copy()
     own, backward = chains.edges[place], chains.reversed[place]
     low, high = np.where(backward, right, left), np.where(backward, left, right)
     piece = begin[own]
+    # Without culling the chord dives under its own face's triangles a little before the node.
+    one, two = segments.state[piece], segments.state[np.minimum(piece + 1, len(segments.state) - 1)]
+    within = (at[own] > 0.0) & (at[own] < 1.0)
+    dives = (pieces == 2) & within & ((one == low) | (one >= WITHIN)) & ((two == high) | (two >= WITHIN))
+    whole = ((pieces == 1) | dives) & (left != NONE) & (right != NONE) & (left != right)
+    own, low, high, piece, within, dives = (x[whole] for x in (own, low, high, piece, within, dives))
+    states, t0, t1 = segments.state.copy(), segments.t0.copy(), segments.t1.copy()
     states[piece] = np.where(at[own] > 0.0, low, high)
+    t1[piece[dives]] = at[own[dives]]
+    t0[piece[dives] + 1] = at[own[dives]]
+    states[piece[dives] + 1] = high[dives]
     # An edge that stands in several chains is parted once.
     parted = np.zeros(len(own), bool)
     parted[np.unique(own, return_index=True)[1]] = True
-    parted &= (low != high) & (at[own] > 0.0) & (at[own] < 1.0)
+    parted &= within & ~dives
     own, high, piece = own[parted], high[parted], piece[parted]
     t1[piece] = at[own]
     order = np.argsort(np.concatenate([segments.edge, own]), kind="stable")
     return replace(
         segments,
         edge=np.concatenate([segments.edge, own.astype(segments.edge.dtype)])[order],
-        t0=np.concatenate([segments.t0, at[own]])[order],
+        t0=np.concatenate([t0, at[own]])[order],
         t1=np.concatenate([t1, np.ones(len(own))])[order],
         state=np.concatenate([states, high])[order],
     )
