@@ -11,7 +11,7 @@ EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 SCRIPTS = sorted(EXAMPLES.glob("[0-9]*.py"))
 OPTIONAL = ("build123d",)
 PART = re.compile(rb"<part index=")
-VISIBLE = re.compile(rb'<g id="visible".*?</g>\n</g>', re.DOTALL)
+VISIBLE = re.compile(rb'<g id="visible".*</svg>', re.DOTALL)
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""SVG: real millimetres, one group per visibility and line class, part and edge on every path.
+"""SVG: real millimetres, one group per visibility, line class and part, the edge on every path.
 
 Widths and dashes are presentation attributes on the groups. They work in every program that reads SVG, and any CSS
 rule overrides them, because they rank below all selectors:
@@ -72,23 +72,26 @@ def _narrow(layer: Layer) -> bool:
 
 
 def paths(layer: Layer, places: int) -> list[str]:
-    """One element per stroke."""
+    """One element per stroke; those of one part after another are one group."""
     data, offsets = _kernel.path_data(
         layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, places, False
     )
     text, at = data.decode("ascii"), offsets.tolist()
     whole = (layer.op[layer.starts[:-1]] == WHOLE).tolist()
     out = []
-    spans = zip(at[:-1], at[1:], whole, layer.part, layer.edge, layer.other, strict=True)
-    for start, end, alone, part, edge, other in spans:
-        tie = "" if edge is None else f' data-edge="{edge}"'
-        tie += "" if other is None else f' data-other="{other}"'
-        drawn = text[start:end]
-        if alone:
-            name = "ellipse" if ' rx="' in drawn else "circle"
-            out.append(f'<{name} data-part="{part}"{tie} {drawn}/>\n')
-        else:
-            out.append(f'<path data-part="{part}"{tie} d="{drawn}"/>\n')
+    spans = zip(layer.part, at[:-1], at[1:], whole, layer.edge, layer.other, strict=True)
+    for part, of_part in groupby(spans, lambda span: span[0]):
+        out.append(f'<g data-part="{part}">\n')
+        for _, start, end, alone, edge, other in of_part:
+            tie = "" if edge is None else f' data-edge="{edge}"'
+            tie += "" if other is None else f' data-other="{other}"'
+            drawn = text[start:end]
+            if alone:
+                name = "ellipse" if ' rx="' in drawn else "circle"
+                out.append(f"<{name}{tie} {drawn}/>\n")
+            else:
+                out.append(f'<path{tie} d="{drawn}"/>\n')
+        out.append("</g>\n")
     return out
 
 

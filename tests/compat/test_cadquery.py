@@ -109,7 +109,7 @@ def test_coordinates_are_those_of_the_projected_model():
 def test_lines_know_where_they_are_from():
     solid = ET.fromstring(getSVG(pair())).find(f"{SVG}g").findall(f"{SVG}g")[1]
     assert {group.get("class") for group in solid} == {"sharp"}
-    assert {path.get("data-part") for path in solid.iter(f"{SVG}path")} == {"0", "1"}
+    assert {of_part.get("data-part") for of_part in solid.find(f"{SVG}g")} == {"0", "1"}
 
 
 def test_arcs_turn_the_right_way(tmp_path):

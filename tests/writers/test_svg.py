@@ -64,7 +64,12 @@ def test_size_is_in_millimetres_and_y_points_down():
 def test_paths_name_their_part_and_edge():
     root = tree(sample())
     for group, visible in ((root.find("s:g[@id='visible']", NS), True), (root.find("s:g[@id='hidden']", NS), False)):
-        drawn = {(sub.get("class"), int(path.get("data-part")), path.get("data-edge")) for sub in group for path in sub}
+        drawn = {
+            (sub.get("class"), int(of_part.get("data-part")), path.get("data-edge"))
+            for sub in group
+            for of_part in sub
+            for path in of_part
+        }
         assert drawn == {
             (entry.kind, entry.part, None if entry.edge is None else str(entry.edge))
             for entry in sample().lines
