@@ -40,6 +40,23 @@ struct Side {
     to: [f64; 2],
 }
 
+/// A stretch of one side, in parameters, that another side covers: one of its own line or not.
+#[derive(Clone, Copy, PartialEq)]
+struct Hit {
+    side: u32,
+    from: f64,
+    to: f64,
+    own: bool,
+}
+
+/// A stretch of a line, in arc length.
+#[derive(Clone, Copy)]
+struct Covered {
+    from: f64,
+    to: f64,
+    own: bool,
+}
+
 struct Entry {
     xmin: i32,
     xmax: i32,
@@ -57,7 +74,7 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
         }
     }
     let hits = coverings(&sides, rank, widths);
-    let mut by_line: Vec<Vec<(f64, f64)>> = vec![Vec::new(); lines.len()];
+    let mut by_line: Vec<Vec<Covered>> = vec![Vec::new(); lines.len()];
     let starts: Vec<f64> = lines
         .iter()
         .flat_map(|line| {
@@ -68,11 +85,15 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
             })
         })
         .collect();
-    for (side, u0, u1) in hits {
-        let s = &sides[side as usize];
+    for hit in hits {
+        let s = &sides[hit.side as usize];
         let length = distance(&s.from, &s.to);
-        let start = starts[side as usize];
-        by_line[s.line as usize].push((start + u0 * length, start + u1 * length));
+        let start = starts[hit.side as usize];
+        by_line[s.line as usize].push(Covered {
+            from: start + hit.from * length,
+            to: start + hit.to * length,
+            own: hit.own,
+        });
     }
     lines
         .into_par_iter()
@@ -84,8 +105,8 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
         .collect()
 }
 
-/// (side, from, to): stretches of sides covered by sides of better lines.
-fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<(u32, f64, f64)> {
+/// Stretches of sides covered by sides of better lines.
+fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<Hit> {
     let corners: Vec<[f64; 3]> =
         sides.iter().flat_map(|s| [[s.from[0], s.from[1], 0.0], [s.to[0], s.to[1], 0.0]]).collect();
     let Some(grid) = Grid::around(&corners) else { return Vec::new() };
@@ -95,7 +116,7 @@ fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<(u32, f64, f64
     let ranges: Vec<(i32, i32)> = snapped.chunks_exact(2).map(|p| grow(y_range(&p[0], &p[1]))).collect();
     let bands = Bands::choose(&ranges, 2.0);
     let (offsets, items) = bands.bucket(&ranges);
-    let mut found: Vec<(u32, f64, f64)> = (0..bands.count)
+    let mut found: Vec<Hit> = (0..bands.count)
         .into_par_iter()
         .flat_map_iter(|k| {
             let (y0, y1) = bands.limits(k);
@@ -112,18 +133,15 @@ fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<(u32, f64, f64
             sweep(&entries, sides, &ranges, rank, widths)
         })
         .collect();
-    found.par_sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+    found.par_sort_by(|a, b| {
+        let places = a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to));
+        a.side.cmp(&b.side).then(places).then(a.own.cmp(&b.own))
+    });
     found.dedup();
     found
 }
 
-fn sweep(
-    entries: &[Entry],
-    sides: &[Side],
-    ranges: &[(i32, i32)],
-    rank: &[u32],
-    widths: Widths,
-) -> Vec<(u32, f64, f64)> {
+fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32], widths: Widths) -> Vec<Hit> {
     let mut active: Vec<&Entry> = Vec::new();
     let mut found = Vec::new();
     // A side that is covered whole need not be covered again: in a tangle of thousands of short lines, where each covers
@@ -159,7 +177,7 @@ fn sweep(
             }
             let width = if worse.visible == better.visible { widths.same } else { widths.under };
             if let Some((u0, u1)) = covered(worse, better, width, widths.same) {
-                found.push((id, u0, u1));
+                found.push(Hit { side: id, from: u0, to: u1, own: s.line == t.line });
                 if (u0, u1) == (0.0, 1.0) {
                     whole.insert(id);
                 }
@@ -210,55 +228,58 @@ fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f
 
 /// What is left of a line without the covered stretches (in arc length); rests of less than two widths go with them: a
 /// line that slants off under another one's ink would leave dots beside it.
-fn keep_rest(line: &Polyline, mut covered: Vec<(f64, f64)>, width: f64, view: &View) -> Vec<Polyline> {
-    covered.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+fn keep_rest(line: &Polyline, mut covered: Vec<Covered>, width: f64, view: &View) -> Vec<Polyline> {
+    covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
     let total = line.length();
-    let mut merged: Vec<(f64, f64)> = Vec::new();
-    for (from, to) in covered {
+    let mut merged: Vec<Covered> = Vec::new();
+    for one in covered {
         match merged.last_mut() {
-            Some(last) if from <= last.1 + 2.0 * width => last.1 = last.1.max(to),
-            _ => merged.push((from, to)),
+            Some(last) if one.from <= last.to + 2.0 * width => {
+                last.to = last.to.max(one.to);
+                last.own &= one.own;
+            }
+            _ => merged.push(one),
         }
     }
     if let Some(first) = merged.first_mut()
-        && first.0 <= 2.0 * width
+        && first.from <= 2.0 * width
     {
-        first.0 = 0.0;
+        first.from = 0.0;
     }
     if let Some(last) = merged.last_mut()
-        && last.1 >= total - 2.0 * width
+        && last.to >= total - 2.0 * width
     {
-        last.1 = total;
+        last.to = total;
     }
-    merged.retain(|&(from, to)| to - from >= CROSSING * width || to - from >= total);
+    merged.retain(|c| c.to - c.from >= CROSSING * width || c.to - c.from >= total);
     if merged.is_empty() {
         return vec![line.clone()];
     }
-    let mut out = Vec::new();
-    let mut from = 0.0;
-    for &(start, end) in merged.iter().chain([&(total, total)]) {
-        if start > from {
-            out.push(stretch(line, from, start, view));
+    let mut out: Vec<Polyline> = Vec::new();
+    let mut before = Covered { from: 0.0, to: 0.0, own: false };
+    for next in merged.into_iter().chain([Covered { from: total, to: total, own: false }]) {
+        if next.from > before.to {
+            let piece = stretch(line, before.to, next.from, view);
+            match out.last_mut() {
+                Some(last) if before.own && goes_on(last, &piece, 4.0 * width) => {
+                    last.flat.extend(&piece.flat);
+                    last.space.extend(&piece.space);
+                }
+                _ => out.push(piece),
+            }
         }
-        from = end;
+        before = next;
     }
     out.retain(|l| l.flat.len() > 1);
-    rejoined(out, 4.0 * width)
+    out
 }
 
-/// Pieces that go on where the one before ended: what was left out between them ran back over the line itself.
-fn rejoined(pieces: Vec<Polyline>, gap: f64) -> Vec<Polyline> {
-    let mut out: Vec<Polyline> = Vec::new();
-    for piece in pieces {
-        match out.last_mut() {
-            Some(last) if distance(&last.flat[last.flat.len() - 1], &piece.flat[0]) <= gap => {
-                last.flat.extend(&piece.flat);
-                last.space.extend(&piece.space);
-            }
-            _ => out.push(piece),
-        }
+/// Whether a piece goes on where the one before ended: what was left out between them ran back over the line itself.
+fn goes_on(before: &Polyline, piece: &Polyline, gap: f64) -> bool {
+    match (before.flat.last(), piece.flat.first()) {
+        (Some(end), Some(start)) => distance(end, start) <= gap,
+        _ => false,
     }
-    out
 }
 
 /// The part of a line between two arc lengths.
@@ -302,6 +323,15 @@ mod tests {
         let rest = uncovered(vec![rim], &[0], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest.len(), 1);
         assert_eq!(rest[0].flat, [[0.0, 0.0], [5.0, 0.0], [10.0, 0.0]]);
+    }
+
+    #[test]
+    fn what_another_line_covers_leaves_a_gap() {
+        // The ends beside the gap are near each other: no reason to join them.
+        let bent = line(false, &[[0.0, -1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 0.02], [0.0, 0.02], [0.0, 1.0]]);
+        let ink = line(true, &[[-0.1, 0.01], [1.1, 0.01]]);
+        let rest = uncovered(vec![ink, bent], &[0, 1], Widths { same: 0.005, under: 0.02 }, &PARALLEL_VIEW);
+        assert_eq!(rest.len(), 3);
     }
 
     fn line(visible: bool, points: &[[f64; 2]]) -> Polyline {
