@@ -53,7 +53,7 @@ def true_lines(
     space_points: Floats,
     line_chain: Ints,
     line_visible: Bools,
-    line_hides: Bools,
+    line_border: Bytes,
     eye: tuple[float, float, float],
     away: tuple[float, float, float],
     accuracy: float,

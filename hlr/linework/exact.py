@@ -74,7 +74,7 @@ def on_curves(
     outline: Ints,
     chain: Ints,
     visible: npt.NDArray[np.bool_],
-    hides: npt.NDArray[np.bool_],
+    border: npt.NDArray[np.uint8],
     edge_curves: EdgeCurveLookup,
     outlines: Curves | None,
     camera: Camera,
@@ -84,7 +84,7 @@ def on_curves(
 ) -> DrawnLines:
     """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges (n,) of parts (n,), or of outlines.
 
-    edge, outline (n,): -1 for none; hides (n,): others may disappear behind what ends there
+    edge, outline (n,): -1 for none; border (n,): 1 where others may disappear behind an edge, 2 behind an outline
     """
     if edge_curves is None:
         return _polylines(offsets, flat, space)
@@ -113,7 +113,7 @@ def on_curves(
         space,
         chain,
         visible,
-        hides,
+        border,
         camera.eye or (0.0, 0.0, 0.0),
         (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
         tolerances.accuracy,

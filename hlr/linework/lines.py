@@ -30,8 +30,8 @@ KIND_RANK = {
 ones the nearer: what one would see. Only at the same depth does the kind decide."""
 
 
-HIDING = (EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.OUTLINE)
-"""Where a surface may end in the image: lines on which others disappear."""
+BORDER = {EdgeClass.SHARP: 1, EdgeClass.BOUNDARY: 1, EdgeClass.OUTLINE: 2}
+"""Where a surface may end in the image, lines on which others disappear: 1 for edges, 2 for outlines, else 0."""
 
 
 def draw_lines(
@@ -93,7 +93,7 @@ def draw_lines(
         outline[chain],
         chain,
         found["visible"],
-        np.isin(chains.kind, HIDING)[chain],
+        np.array([BORDER.get(EdgeClass(k), 0) for k in range(6)], np.uint8)[chains.kind][chain],
         edge_curves,
         scene.silhouettes.curves if scene.silhouettes is not None else None,
         camera,

@@ -68,8 +68,9 @@ def like(
     without: Sequence[str] = (),
     ends: float = 0.0,
     step: float = 0.5,
+    touching: float = 0.0,
 ) -> None:
-    """`expected.agrees` for curves: where they touch tangentially they share some ink.
+    """`expected.agrees` for curves: where they touch tangentially they share some ink, known to be `touching` long.
 
     either: pieces that may be there or not, visible or hidden, where the visibility itself is a matter of tolerance: a
     rim that runs into a generator tangentially, lines upon a surface there.
@@ -81,12 +82,12 @@ def like(
     allowed = Ink(*(np.concatenate([one, doubtful]) for one in (expected.visible, expected.hidden)))
     told += [t for t in differences(allowed, drawn, tolerance, step, ends) if "should not" in t]
     assert not told, "\n".join(told)
-    once(drawing)
+    once(drawing, touching)
 
 
-def once(drawing: Drawing) -> None:
-    """Assert that no line lies on another, but for tangential touch."""
-    assert doubled(drawing) <= TANGENT * sum(ink(drawing).lengths()) / 1000
+def once(drawing: Drawing, touching: float = 0.0) -> None:
+    """Assert that no line lies on another, but for tangential touch, known to be `touching` long."""
+    assert doubled(drawing) <= touching + TANGENT * sum(ink(drawing).lengths()) / 1000
 
 
 def same(one: Drawing, other: Drawing, accuracies: float = 2.0) -> None:

@@ -24,6 +24,8 @@ from hlr.source.parts import explored
 from hlr.writers import render
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
+SHEET = (277, 190)
+"""What fits on A4, in millimetres: models of 39 m and of 4 mm are as demanding there."""
 DENSE = 600
 """Samples per edge, and per line a tenth of that."""
 
@@ -142,8 +144,8 @@ def main() -> None:
             continue
         try:
             source = open_source(path)
-            drawings = hlr.draw_views(path, ["iso"])
-            drawings += hlr.draw_views(path, [(3, -2, 1.5)], hlr.Options(perspective=hlr.Perspective()))
+            drawings = hlr.draw_views(path, ["iso"], hlr.Options(fit=SHEET))
+            drawings += hlr.draw_views(path, [(3, -2, 1.5)], hlr.Options(fit=SHEET, perspective=hlr.Perspective()))
         except hlr.HlrError as error:
             print(f"| {path.name} | {error} |")
             continue

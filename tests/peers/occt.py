@@ -77,16 +77,23 @@ def _polyline(edge: Any, deflection: float) -> Floats | None:
     return np.array([points.Value(i).Coord() for i in range(1, points.NbPoints() + 1)])
 
 
-def _exact(shape: Any, camera: Camera, deflection: float) -> list[tuple[str, bool, Floats]]:
+Lines = list[tuple[str, bool, Floats]]
+"""Class, visibility, and points in the model (n, 3); flat ones (n, 2) where they have not been lifted."""
+
+
+def _exact(shape: Any, camera: Camera, deflection: float) -> tuple[Lines, float]:
+    """The lines, and the algorithm's seconds."""
     from OCP.BRepLib import BRepLib
     from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape, HLRBRep_TypeOfResultingEdge
 
+    start = time.perf_counter()
     algorithm = HLRBRep_Algo()
     algorithm.Add(shape)
     algorithm.Projector(_projector(camera))
     algorithm.Update()
     algorithm.Hide()
     result = HLRBRep_HLRToShape(algorithm)
+    seconds = time.perf_counter() - start
     kinds = {
         "sharp": HLRBRep_TypeOfResultingEdge.HLRBRep_Sharp,
         "outline": HLRBRep_TypeOfResultingEdge.HLRBRep_OutLine,
@@ -102,24 +109,28 @@ def _exact(shape: Any, camera: Camera, deflection: float) -> list[tuple[str, boo
                 points = _polyline(edge, deflection)
                 if points is not None:
                     lines.append((kind, visible, points))
-    return lines
+    return lines, seconds
 
 
-def _poly(shape: Any, camera: Camera) -> list[tuple[str, bool, Floats]]:
+def _poly(shape: Any, camera: Camera, fineness: float, flat: bool) -> tuple[Lines, float]:
+    """The same; meshing is not counted."""
     from OCP.BRep import BRep_Tool
     from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
     from OCP.TopExp import TopExp
     from peers.lift import Lifter
     from peers.reference import from_shape
 
-    lifter = Lifter(from_shape(shape), camera)
+    reference = from_shape(shape, fineness)
+    start = time.perf_counter()
     algorithm = HLRBRep_PolyAlgo()
     algorithm.Load(shape)
     algorithm.Projector(_projector(camera))
     algorithm.Update()
     result = HLRBRep_PolyHLRToShape()
     result.Update(algorithm)
-    lines = []
+    seconds = time.perf_counter() - start
+    lifter = None if flat else Lifter(reference, camera)
+    lines: Lines = []
     for kind, visible, compound in (
         ("sharp", True, result.VCompound()),
         ("sharp", False, result.HCompound()),
@@ -128,18 +139,31 @@ def _poly(shape: Any, camera: Camera) -> list[tuple[str, bool, Floats]]:
     ):
         for edge in edges_of(compound):
             ends = [BRep_Tool.Pnt_s(vertex(edge)).Coord()[:2] for vertex in (TopExp.FirstVertex_s, TopExp.LastVertex_s)]
-            lifted = lifter.lift(np.array(ends), nearest=visible)
+            lifted = np.array(ends) if lifter is None else lifter.lift(np.array(ends), nearest=visible)
             if lifted is not None:
                 lines.append((kind, visible, lifted))
-    return lines
+    return lines, seconds
 
 
-def draw(shape: Any, method: str, camera: Camera, source: str = "shape") -> dict[str, Any]:
-    """The drawing of one view as an exchange document; timings hold the peer's own seconds."""
-    deflection = shape_diagonal(shape) / FINENESS
-    start = time.perf_counter()
-    lines = _exact(shape, camera, deflection) if method == "exact" else _poly(shape, camera)
-    seconds = time.perf_counter() - start
+def draw(
+    shape: Any,
+    method: str,
+    camera: Camera,
+    source: str = "shape",
+    deflection: float | None = None,
+    flat: bool = False,
+) -> dict[str, Any]:
+    """The drawing of one view as an exchange document; timings hold the peer's own seconds.
+
+    flat: leave the polygonal algorithm's lines on paper, without `points3`; lifting loses those it finds no edge for.
+    """
+    diagonal = shape_diagonal(shape)
+    if deflection is None:
+        deflection = diagonal / FINENESS
+    if method == "exact":
+        lines, seconds = _exact(shape, camera, deflection)
+    else:
+        lines, seconds = _poly(shape, camera, diagonal / deflection, flat)
     axes = np.stack([camera.right, camera.up], axis=1)
     return {
         "format": "hlr-drawing",
@@ -165,8 +189,8 @@ def draw(shape: Any, method: str, camera: Camera, source: str = "shape") -> dict
                 "part": 0,
                 "edge": None,
                 "face": None,
-                "points": (points @ axes).tolist(),
-                "points3": points.tolist(),
+                "points": (points if points.shape[1] == 2 else points @ axes).tolist(),
+                "points3": points.tolist() if points.shape[1] == 3 else None,
             }
             for kind, visible, points in lines
         ],
@@ -183,9 +207,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--method", choices=METHODS, default="exact")
     parser.add_argument("--view", default="iso", help="a name or X,Y,Z")
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--deflection", type=float, help="of the triangulation and of curves; default: very fine")
+    parser.add_argument("--flat", action="store_true", help="lines on paper only, tangent edges left out")
     given = parser.parse_args(arguments)
     view = given.view if given.view in DIRECTIONS else [float(value) for value in given.view.split(",")]
-    document = draw(read_shape(given.file), given.method, camera_of(view), given.file.name)
+    shape = read_shape(given.file)
+    if given.flat:
+        # Files do not say which edges are tangent; without this all of them would be drawn.
+        from OCP.BRepLib import BRepLib
+
+        BRepLib.EncodeRegularity_s(shape)
+    document = draw(shape, given.method, camera_of(view), given.file.name, given.deflection, given.flat)
     given.out.write_text(json.dumps(document))
     return 0
 

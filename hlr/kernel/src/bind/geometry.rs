@@ -12,7 +12,7 @@ use crate::geometry::curve::Curve;
 use crate::geometry::curve::Vec3;
 use crate::lines::View;
 use crate::paper::arc::grow;
-use crate::paper::junction::{Goal, Move, Route, junctions};
+use crate::paper::junction::{Border, Goal, Move, Route, junctions};
 use crate::paper::project::{Projection, Vec2};
 use crate::paper::{Drawn, Form, Placed, located, piece};
 
@@ -74,7 +74,7 @@ pub fn true_lines<'py>(
     space_points: PyReadonlyArray2<'py, f64>,
     line_chain: PyReadonlyArray1<'py, i32>,
     line_visible: PyReadonlyArray1<'py, bool>,
-    line_hides: PyReadonlyArray1<'py, bool>,
+    line_border: PyReadonlyArray1<'py, u8>,
     eye: [f64; 3],
     away: [f64; 3],
     accuracy: f64,
@@ -96,8 +96,8 @@ pub fn true_lines<'py>(
     let space_points = rows::<f64, 3>(&space_points, "space_points")?;
     let n = line_curve.len();
     let (line_chain, line_visible) = (flat(&line_chain, "line_chain")?, flat(&line_visible, "line_visible")?);
-    let line_hides = flat(&line_hides, "line_hides")?;
-    expect_len("line_hides", line_hides.len(), n)?;
+    let line_border = flat(&line_border, "line_border")?;
+    expect_len("line_border", line_border.len(), n)?;
     expect_len("line_place", line_place.len(), n)?;
     expect_len("line_chain", line_chain.len(), n)?;
     expect_len("line_visible", line_visible.len(), n)?;
@@ -137,7 +137,12 @@ pub fn true_lines<'py>(
             .map(|i| {
                 let (flat, space) = (&flat_points[points(i)], &space_points[points(i)]);
                 let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy)?)));
-                Route { chain: line_chain[i], visible: line_visible[i], hides: line_hides[i], flat, space, curve }
+                let border = match line_border[i] {
+                    0 => Border::None,
+                    1 => Border::Edge,
+                    _ => Border::Outline,
+                };
+                Route { chain: line_chain[i], visible: line_visible[i], border, flat, space, curve }
             })
             .collect();
         let view = View { origin: eye, away, perspective: !projection.parallel() };

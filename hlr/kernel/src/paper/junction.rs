@@ -5,6 +5,9 @@
 //!   ------------x- | - - - -    it moves along its own curve to the other's (|)
 //!                  | hidden
 //! ```
+//!
+//! Where two lines touch, as an outline does the rim at which its face ends, the change is where they touch; and an
+//! outline of which the last bit was left out because it coincides with the rim goes on to that place.
 
 use std::collections::HashMap;
 
@@ -16,23 +19,36 @@ use super::project::Vec2;
 use crate::geometry::curve::Vec3;
 use crate::lines::View;
 
-/// In accuracies: how far the other line's polyline may be from the change.
+/// In accuracies: how far the other line's polyline may be from the change, where one of the two is an outline: outlines
+/// are compared with the tessellation beside it, not on it.
 const NEAR: f64 = 2.0;
-/// In accuracies: how far a change may move.
+/// The same between edges.
 const MOST: f64 = 1.0;
 /// Sine of the angle below which two lines touch rather than cross.
 const GRAZING: f64 = 0.1;
+/// In accuracies: how far apart lines may be that touch, and how far along them the place may be.
+const TOUCH: f64 = 0.2;
+const ALONG: f64 = 30.0;
+/// Sine of the angle between lines that run the same way.
+const ALIKE: f64 = 1e-6;
 const STEPS: usize = 12;
 /// Of the accuracy: when two curves have met.
 const MET: f64 = 1e-4;
+
+/// Whether a surface may end at a line in the image, and hide what goes on behind it. Where surfaces meet, and along
+/// smooth edges, none does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Border {
+    None,
+    Edge,
+    Outline,
+}
 
 /// A line with its curve, if it has one, and the curve's parameters at its points.
 pub struct Route<'a> {
     pub chain: i32,
     pub visible: bool,
-    /// Whether a surface may end here in the image, and hide what goes on behind it. Where surfaces meet, and along
-    /// smooth edges, none does.
-    pub hides: bool,
+    pub border: Border,
     pub flat: &'a [Vec2],
     pub space: &'a [Vec3],
     pub curve: Option<(&'a Placed, Vec<f64>)>,
@@ -59,6 +75,12 @@ impl Route<'_> {
         let (i, s) = self.segment(t);
         let way = minus(&self.flat[i + 1], &self.flat[i]);
         [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
+    }
+
+    /// The parameter t for a line that ended at `start`: a curve does not go on beyond its own end, and a closed one not
+    /// a turn further.
+    fn ending(&self, t: f64, start: f64) -> Option<f64> {
+        self.curve.as_ref().map_or(Some(t), |(placed, _)| placed.track.ending(start, t))
     }
 
     /// The point in space that `at` is the image of.
@@ -90,58 +112,44 @@ pub enum Goal {
     Point(Vec2, Vec3),
 }
 
-/// Changes of visibility that move. What lies less than `contact` behind may still hide.
+/// A place where lines of one chain end: a visible and a hidden one, or an outline alone.
+struct Change {
+    at: Vec2,
+    /// (line, end)
+    ends: Vec<(usize, usize)>,
+}
+
+/// Changes of visibility that move, and outlines that go on. What lies less than `contact` behind may still hide.
 pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
-    let mut meeting: HashMap<(i32, u64, u64), Vec<(usize, usize)>> = HashMap::new();
-    for (i, route) in routes.iter().enumerate().filter(|(_, r)| r.flat.len() > 1) {
-        for end in [0, 1] {
-            let p = route.flat[end * (route.flat.len() - 1)];
-            meeting.entry((route.chain, p[0].to_bits(), p[1].to_bits())).or_default().push((i, end));
-        }
-    }
-    // A change is where a visible and a hidden line of one edge meet; both move alike.
-    let mut changes: Vec<(Vec2, Vec<(usize, usize)>)> = meeting
-        .into_values()
-        .filter(|ends| ends.iter().any(|e| routes[e.0].visible) && ends.iter().any(|e| !routes[e.0].visible))
-        .map(|ends| {
-            let (i, end) = ends[0];
-            (routes[i].flat[end * (routes[i].flat.len() - 1)], ends)
-        })
-        .collect();
-    changes.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.0[1].total_cmp(&b.0[1])).then(a.1.cmp(&b.1)));
-    let reach = NEAR * accuracy;
-    let mut near: Vec<(usize, usize, usize)> = routes
-        .par_iter()
-        .enumerate()
-        .filter(|(_, route)| route.visible && route.hides)
-        .flat_map_iter(|(j, route)| {
-            let changes = &changes;
-            route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
-                let from = changes.partition_point(|c| c.0[0] < w[0][0].min(w[1][0]) - reach);
-                let to = changes.partition_point(|c| c.0[0] <= w[0][0].max(w[1][0]) + reach);
-                (from..to).filter(move |&c| apart(&changes[c].0, &w[0], &w[1]).0 <= reach).map(move |c| (c, j, k))
-            })
-        })
-        .collect();
-    near.sort_unstable();
+    let changes = changes(routes);
+    let near = near(routes, &changes, NEAR * accuracy);
     near.chunk_by(|a, b| a.0 == b.0)
         .flat_map(|group| {
-            let (p, ends) = &changes[group[0].0];
+            let Change { at, ends } = &changes[group[0].0];
             let (i, end) = ends[0];
             let own = &routes[i];
             let start = own.parameter(end * (own.flat.len() - 2), end as f64);
-            let here = own.at(start)[0];
-            let mut best = (MOST * accuracy, None);
+            let mut best = (f64::INFINITY, None);
             for &(_, j, k) in group {
                 let other = &routes[j];
                 if other.chain == own.chain {
                     continue;
                 }
-                let s = apart(p, &other.flat[k], &other.flat[k + 1]).1;
-                let Some((t, u)) = crossing(own, start, other, other.parameter(k, s), accuracy) else { continue };
-                let moved = length(&minus(&own.at(t)[0], &here));
+                let (away, s) = apart(at, &other.flat[k], &other.flat[k + 1]);
+                let lifted = own.border == Border::Outline || other.border == Border::Outline;
+                if away > accuracy * if lifted { NEAR } else { MOST } {
+                    continue;
+                }
+                let from = (start, other.parameter(k, s));
+                let crossed = if ends.len() > 1 { crossing(own, other, from, away, accuracy) } else { None };
+                let found = crossed.or_else(|| if lifted { touching(own, other, from, accuracy) } else { None });
+                let Some((t, u)) = found else { continue };
+                // An outline that is touched beyond its end goes on to there itself.
+                let reach = if crossed.is_none() && other.border == Border::Outline { ALONG } else { NEAR };
+                let Some(t) = own.ending(t, start) else { continue };
+                let moved = length(&minus(&own.at(t)[0], &own.at(start)[0]));
                 let before = view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
-                if moved < best.0 && before && within(other, u, reach) {
+                if moved < best.0 && before && within(other, u, reach * accuracy) {
                     best = (moved, Some(t));
                 }
             }
@@ -164,6 +172,49 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
         .collect()
 }
 
+fn changes(routes: &[Route]) -> Vec<Change> {
+    let mut meeting: HashMap<(i32, u64, u64), Vec<(usize, usize)>> = HashMap::new();
+    for (i, route) in routes.iter().enumerate().filter(|(_, r)| r.flat.len() > 1) {
+        for end in [0, 1] {
+            let p = route.flat[end * (route.flat.len() - 1)];
+            meeting.entry((route.chain, p[0].to_bits(), p[1].to_bits())).or_default().push((i, end));
+        }
+    }
+    // Where a visible and a hidden line of one edge meet, both move alike.
+    let mut out: Vec<Change> = meeting
+        .into_values()
+        .filter(|ends| {
+            let alone = ends.len() == 1 && routes[ends[0].0].border == Border::Outline;
+            let seen = |visible| ends.iter().any(|e| routes[e.0].visible == visible);
+            (alone || seen(false)) && seen(true)
+        })
+        .map(|ends| {
+            let (i, end) = ends[0];
+            Change { at: routes[i].flat[end * (routes[i].flat.len() - 1)], ends }
+        })
+        .collect();
+    out.sort_by(|a, b| a.at[0].total_cmp(&b.at[0]).then(a.at[1].total_cmp(&b.at[1])).then(a.ends.cmp(&b.ends)));
+    out
+}
+
+/// (change, line, segment): visible borders near changes.
+fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, usize)> {
+    let mut out: Vec<(usize, usize, usize)> = routes
+        .par_iter()
+        .enumerate()
+        .filter(|(_, route)| route.visible && route.border != Border::None)
+        .flat_map_iter(|(j, route)| {
+            route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
+                let from = changes.partition_point(|c| c.at[0] < w[0][0].min(w[1][0]) - reach);
+                let to = changes.partition_point(|c| c.at[0] <= w[0][0].max(w[1][0]) + reach);
+                (from..to).filter(move |&c| apart(&changes[c].at, &w[0], &w[1]).0 <= reach).map(move |c| (c, j, k))
+            })
+        })
+        .collect();
+    out.sort_unstable();
+    out
+}
+
 /// Distance of a point to a segment, and where on it.
 fn apart(p: &Vec2, a: &Vec2, b: &Vec2) -> (f64, f64) {
     let (d, way) = (minus(p, a), minus(b, a));
@@ -172,21 +223,67 @@ fn apart(p: &Vec2, a: &Vec2, b: &Vec2) -> (f64, f64) {
     (length(&minus(&d, &way.map(|c| c * s))), s)
 }
 
-/// Newton's method for own(t) = other(u).
-fn crossing(own: &Route, t: f64, other: &Route, u: f64, accuracy: f64) -> Option<(f64, f64)> {
-    let (mut t, mut u) = (t, u);
+/// Newton's method for own(t) = other(u), which lies `away` from where the search begins.
+fn crossing(own: &Route, other: &Route, (start, u): (f64, f64), away: f64, accuracy: f64) -> Option<(f64, f64)> {
+    let (mut t, mut u) = (start, u);
     for _ in 0..STEPS {
         let ([p, a], [q, b]) = (own.at(t), other.at(u));
         let d = minus(&q, &p);
         let cross = a[0] * b[1] - a[1] * b[0];
-        if cross.is_nan() || cross.abs() <= GRAZING * length(&a) * length(&b) {
+        let sine = cross.abs() / (length(&a) * length(&b));
+        if sine.is_nan() || sine <= GRAZING {
             return None;
         }
         if length(&d) <= MET * accuracy {
-            return Some((t, u));
+            // The flatter the angle, the farther along its own line may a change move.
+            let most = (away.max(MOST * accuracy) / sine).min(ALONG * accuracy);
+            return (length(&minus(&p, &own.at(start)[0])) <= most).then_some((t, u));
         }
         t += (d[0] * b[1] - d[1] * b[0]) / cross;
         u += (d[0] * a[1] - d[1] * a[0]) / cross;
+    }
+    None
+}
+
+/// Where own and other run the same way, side by side: two straight lines do nowhere, or everywhere.
+///
+/// ```text
+///    own     --------------o- - - -        sought is the place where the tangents' angle vanishes,
+///   other         .  -  ~ ~ ~ -  .         by the secant method along other
+/// ```
+fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -> Option<(f64, f64)> {
+    // The foot point on own of a place of other, and the sine of the angle between them there.
+    let look = |mut t: f64, u: f64| {
+        let [q, b] = other.at(u);
+        for _ in 0..STEPS {
+            let [p, a] = own.at(t);
+            let d = minus(&q, &p);
+            t += (d[0] * a[0] + d[1] * a[1]) / (a[0] * a[0] + a[1] * a[1]);
+        }
+        let [p, a] = own.at(t);
+        (t, length(&minus(&q, &p)), (a[0] * b[1] - a[1] * b[0]) / (length(&a) * length(&b)))
+    };
+    let speed = length(&other.at(u)[1]);
+    let (mut u0, mut u1) = (u, u + accuracy / speed);
+    let (t0, _, mut g0) = look(start, u0);
+    let mut t = t0;
+    if g0.abs() > 2.0 * GRAZING {
+        return None;
+    }
+    for _ in 0..STEPS {
+        let (foot, away, g1) = look(t, u1);
+        t = foot;
+        if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > ALONG * accuracy {
+            return None;
+        }
+        // At a seam the angle may not vanish entirely, and go no further.
+        if g1.abs() < ALIKE || (g1 == g0 && g1.abs() < 1e3 * ALIKE) {
+            return (away <= TOUCH * accuracy).then_some((t, u1));
+        }
+        if g1 == g0 {
+            return None;
+        }
+        (u0, u1, g0) = (u1, u1 - g1 * (u1 - u0) / (g1 - g0), g1);
     }
     None
 }
@@ -207,7 +304,7 @@ mod tests {
     use super::*;
 
     fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
-        Route { chain, visible, hides: true, flat, space, curve: None }
+        Route { chain, visible, border: Border::Edge, flat, space, curve: None }
     }
 
     #[test]
@@ -229,9 +326,9 @@ mod tests {
         }
         // Too far, no border of a surface, behind, or of the same edge: nothing moves.
         assert!(junctions(&routes, 0.01, 0.1, &view).is_empty());
-        routes[2].hides = false;
+        routes[2].border = Border::None;
         assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
-        routes[2].hides = true;
+        routes[2].border = Border::Edge;
         routes[2].space = &[[0.0, 0.0, 9.0]; 2];
         assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
         routes[2].space = &[[0.0; 3]; 2];

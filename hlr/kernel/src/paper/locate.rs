@@ -60,6 +60,15 @@ impl Track {
         }
     }
 
+    /// A parameter near `from` as one of the curve: it stops at its ends, and a closed one goes on for half a turn.
+    pub fn ending(&self, from: f64, to: f64) -> Option<f64> {
+        match (self.period, self.bounded) {
+            (Some(period), _) => ((to - from).abs() <= 0.5 * period).then_some(to),
+            (None, Some([low, high])) => Some(to.clamp(low, high)),
+            _ => Some(to),
+        }
+    }
+
     /// Whether an interval is all of a closed curve.
     pub fn closes(&self, range: [f64; 2]) -> bool {
         self.period.is_some_and(|p| (range[1] - range[0]).abs() >= (1.0 - 1e-12) * p)

@@ -22,8 +22,8 @@ use project::{Paper, Projection, Vec2};
 
 use crate::geometry::curve::{Curve, Vec3};
 
-/// Of the accuracy: what a fitted curve may be off.
-const FIT: f64 = 0.2;
+/// Of the accuracy: what a fitted curve may be off. Lines that end on another's true curve are as far from what is drawn.
+const FIT: f64 = 0.1;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
