@@ -6,6 +6,7 @@
 //!
 //! ```text
 //! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
+//!    `wrinkle`  where the surface turns over and back within less than the tolerance it does not turn
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at an
 //!               edge do not change at the same place, the edge itself folds between, so that no gap is left
 //! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
@@ -23,6 +24,7 @@ pub mod exact;
 pub mod face;
 pub mod refine;
 pub mod trace;
+pub mod wrinkle;
 
 use crate::geometry::surface::Surface;
 use crate::lines::View;

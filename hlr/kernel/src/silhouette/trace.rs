@@ -10,6 +10,7 @@ use super::cut::{canonical, in_order, turns_back, unwound};
 use super::exact::{circle, through};
 use super::face::Face;
 use super::refine::{Stretch, stretches};
+use super::wrinkle::flatten;
 use crate::geometry::curve::Curve;
 use crate::geometry::vector::{Vector, dot, length, sub};
 
@@ -48,7 +49,8 @@ struct Link {
 }
 
 pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Traced> {
-    let values = values(model);
+    let mut values = values(model);
+    flatten(model, &mut values);
     if stopped() {
         return None;
     }

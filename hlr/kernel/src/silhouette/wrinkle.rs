@@ -1,0 +1,116 @@
+//! Wrinkles: strips and spots of a face that turn over and back without rising above the tolerance.
+//!
+//! Spline surfaces have them at their knots, where one patch dips against the next by a hair. Wherever a node of the mesh
+//! happens to lie in one, N . v changes its sign and changes back, and the drawing would show a row of dashes beside
+//! nothing. A patch of nodes is taken for its surroundings if, from each of them, the surface turns back that soon.
+//! How far it has risen over that way w along the sight is some N . v times w at most.
+//!
+//! ```text
+//!     +     +     +
+//!     x  -  x  -  x        x: the changes of sign next to the nodes in the wrinkle (-)
+//!     +     +     +
+//! ```
+
+use rayon::prelude::*;
+
+use super::face::{Face, root};
+use super::{Model, TIE};
+use crate::geometry::vector::{length, sub};
+
+/// In chord tolerances, of which an accuracy has ten: what has risen by an accuracy while N . v fell, and some.
+const HEIGHT: f64 = 15.0;
+
+/// Two nodes that an edge inside of a face joins.
+struct Tie {
+    nodes: [u32; 2],
+    face: i32,
+    /// Whether the face ends there.
+    border: bool,
+}
+
+/// Replace the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay.
+pub fn flatten(model: &Model, values: &mut [f64]) {
+    let ties = ties(model, values);
+    let away = |n: u32| values[n as usize] >= -TIE;
+    let mut patches = Patches((0..values.len() as u32).collect());
+    for tie in &ties {
+        let [a, b] = tie.nodes;
+        if away(a) == away(b) {
+            patches.join(a, b);
+        }
+    }
+    let patch: Vec<usize> = (0..values.len() as u32).map(|n| patches.root(n) as usize).collect();
+    // What rises above the tolerance somewhere is no wrinkle; zeros are decided by the rule for ties.
+    let mut wide = vec![false; values.len()];
+    let mut rim = vec![false; values.len()];
+    for tie in &ties {
+        let apart = patch[tie.nodes[0] as usize] != patch[tie.nodes[1] as usize];
+        for n in tie.nodes.map(|n| n as usize) {
+            wide[patch[n]] |= tie.border || values[n].abs() <= TIE;
+            rim[n] |= apart;
+        }
+    }
+    for (&p, rim) in patch.iter().zip(rim) {
+        wide[p] |= !rim;
+    }
+    let mut around = vec![f64::NEG_INFINITY; values.len()];
+    for tie in &ties {
+        let [a, b] = tie.nodes.map(|n| patch[n as usize]);
+        if a == b || (wide[a] && wide[b]) {
+            continue;
+        }
+        let Some(face) = Face::new(model, tie.face) else { continue };
+        let uv = tie.nodes.map(|n| model.uv[n as usize]);
+        let f = tie.nodes.map(|n| values[n as usize]);
+        let t = root(&face, uv[0], uv[1], f[0], f[1]);
+        let at = |t: f64| face.point([0, 1].map(|k| uv[0][k] + (uv[1][k] - uv[0][k]) * t));
+        let change = at(t);
+        for (k, own) in [a, b].into_iter().enumerate() {
+            wide[own] |= f[k].abs() * length(&sub(&at(k as f64), &change)) > HEIGHT * model.chord;
+            around[own] = around[own].max(f[1 - k]);
+        }
+    }
+    for (n, &p) in patch.iter().enumerate() {
+        if !wide[p] && around[p].is_finite() {
+            values[n] = around[p];
+        }
+    }
+}
+
+/// NaN is the value of a pole, and of nodes of faces that are not traced.
+fn ties(model: &Model, values: &[f64]) -> Vec<Tie> {
+    let mut found: Vec<(i32, u32, u32)> = model
+        .corner
+        .par_iter()
+        .zip(model.triangle_face)
+        .filter(|(c, _)| c.iter().all(|&n| n >= 0))
+        .flat_map_iter(|(c, &face)| {
+            let sides = [[c[0], c[1]], [c[1], c[2]], [c[2], c[0]]];
+            sides.map(|[a, b]| (face, a.min(b) as u32, a.max(b) as u32)).into_iter()
+        })
+        .filter(|&(_, a, b)| values[a as usize].is_finite() && values[b as usize].is_finite())
+        .collect();
+    found.par_sort_unstable();
+    found
+        .chunk_by(|x, y| x == y)
+        .map(|same| Tie { nodes: [same[0].1, same[0].2], face: same[0].0, border: same.len() == 1 })
+        .collect()
+}
+
+/// Sets of nodes that hang together.
+struct Patches(Vec<u32>);
+
+impl Patches {
+    fn root(&mut self, mut n: u32) -> u32 {
+        while self.0[n as usize] != n {
+            self.0[n as usize] = self.0[self.0[n as usize] as usize];
+            n = self.0[n as usize];
+        }
+        n
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
