@@ -231,3 +231,15 @@ def test_a_fold_along_an_edge_has_the_curve_of_the_edge():
     centres = sorted(tuple(np.round(arc.centre + drawing.origin, 9).tolist()) for arc in arcs)
     assert centres == [(-8, -3), (-8, 3), (8, -3), (8, 3)]
     assert all(arc.radii == pytest.approx((2, 2), rel=1e-9) for arc in arcs)
+
+
+def test_a_rim_seen_along_its_wall_is_hidden_by_what_lies_on_it():
+    """The wall of the hole is edge-on: it tells nothing of its rim, most of which lies under the box."""
+    plate = cq.Workplane().box(20, 20, 4).faces(">Z").workplane().hole(6)
+    box = cq.Workplane(origin=(2, 0, 2)).rect(8, 14).extrude(5)
+    drawing = hlr.draw(cq.Assembly().add(plate, name="plate").add(box, name="box"), "top")
+    rim = [line for line in drawing.lines if isinstance(line.curve, Arc)]
+    turn = {v: sum(float(np.ptp(line.curve.angles)) for line in rim if line.visible is v) for v in (True, False)}
+    # The box covers x > -2 of a circle of radius 3.
+    assert turn[True] == pytest.approx(2 * np.arccos(2 / 3), abs=0.01)
+    assert turn[False] == pytest.approx(2 * np.pi - 2 * np.arccos(2 / 3), abs=0.01)

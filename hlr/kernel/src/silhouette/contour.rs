@@ -204,7 +204,8 @@ fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
 }
 
 fn dented(model: &Model, side: &Side) -> bool {
-    if side.face.is_none() || side.f.iter().any(|&f| f > TIE) {
+    // A wall along the sight is not turned toward the viewer.
+    if side.face.is_none() || side.f.iter().any(|&f| f > TIE) || side.f.iter().all(|&f| f >= -TIE) {
         return false;
     }
     let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
