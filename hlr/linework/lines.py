@@ -55,6 +55,8 @@ def draw_lines(
     if scene.silhouettes is not None:
         # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
         rank += scene.silhouettes.hidden[chains.edges[chains.offsets[:-1]]]
+    # The contours of meshes are smoothed; those of a B-rep's tessellation have no accuracy left for it.
+    bare = np.array([p.faces == 0 for p in scene.parts], bool)[chains.part]
     found = _kernel.linework(
         np.ascontiguousarray(projected[:, :2] * per_model),
         scene.points,
@@ -71,6 +73,8 @@ def draw_lines(
         chains.reversed,
         rank,
         chains.noisy,
+        bare,
+        tolerances.accuracy,
         tolerances.short,
         tolerances.stub,
         tolerances.width,

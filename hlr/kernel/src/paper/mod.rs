@@ -13,6 +13,7 @@ pub mod fit;
 pub mod junction;
 pub mod locate;
 pub mod project;
+pub mod smooth;
 pub mod straight;
 
 use arc::{Ellipse, grow};
