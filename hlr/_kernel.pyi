@@ -54,6 +54,7 @@ def true_lines(
     line_chain: Ints,
     line_visible: Bools,
     line_hides: Bools,
+    line_bulge: Floats,
     eye: tuple[float, float, float],
     away: tuple[float, float, float],
     accuracy: float,

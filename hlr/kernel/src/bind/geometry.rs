@@ -75,6 +75,7 @@ pub fn true_lines<'py>(
     line_chain: PyReadonlyArray1<'py, i32>,
     line_visible: PyReadonlyArray1<'py, bool>,
     line_hides: PyReadonlyArray1<'py, bool>,
+    line_bulge: PyReadonlyArray1<'py, f64>,
     eye: [f64; 3],
     away: [f64; 3],
     accuracy: f64,
@@ -97,7 +98,9 @@ pub fn true_lines<'py>(
     let n = line_curve.len();
     let (line_chain, line_visible) = (flat(&line_chain, "line_chain")?, flat(&line_visible, "line_visible")?);
     let line_hides = flat(&line_hides, "line_hides")?;
+    let line_bulge = flat(&line_bulge, "line_bulge")?;
     expect_len("line_hides", line_hides.len(), n)?;
+    expect_len("line_bulge", line_bulge.len(), n)?;
     expect_len("line_place", line_place.len(), n)?;
     expect_len("line_chain", line_chain.len(), n)?;
     expect_len("line_visible", line_visible.len(), n)?;
@@ -136,8 +139,11 @@ pub fn true_lines<'py>(
             .into_par_iter()
             .map(|i| {
                 let (flat, space) = (&flat_points[points(i)], &space_points[points(i)]);
-                let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy)?)));
-                Route { chain: line_chain[i], visible: line_visible[i], hides: line_hides[i], flat, space, curve }
+                let bulge = line_bulge[i];
+                let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy, bulge)?)));
+                let bulge = if curve.is_some() { bulge } else { 0.0 };
+                let (chain, visible, hides) = (line_chain[i], line_visible[i], line_hides[i]);
+                Route { chain, visible, hides, flat, space, curve, bulge }
             })
             .collect();
         let view = View { origin: eye, away, perspective: !projection.parallel() };

@@ -221,6 +221,16 @@ fn export<'py>(py: Python<'py>, lines: &[Polyline], chains: &[Option<Chain>]) ->
     }
     let out = PyDict::new(py);
     let poles = curve.len() / 2;
+    let bounds: Vec<f64> = chains
+        .iter()
+        .flat_map(|c| {
+            c.as_ref().map_or([f64::NAN; 4], |c| {
+                let [[a, b], [c, d]] = c.bounds();
+                [a, b, c, d]
+            })
+        })
+        .collect();
+    out.set_item("curve_bounds", bounds.into_pyarray(py).reshape([lines.len(), 2, 2])?)?;
     out.set_item("curve_offsets", curve_offsets.into_pyarray(py))?;
     out.set_item("curve", curve.into_pyarray(py).reshape([poles, 2])?)?;
     out.set_item("chain", lines.iter().map(|l| l.chain as i32).collect::<Vec<_>>().into_pyarray(py))?;

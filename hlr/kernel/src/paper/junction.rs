@@ -36,6 +36,8 @@ pub struct Route<'a> {
     pub flat: &'a [Vec2],
     pub space: &'a [Vec3],
     pub curve: Option<(&'a Placed, Vec<f64>)>,
+    /// How far its curve rises above the chords that the change was found on.
+    pub bulge: f64,
 }
 
 impl Route<'_> {
@@ -131,7 +133,7 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
             let own = &routes[i];
             let start = own.parameter(end * (own.flat.len() - 2), end as f64);
             let here = own.at(start)[0];
-            let mut best = (MOST * accuracy, None);
+            let mut best = (f64::INFINITY, None);
             for &(_, j, k) in group {
                 let other = &routes[j];
                 if other.chain == own.chain {
@@ -141,7 +143,8 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
                 let Some((t, u)) = crossing(own, start, other, other.parameter(k, s), accuracy) else { continue };
                 let moved = length(&minus(&own.at(t)[0], &here));
                 let before = view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
-                if moved < best.0 && before && within(other, u, reach) {
+                let most = MOST * accuracy + own.bulge + other.bulge;
+                if moved < best.0.min(most) && before && within(other, u, reach) {
                     best = (moved, Some(t));
                 }
             }
@@ -207,7 +210,7 @@ mod tests {
     use super::*;
 
     fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
-        Route { chain, visible, hides: true, flat, space, curve: None }
+        Route { chain, visible, hides: true, flat, space, curve: None, bulge: 0.0 }
     }
 
     #[test]

@@ -70,11 +70,12 @@ impl Placed {
 }
 
 /// The parameters of a line's points (on paper and in space) on its curve, or None where it does not run along it.
-pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Vec<f64>> {
+/// `bulge`: how far the curve is known to rise above the line's chords.
+pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulge: f64) -> Option<Vec<f64>> {
     if flat.len() < 2 || matches!(placed.paper, Paper::Line) {
         return None;
     }
-    locate::along(placed, flat, space, accuracy)
+    locate::along(placed, flat, space, accuracy, bulge)
 }
 
 /// What is drawn of an interval of a curve; it may run backward, and on beyond the seam of a closed one.
