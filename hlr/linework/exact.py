@@ -196,20 +196,26 @@ def _along(
     space: Floats,
 ) -> tuple[Ints, Floats, Floats]:
     """The polylines, those of some lines with points along their circles, close enough for the accuracy."""
-    flats, spaces = np.split(flat, offsets[1:-1]), np.split(space, offsets[1:-1])
-    for i in lines.tolist():
-        reach = np.ptp(flats[i], axis=0).max()
-        first, last = interval[i]
-        # The chord of a step s rises by r s^2 / 8; perspective may stretch a step to twice its share.
-        many = 2 * int(np.ceil(abs(last - first) * np.sqrt(reach / (8.0 * CHORD * accuracy)))) + 1
-        at = np.linspace(first, last, many + 1)[1:-1]
-        points = evaluated(curves, np.full(len(at), which[i], np.int32), at)[:, 0]
-        on_paper = camera.project(points)[:, :2] * per_model
-        flats[i] = np.concatenate([flats[i][:1], on_paper, flats[i][-1:]])
-        spaces[i] = np.concatenate([spaces[i][:1], points, spaces[i][-1:]])
-    result = np.zeros(len(offsets), np.int32)
-    np.cumsum([len(f) for f in flats], out=result[1:])
-    return result, np.concatenate(flats), np.concatenate(spaces)
+    first, last = offsets[:-1][lines], offsets[1:][lines] - 1
+    bounds = np.stack([f(flat, offsets[:-1])[lines] for f in (np.maximum.reduceat, np.minimum.reduceat)])
+    reach = (bounds[0] - bounds[1]).max(axis=1)
+    # The chord of a step s rises by r s^2 / 8; perspective may stretch a step to twice its share.
+    step = np.sqrt(8.0 * CHORD * accuracy / reach) * (1.0 if camera.eye is None else 0.5)
+    begin, end = interval[lines].T
+    inner = np.ceil(np.abs(end - begin) / step).astype(np.int64)
+    place = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1
+    t = np.repeat(begin, inner) + np.repeat((end - begin) / (inner + 1), inner) * place
+    points = evaluated(curves, np.repeat(which[lines], inner), t)[:, 0]
+    # Sorted by line and place: first points, those along the circle, last points, and all others as they are.
+    line = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    keep = ~np.isin(line, lines)
+    keep[first] = keep[last] = True
+    rank = np.where(np.isin(np.arange(len(flat)), last), np.inf, np.arange(len(flat)) - offsets[line])
+    owner = np.concatenate([line[keep], np.repeat(lines, inner)])
+    order = np.lexsort((np.concatenate([rank[keep], place]), owner))
+    on_paper = camera.project(points)[:, :2] * per_model
+    result = np.searchsorted(owner[order], np.arange(len(offsets))).astype(np.int32)
+    return result, np.concatenate([flat[keep], on_paper])[order], np.concatenate([space[keep], points])[order]
 
 
 def polylines(offsets: Ints, flat: Floats, space: Floats) -> DrawnLines:
