@@ -73,9 +73,7 @@ def path_data(
     places: int,
     as_pdf: bool,
 ) -> tuple[bytes, npt.NDArray[np.int64]]: ...
-def chain(
-    edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0
-) -> tuple[Ints, Ints, Bools]: ...
+def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
 def linework(
     flat_points: Floats,
     space_points: Floats,

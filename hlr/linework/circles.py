@@ -45,8 +45,10 @@ Point = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Circles:
-    """curves: n records; number (c,) of each chain's circle, -1 for none; bulge (n,): the most that a circle rises above
-    its chords, millimetres on paper."""
+    """curves: n records; number (c,) of each chain's circle, -1 for none.
+
+    bulge (n,): the most that a circle rises above its chords, millimetres on paper
+    """
 
     curves: Curves
     number: Ints
@@ -88,7 +90,8 @@ def _vertices(scene: Scene, chains: LineChains, chain: int) -> Floats | None:
     end = np.where(backward, edges[:, 0], edges[:, 1])
     if (start[1:] != end[:-1]).any():
         return None
-    return scene.points[np.append(start, end[-1])]
+    points: Floats = scene.points[np.append(start, end[-1])]
+    return points
 
 
 def _bent(points: Floats, most: float) -> bool:

@@ -41,8 +41,9 @@ Row = tuple[float, float, float, float]
 class Loose:
     """Curves that belong to no edge of a B-rep, and lie where they are: outlines of true surfaces, circles of meshes.
 
-    curves: n records; number (lines,) of each line's own, -1 for none; bulge (n,): the most that a curve rises above the
-    chords that it was found on, millimetres on paper. What rises is drawn by points of its own, not by its chords.
+    curves: n records; number (lines,) of each line's own, -1 for none
+    bulge (n,): the most that a curve rises above the chords that it was found on, millimetres on paper; the points of
+    what rises are its own, not those of its chords
     """
 
     curves: Curves
@@ -99,7 +100,7 @@ def on_curves(
     tolerances: Tolerances,
     threads: int,
 ) -> DrawnLines:
-    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges (n,) of parts (n,), or on loose curves.
+    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges of parts (n,), or on loose curves.
 
     edge (n,): -1 for none; hides (n,): others may disappear behind what ends there
     """

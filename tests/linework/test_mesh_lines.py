@@ -83,7 +83,9 @@ def test_no_zigzag_is_left(smooth: tuple[trimesh.Trimesh, hlr.Drawing]) -> None:
     for i in range(len(ends)):
         at = np.flatnonzero(owner.ravel().reshape(-1, 2).ravel() == i)
         if len(at) == 2:
-            sharp += turns(np.stack([edges[at[0] // 2, 1 - at[0] % 2], ends[i], edges[at[1] // 2, 1 - at[1] % 2]]))[0] > 45
+            sharp += (
+                turns(np.stack([edges[at[0] // 2, 1 - at[0] % 2], ends[i], edges[at[1] // 2, 1 - at[1] % 2]]))[0] > 45
+            )
     assert sharp > 5
     outer = max((line for line in drawing.lines if line.kind == "outline"), key=length)
     assert isinstance(outer.curve, Bezier) and (turns(outer.points) < 25).all()
@@ -128,7 +130,16 @@ def test_the_same_bytes_with_any_number_of_threads() -> None:
 
 
 def test_a_ridge_goes_on_past_valleys_that_end_on_it() -> None:
-    points = [(0, -10, 0), (0, 0, 0), (0, 10, 0), (-10, -10, -10), (-10, 10, -10), (10, -10, -14), (10, 0, -2), (10, 10, -14)]
+    points = [
+        (0, -10, 0),
+        (0, 0, 0),
+        (0, 10, 0),
+        (-10, -10, -10),
+        (-10, 10, -10),
+        (10, -10, -14),
+        (10, 0, -2),
+        (10, 10, -14),
+    ]
     faces = [(0, 1, 3), (1, 4, 3), (1, 2, 4), (0, 5, 1), (5, 6, 1), (6, 7, 1), (7, 2, 1)]
     drawing = hlr.draw((np.array(points, float), np.array(faces)), "top", hidden=False)
     sharp = [line for line in drawing.lines if line.kind == "sharp"]
@@ -148,7 +159,9 @@ def prism(ring: np.ndarray, height: float = 30.0) -> trimesh.Trimesh:
     n = len(ring)
     i, j = np.arange(n), (np.arange(n) + 1) % n
     low, high = np.full(n, 2 * n), np.full(n, 2 * n + 1)
-    faces = np.concatenate([np.stack(f, axis=1) for f in ((i, j, n + j), (i, n + j, n + i), (j, i, low), (n + i, n + j, high))])
+    faces = np.concatenate(
+        [np.stack(f, axis=1) for f in ((i, j, n + j), (i, n + j, n + i), (j, i, low), (n + i, n + j, high))]
+    )
     walls = [np.column_stack([ring, np.full(n, z)]) for z in (0.0, height)]
     return trimesh.Trimesh(np.concatenate([*walls, [[0, 0, 0], [0, 0, height]]]), faces, process=False)
 
@@ -183,7 +196,9 @@ def test_a_rim_is_a_circle(n: int, perspective: Any) -> None:
         assert apart(pieces(line.points), pieces(line.curve.at(np.linspace(*line.curve.angles, 2000)))) < 0.01
     low = [line for line in rims if line.points3[0, 2] == 0.0]
     assert {line.visible for line in low} == {True, False}
-    assert low[0].curve.axes == pytest.approx(low[1].curve.axes) and low[0].curve.centre == pytest.approx(low[1].curve.centre)
+    assert low[0].curve.axes == pytest.approx(low[1].curve.axes) and low[0].curve.centre == pytest.approx(
+        low[1].curve.centre
+    )
     # Beside the outlines a hidden rim lies under their ink.
     assert 5.9 < sum(abs(np.ptp(line.curve.angles)) for line in low) < 2 * math.pi + 1e-9
     (top,) = (line for line in rims if line.points3[0, 2] == 30.0)

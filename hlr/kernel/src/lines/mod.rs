@@ -4,8 +4,10 @@
 //! 2. `runs`      along a chain: equal states join, doubtful and short ones are settled, lines are cut out
 //! 3. `cover`     of lines that coincide on paper one is kept; visible beats hidden
 //! 4. `specks`    what is shorter than the accuracy, even with all it connects to, is dropped
-//! 5. `simplify`  vertices that the accuracy does not need are left out, except where others end (`ends`); contours of
-//!                meshes are smoothed instead (`paper::smooth`)
+//! 5. `simplify`  vertices that the accuracy does not need are left out
+//!
+//! Where others end (`ends`), creases of meshes keep their vertices. Their contours are smoothed instead
+//! (`paper::smooth`).
 
 pub mod chain;
 pub mod cover;

@@ -5,6 +5,8 @@
 //! 3. `junction`  ends where another line hides this one moved to where the two curves cross
 //! 4. `straight`, `arc`, `bezier`, `fit`: the first of these that can say it exactly, or within its share
 //!
+//! Contours of meshes have no such curve: `smooth` makes one within the accuracy of the polyline.
+//!
 //! A curve that is farther from its line than the accuracy is not believed: the line stays what it was.
 
 pub mod arc;

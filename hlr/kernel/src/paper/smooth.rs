@@ -1,10 +1,10 @@
 //! The contour of a mesh, which turns to and fro from facet to facet, as smooth curves within the accuracy of it.
 //!
-//! 1. `relaxed`    vertices move into the middle between to and fro, ends and pinned ones stay (G. Taubin, "A signal
-//!                 processing approach to fair surface design", 1995: two passes, so that what is round does not shrink)
-//! 2. `reduced`    the few of them that the shape needs (Douglas and Peucker)
-//! 3. `tangents`   at those where a smooth curve can pass without leaving the chords too far; the others are corners
-//! 4. `fitted`     from corner to corner cubic curves (`fit::cubic`), halved at the kept vertices until close enough
+//! 1. `relaxed`   vertices move into the middle between to and fro; ends and pinned ones stay. Two passes, so that what
+//!    is round does not shrink (G. Taubin, "A signal processing approach to fair surface design", 1995).
+//! 2. `reduced`   the few of them that the shape needs (Douglas and Peucker)
+//! 3. `tangents`  at those where a smooth curve can pass without leaving the chords too far; the others are corners
+//! 4. `Fitting`   from corner to corner cubic curves (`fit::cubic`), halved at the kept vertices until close enough
 //!
 //! ```text
 //!      /\  /\                         the contour of the mesh
