@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.linework.exact import CUBIC, DrawnLines
 from hlr.source.model import Floats, Ints
@@ -12,14 +13,14 @@ from hlr.source.tables import starts
 from hlr.view.camera import Camera
 
 
-def lifted(found: dict[str, Any], camera: Camera, per_model: float) -> Floats:
-    """(n, 3) points in space of all lines of `found`, those of contours beside the mesh, where their image now is.
+def lifted(found: dict[str, Any], smoothed: npt.NDArray[np.bool_], camera: Camera, per_model: float) -> Floats:
+    """(n, 3) points in space of all lines of `found`, those of smoothed (lines,) ones where their image now is.
 
     The kernel moved a contour on paper; in space it moves as far, square to the line of sight, at its depth.
     """
     space: Floats = found["space"]
     offsets: Ints = found["offsets"]
-    moved = np.repeat(np.diff(found["curve_offsets"]) > 0, np.diff(offsets))
+    moved = np.repeat(smoothed, np.diff(offsets))
     if not moved.any():
         return space
     at = space[moved]

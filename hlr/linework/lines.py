@@ -91,7 +91,7 @@ def draw_lines(
     if len(keep) == 0:
         return (), (0.0, 0.0)
     chain = found["chain"]
-    space = lifted(found, camera, per_model)
+    space = lifted(found, (chains.noisy & bare)[chain], camera, per_model)
     edge, loose = _guides(scene, plan, chains, camera, per_model, tolerances)
     if edge_curves is None and len(loose.curves.kind) == 0 and len(found["curve"]) == 0:
         drawn = polylines(found["offsets"], found["flat"], space)

@@ -103,7 +103,8 @@ def test_a_closed_contour_closes_smoothly(smooth: tuple[trimesh.Trimesh, hlr.Dra
 def test_the_points_in_space_are_where_the_line_is(perspective: Any) -> None:
     drawing = hlr.draw(blob(), (3, 2, 1), accuracy=ACCURACY, perspective=perspective)
     view = drawing.view
-    for line in (line for line in drawing.lines if line.curve is not None):
+    assert {type(line.curve) for line in drawing.lines} == {Bezier, type(None)}
+    for line in drawing.lines:
         away = line.points3 - np.asarray(view.eye or (0.0, 0.0, 0.0))
         flat = np.stack([away @ np.asarray(view.right), away @ np.asarray(view.up)], axis=1)
         if view.eye is not None:
@@ -183,6 +184,10 @@ def test_a_nut_is_no_circle(n: int) -> None:
     assert not arcs(hlr.draw(prism(ring(regular(n))), "iso", circles=True))
     # Nor is it one when creases are hardly drawn, unless it has more corners than an octagon.
     assert bool(arcs(hlr.draw(prism(ring(regular(n))), "iso", circles=True, crease=80))) == (n > 8)
+
+
+def test_where_edges_are_drawn_at_every_corner_there_is_no_circle() -> None:
+    assert not arcs(hlr.draw(prism(ring(regular(16))), "iso", circles=True, crease=20))
 
 
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective()])

@@ -183,7 +183,7 @@ fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Optio
             if turn.abs() > most_one + most_two {
                 return None;
             }
-            let share = (turn.abs() * l / (l + k)).clamp(turn.abs() - most_two, most_one).copysign(turn);
+            let share = (turn.abs() * l / (l + k)).max(turn.abs() - most_two).min(most_one).copysign(turn);
             let (s, c) = share.sin_cos();
             let unit = one.map(|v| v / l);
             Some([c * unit[0] - s * unit[1], s * unit[0] + c * unit[1]])
