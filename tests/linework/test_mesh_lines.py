@@ -103,7 +103,6 @@ def test_a_closed_contour_closes_smoothly(smooth: tuple[trimesh.Trimesh, hlr.Dra
 def test_the_points_in_space_are_where_the_line_is(perspective: Any) -> None:
     drawing = hlr.draw(blob(), (3, 2, 1), accuracy=ACCURACY, perspective=perspective)
     view = drawing.view
-    assert {type(line.curve) for line in drawing.lines} == {Bezier, type(None)}
     for line in drawing.lines:
         away = line.points3 - np.asarray(view.eye or (0.0, 0.0, 0.0))
         flat = np.stack([away @ np.asarray(view.right), away @ np.asarray(view.up)], axis=1)
