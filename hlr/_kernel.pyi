@@ -54,6 +54,7 @@ def true_lines(
     line_chain: Ints,
     line_visible: Bools,
     line_border: Bytes,
+    line_bulge: Floats,
     eye: tuple[float, float, float],
     away: tuple[float, float, float],
     accuracy: float,
@@ -72,7 +73,7 @@ def path_data(
     places: int,
     as_pdf: bool,
 ) -> tuple[bytes, npt.NDArray[np.int64]]: ...
-def chain(edges: Ints, key: Ints) -> tuple[Ints, Ints, Bools]: ...
+def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
 def linework(
     flat_points: Floats,
     space_points: Floats,
@@ -89,6 +90,8 @@ def linework(
     chain_reversed: Bools,
     chain_rank: Bytes,
     chain_noisy: Bools,
+    chain_bare: Bools,
+    accuracy: float,
     short: float,
     stub: float,
     width: float,

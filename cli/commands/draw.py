@@ -65,6 +65,11 @@ if TYPE_CHECKING:
     default=30.0,
     help="Meshes: fold from which an edge is drawn. Default: 30.",
 )
+@click.option(
+    "--circles",
+    is_flag=True,
+    help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
+)
 @click.option("--up", type=Vector(), metavar="X,Y,Z", help="What points up on paper.")
 @click.option("--perspective", is_flag=True, help="Perspective instead of parallel projection.")
 @click.option("--eye", type=Vector(), metavar="X,Y,Z", help="Perspective: where the eye is.")

@@ -1,4 +1,4 @@
-"""Lines of B-rep edges as intervals of their edges' true curves.
+"""Lines of B-rep edges as intervals of their edges' true curves; rims of meshes as intervals of circles.
 
 The visibility pass works on mesh edges. What it found stays what decides: each polyline becomes the interval of its
 edge's curve between its two ends, on paper an arc, a chain of Bezier curves or a straight line.
@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.curve import Arc, Bezier, Curve
-from hlr.source.geometry import together
+from hlr.source.geometry import evaluated, packed, together
 from hlr.source.model import Curves, EdgeCurves, Floats, Ints
 from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera, Vector
@@ -23,13 +23,32 @@ from hlr.view.camera import Camera, Vector
 EdgeCurveLookup = Callable[[Ints, Ints], EdgeCurves] | None
 """The curves of edges, given their parts and indices; None where the source has none."""
 
+CHORD = 0.2
+"""Of the accuracy: how far the points along a circle may be off it between them."""
+
 POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
 """Forms of lines, as the kernel names them."""
+
+NO_CURVES = packed([])
 
 SAME_PLACE = 0.01
 """Of the accuracy, in the model: a curve whose ends are this close is closed."""
 
 Row = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Loose:
+    """Curves that belong to no edge of a B-rep, and lie where they are: outlines of true surfaces, circles of meshes.
+
+    curves: n records; number (lines,) of each line's own, -1 for none
+    bulge (n,): the most that a curve rises above the chords that it was found on, millimetres on paper; the points of
+    what rises are its own, not those of its chords
+    """
+
+    curves: Curves
+    number: Ints
+    bulge: Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,34 +90,33 @@ def on_curves(
     space: Floats,
     part: Ints,
     edge: Ints,
-    outline: Ints,
+    loose: Loose,
     chain: Ints,
     visible: npt.NDArray[np.bool_],
     border: npt.NDArray[np.uint8],
     edge_curves: EdgeCurveLookup,
-    outlines: Curves | None,
     camera: Camera,
     per_model: float,
     tolerances: Tolerances,
     threads: int,
 ) -> DrawnLines:
-    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges (n,) of parts (n,), or of outlines.
+    """Lines (n) with points flat and space [offsets[i]:offsets[i + 1]], of edges of parts (n,), or on loose curves.
 
-    edge, outline (n,): -1 for none; border (n,): 1 where others may disappear behind an edge, 2 behind an outline
+    edge (n,): -1 for none; border (n,): 1 where others may disappear behind an edge, 2 behind an outline
     """
-    if edge_curves is None:
-        return _polylines(offsets, flat, space)
     which, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
+    curves, places = NO_CURVES, np.eye(3, 4)[None]
     tied = np.flatnonzero(edge >= 0)
-    found = edge_curves(part[tied], edge[tied])
-    which[tied], place[tied] = found.which, found.place
-    curves, places = found.curves, found.places
-    if outlines is not None:
-        # They lie where they are: no place moves them.
-        own = np.flatnonzero((edge < 0) & (outline >= 0))
-        which[own], place[own] = outline[own] + len(curves.kind), len(places)
-        curves = together(curves, outlines)
-        places = np.concatenate([places, np.eye(3, 4)[None]])
+    if edge_curves is not None:
+        found = edge_curves(part[tied], edge[tied])
+        which[tied], place[tied] = found.which, found.place
+        curves, places = found.curves, np.concatenate([found.places, places])
+    # Loose ones lie where they are: no place moves them.
+    own = np.flatnonzero((edge < 0) & (loose.number >= 0))
+    which[own], place[own] = loose.number[own] + len(curves.kind), len(places) - 1
+    bulge = np.zeros(len(edge))
+    bulge[own] = loose.bulge[loose.number[own]]
+    curves = together(curves, loose.curves)
     drawn = _kernel.true_lines(
         curves.kind,
         np.ascontiguousarray(curves.range),
@@ -114,6 +132,7 @@ def on_curves(
         chain,
         visible,
         border,
+        bulge,
         camera.eye or (0.0, 0.0, 0.0),
         (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
         tolerances.accuracy,
@@ -123,6 +142,10 @@ def on_curves(
     )
     form = drawn["form"].astype(np.int32)
     offsets, flat, space = _with_true_ends(offsets, flat, space, drawn["inner"], drawn["flat"], drawn["space"])
+    risen = np.flatnonzero((bulge > 0.0) & (form != POLYLINE))
+    if len(risen):
+        size = per_model, tolerances.accuracy
+        offsets, flat, space = _along(risen, curves, which, drawn["interval"], camera, *size, offsets, flat, space)
     return DrawnLines(offsets, flat, space, form, drawn["offsets"], drawn["data"], drawn["bounds"])
 
 
@@ -161,7 +184,43 @@ def _with_true_ends(
     return result, flat[keep], space[keep]
 
 
-def _polylines(offsets: Ints, flat: Floats, space: Floats) -> DrawnLines:
+def _along(
+    lines: npt.NDArray[np.intp],
+    curves: Curves,
+    which: Ints,
+    interval: Floats,
+    camera: Camera,
+    per_model: float,
+    accuracy: float,
+    offsets: Ints,
+    flat: Floats,
+    space: Floats,
+) -> tuple[Ints, Floats, Floats]:
+    """The polylines, those of some lines with points along their circles, close enough for the accuracy."""
+    first, last = offsets[:-1][lines], offsets[1:][lines] - 1
+    bounds = np.stack([f(flat, offsets[:-1])[lines] for f in (np.maximum.reduceat, np.minimum.reduceat)])
+    reach = (bounds[0] - bounds[1]).max(axis=1)
+    # The chord of a step s rises by r s^2 / 8; perspective may stretch a step to twice its share.
+    step = np.sqrt(8.0 * CHORD * accuracy / reach) * (1.0 if camera.eye is None else 0.5)
+    begin, end = interval[lines].T
+    inner = np.ceil(np.abs(end - begin) / step).astype(np.int64)
+    place = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1
+    t = np.repeat(begin, inner) + np.repeat((end - begin) / (inner + 1), inner) * place
+    points = evaluated(curves, np.repeat(which[lines], inner), t)[:, 0]
+    # Sorted by line and place: first points, those along the circle, last points, and all others as they are.
+    line = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    keep = ~np.isin(line, lines)
+    keep[first] = keep[last] = True
+    rank = np.where(np.isin(np.arange(len(flat)), last), np.inf, np.arange(len(flat)) - offsets[line])
+    owner = np.concatenate([line[keep], np.repeat(lines, inner)])
+    order = np.lexsort((np.concatenate([rank[keep], place]), owner))
+    on_paper = camera.project(points)[:, :2] * per_model
+    result = np.searchsorted(owner[order], np.arange(len(offsets))).astype(np.int32)
+    return result, np.concatenate([flat[keep], on_paper])[order], np.concatenate([space[keep], points])[order]
+
+
+def polylines(offsets: Ints, flat: Floats, space: Floats) -> DrawnLines:
+    """Lines without curves."""
     first = offsets[:-1]
     bounds = np.stack([np.minimum.reduceat(flat, first), np.maximum.reduceat(flat, first)], axis=1)
     count = len(first)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,10 +10,13 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.drawing import Line
-from hlr.linework.exact import EdgeCurveLookup, on_curves
+from hlr.linework.circles import circles
+from hlr.linework.contours import lifted, with_contours
+from hlr.linework.exact import NO_CURVES, EdgeCurveLookup, Loose, on_curves, polylines
 from hlr.linework.outlines import LineChains, outlines
 from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
+from hlr.source.geometry import together
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.tolerance import Tolerances
 from hlr.view.camera import Camera
@@ -55,6 +59,8 @@ def draw_lines(
     if scene.silhouettes is not None:
         # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
         rank += scene.silhouettes.hidden[chains.edges[chains.offsets[:-1]]]
+    # The contours of meshes are smoothed; those of a B-rep's tessellation have no accuracy left for it.
+    bare = np.array([p.faces == 0 for p in scene.parts], bool)[chains.part]
     found = _kernel.linework(
         np.ascontiguousarray(projected[:, :2] * per_model),
         scene.points,
@@ -71,6 +77,8 @@ def draw_lines(
         chains.reversed,
         rank,
         chains.noisy,
+        bare,
+        tolerances.accuracy,
         tolerances.short,
         tolerances.stub,
         tolerances.width,
@@ -83,24 +91,31 @@ def draw_lines(
     if len(keep) == 0:
         return (), (0.0, 0.0)
     chain = found["chain"]
-    edge, outline = _guides(scene, chains)
-    drawn = on_curves(
-        found["offsets"],
-        found["flat"],
-        found["space"],
-        chains.part[chain],
-        edge[chain],
-        outline[chain],
-        chain,
-        found["visible"],
-        np.array([BORDER.get(EdgeClass(k), 0) for k in range(6)], np.uint8)[chains.kind][chain],
-        edge_curves,
-        scene.silhouettes.curves if scene.silhouettes is not None else None,
-        camera,
-        per_model,
-        tolerances,
-        threads,
-    )
+    space = lifted(found, (chains.noisy & bare)[chain], camera, per_model)
+    border = np.array([BORDER.get(EdgeClass(k), 0) for k in range(6)], np.uint8)[chains.kind]
+    # The outline of a mesh is an edge of it.
+    border[bare & (border == BORDER[EdgeClass.OUTLINE])] = BORDER[EdgeClass.BOUNDARY]
+    edge, loose = _guides(scene, plan, chains, camera, per_model, tolerances)
+    if edge_curves is None and len(loose.curves.kind) == 0 and len(found["curve"]) == 0:
+        drawn = polylines(found["offsets"], found["flat"], space)
+    else:
+        drawn = on_curves(
+            found["offsets"],
+            found["flat"],
+            space,
+            chains.part[chain],
+            edge[chain],
+            replace(loose, number=loose.number[chain]),
+            chain,
+            found["visible"],
+            border[chain],
+            edge_curves,
+            camera,
+            per_model,
+            tolerances,
+            threads,
+        )
+    drawn = with_contours(drawn, found)
     low = drawn.low(keep)
     flat, offsets, curves = drawn.flat - low, drawn.offsets, drawn.curves(low)
     space = drawn.space
@@ -126,14 +141,24 @@ def draw_lines(
     return lines, (float(low[0]), float(low[1]))
 
 
-def _guides(scene: Scene, chains: LineChains) -> tuple[Ints, Ints]:
-    """Per chain the edge of the model along which it runs, and the outline; -1 for none."""
+def _guides(
+    scene: Scene, plan: Plan, chains: LineChains, camera: Camera, per_model: float, tolerances: Tolerances
+) -> tuple[Ints, Loose]:
+    """Per chain the edge of the model along which it runs, -1 for none, and the curves of outlines and circles."""
+    edge, number = chains.edge, np.full(len(chains.edge), -1, np.int32)
+    curves = NO_CURVES
     silhouettes = scene.silhouettes
-    if silhouettes is None:
-        return chains.edge, np.full(len(chains.edge), -1, np.int32)
-    outline = silhouettes.number[chains.edges[chains.offsets[:-1]]]
-    source = np.append(silhouettes.source, np.int32(-1))[outline]
-    return np.where(source >= 0, source, chains.edge).astype(np.int32), outline
+    if silhouettes is not None:
+        number = silhouettes.number[chains.edges[chains.offsets[:-1]]]
+        source = np.append(silhouettes.source, np.int32(-1))[number]
+        edge = np.where(source >= 0, source, edge).astype(np.int32)
+        curves = silhouettes.curves
+    bulge = np.zeros(len(curves.kind))
+    round_ = circles(scene, plan, chains, camera, per_model, tolerances)
+    if round_ is not None:
+        number = np.where(round_.number >= 0, round_.number + len(curves.kind), number).astype(np.int32)
+        curves, bulge = together(curves, round_.curves), np.concatenate([bulge, round_.bulge])
+    return edge, Loose(curves, number, bulge)
 
 
 def _identity(chains: LineChains, chain: Ints) -> tuple[npt.NDArray[Any], ...]:

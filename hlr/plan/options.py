@@ -35,6 +35,8 @@ class Options:
     fit          (width, height) to fit the drawing into instead of a scale
     accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
     crease       degrees: where a mesh without B-rep folds more than this, an edge is drawn
+    circles      creases and borders of a mesh become circles where every vertex lies on one within the accuracy, and
+                 neighbours are less than the crease angle (and 45 degrees) apart
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
     threads      0: all cores
@@ -49,6 +51,7 @@ class Options:
     fit: tuple[float, float] | None = None
     accuracy: float | None = None
     crease: float = 30.0
+    circles: bool = False
     up: Vector | None = None
     perspective: Perspective | None = None
     threads: int = 0

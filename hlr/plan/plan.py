@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,7 @@ class Plan:
     delta   (g,) float64: contact tolerance in view depth
     cap     (g,) float64: the most that is allowed against this group: half its thickness, in view depth
     drawn_kind (6,) bool: per EdgeClass, whether source edges of that class are drawn as such
+    step    radians: creases of meshes are circles where neighbouring vertices are less than this apart; 0: never
     """
 
     role: npt.NDArray[np.uint8]
@@ -36,6 +38,11 @@ class Plan:
     delta: Floats
     cap: Floats
     drawn_kind: npt.NDArray[np.bool_]
+    step: float
+
+
+MOST_STEP = 45.0
+"""Degrees between neighbouring vertices of a circle: an octagon is never one."""
 
 
 def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerances) -> Plan:
@@ -61,6 +68,8 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
         delta=delta,
         cap=cap,
         drawn_kind=drawn_kind,
+        # Where the surface folds by more than the crease angle, an edge is drawn, and the figure has corners.
+        step=math.radians(min(options.crease, MOST_STEP)) if options.circles else 0.0,
     )
 
 

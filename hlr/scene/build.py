@@ -52,7 +52,7 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
     kind = np.full(len(edges) + len(loose), INTERIOR, np.uint8)
     if bare.any():
         kind[: len(edges)] = creases(mesh, bare, crease, len(points))
-        walks = joined(walks, crease_walks(edges, kind[: len(edges)], edge_part, bare))
+        walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part, bare))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]
 

@@ -16,6 +16,10 @@ LONE_EDGES = 4
 CLEAR_FOLD = 1.5
 """Fewer connected crease edges than this, none folded by more than so many crease angles, are not drawn."""
 
+STRAIGHT_ON = 30.0
+"""Degrees: where more than two creases meet, a line goes on along the straightest if it turns by no more than this, and
+no other is nearly as straight. A rim of twelve chords still does; the edges of a box never."""
+
 Keys = npt.NDArray[np.int64]
 
 
@@ -156,11 +160,15 @@ def _across_flat(
                 kind[e] = EdgeClass.SHARP
 
 
-def crease_walks(edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]) -> Chains:
-    """Creases and borders of bare meshes, joined where exactly two of a kind meet."""
+def crease_walks(
+    points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]
+) -> Chains:
+    """Creases and borders of bare meshes, joined where exactly two of a kind meet, and where one goes straight on."""
     chosen = np.flatnonzero(candidates & (kind != 255)).astype(np.int32)
     key = part[chosen].astype(np.int32) * 8 + kind[chosen]
-    offsets, order, backward = _kernel.chain(np.ascontiguousarray(edges[chosen]), np.ascontiguousarray(key))
+    offsets, order, backward = _kernel.chain(
+        np.ascontiguousarray(edges[chosen]), np.ascontiguousarray(key), points, STRAIGHT_ON
+    )
     member = chosen[order]
     head = member[offsets[:-1]]
     return Chains(

@@ -69,6 +69,8 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         chain_reversed=np.zeros(4, bool),
         chain_rank=np.zeros(1, np.uint8),
         chain_noisy=np.zeros(1, bool),
+        chain_bare=np.zeros(1, bool),
+        accuracy=0.1,
         short=0.1,
         stub=1.0,
         width=0.05,

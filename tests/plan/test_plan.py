@@ -27,7 +27,7 @@ def test_options_are_frozen_and_their_defaults_pass():
     assert checked(options) is options
     with pytest.raises(FrozenInstanceError):
         options.scale = 2.0
-    assert len({f.name for f in fields(Options)}) == 12
+    assert len({f.name for f in fields(Options)}) == 13
 
 
 @pytest.mark.parametrize(

@@ -107,7 +107,7 @@ fn check_components<const N: usize>(cells: &[[i32; N]], places: usize) {
 
 /// Every edge once; neighbours in a chain meet, have one key, and chains end only where they must.
 pub fn check_chains(edges: &[[i32; 2]], key: &[i32]) {
-    let chains = chain(edges, key);
+    let chains = chain(edges, key, None);
     let mut all = chains.order.clone();
     all.sort_unstable();
     assert!(all.iter().copied().eq(0..edges.len() as i32), "each edge once: {:?}", chains.order);

@@ -75,6 +75,7 @@ pub fn true_lines<'py>(
     line_chain: PyReadonlyArray1<'py, i32>,
     line_visible: PyReadonlyArray1<'py, bool>,
     line_border: PyReadonlyArray1<'py, u8>,
+    line_bulge: PyReadonlyArray1<'py, f64>,
     eye: [f64; 3],
     away: [f64; 3],
     accuracy: f64,
@@ -97,7 +98,9 @@ pub fn true_lines<'py>(
     let n = line_curve.len();
     let (line_chain, line_visible) = (flat(&line_chain, "line_chain")?, flat(&line_visible, "line_visible")?);
     let line_border = flat(&line_border, "line_border")?;
+    let line_bulge = flat(&line_bulge, "line_bulge")?;
     expect_len("line_border", line_border.len(), n)?;
+    expect_len("line_bulge", line_bulge.len(), n)?;
     expect_len("line_place", line_place.len(), n)?;
     expect_len("line_chain", line_chain.len(), n)?;
     expect_len("line_visible", line_visible.len(), n)?;
@@ -136,13 +139,16 @@ pub fn true_lines<'py>(
             .into_par_iter()
             .map(|i| {
                 let (flat, space) = (&flat_points[points(i)], &space_points[points(i)]);
-                let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy)?)));
+                let bulge = line_bulge[i];
+                let curve = placed[i].and_then(|p| Some((p, located(p, flat, space, accuracy, bulge)?)));
+                let bulge = if curve.is_some() { bulge } else { 0.0 };
                 let border = match line_border[i] {
                     0 => Border::None,
                     1 => Border::Edge,
                     _ => Border::Outline,
                 };
-                Route { chain: line_chain[i], visible: line_visible[i], border, flat, space, curve }
+                let (chain, visible) = (line_chain[i], line_visible[i]);
+                Route { chain, visible, border, flat, space, curve, bulge }
             })
             .collect();
         let view = View { origin: eye, away, perspective: !projection.parallel() };

@@ -8,31 +8,42 @@ use rayon::prelude::*;
 
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
-use crate::lines::chain::chain as chain_edges;
+use crate::lines::chain::{Straight, chain as chain_edges};
 use crate::lines::cover::{Widths, uncovered};
+use crate::lines::ends::Ends;
 use crate::lines::runs::{Geometry, Limits, Piece, cut};
 use crate::lines::simplify::simplify;
 use crate::lines::specks::drop_specks;
 use crate::lines::{Polyline, View, distance};
+use crate::paper::bezier::Chain;
+use crate::paper::smooth::smooth;
 use crate::scan::invisibility::State;
 
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
 
 #[pyfunction]
+#[pyo3(signature = (edges, key, points = None, turn = 0.0))]
 pub fn chain<'py>(
     py: Python<'py>,
     edges: PyReadonlyArray2<'py, i32>,
     key: PyReadonlyArray1<'py, i32>,
+    points: Option<PyReadonlyArray2<'py, f64>>,
+    turn: f64,
 ) -> PyResult<ChainArrays<'py>> {
     let (edges, key) = (rows::<i32, 2>(&edges, "edges")?, flat(&key, "key")?);
     expect_len("key", key.len(), edges.len())?;
-    let c = chain_edges(edges, key);
+    let points = points.as_ref().map(|p| rows::<f64, 3>(p, "points")).transpose()?;
+    if let Some(points) = points {
+        expect_below("edges", edges.iter().flatten().copied(), points.len())?;
+    }
+    let straight = points.map(|points| Straight { points, turn: turn.to_radians() });
+    let c = chain_edges(edges, key, straight.as_ref());
     Ok((c.offsets.into_pyarray(py), c.order.into_pyarray(py), c.reversed.into_pyarray(py)))
 }
 
 #[pyfunction]
 #[pyo3(signature = (flat_points, space_points, perspective, eye, away, edges, piece_edge, piece_t0, piece_t1, piece_state,
-    chain_offsets, chain_edges, chain_reversed, chain_rank, chain_noisy, short, stub, width, under, flat_tolerance, space_tolerance,
+    chain_offsets, chain_edges, chain_reversed, chain_rank, chain_noisy, chain_bare, accuracy, short, stub, width, under, flat_tolerance, space_tolerance,
     threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
 pub fn linework<'py>(
@@ -52,6 +63,8 @@ pub fn linework<'py>(
     chain_reversed: PyReadonlyArray1<'py, bool>,
     chain_rank: PyReadonlyArray1<'py, u8>,
     chain_noisy: PyReadonlyArray1<'py, bool>,
+    chain_bare: PyReadonlyArray1<'py, bool>,
+    accuracy: f64,
     short: f64,
     stub: f64,
     width: f64,
@@ -75,7 +88,9 @@ pub fn linework<'py>(
         expect_len(name, found, piece_edge.len())?;
     }
     let noisy = flat(&chain_noisy, "chain_noisy")?;
+    let bare = flat(&chain_bare, "chain_bare")?;
     expect_len("chain_noisy", noisy.len(), rank.len())?;
+    expect_len("chain_bare", bare.len(), rank.len())?;
     expect_len("chain_reversed", reversed.len(), members.len())?;
     expect_len("chain_offsets", offsets.len(), rank.len() + 1)?;
     expect_below("edges", edges.iter().flatten().copied(), flat_points.len())?;
@@ -140,11 +155,27 @@ pub fn linework<'py>(
         let ranks = ranked(&lines, rank, &nearest);
         let mut lines = uncovered(lines, &ranks, Widths { same: width, under }, &view);
         drop_specks(&mut lines, short);
-        lines.par_iter_mut().for_each(|line| simplify(line, flat_tolerance, space_tolerance));
-        Some(lines)
-    })?
-    .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
-    export(py, &lines)
+        let ends = Ends::of(&lines);
+        let chains = lines
+            .par_iter_mut()
+            .map(|line| {
+                let c = line.chain as usize;
+                if noisy[c] && bare[c] {
+                    let (found, chain) = smooth(line, &|p| ends.meet(line, p), accuracy, &view);
+                    *line = found;
+                    return chain;
+                }
+                // Where other lines end on a crease of a mesh, it keeps its vertex.
+                let kept: Vec<bool> = line.flat.iter().map(|p| bare[c] && ends.meet(line, p)).collect();
+                simplify(line, &kept, flat_tolerance, space_tolerance);
+                None
+            })
+            .collect();
+        Some((lines, chains))
+    })?;
+    let (lines, chains): (Vec<Polyline>, Vec<Option<Chain>>) =
+        lines.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+    export(py, &lines, &chains)
 }
 
 /// A strict order of lines: visible before hidden, then by rank in sixteens, then nearer, then by rank, then by
@@ -170,7 +201,7 @@ fn ranked(lines: &[Polyline], rank: &[u8], nearest: &[f64]) -> Vec<u32> {
     out
 }
 
-fn export<'py>(py: Python<'py>, lines: &[Polyline]) -> PyResult<Bound<'py, PyDict>> {
+fn export<'py>(py: Python<'py>, lines: &[Polyline], chains: &[Option<Chain>]) -> PyResult<Bound<'py, PyDict>> {
     let total = lines.iter().map(|l| l.flat.len()).sum();
     let mut offsets = Vec::with_capacity(lines.len() + 1);
     let mut flat: Vec<f64> = Vec::with_capacity(2 * total);
@@ -183,7 +214,25 @@ fn export<'py>(py: Python<'py>, lines: &[Polyline]) -> PyResult<Bound<'py, PyDic
         offsets.push((flat.len() / 2) as i32);
         length.push(line.flat.windows(2).map(|w| distance(&w[0], &w[1])).sum::<f64>());
     }
+    let (mut curve_offsets, mut curve) = (vec![0i32], Vec::<f64>::new());
+    for chain in chains {
+        curve.extend(chain.iter().flat_map(|c| c.points.as_flattened()));
+        curve_offsets.push((curve.len() / 2) as i32);
+    }
     let out = PyDict::new(py);
+    let poles = curve.len() / 2;
+    let bounds: Vec<f64> = chains
+        .iter()
+        .flat_map(|c| {
+            c.as_ref().map_or([f64::NAN; 4], |c| {
+                let [[a, b], [c, d]] = c.bounds();
+                [a, b, c, d]
+            })
+        })
+        .collect();
+    out.set_item("curve_bounds", bounds.into_pyarray(py).reshape([lines.len(), 2, 2])?)?;
+    out.set_item("curve_offsets", curve_offsets.into_pyarray(py))?;
+    out.set_item("curve", curve.into_pyarray(py).reshape([poles, 2])?)?;
     out.set_item("chain", lines.iter().map(|l| l.chain as i32).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("visible", lines.iter().map(|l| l.visible).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("offsets", offsets.into_pyarray(py))?;

@@ -1,4 +1,10 @@
-//! Join edges of equal key at vertices where exactly two of them meet.
+//! Join edges of equal key at vertices where they go on: where exactly two of them meet, and where more do, the one pair
+//! that runs nearly straight on.
+//!
+//! ```text
+//!        |                 a rib that ends on a rim does not part the rim;
+//!   -----+-----            four in a cross are two lines
+//! ```
 
 pub struct Chains {
     pub offsets: Vec<i32>,
@@ -8,31 +14,20 @@ pub struct Chains {
     pub reversed: Vec<bool>,
 }
 
+/// Where the vertices are, and the largest turn that still is straight on, in radians.
+pub struct Straight<'a> {
+    pub points: &'a [[f64; 3]],
+    pub turn: f64,
+}
+
+/// Ten degrees: by so much a second way on must turn more, or neither is the way on.
+const CLEARLY: f64 = std::f64::consts::PI / 18.0;
+
+const NONE: u32 = u32::MAX;
+
 /// Open chains first (by their lowest end edge), then closed ones. Edges of different keys never join.
-pub fn chain(edges: &[[i32; 2]], key: &[i32]) -> Chains {
-    let mut ends: Vec<(i32, i32, u32)> = Vec::with_capacity(2 * edges.len());
-    for (i, e) in edges.iter().enumerate() {
-        ends.push((key[i], e[0], i as u32));
-        ends.push((key[i], e[1], i as u32));
-    }
-    ends.sort_unstable();
-    // next[2 i + s]: the edge that continues edge i at its end s, or none.
-    let mut next = vec![u32::MAX; 2 * edges.len()];
-    let mut i = 0;
-    while i < ends.len() {
-        let mut j = i;
-        while j < ends.len() && (ends[j].0, ends[j].1) == (ends[i].0, ends[i].1) {
-            j += 1;
-        }
-        if j == i + 2 && ends[i].2 != ends[i + 1].2 {
-            let vertex = ends[i].1;
-            for (own, other) in [(ends[i].2, ends[i + 1].2), (ends[i + 1].2, ends[i].2)] {
-                let side = usize::from(edges[own as usize][1] == vertex);
-                next[2 * own as usize + side] = other;
-            }
-        }
-        i = j;
-    }
+pub fn chain(edges: &[[i32; 2]], key: &[i32], straight: Option<&Straight>) -> Chains {
+    let next = continuations(edges, key, straight);
     let mut out = Chains { offsets: vec![0], order: Vec::new(), reversed: Vec::new() };
     let mut used = vec![false; edges.len()];
     for pass in 0..2 {
@@ -40,7 +35,7 @@ pub fn chain(edges: &[[i32; 2]], key: &[i32]) -> Chains {
             if used[first] {
                 continue;
             }
-            let (start_free, end_free) = (next[2 * first] == u32::MAX, next[2 * first + 1] == u32::MAX);
+            let (start_free, end_free) = (next[2 * first] == NONE, next[2 * first + 1] == NONE);
             if pass == 0 && !start_free && !end_free {
                 continue;
             }
@@ -53,7 +48,7 @@ pub fn chain(edges: &[[i32; 2]], key: &[i32]) -> Chains {
                 let leave = usize::from(!backward);
                 let vertex = edges[current][leave];
                 let follow = next[2 * current + leave];
-                if follow == u32::MAX || used[follow as usize] {
+                if follow == NONE || used[follow as usize] {
                     break;
                 }
                 current = follow as usize;
@@ -65,6 +60,69 @@ pub fn chain(edges: &[[i32; 2]], key: &[i32]) -> Chains {
     out
 }
 
+/// next[2 i + s]: the edge that continues edge i at its end s, or none.
+fn continuations(edges: &[[i32; 2]], key: &[i32], straight: Option<&Straight>) -> Vec<u32> {
+    let mut ends: Vec<(i32, i32, u32)> = Vec::with_capacity(2 * edges.len());
+    for (i, e) in edges.iter().enumerate() {
+        ends.push((key[i], e[0], i as u32));
+        ends.push((key[i], e[1], i as u32));
+    }
+    ends.sort_unstable();
+    let mut next = vec![NONE; 2 * edges.len()];
+    for meeting in ends.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let vertex = meeting[0].1;
+        let mut join = |a: u32, b: u32| {
+            for (own, other) in [(a, b), (b, a)] {
+                let side = usize::from(edges[own as usize][1] == vertex);
+                next[2 * own as usize + side] = other;
+            }
+        };
+        match (meeting, straight) {
+            ([a, b], _) if a.2 != b.2 => join(a.2, b.2),
+            ([_, _, _, ..], Some(straight)) => {
+                let around: Vec<u32> = meeting.iter().map(|m| m.2).collect();
+                straight_pairs(edges, &around, vertex, straight).into_iter().for_each(|(a, b)| join(a, b));
+            }
+            _ => {}
+        }
+    }
+    next
+}
+
+/// Pairs of the edges around a vertex, each clearly the other's straightest continuation.
+fn straight_pairs(edges: &[[i32; 2]], around: &[u32], vertex: i32, straight: &Straight) -> Vec<(u32, u32)> {
+    let here = straight.points[vertex as usize];
+    let ways: Vec<[f64; 3]> = around
+        .iter()
+        .map(|&e| {
+            let [a, b] = edges[e as usize];
+            let far = straight.points[if a == vertex { b } else { a } as usize];
+            let way = [0, 1, 2].map(|k| far[k] - here[k]);
+            let size = way.iter().map(|c| c * c).sum::<f64>().sqrt();
+            way.map(|c| if size > 0.0 { c / size } else { 0.0 })
+        })
+        .collect();
+    let turn = |i: usize, j: usize| {
+        let cosine = -(0..3).map(|k| ways[i][k] * ways[j][k]).sum::<f64>();
+        cosine.clamp(-1.0, 1.0).acos()
+    };
+    let only = |i: usize| {
+        let (mut best, mut second) = ((f64::INFINITY, i), f64::INFINITY);
+        for j in (0..ways.len()).filter(|&j| j != i) {
+            let t = turn(i, j);
+            if t < best.0 {
+                (best, second) = ((t, j), best.0);
+            } else {
+                second = second.min(t);
+            }
+        }
+        (best.0 <= straight.turn && second >= best.0 + CLEARLY).then_some(best.1)
+    };
+    (0..ways.len())
+        .filter_map(|i| only(i).filter(|&j| i < j && only(j) == Some(i)).map(|j| (around[i], around[j])))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,7 +130,7 @@ mod tests {
     #[test]
     fn a_path_and_a_loop() {
         let edges = [[1, 2], [0, 1], [2, 3], [5, 6], [6, 7], [5, 7]];
-        let c = chain(&edges, &[0; 6]);
+        let c = chain(&edges, &[0; 6], None);
         assert_eq!(c.offsets, [0, 3, 6]);
         assert_eq!(c.order, [1, 0, 2, 3, 4, 5]);
         assert_eq!(c.reversed, [false, false, false, false, false, true]);
@@ -80,7 +138,19 @@ mod tests {
 
     #[test]
     fn forks_and_keys_end_chains() {
-        assert_eq!(chain(&[[0, 1], [1, 2], [1, 3]], &[0; 3]).offsets.len(), 4);
-        assert_eq!(chain(&[[0, 1], [1, 2]], &[0, 1]).offsets.len(), 3);
+        assert_eq!(chain(&[[0, 1], [1, 2], [1, 3]], &[0; 3], None).offsets.len(), 4);
+        assert_eq!(chain(&[[0, 1], [1, 2]], &[0, 1], None).offsets.len(), 3);
+    }
+
+    #[test]
+    fn a_rim_goes_on_past_a_rib_and_a_cross_is_two_lines() {
+        let points = [[-1.0, 0.1, 0.0], [0.0; 3], [1.0, 0.1, 0.0], [0.0, -1.0, 0.0], [0.1, 1.0, 0.0], [1.0, 0.0, 0.0]];
+        let straight = Straight { points: &points, turn: 30f64.to_radians() };
+        let rim = chain(&[[0, 1], [1, 2], [1, 3]], &[0; 3], Some(&straight));
+        assert_eq!((rim.offsets, rim.order), (vec![0, 2, 3], vec![0, 1, 2]));
+        let cross = chain(&[[0, 1], [1, 2], [1, 3], [1, 4]], &[0; 4], Some(&straight));
+        assert_eq!((cross.offsets, cross.order), (vec![0, 2, 4], vec![0, 1, 2, 3]));
+        // Two ways that are as straight are none.
+        assert_eq!(chain(&[[0, 1], [1, 2], [1, 5]], &[0; 3], Some(&straight)).offsets.len(), 4);
     }
 }

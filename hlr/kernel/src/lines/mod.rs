@@ -5,9 +5,13 @@
 //! 3. `cover`     of lines that coincide on paper one is kept; visible beats hidden
 //! 4. `specks`    what is shorter than the accuracy, even with all it connects to, is dropped
 //! 5. `simplify`  vertices that the accuracy does not need are left out
+//!
+//! Where others end (`ends`), creases of meshes keep their vertices. Their contours are smoothed instead
+//! (`paper::smooth`).
 
 pub mod chain;
 pub mod cover;
+pub mod ends;
 pub mod runs;
 pub mod simplify;
 pub mod specks;

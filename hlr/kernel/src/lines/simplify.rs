@@ -19,20 +19,21 @@ fn off<const N: usize>(p: &[f64; N], a: &[f64; N], b: &[f64; N]) -> f64 {
     d2.sqrt()
 }
 
-pub fn simplify(line: &mut Polyline, flat_tolerance: f64, space_tolerance: f64) {
+/// Of a line; vertices that are `wanted` stay.
+pub fn simplify(line: &mut Polyline, wanted: &[bool], flat_tolerance: f64, space_tolerance: f64) {
     let n = line.flat.len();
     if n < 3 {
         return;
     }
-    let mut keep = vec![false; n];
+    let mut keep = wanted.to_vec();
     keep[0] = true;
     keep[n - 1] = true;
-    let mut stack = vec![(0, n - 1)];
     if line.flat[0] == line.flat[n - 1] {
         // A closed line has no chord: split it at the middle first.
         keep[n / 2] = true;
-        stack = vec![(0, n / 2), (n / 2, n - 1)];
     }
+    let stops: Vec<usize> = (0..n).filter(|&i| keep[i]).collect();
+    let mut stack: Vec<(usize, usize)> = stops.windows(2).map(|w| (w[0], w[1])).collect();
     while let Some((a, b)) = stack.pop() {
         let mut worst = (1.0, 0);
         for i in a + 1..b {
@@ -64,7 +65,10 @@ mod tests {
         let flat = vec![[0.0, 0.0], [1.0, 0.001], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]];
         let space = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 1.0], [4.0, 0.0, 0.0]];
         let mut line = Polyline { chain: 0, visible: true, flat, space };
-        simplify(&mut line, 0.01, 0.01);
+        let mut pinned = line.clone();
+        simplify(&mut line, &[false; 5], 0.01, 0.01);
         assert_eq!(line.flat, [[0.0, 0.0], [2.0, 0.0], [3.0, 0.0], [4.0, 0.0]]);
+        simplify(&mut pinned, &[false, true, false, false, false], 0.01, 0.01);
+        assert_eq!(pinned.flat.len(), 5);
     }
 }

@@ -99,7 +99,7 @@ fn between(curve: &dyn Fn(f64) -> [Vec2; 2], from: f64, to: f64, places: usize, 
 
 /// The best cubic curve found through the ends of samples (point, derivative) along their end tangents, and the largest
 /// distance of a sample to it.
-fn cubic(samples: &[[Vec2; 2]]) -> ([Vec2; 4], f64) {
+pub(super) fn cubic(samples: &[[Vec2; 2]]) -> ([Vec2; 4], f64) {
     let last = samples.len() - 1;
     let (first, end) = (samples[0][0], samples[last][0]);
     let mut u = vec![0.0];

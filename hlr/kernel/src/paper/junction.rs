@@ -52,6 +52,8 @@ pub struct Route<'a> {
     pub flat: &'a [Vec2],
     pub space: &'a [Vec3],
     pub curve: Option<(&'a Placed, Vec<f64>)>,
+    /// How far its curve rises above the chords that the change was found on.
+    pub bulge: f64,
 }
 
 impl Route<'_> {
@@ -137,7 +139,8 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
                 }
                 let (away, s) = apart(at, &other.flat[k], &other.flat[k + 1]);
                 let lifted = own.border == Border::Outline || other.border == Border::Outline;
-                if away > accuracy * if lifted { NEAR } else { MOST } {
+                let reach = if lifted { NEAR } else { MOST } * accuracy;
+                if away > reach + own.bulge + other.bulge {
                     continue;
                 }
                 let from = (start, other.parameter(k, s));
@@ -304,7 +307,7 @@ mod tests {
     use super::*;
 
     fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
-        Route { chain, visible, border: Border::Edge, flat, space, curve: None }
+        Route { chain, visible, border: Border::Edge, flat, space, curve: None, bulge: 0.0 }
     }
 
     #[test]

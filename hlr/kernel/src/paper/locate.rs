@@ -166,7 +166,7 @@ impl Track {
 }
 
 /// The parameters of a line's points on the curve along which it runs, rising or falling.
-pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Vec<f64>> {
+pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulge: f64) -> Option<Vec<f64>> {
     let found: Vec<f64> = space.iter().map(|p| placed.track.nearest(&placed.curve, p)).collect();
     if !found.iter().all(|t| t.is_finite()) {
         return None;
@@ -175,7 +175,7 @@ pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> O
     [1.0, -1.0].into_iter().find_map(|sign| {
         let mut t = unrolled(&found, placed.track.period, sign)?;
         snap(placed, &mut t, accuracy);
-        follows(placed, &t, flat, accuracy).then_some(t)
+        follows(placed, &t, flat, accuracy, bulge).then_some(t)
     })
 }
 
@@ -222,18 +222,19 @@ fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
     }
 }
 
-/// Whether the curve passes the line's vertices within the accuracy, and stays near it in between.
-fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64) -> bool {
+/// Whether the curve passes the line's vertices within the accuracy, and stays near it in between. Its ends may be cut out
+/// of the middle of a chord, and are as far off as that.
+fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64, bulge: f64) -> bool {
     let near = |t: f64, a: &Vec2, b: &Vec2, most: f64| {
         let p = placed.on_paper(t)[0];
         let (d, way) = (minus(&p, a), minus(b, a));
         let s = if way == [0.0; 2] { 0.0 } else { (dot(&d, &way) / dot(&way, &way)).clamp(0.0, 1.0) };
         length(&minus(&d, &way.map(|c| c * s))) <= most
     };
-    (0..flat.len()).all(|i| near(t[i], &flat[i], &flat[i], accuracy))
+    (0..flat.len()).all(|i| near(t[i], &flat[i], &flat[i], accuracy + bulge))
         && (1..flat.len()).all(|i| {
             let (a, b) = (&flat[i - 1], &flat[i]);
-            [0.25, 0.5, 0.75].iter().all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, ASTRAY * accuracy))
+            [0.25, 0.5, 0.75].iter().all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, ASTRAY * accuracy + bulge))
         })
 }
 

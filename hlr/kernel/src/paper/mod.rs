@@ -5,6 +5,8 @@
 //! 3. `junction`  ends where another line hides this one moved to where the two curves cross
 //! 4. `straight`, `arc`, `bezier`, `fit`: the first of these that can say it exactly, or within its share
 //!
+//! Contours of meshes have no such curve: `smooth` makes one within the accuracy of the polyline.
+//!
 //! A curve that is farther from its line than the accuracy is not believed: the line stays what it was.
 
 pub mod arc;
@@ -13,6 +15,7 @@ pub mod fit;
 pub mod junction;
 pub mod locate;
 pub mod project;
+pub mod smooth;
 pub mod straight;
 
 use arc::{Ellipse, grow};
@@ -69,11 +72,12 @@ impl Placed {
 }
 
 /// The parameters of a line's points (on paper and in space) on its curve, or None where it does not run along it.
-pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64) -> Option<Vec<f64>> {
+/// `bulge`: how far the curve is known to rise above the line's chords.
+pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulge: f64) -> Option<Vec<f64>> {
     if flat.len() < 2 || matches!(placed.paper, Paper::Line) {
         return None;
     }
-    locate::along(placed, flat, space, accuracy)
+    locate::along(placed, flat, space, accuracy, bulge)
 }
 
 /// What is drawn of an interval of a curve; it may run backward, and on beyond the seam of a closed one.

@@ -1,0 +1,399 @@
+//! The contour of a mesh, which turns to and fro from facet to facet, as smooth curves within the accuracy of it.
+//!
+//! 1. `relaxed`   vertices move into the middle between to and fro; ends and pinned ones stay. Two passes, so that what
+//!    is round does not shrink (G. Taubin, "A signal processing approach to fair surface design", 1995).
+//! 2. `reduced`   the few of them that the shape needs (Douglas and Peucker)
+//! 3. `tangents`  at those where a smooth curve can pass without leaving the chords too far; the others are corners
+//! 4. `Fitting`   from corner to corner cubic curves (`fit::cubic`), halved at the kept vertices until close enough
+//!
+//! ```text
+//!      /\  /\                         the contour of the mesh
+//!   --/  \/  \--          --------    and what is drawn
+//! ```
+//!
+//! Moves and misfits add up to four fifths of the accuracy; what cannot be smooth within that stays as it is.
+
+use super::bezier::{Chain, at};
+use super::fit::{cubic, dot, length, minus};
+use super::project::Vec2;
+use crate::geometry::curve::Vec3;
+use crate::lines::{Polyline, View, distance};
+
+/// Of the accuracy: how far a vertex may move.
+const MOVE: f64 = 0.5;
+/// Of the accuracy: how far curves may be from the moved contour.
+const MISFIT: f64 = 0.3;
+/// Of the accuracy: vertices nearer than this to their chord are no vertices of the shape.
+const FLAT: f64 = 0.15;
+/// Of the accuracy: how far a curve may bulge beyond one chord for the sake of its tangents.
+const BULGE: f64 = 0.2;
+/// Of the accuracy: how far the points along a curve may be from it between them.
+const CHORD: f64 = 0.1;
+/// A sharper turn than this is a corner however short its sides; radians.
+const CORNER: f64 = 2.0;
+const PASSES: usize = 12;
+/// Shrinking and growing passes of Taubin's filter.
+const STEPS: [f64; 2] = [0.5, -0.526];
+/// Samples on each side of the contour besides its vertices.
+const BETWEEN: usize = 2;
+const PLACES: usize = 16;
+
+/// The smooth line and its curves; no curves where it is straight. `pinned` vertices stay where they are.
+pub fn smooth(
+    line: &Polyline,
+    pinned: &dyn Fn(&Vec2) -> bool,
+    accuracy: f64,
+    view: &View,
+) -> (Polyline, Option<Chain>) {
+    let n = line.flat.len();
+    if n < 3 {
+        return (line.clone(), None);
+    }
+    let closed = n > 3 && line.flat[0] == line.flat[n - 1];
+    let fixed: Vec<bool> = (0..n).map(|i| (!closed && (i == 0 || i + 1 == n)) || pinned(&line.flat[i])).collect();
+    let way = relaxed(&line.flat, &fixed, closed, MOVE * accuracy);
+    let kept = reduced(&way, &fixed, closed, FLAT * accuracy);
+    let tangents = tangents(&way, &kept, closed, BULGE * accuracy);
+    let mut fitting = Fitting::new(&way, &kept, &tangents, MISFIT * accuracy);
+    fitting.all(&fixed);
+    let pieces = fitting.pieces;
+    let mut out = Polyline { chain: line.chain, visible: line.visible, flat: vec![way[0]], space: vec![line.space[0]] };
+    for piece in &pieces {
+        let many = steps(&piece.points, CHORD * accuracy);
+        for k in 1..many {
+            let p = at(&piece.points, k as f64 / many as f64);
+            let q = beside(line, &way, piece.from, piece.to, &p, view);
+            put(&mut out, p, q);
+        }
+        put(&mut out, way[piece.to], line.space[piece.to]);
+    }
+    if closed {
+        let last = out.flat.len() - 1;
+        (out.flat[last], out.space[last]) = (out.flat[0], out.space[0]);
+    }
+    if pieces.iter().all(|p| p.straight) {
+        return (out, None);
+    }
+    let mut points = vec![way[0]];
+    pieces.iter().for_each(|p| points.extend(&p.points[1..]));
+    if closed {
+        let last = points.len() - 1;
+        points[last] = points[0];
+    }
+    (out, Some(Chain { degree: 3, points }))
+}
+
+fn put(line: &mut Polyline, flat: Vec2, space: Vec3) {
+    if line.flat.last() != Some(&flat) {
+        line.flat.push(flat);
+        line.space.push(space);
+    }
+}
+
+/// The vertex before or after, round the end of a closed line.
+fn neighbour(i: usize, forward: bool, n: usize, closed: bool) -> Option<usize> {
+    match (forward, closed) {
+        (true, _) if i + 1 < n => Some(i + 1),
+        (false, _) if i > 0 => Some(i - 1),
+        // The last vertex of a closed line is its first.
+        (true, true) => Some(1),
+        (false, true) => Some(n - 2),
+        _ => None,
+    }
+}
+
+fn relaxed(flat: &[Vec2], fixed: &[bool], closed: bool, most: f64) -> Vec<Vec2> {
+    let n = flat.len();
+    let mut way = flat.to_vec();
+    for step in STEPS.iter().cycle().take(2 * PASSES) {
+        let before = way.clone();
+        for i in (0..n).filter(|&i| !fixed[i]) {
+            let (Some(a), Some(b)) = (neighbour(i, false, n, closed), neighbour(i, true, n, closed)) else { continue };
+            let (to_a, to_b) = (minus(&before[a], &before[i]), minus(&before[b], &before[i]));
+            let (la, lb) = (length(&to_a), length(&to_b));
+            if la == 0.0 || lb == 0.0 {
+                continue;
+            }
+            // Weighted so that a vertex on a straight line rests wherever it is.
+            let pull = [0, 1].map(|k| (to_a[k] * lb + to_b[k] * la) / (la + lb));
+            // A larger bend than the tolerance could ever even out is left as it is.
+            let share = (3.0 - length(&pull) / most).clamp(0.0, 1.0);
+            let moved = [0, 1].map(|k| before[i][k] + step * share * pull[k]);
+            let off = minus(&moved, &flat[i]);
+            let size = length(&off);
+            way[i] = if size > most { [0, 1].map(|k| flat[i][k] + off[k] * (most / size)) } else { moved };
+        }
+    }
+    way
+}
+
+/// Ascending places of the vertices that are kept; the first and the last always.
+fn reduced(way: &[Vec2], fixed: &[bool], closed: bool, tolerance: f64) -> Vec<usize> {
+    let n = way.len();
+    let mut kept = vec![0];
+    kept.extend((1..n - 1).filter(|&i| fixed[i]));
+    kept.push(n - 1);
+    if closed && kept.len() == 2 {
+        let far = (1..n - 1).max_by(|&i, &j| distance(&way[0], &way[i]).total_cmp(&distance(&way[0], &way[j])));
+        kept.insert(1, far.unwrap_or(n / 2));
+    }
+    let mut stack: Vec<(usize, usize)> = kept.windows(2).map(|w| (w[0], w[1])).collect();
+    while let Some((a, b)) = stack.pop() {
+        let mut worst = (tolerance, a);
+        for i in a + 1..b {
+            let d = apart(&way[i], &way[a], &way[b]).0;
+            if d > worst.0 {
+                worst = (d, i);
+            }
+        }
+        if worst.1 > a {
+            kept.push(worst.1);
+            stack.extend([(a, worst.1), (worst.1, b)]);
+        }
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    kept
+}
+
+/// Distance to a segment, and where on it.
+fn apart(p: &Vec2, a: &Vec2, b: &Vec2) -> (f64, f64) {
+    let (d, way) = (minus(p, a), minus(b, a));
+    let size = dot(&way, &way);
+    let s = if size > 0.0 { (dot(&d, &way) / size).clamp(0.0, 1.0) } else { 0.0 };
+    (length(&minus(&d, &way.map(|c| c * s))), s)
+}
+
+/// Unit tangents at the kept vertices, None at corners and at open ends.
+///
+/// A curve whose tangents are turned by a and b from a chord of length l bulges by l (a + b) / 8 beyond it: so each side
+/// of a vertex can take up a turn of 4 bulges / l. Within that, the circle through three vertices gives the tangent.
+fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Option<Vec2>> {
+    let m = kept.len();
+    (0..m)
+        .map(|i| {
+            let (a, b) = (neighbour(i, false, m, closed)?, neighbour(i, true, m, closed)?);
+            let (one, two) = (minus(&way[kept[i]], &way[kept[a]]), minus(&way[kept[b]], &way[kept[i]]));
+            let (l, k) = (length(&one), length(&two));
+            let turn = (one[0] * two[1] - one[1] * two[0]).atan2(dot(&one, &two));
+            if l == 0.0 || k == 0.0 || turn.abs() > CORNER {
+                return None;
+            }
+            let (most_one, most_two) = (4.0 * bulge / l, 4.0 * bulge / k);
+            if turn.abs() > most_one + most_two {
+                return None;
+            }
+            let share = (turn.abs() * l / (l + k)).max(turn.abs() - most_two).min(most_one).copysign(turn);
+            let (s, c) = share.sin_cos();
+            let unit = one.map(|v| v / l);
+            Some([c * unit[0] - s * unit[1], s * unit[0] + c * unit[1]])
+        })
+        .collect()
+}
+
+/// One cubic curve along way[from..=to].
+struct Piece {
+    from: usize,
+    to: usize,
+    points: [Vec2; 4],
+    straight: bool,
+}
+
+struct Fitting<'a> {
+    way: &'a [Vec2],
+    kept: &'a [usize],
+    tangents: &'a [Option<Vec2>],
+    /// Length along the kept vertices to each of them.
+    along: Vec<f64>,
+    misfit: f64,
+    pieces: Vec<Piece>,
+}
+
+impl<'a> Fitting<'a> {
+    fn new(way: &'a [Vec2], kept: &'a [usize], tangents: &'a [Option<Vec2>], misfit: f64) -> Fitting<'a> {
+        let mut along = vec![0.0];
+        for w in kept.windows(2) {
+            along.push(along[along.len() - 1] + distance(&way[w[0]], &way[w[1]]));
+        }
+        Fitting { way, kept, tangents, along, misfit, pieces: Vec::new() }
+    }
+
+    /// Curves from corner to corner, through pinned vertices.
+    fn all(&mut self, fixed: &[bool]) {
+        let last = self.kept.len() - 1;
+        let mut start = 0;
+        for i in 1..=last {
+            if i == last || self.tangents[i].is_none() || fixed[self.kept[i]] {
+                self.between(start, i);
+                start = i;
+            }
+        }
+    }
+
+    /// Curves from one kept vertex to another.
+    fn between(&mut self, a: usize, b: usize) {
+        let (from, to) = (self.kept[a], self.kept[b]);
+        let none = self.tangents[a].is_none() && self.tangents[b].is_none();
+        let split = match self.curve(a, b) {
+            _ if b == a + 1 && none => None,
+            Ok(points) => {
+                self.pieces.push(Piece { from, to, points, straight: false });
+                return;
+            }
+            Err(split) => split,
+        };
+        match split {
+            Some(middle) => {
+                self.between(a, middle);
+                self.between(middle, b);
+            }
+            None => {
+                let (p, q) = (self.way[from], self.way[to]);
+                let third = |s: f64| [0, 1].map(|k| p[k] + (q[k] - p[k]) * s);
+                self.pieces.push(Piece {
+                    from,
+                    to,
+                    points: [p, third(1.0 / 3.0), third(2.0 / 3.0), q],
+                    straight: true,
+                });
+            }
+        }
+    }
+
+    /// The curve, or the kept vertex to part it at, if there is one.
+    fn curve(&self, a: usize, b: usize) -> Result<[Vec2; 4], Option<usize>> {
+        let samples = self.samples(a, b);
+        let last = samples.len() - 1;
+        let end = |i: usize, p: Vec2, q: Vec2| self.tangents[i].unwrap_or_else(|| minus(&q, &p));
+        let mut asked: Vec<[Vec2; 2]> = samples.iter().map(|s| [s.1, [0.0; 2]]).collect();
+        // At open ends and corners along the chord of the shape, not along the noise of the first sample.
+        let shape = |i: usize| self.way[self.kept[i]];
+        asked[0][1] = end(a, shape(a), shape(a + 1));
+        asked[last][1] = end(b, shape(b - 1), shape(b));
+        let (points, mut error) = cubic(&asked);
+        for k in 1..PLACES {
+            let p = at(&points, k as f64 / PLACES as f64);
+            let off = (self.kept[a]..self.kept[b])
+                .map(|i| apart(&p, &self.way[i], &self.way[i + 1]).0)
+                .fold(f64::INFINITY, f64::min);
+            error = error.max(off);
+        }
+        if error <= self.misfit {
+            return Ok(points);
+        }
+        let half = 0.5 * (self.along[a] + self.along[b]);
+        let off = |k: usize| (self.along[k] - half).abs();
+        Err((a + 1..b).min_by(|&i, &j| off(i).total_cmp(&off(j))))
+    }
+
+    /// Places along the contour from one kept vertex to another, in the order in which they come along the kept chords,
+    /// whatever their own way to and fro.
+    fn samples(&self, a: usize, b: usize) -> Vec<(f64, Vec2)> {
+        let mut out = Vec::new();
+        let mut start = 0.0;
+        for w in self.kept[a..=b].windows(2) {
+            let (p, q) = (&self.way[w[0]], &self.way[w[1]]);
+            let size = distance(p, q);
+            out.push((start, *p));
+            let first = out.len();
+            for i in w[0]..w[1] {
+                let (u, v) = (&self.way[i], &self.way[i + 1]);
+                for j in 0..=BETWEEN {
+                    let s = j as f64 / (BETWEEN + 1) as f64;
+                    let place = [u[0] + (v[0] - u[0]) * s, u[1] + (v[1] - u[1]) * s];
+                    if i > w[0] || j > 0 {
+                        out.push((start + size * apart(&place, p, q).1, place));
+                    }
+                }
+            }
+            out[first..].sort_by(|x, y| x.0.total_cmp(&y.0));
+            start += size;
+        }
+        out.push((start, self.way[self.kept[b]]));
+        out
+    }
+}
+
+/// Equal steps of the parameter, with chords this close to the curve.
+fn steps(p: &[Vec2; 4], tolerance: f64) -> usize {
+    let bend = |i: usize| length(&[0, 1].map(|k| p[i][k] - 2.0 * p[i + 1][k] + p[i + 2][k]));
+    ((0.75 * bend(0).max(bend(1)) / tolerance).sqrt().ceil() as usize).clamp(1, 1 << 12)
+}
+
+/// The point in space of the place on the contour nearest to a point of its curve.
+fn beside(line: &Polyline, way: &[Vec2], from: usize, to: usize, p: &Vec2, view: &View) -> Vec3 {
+    let mut best = (f64::INFINITY, from, 0.0);
+    for i in from..to {
+        let (d, s) = apart(p, &way[i], &way[i + 1]);
+        if d < best.0 {
+            best = (d, i, s);
+        }
+    }
+    let (a, b) = (&line.space[best.1], &line.space[best.1 + 1]);
+    let s = view.in_space(best.2, view.depth(a), view.depth(b));
+    [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const VIEW: View = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+
+    fn line(flat: Vec<Vec2>) -> Polyline {
+        let space = flat.iter().map(|p| [p[0], p[1], 7.0]).collect();
+        Polyline { chain: 3, visible: true, flat, space }
+    }
+
+    fn off(from: &[Vec2], to: &[Vec2]) -> f64 {
+        from.iter()
+            .map(|p| to.windows(2).map(|w| apart(p, &w[0], &w[1]).0).fold(f64::INFINITY, f64::min))
+            .fold(0.0, f64::max)
+    }
+
+    fn sharpest(flat: &[Vec2]) -> f64 {
+        flat.windows(3)
+            .map(|w| {
+                let (a, b) = (minus(&w[1], &w[0]), minus(&w[2], &w[1]));
+                (a[0] * b[1] - a[1] * b[0]).atan2(dot(&a, &b)).abs()
+            })
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_zigzag_goes_and_the_ends_stay() {
+        let jag = |i: i32| if i == 0 || i == 60 { 0.0 } else { 0.04 * f64::from(i % 2 * 2 - 1) };
+        let arc = |i: i32| 0.01 * f64::from(i);
+        let raw = line((0..=60).map(|i| [(20.0 + jag(i)) * arc(i).cos(), (20.0 + jag(i)) * arc(i).sin()]).collect());
+        assert!(sharpest(&raw.flat) > 0.7);
+        let (found, chain) = smooth(&raw, &|_| false, 0.1, &VIEW);
+        assert!(sharpest(&found.flat) < 0.1, "{}", sharpest(&found.flat));
+        assert_eq!((found.flat[0], found.flat.last()), (raw.flat[0], raw.flat.last()));
+        assert!(off(&raw.flat, &found.flat) < 0.1 && off(&found.flat, &raw.flat) < 0.1);
+        assert!(chain.is_some_and(|c| c.points.len() <= 7));
+        assert!(found.space.iter().all(|p| p[2] == 7.0));
+    }
+
+    #[test]
+    fn corners_and_facets_stay() {
+        let raw = line(vec![[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [16.0, 18.0]]);
+        let (found, chain) = smooth(&raw, &|_| false, 0.1, &VIEW);
+        assert_eq!((found.flat, chain), (raw.flat, None));
+    }
+
+    #[test]
+    fn a_closed_line_is_smooth_where_it_begins_unless_it_is_pinned_there() {
+        let point = |i: usize| (i as f64 * std::f64::consts::TAU / 90.0).sin_cos();
+        let mut flat: Vec<Vec2> = (0..90).map(|i| [10.0 * point(i).0, 10.0 * point(i).1]).collect();
+        flat.push(flat[0]);
+        let (found, chain) = smooth(&line(flat.clone()), &|_| false, 0.1, &VIEW);
+        assert_eq!(found.flat[0], found.flat[found.flat.len() - 1]);
+        let Some(chain) = chain else { panic!() };
+        let p = &chain.points;
+        let (first, last) = (minus(&p[1], &p[0]), minus(&p[p.len() - 1], &p[p.len() - 2]));
+        assert!((first[0] * last[1] - first[1] * last[0]).abs() < 1e-9 * dot(&first, &last));
+        let pin = flat[17];
+        let (found, _) = smooth(&line(flat), &|p| *p == pin, 0.1, &VIEW);
+        assert!(found.flat.contains(&pin));
+    }
+}
