@@ -15,6 +15,7 @@ from hlr.scene.groups import checked, grouped, with_wires
 from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
 from hlr.scene.topology import MeshFacts, crease_walks, creases, folded_back, joined, mesh_facts, source_walks
+from hlr.source.extent import LARGEST
 from hlr.source.model import EdgeClass, Floats, Ints, Meshed, OnSurfaces, PartMesh
 
 MOST_TRIANGLES = 2**31 // 3 - 1
@@ -36,8 +37,8 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
         raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
     firsts = _firsts([len(p.points) for p in parts])
     points: Floats = np.concatenate([np.zeros((0, 3)), *[p.points for p in parts]])
-    if not np.isfinite(points).all():
-        raise SourceError("the tessellation holds coordinates that are not finite: repair the model")
+    if not (np.abs(points) < LARGEST).all():  # also where one is NaN
+        raise SourceError(f"the tessellation holds coordinates that are not finite, or beyond {LARGEST:g}: repair the model")
     triangles = np.concatenate([np.zeros((0, 3), np.int32), *[p.triangles + firsts[i] for i, p in enumerate(parts)]])
     face = np.concatenate([np.zeros(0, np.int32), *[p.triangle_face for p in parts]])
     part_of = np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts])

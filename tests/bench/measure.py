@@ -50,7 +50,9 @@ def measure(scene: str, who: str, repeat: int) -> dict[str, Any]:
         before = _megabytes()
         seconds = [run() for _ in range(repeat)]
         if out.exists():
-            result["bytes"] = out.stat().st_size
+            text = out.read_bytes()
+            result["bytes"] = len(text)
+            result["lines"] = sum(text.count(f"<{name} ".encode()) for name in ("path", "circle", "ellipse"))
     median, peak = statistics.median(seconds), _megabytes()
     return result | {"seconds": median, "all": seconds, "peak_mb": peak, "grown_mb": peak - before}
 

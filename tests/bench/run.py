@@ -101,14 +101,19 @@ def kernel_table(scenes: Sequence[str], given: argparse.Namespace, results: list
 
 
 def svg_table(scenes: Sequence[str], given: argparse.Namespace, results: list[Result]) -> str:
-    headings = ["shape", "hlr s", "CadQuery s", "CadQuery / hlr", "hlr kB", "CadQuery kB", "hlr MB", "CadQuery MB"]
+    headings = ["shape", "hlr s", "CadQuery s", "CadQuery / hlr", "hlr kB", "CadQuery kB", "CadQuery / hlr"]
+    headings += ["hlr lines", "CadQuery lines", "hlr MB", "CadQuery MB"]
     rows = []
     for scene in scenes:
         own = measured(scene, "hlr-svg", given.repeat, given.timeout)
         peer = measured(scene, "cadquery-svg", min(given.repeat, 3), given.timeout)
         results += [own, peer]
-        size = [f"{each['bytes'] / 1000:.0f}" if "bytes" in each else "-" for each in (own, peer)]
-        rows.append([Path(scene).name, seconds(own), seconds(peer), ratio(peer, own), *size, memory(own), memory(peer)])
+        both = (own, peer)
+        size = [f"{each['bytes'] / 1000:.0f}" if "bytes" in each else "-" for each in both]
+        size.append(f"{peer['bytes'] / own['bytes']:.1f} x" if all("bytes" in each for each in both) else "-")
+        lines = [str(each.get("lines", "-")) for each in both]
+        times = [seconds(own), seconds(peer), ratio(peer, own)]
+        rows.append([Path(scene).name, *times, *size, *lines, memory(own), memory(peer)])
     return markdown(headings, rows)
 
 

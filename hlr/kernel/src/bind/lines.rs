@@ -161,7 +161,7 @@ pub fn linework<'py>(
             .map(|line| {
                 let c = line.chain as usize;
                 if noisy[c] && bare[c] {
-                    let (found, chain) = smooth(line, &|p| ends.meet(line, p), accuracy, &view);
+                    let (found, chain) = smooth(line, &|p| ends.meet(line, p), accuracy, space_tolerance, &view);
                     *line = found;
                     return chain;
                 }

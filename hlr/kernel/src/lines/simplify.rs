@@ -4,7 +4,8 @@
 
 use super::Polyline;
 
-fn off<const N: usize>(p: &[f64; N], a: &[f64; N], b: &[f64; N]) -> f64 {
+/// Distance to a segment.
+pub fn off<const N: usize>(p: &[f64; N], a: &[f64; N], b: &[f64; N]) -> f64 {
     let (mut ab2, mut ap_ab) = (0.0, 0.0);
     for k in 0..N {
         ab2 += (b[k] - a[k]) * (b[k] - a[k]);

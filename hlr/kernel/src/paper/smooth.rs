@@ -17,6 +17,7 @@ use super::bezier::{Chain, at};
 use super::fit::{cubic, dot, length, minus};
 use super::project::Vec2;
 use crate::geometry::curve::Vec3;
+use crate::lines::simplify::off;
 use crate::lines::{Polyline, View, distance};
 
 /// Of the accuracy: how far a vertex may move.
@@ -37,12 +38,15 @@ const STEPS: [f64; 2] = [0.5, -0.526];
 /// Samples on each side of the contour besides its vertices.
 const BETWEEN: usize = 2;
 const PLACES: usize = 16;
+const STEPS_OF_SEARCH: usize = 24;
 
-/// The smooth line and its curves; no curves where it is straight. `pinned` vertices stay where they are.
+/// The smooth line and its curves; no curves where it is straight. `pinned` vertices stay where they are. The line keeps
+/// the points it needs to be within `depth` in space, too, where on paper it is straight.
 pub fn smooth(
     line: &Polyline,
     pinned: &dyn Fn(&Vec2) -> bool,
     accuracy: f64,
+    depth: f64,
     view: &View,
 ) -> (Polyline, Option<Chain>) {
     let n = line.flat.len();
@@ -60,8 +64,12 @@ pub fn smooth(
     let mut out = Polyline { chain: line.chain, visible: line.visible, flat: vec![way[0]], space: vec![line.space[0]] };
     for piece in &pieces {
         let many = steps(&piece.points, CHORD * accuracy);
-        for k in 1..many {
-            let p = at(&piece.points, k as f64 / many as f64);
+        let mut places: Vec<f64> = (1..many).map(|k| k as f64 / many as f64).collect();
+        let (from, to) = (piece.from, piece.to);
+        places.extend(bends(&line.space[from..=to], depth).iter().map(|i| nearest(&piece.points, &way[from + i])));
+        places.sort_by(f64::total_cmp);
+        for t in places {
+            let p = at(&piece.points, t);
             let q = beside(line, &way, piece.from, piece.to, &p, view);
             put(&mut out, p, q);
         }
@@ -154,6 +162,35 @@ fn reduced(way: &[Vec2], fixed: &[bool], closed: bool, tolerance: f64) -> Vec<us
     kept.sort_unstable();
     kept.dedup();
     kept
+}
+
+/// The vertices between its ends that a polyline in space needs (Douglas and Peucker).
+fn bends(space: &[Vec3], tolerance: f64) -> Vec<usize> {
+    let mut kept = Vec::new();
+    let mut stack = vec![(0, space.len() - 1)];
+    while let Some((a, b)) = stack.pop() {
+        let worst = (a + 1..b).map(|i| (off(&space[i], &space[a], &space[b]), i)).max_by(|x, y| x.0.total_cmp(&y.0));
+        if let Some((d, i)) = worst
+            && d > tolerance
+        {
+            kept.push(i);
+            stack.extend([(a, i), (i, b)]);
+        }
+    }
+    kept
+}
+
+/// The parameter of the place on a curve nearest to p: the best of some, then by thirds.
+fn nearest(points: &[Vec2; 4], p: &Vec2) -> f64 {
+    let far = |t: f64| distance(&at(points, t), p);
+    let place = |k: usize| k as f64 / PLACES as f64;
+    let best = (0..=PLACES).min_by(|&i, &j| far(place(i)).total_cmp(&far(place(j)))).unwrap_or(0);
+    let (mut low, mut high) = (place(best.saturating_sub(1)), place((best + 1).min(PLACES)));
+    for _ in 0..STEPS_OF_SEARCH {
+        let third = (high - low) / 3.0;
+        if far(low + third) < far(high - third) { high -= third } else { low += third }
+    }
+    0.5 * (low + high)
 }
 
 /// Distance to a segment, and where on it.
@@ -345,7 +382,7 @@ mod tests {
         Polyline { chain: 3, visible: true, flat, space }
     }
 
-    fn off(from: &[Vec2], to: &[Vec2]) -> f64 {
+    fn farthest(from: &[Vec2], to: &[Vec2]) -> f64 {
         from.iter()
             .map(|p| to.windows(2).map(|w| apart(p, &w[0], &w[1]).0).fold(f64::INFINITY, f64::min))
             .fold(0.0, f64::max)
@@ -366,18 +403,30 @@ mod tests {
         let arc = |i: i32| 0.01 * f64::from(i);
         let raw = line((0..=60).map(|i| [(20.0 + jag(i)) * arc(i).cos(), (20.0 + jag(i)) * arc(i).sin()]).collect());
         assert!(sharpest(&raw.flat) > 0.7);
-        let (found, chain) = smooth(&raw, &|_| false, 0.1, &VIEW);
+        let (found, chain) = smooth(&raw, &|_| false, 0.1, 0.1, &VIEW);
         assert!(sharpest(&found.flat) < 0.1, "{}", sharpest(&found.flat));
         assert_eq!((found.flat[0], found.flat.last()), (raw.flat[0], raw.flat.last()));
-        assert!(off(&raw.flat, &found.flat) < 0.1 && off(&found.flat, &raw.flat) < 0.1);
+        assert!(farthest(&raw.flat, &found.flat) < 0.1 && farthest(&found.flat, &raw.flat) < 0.1);
         assert!(chain.is_some_and(|c| c.points.len() <= 7));
         assert!(found.space.iter().all(|p| p[2] == 7.0));
     }
 
     #[test]
+    fn what_is_straight_on_paper_keeps_its_bends_along_the_sight() {
+        let ring = |i: i32| (0.1 * f64::from(i)).sin_cos();
+        let mut raw = line((0..=31).map(|i| [-10.0 * ring(i).1, 0.0]).collect());
+        raw.space = (0..=31).map(|i| [-10.0 * ring(i).1, 0.0, 10.0 * ring(i).0]).collect();
+        let (found, chain) = smooth(&raw, &|_| false, 0.1, 0.1, &VIEW);
+        assert!(chain.is_none() && found.flat.len() < raw.flat.len());
+        let round = |p: &Vec3| (p[0] * p[0] + p[2] * p[2]).sqrt();
+        let half = |w: &[Vec3]| [0, 1, 2].map(|k| 0.5 * (w[0][k] + w[1][k]));
+        assert!(found.space.windows(2).all(|w| (round(&half(w)) - 10.0).abs() < 0.2));
+    }
+
+    #[test]
     fn corners_and_facets_stay() {
         let raw = line(vec![[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [16.0, 18.0]]);
-        let (found, chain) = smooth(&raw, &|_| false, 0.1, &VIEW);
+        let (found, chain) = smooth(&raw, &|_| false, 0.1, 0.1, &VIEW);
         assert_eq!((found.flat, chain), (raw.flat, None));
     }
 
@@ -386,14 +435,14 @@ mod tests {
         let point = |i: usize| (i as f64 * std::f64::consts::TAU / 90.0).sin_cos();
         let mut flat: Vec<Vec2> = (0..90).map(|i| [10.0 * point(i).0, 10.0 * point(i).1]).collect();
         flat.push(flat[0]);
-        let (found, chain) = smooth(&line(flat.clone()), &|_| false, 0.1, &VIEW);
+        let (found, chain) = smooth(&line(flat.clone()), &|_| false, 0.1, 0.1, &VIEW);
         assert_eq!(found.flat[0], found.flat[found.flat.len() - 1]);
         let Some(chain) = chain else { panic!() };
         let p = &chain.points;
         let (first, last) = (minus(&p[1], &p[0]), minus(&p[p.len() - 1], &p[p.len() - 2]));
         assert!((first[0] * last[1] - first[1] * last[0]).abs() < 1e-9 * dot(&first, &last));
         let pin = flat[17];
-        let (found, _) = smooth(&line(flat), &|p| *p == pin, 0.1, &VIEW);
+        let (found, _) = smooth(&line(flat), &|p| *p == pin, 0.1, 0.1, &VIEW);
         assert!(found.flat.contains(&pin));
     }
 }
