@@ -38,7 +38,9 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
     firsts = _firsts([len(p.points) for p in parts])
     points: Floats = np.concatenate([np.zeros((0, 3)), *[p.points for p in parts]])
     if not (np.abs(points) < LARGEST).all():  # also where one is NaN
-        raise SourceError(f"the tessellation holds coordinates that are not finite, or beyond {LARGEST:g}: repair the model")
+        raise SourceError(
+            f"the tessellation has coordinates that are not finite or beyond {LARGEST:g}: repair the model"
+        )
     triangles = np.concatenate([np.zeros((0, 3), np.int32), *[p.triangles + firsts[i] for i, p in enumerate(parts)]])
     face = np.concatenate([np.zeros(0, np.int32), *[p.triangle_face for p in parts]])
     part_of = np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts])

@@ -11,6 +11,7 @@
 
 pub mod arc;
 pub mod bezier;
+pub mod contour_fit;
 pub mod fit;
 pub mod junction;
 pub mod locate;

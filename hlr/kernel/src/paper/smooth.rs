@@ -4,7 +4,7 @@
 //!    is round does not shrink (G. Taubin, "A signal processing approach to fair surface design", 1995).
 //! 2. `reduced`   the few of them that the shape needs (Douglas and Peucker)
 //! 3. `tangents`  at those where a smooth curve can pass without leaving the chords too far; the others are corners
-//! 4. `Fitting`   from corner to corner cubic curves (`fit::cubic`), halved at the kept vertices until close enough
+//! 4. `contour_fit`   from corner to corner cubic curves (`fit::cubic`), halved at the kept vertices until close enough
 //!
 //! ```text
 //!      /\  /\                         the contour of the mesh
@@ -14,7 +14,8 @@
 //! Moves and misfits add up to four fifths of the accuracy; what cannot be smooth within that stays as it is.
 
 use super::bezier::{Chain, at};
-use super::fit::{cubic, dot, length, minus};
+use super::contour_fit::Fitting;
+use super::fit::{dot, length, minus};
 use super::project::Vec2;
 use crate::geometry::curve::Vec3;
 use crate::lines::simplify::off;
@@ -35,8 +36,6 @@ const CORNER: f64 = 2.0;
 const PASSES: usize = 12;
 /// Shrinking and growing passes of Taubin's filter.
 const STEPS: [f64; 2] = [0.5, -0.526];
-/// Samples on each side of the contour besides its vertices.
-const BETWEEN: usize = 2;
 const PLACES: usize = 16;
 const STEPS_OF_SEARCH: usize = 24;
 
@@ -194,7 +193,7 @@ fn nearest(points: &[Vec2; 4], p: &Vec2) -> f64 {
 }
 
 /// Distance to a segment, and where on it.
-fn apart(p: &Vec2, a: &Vec2, b: &Vec2) -> (f64, f64) {
+pub fn apart(p: &Vec2, a: &Vec2, b: &Vec2) -> (f64, f64) {
     let (d, way) = (minus(p, a), minus(b, a));
     let size = dot(&way, &way);
     let s = if size > 0.0 { (dot(&d, &way) / size).clamp(0.0, 1.0) } else { 0.0 };
@@ -226,129 +225,6 @@ fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Optio
             Some([c * unit[0] - s * unit[1], s * unit[0] + c * unit[1]])
         })
         .collect()
-}
-
-/// One cubic curve along way[from..=to].
-struct Piece {
-    from: usize,
-    to: usize,
-    points: [Vec2; 4],
-    straight: bool,
-}
-
-struct Fitting<'a> {
-    way: &'a [Vec2],
-    kept: &'a [usize],
-    tangents: &'a [Option<Vec2>],
-    /// Length along the kept vertices to each of them.
-    along: Vec<f64>,
-    misfit: f64,
-    pieces: Vec<Piece>,
-}
-
-impl<'a> Fitting<'a> {
-    fn new(way: &'a [Vec2], kept: &'a [usize], tangents: &'a [Option<Vec2>], misfit: f64) -> Fitting<'a> {
-        let mut along = vec![0.0];
-        for w in kept.windows(2) {
-            along.push(along[along.len() - 1] + distance(&way[w[0]], &way[w[1]]));
-        }
-        Fitting { way, kept, tangents, along, misfit, pieces: Vec::new() }
-    }
-
-    /// Curves from corner to corner, through pinned vertices.
-    fn all(&mut self, fixed: &[bool]) {
-        let last = self.kept.len() - 1;
-        let mut start = 0;
-        for i in 1..=last {
-            if i == last || self.tangents[i].is_none() || fixed[self.kept[i]] {
-                self.between(start, i);
-                start = i;
-            }
-        }
-    }
-
-    /// Curves from one kept vertex to another.
-    fn between(&mut self, a: usize, b: usize) {
-        let (from, to) = (self.kept[a], self.kept[b]);
-        let none = self.tangents[a].is_none() && self.tangents[b].is_none();
-        let split = match self.curve(a, b) {
-            _ if b == a + 1 && none => None,
-            Ok(points) => {
-                self.pieces.push(Piece { from, to, points, straight: false });
-                return;
-            }
-            Err(split) => split,
-        };
-        match split {
-            Some(middle) => {
-                self.between(a, middle);
-                self.between(middle, b);
-            }
-            None => {
-                let (p, q) = (self.way[from], self.way[to]);
-                let third = |s: f64| [0, 1].map(|k| p[k] + (q[k] - p[k]) * s);
-                self.pieces.push(Piece {
-                    from,
-                    to,
-                    points: [p, third(1.0 / 3.0), third(2.0 / 3.0), q],
-                    straight: true,
-                });
-            }
-        }
-    }
-
-    /// The curve, or the kept vertex to part it at, if there is one.
-    fn curve(&self, a: usize, b: usize) -> Result<[Vec2; 4], Option<usize>> {
-        let samples = self.samples(a, b);
-        let last = samples.len() - 1;
-        let end = |i: usize, p: Vec2, q: Vec2| self.tangents[i].unwrap_or_else(|| minus(&q, &p));
-        let mut asked: Vec<[Vec2; 2]> = samples.iter().map(|s| [s.1, [0.0; 2]]).collect();
-        // At open ends and corners along the chord of the shape, not along the noise of the first sample.
-        let shape = |i: usize| self.way[self.kept[i]];
-        asked[0][1] = end(a, shape(a), shape(a + 1));
-        asked[last][1] = end(b, shape(b - 1), shape(b));
-        let (points, mut error) = cubic(&asked);
-        for k in 1..PLACES {
-            let p = at(&points, k as f64 / PLACES as f64);
-            let off = (self.kept[a]..self.kept[b])
-                .map(|i| apart(&p, &self.way[i], &self.way[i + 1]).0)
-                .fold(f64::INFINITY, f64::min);
-            error = error.max(off);
-        }
-        if error <= self.misfit {
-            return Ok(points);
-        }
-        let half = 0.5 * (self.along[a] + self.along[b]);
-        let off = |k: usize| (self.along[k] - half).abs();
-        Err((a + 1..b).min_by(|&i, &j| off(i).total_cmp(&off(j))))
-    }
-
-    /// Places along the contour from one kept vertex to another, in the order in which they come along the kept chords,
-    /// whatever their own way to and fro.
-    fn samples(&self, a: usize, b: usize) -> Vec<(f64, Vec2)> {
-        let mut out = Vec::new();
-        let mut start = 0.0;
-        for w in self.kept[a..=b].windows(2) {
-            let (p, q) = (&self.way[w[0]], &self.way[w[1]]);
-            let size = distance(p, q);
-            out.push((start, *p));
-            let first = out.len();
-            for i in w[0]..w[1] {
-                let (u, v) = (&self.way[i], &self.way[i + 1]);
-                for j in 0..=BETWEEN {
-                    let s = j as f64 / (BETWEEN + 1) as f64;
-                    let place = [u[0] + (v[0] - u[0]) * s, u[1] + (v[1] - u[1]) * s];
-                    if i > w[0] || j > 0 {
-                        out.push((start + size * apart(&place, p, q).1, place));
-                    }
-                }
-            }
-            out[first..].sort_by(|x, y| x.0.total_cmp(&y.0));
-            start += size;
-        }
-        out.push((start, self.way[self.kept[b]]));
-        out
-    }
 }
 
 /// Equal steps of the parameter, with chords this close to the curve.
