@@ -62,4 +62,8 @@ def __getattr__(name: str) -> Any:
         from importlib import import_module
 
         return getattr(import_module(_HOME[name]), name)
+    if name == "surfaces":
+        from importlib import import_module
+
+        return import_module("hlr.surfaces")
     raise AttributeError(f"module 'hlr' has no attribute '{name}'")

@@ -4,6 +4,8 @@ pub mod clash;
 pub mod geometry;
 pub mod ink;
 pub mod lines;
+pub mod painters;
+pub mod raster;
 pub mod running;
 pub mod scan;
 pub mod silhouette;

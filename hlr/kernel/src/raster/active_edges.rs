@@ -1,0 +1,56 @@
+//! The active edge list: the edges that cross the current row, by x.
+//!
+//! 1. edges that end leave before the row is drawn
+//! 2. the bucket of edges that start is merged in: both are sorted
+//! 3. x of each edge goes on by 1 / m; where edges cross, the list is nearly sorted, and insertion sort repairs it at the
+//!    cost of one swap per crossing
+//!
+//! Done when the active list and the edge table both are empty; in a gap between rows it goes on at the next edge.
+
+use super::coverage::{Edge, insertion_sort};
+use super::edge_table::EdgeTable;
+use super::statistics::{Statistics, bytes_of};
+
+pub struct ActiveEdges<'a> {
+    table: &'a EdgeTable,
+    pub edges: Vec<Edge>,
+    merged: Vec<Edge>,
+    row: i64,
+}
+
+impl<'a> ActiveEdges<'a> {
+    pub fn new(table: &'a EdgeTable) -> ActiveEdges<'a> {
+        ActiveEdges { table, edges: Vec::new(), merged: Vec::new(), row: -1 }
+    }
+
+    /// On to the next row with edges; None where there is none left.
+    pub fn next_row(&mut self, statistics: &mut Statistics) -> Option<i64> {
+        self.row += 1;
+        let row = self.row as i32;
+        self.edges.retain(|e| e.end > row);
+        if self.edges.is_empty() {
+            self.row = self.table.next_start(self.row)?;
+        }
+        self.edges.iter_mut().for_each(Edge::advance);
+        statistics.swaps += insertion_sort(&mut self.edges);
+        self.merge(self.table.starting(self.row));
+        statistics.holds(self.table.bytes() + bytes_of(&self.edges) + bytes_of(&self.merged));
+        Some(self.row)
+    }
+
+    fn merge(&mut self, starting: &[Edge]) {
+        if starting.is_empty() {
+            return;
+        }
+        self.merged.clear();
+        let mut old = self.edges.iter().copied().peekable();
+        for new in starting {
+            while let Some(e) = old.next_if(|e| e.column <= new.column) {
+                self.merged.push(e);
+            }
+            self.merged.push(*new);
+        }
+        self.merged.extend(old);
+        std::mem::swap(&mut self.edges, &mut self.merged);
+    }
+}

@@ -1,0 +1,53 @@
+//! The frame of facet numbers that all methods fill, and the trace of what was written in which order.
+
+use super::screen::NONE;
+use super::statistics::Statistics;
+
+/// A run of pixels [from, to) of a row that got a facet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Write {
+    pub row: u32,
+    pub from: u32,
+    pub to: u32,
+    pub facet: u32,
+}
+
+pub struct Canvas {
+    pub width: usize,
+    pub height: usize,
+    pub pixels: Vec<u32>,
+    pub trace: Option<Vec<Write>>,
+}
+
+impl Canvas {
+    pub fn new(width: i64, height: i64, traced: bool) -> Canvas {
+        let (width, height) = (width as usize, height as usize);
+        Canvas { width, height, pixels: vec![NONE; width * height], trace: traced.then(Vec::new) }
+    }
+
+    #[inline(always)]
+    pub fn at(&self, column: i64, row: i64) -> u32 {
+        self.pixels[row as usize * self.width + column as usize]
+    }
+
+    /// Pixels [from, to) of a row.
+    #[inline(always)]
+    pub fn write(&mut self, row: i64, from: i64, to: i64, facet: u32, statistics: &mut Statistics) {
+        let start = row as usize * self.width;
+        self.pixels[start + from as usize..start + to as usize].fill(facet);
+        statistics.written += (to - from) as u64;
+        if let Some(trace) = &mut self.trace {
+            match trace.last_mut() {
+                // One after another in a row: one write.
+                Some(last) if last.facet == facet && i64::from(last.row) == row && i64::from(last.to) == from => {
+                    last.to = to as u32;
+                }
+                _ => trace.push(Write { row: row as u32, from: from as u32, to: to as u32, facet }),
+            }
+        }
+    }
+
+    pub fn bytes(&self) -> usize {
+        super::statistics::bytes_of(&self.pixels)
+    }
+}

@@ -1,0 +1,201 @@
+//! Pixel ownership: a polygon owns the pixels whose centres lie inside it.
+//!
+//! A centre on an edge that two polygons share belongs to exactly one of them. Rows are cut half-open, an edge covers the
+//! rows y_min <= y < y_max, and so are columns: of the crossings x0 and x1 of a row the pixels x0 <= x < x1 are between
+//! them. So top and left edges own their pixels, bottom and right ones do not:
+//!
+//! ```text
+//!      + - - - - +
+//!      | o o o o .      o  owned
+//!      | o o o o .      .  the right neighbour's, or the one's below
+//!      + . . . . +
+//! ```
+//!
+//! Horizontal edges cover no row and are never looked at. A sliver owns what it contains and nothing else.
+//!
+//! An edge is followed from row to row by adding its slope, as dx = 1 / m in the textbook, but in whole columns and a
+//! remainder, so that nothing is ever rounded.
+
+use super::plane::{Point, STEPS, centre};
+use super::scene::Rule;
+use super::screen::{Facet, Screen, first_centre};
+
+/// An edge on its way down the rows.
+#[derive(Clone, Copy, Debug)]
+pub struct Edge {
+    /// First column whose centre is not left of the edge, in the current row: ceil(numerator / `over`).
+    pub column: i64,
+    /// How far that is beyond the crossing, in 1 / `over` columns: 0 <= excess < over.
+    pub excess: i64,
+    /// Per row: dx in whole columns and the rest.
+    step: i64,
+    rest: i64,
+    over: i64,
+    /// Rows from here on are not covered.
+    pub end: i32,
+    /// +1 down, -1 up.
+    pub winding: i32,
+    pub facet: u32,
+    /// Number of the edge in its facet, for traces.
+    pub number: u32,
+}
+
+impl Edge {
+    /// The edge from p to q, standing at its first row from `row` on; None where it covers no row of the frame.
+    pub fn new(p: &Point, q: &Point, facet: u32, number: u32, row: i32, height: i32) -> Option<Edge> {
+        let (top, bottom, winding) = if p[1] < q[1] { (p, q, 1) } else { (q, p, -1) };
+        let first = first_centre(top[1]).max(row);
+        let end = first_centre(bottom[1]).min(height);
+        if first >= end {
+            return None;
+        }
+        let [x0, y0] = [i64::from(top[0]), i64::from(top[1])];
+        let (dx, dy) = (i64::from(bottom[0]) - x0, i64::from(bottom[1]) - y0);
+        // Column k is not left of the crossing where 256 k + 128 >= x0 + (y - y0) dx / dy.
+        let over = STEPS * dy;
+        let numerator = (x0 - STEPS / 2) * dy + (centre(first.into()) - y0) * dx;
+        let column = -(-numerator).div_euclid(over);
+        let step = (STEPS * dx).div_euclid(over);
+        let rest = (STEPS * dx).rem_euclid(over);
+        Some(Edge { column, excess: column * over - numerator, step, rest, over, end, winding, facet, number })
+    }
+
+    /// On to the next row.
+    #[inline(always)]
+    pub fn advance(&mut self) {
+        self.column += self.step;
+        self.excess -= self.rest;
+        if self.excess < 0 {
+            self.column += 1;
+            self.excess += self.over;
+        }
+    }
+
+    /// dx as a fraction, for the order within a bucket of the edge table.
+    pub fn slope(&self) -> f64 {
+        self.step as f64 + self.rest as f64 / self.over as f64
+    }
+
+    /// Where it crosses the row, in pixels; for traces.
+    pub fn crossing(&self) -> f64 {
+        self.column as f64 - self.excess as f64 / self.over as f64 + 0.5
+    }
+}
+
+/// All edges of a facet that cover rows within [row, end), each at its first one.
+pub fn edges_of(screen: &Screen, number: u32, row: i32, end: i32, mut take: impl FnMut(i32, Edge)) {
+    let facet = &screen.facets[number as usize];
+    let mut k = 0;
+    for l in screen.loops_of(facet) {
+        for (i, p) in l.iter().enumerate() {
+            let q = &l[if i + 1 == l.len() { 0 } else { i + 1 }];
+            if let Some(edge) = Edge::new(p, q, number, k, row, end) {
+                take(first_centre(p[1].min(q[1])).max(row), edge);
+            }
+            k += 1;
+        }
+    }
+}
+
+/// Scratch memory for `runs`.
+#[derive(Default)]
+pub struct Scratch {
+    waiting: Vec<(i32, Edge)>,
+    active: Vec<Edge>,
+}
+
+/// The runs of pixels [from, to) of each row that a facet owns, within a window of columns and rows; `visit` is called row
+/// by row from the top, left to right, and ends the walk by returning false.
+pub fn runs(
+    screen: &Screen,
+    number: u32,
+    columns: [i32; 2],
+    rows: [i32; 2],
+    scratch: &mut Scratch,
+    mut visit: impl FnMut(i64, i64, i64) -> bool,
+) {
+    let facet = &screen.facets[number as usize];
+    let (low, high) = (i64::from(columns[0].max(facet.columns[0])), i64::from(columns[1].min(facet.columns[1])));
+    let (first, end) = (rows[0].max(facet.rows[0]), rows[1].min(facet.rows[1]));
+    if low >= high || first >= end {
+        return;
+    }
+    let Scratch { waiting, active } = scratch;
+    waiting.clear();
+    active.clear();
+    edges_of(screen, number, first, end, |row, edge| waiting.push((row, edge)));
+    waiting.sort_unstable_by_key(|&(row, _)| std::cmp::Reverse(row));
+    for row in first..end {
+        active.retain(|e| e.end > row);
+        while waiting.last().is_some_and(|&(start, _)| start == row) {
+            active.extend(waiting.pop().map(|(_, e)| e));
+        }
+        insertion_sort(active);
+        let mut go_on = true;
+        intervals(active, screen.rule, |from, to| {
+            let (from, to) = (from.max(low), to.min(high));
+            go_on = go_on && (from >= to || visit(row.into(), from, to));
+        });
+        if !go_on {
+            return;
+        }
+        active.iter_mut().for_each(Edge::advance);
+    }
+}
+
+/// Sort edges by column; they nearly are. Returns the number of swaps.
+#[inline]
+pub fn insertion_sort(edges: &mut [Edge]) -> u64 {
+    let mut swaps = 0;
+    for i in 1..edges.len() {
+        let mut k = i;
+        while k > 0 && edges[k - 1].column > edges[k].column {
+            edges.swap(k - 1, k);
+            swaps += 1;
+            k -= 1;
+        }
+    }
+    swaps
+}
+
+/// The inside intervals between the sorted crossings of one polygon with a row.
+#[inline]
+pub fn intervals(edges: &[Edge], rule: Rule, mut visit: impl FnMut(i64, i64)) {
+    let (mut winding, mut from) = (0, 0);
+    for e in edges {
+        let before = rule.inside(winding);
+        winding += e.winding;
+        match (before, rule.inside(winding)) {
+            (false, true) => from = e.column,
+            (true, false) if e.column > from => visit(from, e.column),
+            _ => {}
+        }
+    }
+}
+
+/// Whether a facet owns a pixel, by the same rule, edge by edge: for methods that ask about single points.
+pub fn owns(screen: &Screen, facet: &Facet, column: i64, row: i64) -> bool {
+    let inside = |v: i64, range: [i32; 2]| i64::from(range[0]) <= v && v < i64::from(range[1]);
+    if !inside(column, facet.columns) || !inside(row, facet.rows) {
+        return false;
+    }
+    let (x, y) = (centre(column), centre(row));
+    let mut winding = 0;
+    for l in screen.loops_of(facet) {
+        let mut p = &l[l.len() - 1];
+        for q in l {
+            let ([px, py], [qx, qy]) = ([p[0], p[1]].map(i64::from), [q[0], q[1]].map(i64::from));
+            if (py <= y) != (qy <= y) {
+                // Positive where the centre is right of the edge as it runs down, or left of it as it runs up.
+                let side = (qy - py) * (x - px) - (y - py) * (qx - px);
+                if py <= y && side >= 0 {
+                    winding += 1;
+                } else if py > y && side <= 0 {
+                    winding -= 1;
+                }
+            }
+            p = q;
+        }
+    }
+    screen.rule.inside(winding)
+}

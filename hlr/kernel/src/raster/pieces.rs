@@ -1,0 +1,99 @@
+//! Pieces of polygons for the painters (depth sort and BSP tree), and how they are painted.
+//!
+//! A piece is its polygon and the half-planes of the image that cuts have left of it. Which side of a cut a pixel lies on is
+//! one evaluation of one line, for both pieces: whatever it yields, the pixel goes to exactly one of them, and no gap opens.
+//! Depth and id remain the polygon's own.
+//!
+//! A painter trusts his order and compares no depths. But the order comes from planes before rounding, or from corners in
+//! floating point; where two depths are closer than rounding may have moved them (`Facet::slack`) the pixel is settled by
+//! the exact comparison, and counted. That is also where ties are: the lowest id wins.
+
+use super::canvas::Canvas;
+use super::coverage::{Scratch, runs};
+use super::screen::{NONE, Screen};
+use super::statistics::Statistics;
+use super::watch::Watch;
+use std::cmp::Ordering;
+
+/// Half of an image: pixels (column, row) where line[0] column + line[1] row + line[2] >= 0, or those where not.
+#[derive(Clone, Copy, Debug)]
+pub struct Half {
+    pub line: [f64; 3],
+    pub positive: bool,
+}
+
+impl Half {
+    #[inline(always)]
+    fn holds(&self, column: i64, base: f64) -> bool {
+        (self.line[0] * column as f64 + base >= 0.0) == self.positive
+    }
+
+    /// What is left of the columns [from, to) in a row. The line is monotonic along it, rounding included.
+    pub fn trim(&self, row: i64, from: i64, to: i64) -> (i64, i64) {
+        let base = self.line[1] * row as f64 + self.line[2];
+        match (self.holds(from, base), self.holds(to - 1, base)) {
+            (true, true) => (from, to),
+            (false, false) => (from, from),
+            (starts, _) => {
+                let (mut low, mut high) = (from, to - 1);
+                while high - low > 1 {
+                    let middle = low + (high - low) / 2;
+                    if self.holds(middle, base) == starts { low = middle } else { high = middle }
+                }
+                if starts { (from, high) } else { (high, to) }
+            }
+        }
+    }
+}
+
+/// Paints pieces over what is there.
+pub struct Painter<'a> {
+    pub screen: &'a Screen,
+    pub canvas: &'a mut Canvas,
+    /// Per facet: its place in the order is in doubt; empty where that is so for none.
+    pub wary: &'a [bool],
+    scratch: Scratch,
+}
+
+impl<'a> Painter<'a> {
+    pub fn new(screen: &'a Screen, canvas: &'a mut Canvas, wary: &'a [bool]) -> Painter<'a> {
+        Painter { screen, canvas, wary, scratch: Scratch::default() }
+    }
+
+    /// A facet, or what the halves leave of it.
+    pub fn paint(&mut self, number: u32, halves: &[Half], watch: &Watch, statistics: &mut Statistics) -> Option<()> {
+        let Painter { screen, canvas, wary, scratch } = self;
+        let facet = &screen.facets[number as usize];
+        let doubt = |f: u32| wary.get(f as usize).is_some_and(|&w| w);
+        let doubted = doubt(number);
+        let mut over = false;
+        runs(screen, number, facet.columns, facet.rows, scratch, |row, mut from, mut to| {
+            for half in halves {
+                if from < to {
+                    (from, to) = half.trim(row, from, to);
+                }
+            }
+            if from < to {
+                statistics.spans += 1;
+            }
+            for column in from..to {
+                let owner = canvas.at(column, row);
+                if owner != NONE {
+                    let under = &screen.facets[owner as usize];
+                    let apart = (facet.depth_at(column, row) - under.depth_at(column, row)).abs();
+                    let trusted = apart > f64::from(facet.slack + under.slack);
+                    if !trusted || doubted || doubt(owner) {
+                        statistics.settled += 1;
+                        if screen.compare(number, owner, column, row, statistics) != Ordering::Less {
+                            continue;
+                        }
+                    }
+                }
+                canvas.write(row, column, column + 1, number, statistics);
+            }
+            over = watch.over();
+            !over
+        });
+        (!over).then_some(())
+    }
+}

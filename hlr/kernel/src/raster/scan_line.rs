@@ -1,0 +1,199 @@
+//! The scan-line method with edge table, active edge list and polygon table: no depth buffer at all.
+//!
+//! C. Wylie, G. Romney, D. Evans, A. Erdahl, "Half-tone perspective drawings by computer", 1967; W. Bouknight, 1970;
+//! G. Watkins, "A real time visible surface algorithm", 1970.
+//!
+//! 1. row by row, take the active edges by x
+//! 2. between neighbouring crossings the same polygons are in:  none: background;  one: that one, no depth is computed;
+//!    more: the nearest
+//! 3. where polygons may pass through one another, the nearest at both ends of the span is sought. The same at both is
+//!    nearest throughout, for depth is linear; else the span is split at the pixel where they cross, found in integers:
+//!
+//! ```text
+//!    z |  A .               . B        left end: A, right end: B
+//!      |      .  .     .  .            [from, m) is asked again, and [m, to)
+//!      |           . X .
+//!      |      .  .     .  .
+//!      +------------|--------- x
+//!                   m
+//! ```
+//!
+//! Polygons that do not pass through one another allow for less (`Coherence`).
+
+use super::active_edges::ActiveEdges;
+use super::canvas::Canvas;
+use super::edge_table::EdgeTable;
+use super::plane::centre;
+use super::polygon_table::{PolygonTable, Toggle};
+use super::screen::{NONE, Screen};
+use super::statistics::Statistics;
+use super::watch::Watch;
+use std::cmp::Ordering;
+
+/// Which depths are compared. All but the first assume that no polygon passes through another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coherence {
+    /// At both ends of each span, all polygons that are in: right for interpenetrating polygons as well.
+    BothEnds,
+    /// In each span, all polygons that are in.
+    Naive,
+    /// The same, but nothing where an obscured polygon has been left.
+    Leaving,
+    /// Only the visible polygon and the one that is entered; all only where the visible one has been left.
+    Visible,
+}
+
+pub fn render(
+    screen: &Screen,
+    canvas: &mut Canvas,
+    coherence: Coherence,
+    watch: &Watch,
+    statistics: &mut Statistics,
+) -> Option<()> {
+    let table = EdgeTable::new(screen);
+    let mut active = ActiveEdges::new(&table);
+    let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
+    while let Some(row) = active.next_row(statistics) {
+        let mut scan = Scan { screen, canvas, polygons: &mut polygons, coherence, row, visible: NONE };
+        scan.row(&active, watch, statistics)?;
+        statistics
+            .holds(table.bytes() + polygons.bytes() + super::statistics::bytes_of(&active.edges) + canvas.bytes());
+    }
+    Some(())
+}
+
+struct Scan<'a> {
+    screen: &'a Screen,
+    canvas: &'a mut Canvas,
+    polygons: &'a mut PolygonTable,
+    coherence: Coherence,
+    row: i64,
+    /// What is seen in the span before, or NONE.
+    visible: u32,
+}
+
+impl Scan<'_> {
+    fn row(&mut self, active: &ActiveEdges, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
+        let edges = &active.edges;
+        let mut k = 0;
+        while k < edges.len() {
+            if watch.over() {
+                return None;
+            }
+            let column = edges[k].column;
+            let known = self.visible;
+            while k < edges.len() && edges[k].column == column {
+                let toggle = self.polygons.cross(edges[k].facet, edges[k].winding);
+                self.crossed(toggle, edges[k].facet, column, statistics);
+                k += 1;
+            }
+            let Some(next) = edges.get(k) else { break };
+            let (from, to) = (column.max(0), next.column.min(self.screen.width));
+            if from >= to {
+                continue;
+            }
+            match (self.polygons.inside.len(), self.coherence) {
+                (0, _) => {
+                    self.visible = NONE;
+                    continue;
+                }
+                (1, _) => self.visible = self.polygons.inside[0],
+                (_, Coherence::BothEnds) => {
+                    self.span(from, to, watch, statistics)?;
+                    continue;
+                }
+                (_, Coherence::Naive) => self.visible = self.nearest(from, statistics),
+                // Nothing new, and the obscuring polygon is still in: nothing to compare.
+                (_, Coherence::Leaving) if self.visible == known && known != NONE => {}
+                (_, Coherence::Leaving) => self.visible = self.nearest(from, statistics),
+                (_, Coherence::Visible) => {
+                    if self.visible == NONE {
+                        self.visible = self.nearest(from, statistics);
+                    }
+                }
+            }
+            statistics.spans += 1;
+            self.canvas.write(self.row, from, to, self.visible, statistics);
+        }
+        // In a row that ends with all polygons left nothing stays behind for the next.
+        self.visible = NONE;
+        Some(())
+    }
+
+    /// What an edge at `column` changes of what is known to be visible.
+    fn crossed(&mut self, toggle: Toggle, facet: u32, column: i64, statistics: &mut Statistics) {
+        match (self.coherence, toggle) {
+            (Coherence::Leaving, Toggle::Entered) => self.visible = NONE,
+            (Coherence::Leaving | Coherence::Visible, Toggle::Left) if facet == self.visible => self.visible = NONE,
+            (Coherence::Visible, Toggle::Entered) => {
+                if self.polygons.inside.len() == 1 {
+                    self.visible = facet;
+                } else if self.visible != NONE {
+                    let at = column.clamp(0, self.screen.width - 1);
+                    if self.screen.compare(facet, self.visible, at, self.row, statistics) == Ordering::Less {
+                        self.visible = facet;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// The nearest of the polygons that are in.
+    fn nearest(&self, column: i64, statistics: &mut Statistics) -> u32 {
+        let mut best = self.polygons.inside[0];
+        for &f in &self.polygons.inside[1..] {
+            if self.screen.compare(f, best, column, self.row, statistics) == Ordering::Less {
+                best = f;
+            }
+        }
+        best
+    }
+
+    /// The span [from, to), split where polygons cross.
+    fn span(&mut self, from: i64, to: i64, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
+        let left = self.nearest(from, statistics);
+        let right = if to - from == 1 { left } else { self.nearest(to - 1, statistics) };
+        self.between(from, left, to, right, watch, statistics)
+    }
+
+    fn between(
+        &mut self,
+        from: i64,
+        left: u32,
+        to: i64,
+        right: u32,
+        watch: &Watch,
+        statistics: &mut Statistics,
+    ) -> Option<()> {
+        if watch.over() {
+            return None;
+        }
+        if left == right {
+            statistics.spans += 1;
+            self.canvas.write(self.row, from, to, left, statistics);
+            self.visible = left;
+            return Some(());
+        }
+        statistics.splits += 1;
+        let m = takes_over(self.screen, left, right, from, self.row).clamp(from + 1, to - 1);
+        let before = if m - from == 1 { left } else { self.nearest(m - 1, statistics) };
+        self.between(from, left, m, before, watch, statistics)?;
+        let after = if to - m == 1 { right } else { self.nearest(m, statistics) };
+        self.between(m, after, to, right, watch, statistics)
+    }
+}
+
+/// The first column after `from`, where `first` is in front, at which `then` is; i64::MAX where it never is.
+pub fn takes_over(screen: &Screen, first: u32, then: u32, from: i64, row: i64) -> i64 {
+    let (p, q) = (&screen.facets[first as usize].plane, &screen.facets[then as usize].plane);
+    // How far `first` is behind `then`: not positive at `from`.
+    let (here, step) = p.difference(q, centre(from), centre(row));
+    if step <= 0 {
+        return i64::MAX;
+    }
+    // At equal depth the lower number wins.
+    let enough = if then < first { 0 } else { 1 };
+    let columns = (enough - here + step - 1).div_euclid(step);
+    i64::try_from(columns).map_or(i64::MAX, |k| from.saturating_add(k.max(1)))
+}

@@ -1,0 +1,185 @@
+//! The scan-line z-buffer: one row of depths, and of the polygons only what crosses that row.
+//!
+//! Two equivalent ways, the same effort and the same picture:
+//! - `PerPolygon`: an active list of polygons, each with its own active edges; crossings are paired polygon by polygon
+//! - `Merged`: one list of all active edges by x, each with the number of its polygon. A pair is complete when the polygon's
+//!   flag goes out again: with a concave polygon a and a second one b
+//!
+//! ```text
+//!      crossing   1   2   3   4   5   6
+//!      polygon    a   a   b   a   b   a       pairs 1-2, 3-5, 4-6
+//! ```
+
+use super::active_edges::ActiveEdges;
+use super::canvas::{Canvas, Write};
+use super::coverage::{Edge, edges_of, insertion_sort, intervals};
+use super::edge_table::EdgeTable;
+use super::polygon_table::{PolygonTable, Toggle};
+use super::screen::{NEAR_TIE, NONE, Screen};
+use super::statistics::{Statistics, bytes_of};
+use super::watch::Watch;
+use std::cmp::Ordering;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lists {
+    PerPolygon,
+    Merged,
+}
+
+pub fn render(
+    screen: &Screen,
+    canvas: &mut Canvas,
+    lists: Lists,
+    watch: &Watch,
+    statistics: &mut Statistics,
+) -> Option<()> {
+    match lists {
+        Lists::PerPolygon => per_polygon(screen, canvas, watch, statistics),
+        Lists::Merged => merged(screen, canvas, watch, statistics, &mut |_| {}),
+    }
+}
+
+/// One row of depths and owners.
+struct Row<'a> {
+    screen: &'a Screen,
+    depths: Vec<f64>,
+    owners: Vec<u32>,
+}
+
+impl Row<'_> {
+    fn new(screen: &Screen) -> Row<'_> {
+        let width = screen.width as usize;
+        Row { screen, depths: vec![f64::INFINITY; width], owners: vec![NONE; width] }
+    }
+
+    fn fill(&mut self, number: u32, row: i64, from: i64, to: i64, canvas: &mut Canvas, statistics: &mut Statistics) {
+        let (from, to) = (from.max(0), to.min(self.screen.width));
+        if from >= to {
+            return;
+        }
+        statistics.spans += 1;
+        let facet = &self.screen.facets[number as usize];
+        let mut z = facet.depth_at(from, row);
+        for column in from..to {
+            let at = column as usize;
+            statistics.comparisons += 1;
+            let ahead = self.depths[at] - z;
+            // A steep facet has no depth in floating point: then neither is certain.
+            let (nearer, farther) = (ahead > NEAR_TIE, ahead < -NEAR_TIE);
+            let won = nearer
+                || self.owners[at] == NONE
+                || (!farther
+                    && self.screen.compare_exactly(number, self.owners[at], column, row, statistics) == Ordering::Less);
+            if won {
+                (self.depths[at], self.owners[at]) = (z, number);
+                canvas.write(row, column, column + 1, number, statistics);
+            }
+            z += facet.right;
+        }
+    }
+
+    fn clear(&mut self) {
+        self.depths.fill(f64::INFINITY);
+        self.owners.fill(NONE);
+    }
+
+    fn bytes(&self) -> usize {
+        bytes_of(&self.depths) + bytes_of(&self.owners)
+    }
+}
+
+fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
+    // Polygons by first row, the next to start at the end of the list.
+    let mut waiting: Vec<u32> = (0..screen.facets.len() as u32).collect();
+    waiting.sort_unstable_by_key(|&f| std::cmp::Reverse((screen.facets[f as usize].rows[0], f)));
+    let mut active: Vec<Active> = Vec::new();
+    let mut buffer = Row::new(screen);
+    for row in 0..screen.height {
+        active.retain(|a| i64::from(screen.facets[a.facet as usize].rows[1]) > row);
+        while let Some(facet) = waiting.pop_if(|f| i64::from(screen.facets[*f as usize].rows[0]) <= row) {
+            active.push(Active::new(screen, facet, row));
+        }
+        if active.is_empty() {
+            if waiting.is_empty() {
+                break;
+            }
+            continue;
+        }
+        buffer.clear();
+        for a in &mut active {
+            if watch.over() {
+                return None;
+            }
+            a.enter(row);
+            statistics.swaps += insertion_sort(&mut a.edges);
+            intervals(&a.edges, screen.rule, |from, to| buffer.fill(a.facet, row, from, to, canvas, statistics));
+            a.edges.iter_mut().for_each(Edge::advance);
+        }
+        let edges: usize = active.iter().map(|a| bytes_of(&a.edges) + bytes_of(&a.waiting)).sum();
+        statistics.holds(buffer.bytes() + bytes_of(&waiting) + bytes_of(&active) + edges + canvas.bytes());
+    }
+    Some(())
+}
+
+/// A polygon that crosses the row, with its edges.
+struct Active {
+    facet: u32,
+    edges: Vec<Edge>,
+    waiting: Vec<(i32, Edge)>,
+}
+
+impl Active {
+    fn new(screen: &Screen, facet: u32, row: i64) -> Active {
+        let mut waiting = Vec::new();
+        edges_of(screen, facet, row as i32, screen.height as i32, |start, edge| waiting.push((start, edge)));
+        waiting.sort_unstable_by_key(|&(start, _)| std::cmp::Reverse(start));
+        Active { facet, edges: Vec::new(), waiting }
+    }
+
+    fn enter(&mut self, row: i64) {
+        self.edges.retain(|e| i64::from(e.end) > row);
+        while let Some((_, edge)) = self.waiting.pop_if(|(start, _)| i64::from(*start) <= row) {
+            self.edges.push(edge);
+        }
+    }
+}
+
+/// `paired` is told every pair of crossings, in the order in which they become complete.
+pub fn merged(
+    screen: &Screen,
+    canvas: &mut Canvas,
+    watch: &Watch,
+    statistics: &mut Statistics,
+    paired: &mut dyn FnMut(Write),
+) -> Option<()> {
+    let table = EdgeTable::new(screen);
+    let mut active = ActiveEdges::new(&table);
+    let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
+    let mut entered = vec![0i64; screen.facets.len()];
+    let mut buffer = Row::new(screen);
+    while let Some(row) = active.next_row(statistics) {
+        buffer.clear();
+        for e in &active.edges {
+            if watch.over() {
+                return None;
+            }
+            match polygons.cross(e.facet, e.winding) {
+                Toggle::Entered => entered[e.facet as usize] = e.column,
+                Toggle::Left if entered[e.facet as usize] < e.column => {
+                    let from = entered[e.facet as usize];
+                    paired(Write {
+                        row: row as u32,
+                        from: from.max(0) as u32,
+                        to: e.column.max(0) as u32,
+                        facet: e.facet,
+                    });
+                    buffer.fill(e.facet, row, from, e.column, canvas, statistics);
+                }
+                _ => {}
+            }
+        }
+        let edges = table.bytes() + bytes_of(&active.edges) + polygons.bytes() + bytes_of(&entered);
+        statistics.holds(buffer.bytes() + edges + canvas.bytes());
+    }
+    Some(())
+}

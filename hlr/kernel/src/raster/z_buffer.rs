@@ -1,0 +1,86 @@
+//! The z-buffer: a depth for every pixel, polygons in any order.
+//!
+//! E. Catmull, "A subdivision algorithm for computer display of curved surfaces", 1974.
+//!
+//! 1. all depths start beyond the back plane, at +inf: started on it, with a strict <, polygons lying on it would be lost
+//! 2. for each polygon, for each pixel it owns: where it is nearer, write its depth and number
+//!
+//! Depth goes from pixel to pixel by adding -A/C, from row to row by adding -B/C. The literature's other convention, larger is
+//! nearer, starts at -inf and writes where z > depth: initial value and comparison go together.
+
+use super::canvas::Canvas;
+use super::coverage::{Scratch, runs};
+use super::screen::{NEAR_TIE, NONE, Screen};
+use super::statistics::{Statistics, bytes_of};
+use super::watch::Watch;
+use std::cmp::Ordering;
+
+/// Which depths are nearer: the scene's own depth always grows away from the viewer; under `Larger` its negative is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nearer {
+    Smaller,
+    Larger,
+}
+
+pub fn render(
+    screen: &Screen,
+    canvas: &mut Canvas,
+    nearer: Nearer,
+    watch: &Watch,
+    statistics: &mut Statistics,
+) -> Option<()> {
+    let (background, sign) = match nearer {
+        Nearer::Smaller => (f64::INFINITY, 1.0),
+        Nearer::Larger => (f64::NEG_INFINITY, -1.0),
+    };
+    let mut depths = vec![background; canvas.pixels.len()];
+    statistics.holds(canvas.bytes() + bytes_of(&depths));
+    let mut scratch = Scratch::default();
+    for number in 0..screen.facets.len() as u32 {
+        let facet = &screen.facets[number as usize];
+        let right = sign * facet.right;
+        let mut over = false;
+        runs(screen, number, facet.columns, facet.rows, &mut scratch, |row, from, to| {
+            statistics.spans += 1;
+            let mut z = sign * facet.depth_at(from, row);
+            let base = row as usize * canvas.width;
+            for column in from..to {
+                let at = base + column as usize;
+                statistics.comparisons += 1;
+                let owner = canvas.pixels[at];
+                let won = match wins(nearer, z, depths[at]) {
+                    _ if owner == NONE => true,
+                    Some(won) => won,
+                    None => screen.compare_exactly(number, owner, column, row, statistics) == Ordering::Less,
+                };
+                if won {
+                    depths[at] = z;
+                    canvas.write(row, column, column + 1, number, statistics);
+                }
+                z += right;
+            }
+            over = watch.over();
+            !over
+        });
+        if over {
+            return None;
+        }
+    }
+    Some(())
+}
+
+/// Whether depth z wins over the one in the buffer; None where only integers can say.
+#[inline(always)]
+fn wins(nearer: Nearer, z: f64, stored: f64) -> Option<bool> {
+    let ahead = match nearer {
+        Nearer::Smaller => stored - z,
+        Nearer::Larger => z - stored,
+    };
+    if ahead > NEAR_TIE {
+        Some(true)
+    } else if ahead < -NEAR_TIE {
+        Some(false)
+    } else {
+        None
+    }
+}

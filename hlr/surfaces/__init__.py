@@ -1,0 +1,37 @@
+"""The classic visible-surface methods side by side: one scene, one camera, the same picture, different costs.
+
+>>> from hlr.surfaces import SCREEN, render
+>>> near, far = [(0, 0, 1), (4, 0, 1), (4, 4, 1)], [(0, 0, 2), (4, 0, 2), (4, 4, 2), (0, 4, 2)]
+>>> ids, depth, statistics = render([near, far], SCREEN, (4, 4), method="z-buffer")
+"""
+
+from __future__ import annotations
+
+from hlr.surfaces.methods import METHODS
+from hlr.surfaces.painters import PaintersList, painters_list
+from hlr.surfaces.polygons import Polygons
+from hlr.surfaces.quadric import quadric_depths
+from hlr.surfaces.render import NotFinishedError, Rendering, Statistics, render
+from hlr.surfaces.rows import active_edges, crossing_pairs, spans
+from hlr.surfaces.trace import trace_svg
+from hlr.surfaces.tree import BspTree
+from hlr.surfaces.viewport import SCREEN, Screen
+
+__all__ = [
+    "METHODS",
+    "SCREEN",
+    "BspTree",
+    "NotFinishedError",
+    "PaintersList",
+    "Polygons",
+    "Rendering",
+    "Screen",
+    "Statistics",
+    "active_edges",
+    "crossing_pairs",
+    "painters_list",
+    "quadric_depths",
+    "render",
+    "spans",
+    "trace_svg",
+]

@@ -1,0 +1,166 @@
+"""`render`: a scene, a camera and a method in; ids, depths and what it cost out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.errors import HlrError, OptionError
+from hlr.scene.scene import Scene
+from hlr.source.model import Floats, Ints
+from hlr.surfaces.methods import checked
+from hlr.surfaces.polygons import Polygons, polygons_of
+from hlr.surfaces.viewport import Screen, Viewport, Window, viewport
+from hlr.view.camera import Camera
+
+SHADING = ("textbook", "correct")
+
+
+class NotFinishedError(HlrError):
+    """A method that did not come to an end within its time limit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """What a method did, counted alike in all of them.
+
+    polygons given; culled, clipped, triangulated, edge_on of them; facets: planar pieces that are worked on
+    comparisons of depths, and how many of them were decided in integers (exact)
+    spans: runs of pixels looked at; written: pixels, some more than once; settled: near ties in a painter's order
+    splits of polygons or spans; recursion: areas or nodes visited, deepest: how deep
+    rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
+    memory: bytes of the method's own tables and buffers, its frame included, at their largest
+    prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else
+    """
+
+    polygons: int
+    culled: int
+    clipped: int
+    triangulated: int
+    edge_on: int
+    facets: int
+    comparisons: int
+    exact: int
+    spans: int
+    written: int
+    splits: int
+    recursion: int
+    deepest: int
+    rays: int
+    box_tests: int
+    polygon_tests: int
+    swaps: int
+    settled: int
+    memory: int
+    prepared: float
+    setup: float
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Rendering:
+    """A picture; unpacks as ids, depth, statistics.
+
+    ids      (height, width) int32: the nearest polygon at each pixel's centre, -1 where there is none
+    depth    (height, width) float64: along the view, growing away from the viewer; inf for the background. In
+             perspective the projective depth -distance^2 / z, linear on the screen; `ahead` is z. With larger depths
+             nearer, all of opposite sign
+    values   (height, width, 3) interpolated, where that was asked for; NaN for the background
+    trace    (w, 4) int32 row, from, to, id: the writes in their order, where that was asked for
+    """
+
+    ids: Ints
+    depth: Floats
+    statistics: Statistics
+    viewport: Viewport
+    values: Floats | None = None
+    trace: npt.NDArray[np.int32] | None = None
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter((self.ids, self.depth, self.statistics))
+
+    def ahead(self, camera: Camera) -> Floats:
+        """(height, width) distances from the eye's plane (perspective), or along the view."""
+        if camera.eye is None or camera.distance is None:
+            return self.depth
+        return np.asarray(-camera.distance * camera.distance / np.where(np.isfinite(self.depth), self.depth, -0.0))
+
+
+def render(
+    scene: Scene | Polygons | Any,
+    camera: Camera | Screen,
+    size: tuple[int, int],
+    method: str = "z-buffer",
+    *,
+    variant: str | None = None,
+    rule: str = "even-odd",
+    cull: bool = False,
+    window: Window | None = None,
+    front: float | None = None,
+    back: float | None = None,
+    space: str = "image",
+    values: Any = None,
+    shading: str = "correct",
+    trace: bool = False,
+    time_limit: float | None = None,
+) -> Rendering:
+    """The visible polygon and its depth at every pixel's centre.
+
+    scene    a Scene (its triangles), Polygons, or a list of polygons: (n, 3) points each, or loops of them
+    camera   of `hlr.view`, or SCREEN for polygons given in pixels
+    size     width and height in pixels
+    method   one of METHODS, variant one of its variants; all give the same picture
+    rule, cull  as in `polygons_of`;  window, front, back, space  as in `viewport`
+    values   (points, 3) colours or normals to interpolate; shading "correct" for perspective, or "textbook"
+    trace    note all writes in their order
+    time_limit  seconds
+
+    Raises OptionError for what cannot be asked, NotFinishedError when the time is over.
+    """
+    method, variant = checked(method, variant)
+    if shading not in SHADING:
+        raise OptionError(f"no shading is called {shading!r}: use {' or '.join(SHADING)}")
+    if time_limit is not None and not time_limit > 0.0:
+        raise OptionError(f"a time limit of {time_limit!r} seconds leaves no time: give a positive number")
+    polygons = polygons_of(scene, rule, cull)
+    given = None if values is None else np.asarray(values, np.float64)
+    if given is not None and given.shape != polygons.points.shape:
+        raise OptionError(f"values need three numbers for each of the {len(polygons.points)} points")
+    port = viewport(camera, polygons.points, size, window=window, front=front, back=back, space=space)
+    found = polygons.kernel(given).render(
+        port.kernel(),
+        (method, variant),
+        math.inf if time_limit is None else time_limit,
+        shading if given is not None else "",
+        trace,
+    )
+    return rendering(found, port, camera, variant, trace, method, time_limit)
+
+
+def rendering(
+    found: dict[str, Any],
+    port: Viewport,
+    camera: Camera | Screen,
+    variant: str,
+    trace: bool,
+    method: str,
+    time_limit: float | None,
+) -> Rendering:
+    """The kernel's answer as a Rendering; raises NotFinishedError."""
+    if not found["finished"]:
+        raise NotFinishedError(f"{method} did not finish within {time_limit:g} seconds")
+    larger = variant == "larger" or (isinstance(camera, Screen) and camera.nearer == "larger")
+    depth = found["depth"]
+    return Rendering(
+        ids=found["ids"],
+        depth=-depth if larger else depth,
+        statistics=Statistics(**found["statistics"]),
+        viewport=port,
+        values=found.get("values"),
+        trace=found["trace"] if trace else None,
+    )

@@ -1,0 +1,70 @@
+"""A trace for teaching and debugging: pixels and edges outlined, the writes in their order, the result; as SVG."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hlr.surfaces.polygons import polygons_of
+from hlr.surfaces.render import render
+from hlr.surfaces.viewport import Screen
+from hlr.view.camera import Camera
+
+PIXEL = 24
+"""Size of a pixel in the trace."""
+
+COLOURS = ("#88b7e3", "#f4b183", "#a9d18e", "#ffd966", "#c5a5d9", "#9fd5d1", "#e79a9a", "#c9c9c9")
+
+
+def trace_svg(
+    scene: Any, camera: Camera | Screen, size: tuple[int, int], method: str = "z-buffer", **options: Any
+) -> str:
+    """All writes of a method, numbered in their order, beside the resulting picture; options as in `render`."""
+    polygons = polygons_of(scene, options.get("rule", "even-odd"), options.get("cull", False))
+    found = render(polygons, camera, size, method, trace=True, **options)
+    assert found.trace is not None
+    width, height = size
+    wide, high = width * PIXEL, height * PIXEL
+    out = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-4 -20 {2 * wide + 32} {high + 28}" '
+        f'font-family="sans-serif" font-size="{PIXEL // 3}">\n',
+        f'<text x="0" y="-8">{method}: the writes in their order</text>',
+        f'<text x="{wide + 24}" y="-8">the result</text>\n',
+    ]
+    out.append('<g class="writes">\n')
+    seen: dict[tuple[int, int], int] = {}
+    for number, (row, start, end, polygon) in enumerate(found.trace.tolist(), 1):
+        out.append(_cell(start, row, end - start, polygon))
+        # Later writes to a pixel stand below the earlier ones.
+        line = seen[start, row] = seen.get((start, row), -1) + 1
+        out.append(f'<text x="{start * PIXEL + 2}" y="{row * PIXEL + 8 + 7 * line}">{number}</text>\n')
+    out.append("</g>\n")
+    out.append(f'<g class="result" transform="translate({wide + 24} 0)">\n')
+    for row, column in np.argwhere(found.ids >= 0).tolist():
+        out.append(_cell(column, row, 1, int(found.ids[row, column])))
+    out.append("</g>\n")
+    edges = []
+    matrix = np.asarray(found.viewport.matrix)
+    flat = np.concatenate([polygons.points, np.ones((len(polygons.points), 1))], axis=1) @ matrix.T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pixels = flat[:, :2] / flat[:, 3:] * PIXEL
+    for first, last in zip(polygons.loops[:-1], polygons.loops[1:], strict=True):
+        corners = pixels[polygons.corners[first:last]]
+        if np.isfinite(corners).all():
+            edges.append("M" + " L".join(f"{x:.6g} {y:.6g}" for x, y in corners.tolist()) + "Z")
+    grid = "".join(f"M{x * PIXEL} 0V{high}" for x in range(width + 1))
+    grid += "".join(f"M0 {y * PIXEL}H{wide}" for y in range(height + 1))
+    for shift in (0, wide + 24):
+        out.append(f'<g transform="translate({shift} 0)" fill="none"><path class="pixels" stroke="#bbb" d="{grid}"/>')
+        out.append(f'<path class="edges" stroke="#000" d="{" ".join(edges)}"/></g>\n')
+    out.append("</svg>\n")
+    return "".join(out)
+
+
+def _cell(column: int, row: int, columns: int, polygon: int) -> str:
+    colour = COLOURS[polygon % len(COLOURS)]
+    return (
+        f'<rect x="{column * PIXEL}" y="{row * PIXEL}" width="{columns * PIXEL}" height="{PIXEL}" '
+        f'fill="{colour}" fill-opacity=".7" data-id="{polygon}"/>\n'
+    )
