@@ -88,7 +88,10 @@ class Rendering:
         """(height, width) distances from the eye's plane (perspective), or along the view."""
         if camera.eye is None or camera.distance is None:
             return self.depth
-        return np.asarray(-camera.distance * camera.distance / np.where(np.isfinite(self.depth), self.depth, -0.0))
+        there = np.isfinite(self.depth)
+        ahead = np.full(self.depth.shape, np.inf)
+        ahead[there] = camera.distance * camera.distance / np.abs(self.depth[there])
+        return ahead
 
 
 def render(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-SIZE = (14, 11)
+SIZE = (12, 9)
 HALVES = 2
 
 
