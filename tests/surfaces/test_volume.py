@@ -69,8 +69,8 @@ def test_depth_in_perspective_is_that_of_the_surface():
     view = camera()
     found = render([FLOOR], view, (60, 60))
     rows = np.flatnonzero(found.ids[:, 30] == 0)
-    # A ray through row r falls t per unit ahead: the floor, one below the eye, is 1 / t ahead. It reaches under the eye,
-    # so that most of the steps of depth are spent on what is near.
+    # A ray through row r falls t per unit ahead: the floor, one below the eye, is 1 / t ahead. It reaches under the
+    # eye, so that most of the steps of depth are spent on what is near.
     tangent = math.tan(math.radians(30.0))
     expected = 1.0 / (tangent * (rows + 0.5 - 30.0) / 30.0)
     np.testing.assert_allclose(found.ahead(view)[rows, 30], expected, rtol=1e-3)

@@ -170,7 +170,7 @@ def test_5_strips_overlap_in_a_cycle():
 
 
 def cube_and_triangle():
-    """A cube seen along its diagonal, a triangle through its three visible faces; x right, y down, z away, in pixels."""
+    """A cube seen along its diagonal, a triangle through its visible faces; x right, y down, z away, in pixels."""
     cube = [
         [(1, -1, -1), (1, 1, -1), (1, 1, 1), (1, -1, 1)],
         [(-1, 1, -1), (-1, 1, 1), (1, 1, 1), (1, 1, -1)],

@@ -346,22 +346,20 @@ fn separated(a: &[Vec<[f64; 3]>], b: &[Vec<[f64; 3]>]) -> bool {
     })
 }
 
-/// Whether a point is inside the loops or on them.
+/// Whether a point is on the loops or inside, by either inside rule: what even-odd has inside, non-zero has as well.
 fn touches(v: &[f64; 3], loops: &[Vec<[f64; 3]>]) -> bool {
-    let mut inside = false;
+    let mut winding = 0;
     for (p, q) in edges(loops) {
         let side = turn(p, q, v);
-        if side == 0.0
-            && p[0].min(q[0]) <= v[0]
-            && v[0] <= p[0].max(q[0])
-            && p[1].min(q[1]) <= v[1]
-            && v[1] <= p[1].max(q[1])
-        {
+        let within = |k: usize| p[k].min(q[k]) <= v[k] && v[k] <= p[k].max(q[k]);
+        if side == 0.0 && within(0) && within(1) {
             return true;
         }
-        if (p[1] <= v[1]) != (q[1] <= v[1]) && (side > 0.0) == (q[1] > p[1]) {
-            inside = !inside;
+        match (p[1] <= v[1], q[1] <= v[1]) {
+            (true, false) if side > 0.0 => winding += 1,
+            (false, true) if side < 0.0 => winding -= 1,
+            _ => {}
         }
     }
-    inside
+    winding != 0
 }
