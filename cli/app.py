@@ -9,6 +9,7 @@ import click
 
 VERBS = {
     "draw": "Draw a model as SVG, PDF or JSON.",
+    "methods": "Time the visible-surface methods side by side.",
     "info": "Parts, faces, edges, triangles and defects of a model.",
 }
 

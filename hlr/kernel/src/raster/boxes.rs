@@ -97,8 +97,11 @@ impl Hierarchy {
         mut test: impl FnMut(u32, &mut Statistics) -> f64,
     ) {
         let mut nearest = f64::INFINITY;
-        let mut stack: Vec<u32> = if self.nodes.is_empty() { vec![] } else { vec![0] };
-        while let Some(number) = stack.pop() {
+        // Halves of halves: as deep as the number of facets has bits.
+        let (mut stack, mut top) = ([0u32; 64], usize::from(!self.nodes.is_empty()));
+        while top > 0 {
+            top -= 1;
+            let number = stack[top];
             let node = &self.nodes[number as usize];
             statistics.box_tests += 1;
             if !node.bounds.is_hit(column, row) || f64::from(node.bounds.depth[0]) > nearest {
@@ -115,8 +118,8 @@ impl Hierarchy {
                 let (left, right) = (number + 1, node.right);
                 let begins = |n: u32| self.nodes[n as usize].bounds.depth[0];
                 let (near, far) = if begins(left) <= begins(right) { (left, right) } else { (right, left) };
-                stack.push(far);
-                stack.push(near);
+                (stack[top], stack[top + 1]) = (far, near);
+                top += 2;
             }
         }
     }

@@ -67,7 +67,8 @@ impl Partition {
         self.build(above, depth + 1, watch)
     }
 
-    /// The axis along which a cut at the median leaves the fewest facets on both sides.
+    /// The side of the picture along which a cut at the median leaves the fewest facets; along depth, which every ray goes
+    /// through, only where neither helps.
     fn best(&self, here: &[u32]) -> Option<(usize, i32)> {
         let mut found: Option<(usize, usize, i32)> = None;
         for axis in 0..3 {
@@ -80,6 +81,9 @@ impl Partition {
             let below = here.iter().filter(|&&f| range(&self.boxes[f as usize], axis)[0] < at).count();
             let above = here.iter().filter(|&&f| range(&self.boxes[f as usize], axis)[1] >= at).count();
             let larger = below.max(above);
+            if axis == 2 && found.is_some() {
+                break;
+            }
             if 10 * larger < 9 * here.len() && found.is_none_or(|(l, _, _)| below + above < l) {
                 found = Some((below + above, axis, at));
             }
@@ -97,8 +101,10 @@ impl Partition {
     ) {
         let mut nearest = f64::INFINITY;
         // Nodes, and the depth before which nothing is in them.
-        let mut stack = vec![(0u32, f64::NEG_INFINITY)];
-        while let Some((number, begins)) = stack.pop() {
+        let (mut stack, mut top) = ([(0u32, f64::NEG_INFINITY); DEEPEST + 8], 1);
+        while top > 0 {
+            top -= 1;
+            let (number, begins) = stack[top];
             statistics.box_tests += 1;
             if begins > nearest {
                 continue;
@@ -112,12 +118,14 @@ impl Partition {
                     }
                 }
                 Node::Inner { axis: 2, at, right } => {
-                    stack.push((*right, begins.max(f64::from(*at))));
-                    stack.push((number + 1, begins));
+                    stack[top] = (*right, begins.max(f64::from(*at)));
+                    stack[top + 1] = (number + 1, begins);
+                    top += 2;
                 }
                 Node::Inner { axis, at, right } => {
                     let here = if *axis == 0 { column } else { row };
-                    stack.push((if here < *at { number + 1 } else { *right }, begins));
+                    stack[top] = (if here < *at { number + 1 } else { *right }, begins);
+                    top += 1;
                 }
             }
         }

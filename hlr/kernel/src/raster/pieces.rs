@@ -76,6 +76,7 @@ impl<'a> Painter<'a> {
             if from < to {
                 statistics.spans += 1;
             }
+            let mut start = from;
             for column in from..to {
                 let owner = canvas.at(column, row);
                 if owner != NONE {
@@ -85,11 +86,16 @@ impl<'a> Painter<'a> {
                     if !trusted || doubted || doubt(owner) {
                         statistics.settled += 1;
                         if screen.compare(number, owner, column, row, statistics) != Ordering::Less {
-                            continue;
+                            if start < column {
+                                canvas.write(row, start, column, number, statistics);
+                            }
+                            start = column + 1;
                         }
                     }
                 }
-                canvas.write(row, column, column + 1, number, statistics);
+            }
+            if start < to {
+                canvas.write(row, start, to, number, statistics);
             }
             over = watch.over();
             !over

@@ -59,22 +59,31 @@ impl Row<'_> {
         }
         statistics.spans += 1;
         let facet = &self.screen.facets[number as usize];
-        let mut z = facet.depth_at(from, row);
+        let z = facet.depth_at(from, row);
+        statistics.comparisons += (to - from) as u64;
+        let mut start = from;
         for column in from..to {
             let at = column as usize;
-            statistics.comparisons += 1;
+            let z = z + facet.right * (column - from) as f64;
             let ahead = self.depths[at] - z;
             // A steep facet has no depth in floating point: then neither is certain.
             let (nearer, farther) = (ahead > NEAR_TIE, ahead < -NEAR_TIE);
             let won = nearer
-                || self.owners[at] == NONE
                 || (!farther
-                    && self.screen.compare_exactly(number, self.owners[at], column, row, statistics) == Ordering::Less);
+                    && (self.owners[at] == NONE
+                        || self.screen.compare_exactly(number, self.owners[at], column, row, statistics)
+                            == Ordering::Less));
             if won {
                 (self.depths[at], self.owners[at]) = (z, number);
-                canvas.write(row, column, column + 1, number, statistics);
+            } else {
+                if start < column {
+                    canvas.write(row, start, column, number, statistics);
+                }
+                start = column + 1;
             }
-            z += facet.right;
+        }
+        if start < to {
+            canvas.write(row, start, to, number, statistics);
         }
     }
 

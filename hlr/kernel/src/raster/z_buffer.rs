@@ -5,7 +5,7 @@
 //! 1. all depths start beyond the back plane, at +inf: started on it, with a strict <, polygons lying on it would be lost
 //! 2. for each polygon, for each pixel it owns: where it is nearer, write its depth and number
 //!
-//! Depth goes from pixel to pixel by adding -A/C, from row to row by adding -B/C. The literature's other convention, larger is
+//! Depth goes from pixel to pixel by -A/C, from row to row by -B/C. The literature's other convention, larger is
 //! nearer, starts at -inf and writes where z > depth: initial value and comparison go together.
 
 use super::canvas::Canvas;
@@ -42,22 +42,33 @@ pub fn render(
         let mut over = false;
         runs(screen, number, facet.columns, facet.rows, &mut scratch, |row, from, to| {
             statistics.spans += 1;
-            let mut z = sign * facet.depth_at(from, row);
-            let base = row as usize * canvas.width;
+            statistics.comparisons += (to - from) as u64;
+            let z = sign * facet.depth_at(from, row);
+            let mut start = from;
             for column in from..to {
-                let at = base + column as usize;
-                statistics.comparisons += 1;
-                let owner = canvas.pixels[at];
+                // As adding `right` pixel by pixel; but no sum is waited for.
+                let z = z + right * (column - from) as f64;
+                let at = row as usize * canvas.width + column as usize;
                 let won = match wins(nearer, z, depths[at]) {
-                    _ if owner == NONE => true,
                     Some(won) => won,
-                    None => screen.compare_exactly(number, owner, column, row, statistics) == Ordering::Less,
+                    None => {
+                        let owner = canvas.pixels[at];
+                        owner == NONE
+                            || screen.compare_exactly(number, owner, column, row, statistics) == Ordering::Less
+                    }
                 };
                 if won {
                     depths[at] = z;
-                    canvas.write(row, column, column + 1, number, statistics);
+                } else {
+                    // What has been won so far in this row is written in one go.
+                    if start < column {
+                        canvas.write(row, start, column, number, statistics);
+                    }
+                    start = column + 1;
                 }
-                z += right;
+            }
+            if start < to {
+                canvas.write(row, start, to, number, statistics);
             }
             over = watch.over();
             !over

@@ -1,0 +1,102 @@
+"""`hlr methods`: the visible-surface methods timed side by side."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hlr.errors import WriteError
+
+from ..guard import start
+from ..meter import meter
+from ..parameters import Pixels, Vector3, ViewName
+from ..signals import tidily
+from ..streams import result_only
+
+
+@click.command()
+@click.argument("source", required=False)
+@click.option("-o", "--output", metavar="DIR", help="A folder for methods.csv, methods.md and the plot methods.png.")
+@click.option("--size", type=Pixels(), metavar="WxH", default="1024x1024", help="Pixels. Default: 1024x1024.")
+@click.option(
+    "--polygons",
+    "counts",
+    type=click.IntRange(min=1),
+    metavar="N",
+    multiple=True,
+    help="Polygons of a scene; may be repeated. Default: 100, 250, 550, 2500, 8000, 60000 and 1000000.",
+)
+@click.option(
+    "--crossing",
+    type=click.IntRange(min=1),
+    metavar="N",
+    multiple=True,
+    help="Polygons of a scene in which they pass through one another; may be repeated. Default: 100, 2500 and 60000.",
+)
+@click.option("--method", "methods", metavar="NAME", multiple=True, help="Only this one; may be repeated.")
+@click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="View of SOURCE. Default: iso.")
+@click.option(
+    "--limit",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="S",
+    default=10.0,
+    help="Seconds for each method and scene. Default: 10.",
+)
+@click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
+def methods(
+    *,
+    source: str | None,
+    output: str | None,
+    size: tuple[int, int],
+    counts: tuple[int, ...],
+    crossing: tuple[int, ...],
+    methods: tuple[str, ...],
+    view: str | Vector3,
+    limit: float,
+    quiet: bool,
+) -> None:
+    """Time the visible-surface methods on scenes of many polygons, and on SOURCE if there is one.
+
+    \b
+      hlr methods
+      hlr methods part.step --polygons 100 --limit 2 -o figures
+    """
+    folder = None if output is None else Path(output)
+    if folder is not None and folder.exists() and not folder.is_dir():
+        raise WriteError(f"cannot write into {folder}: it is not a folder")
+    start(source or "methods")
+    with result_only() as out:
+        with meter(quiet) as progress:
+            from hlr.comparison import compare_methods
+            from hlr.surfaces import report
+            from hlr.surfaces.testbed import COUNTS
+
+            # With a choice of scenes only those are measured; a model alone is a choice as well.
+            chosen = bool(counts or crossing)
+            found = compare_methods(
+                source,
+                counts=counts if chosen else COUNTS,
+                crossing=crossing if chosen else (100, 2_500, 60_000),
+                view=view,
+                size=size,
+                limit=limit,
+                methods=methods,
+                progress=progress,
+            )
+        out.put(report.text(found).encode("utf-8"))
+        if folder is not None:
+            from hlr.surfaces.plot import png
+            from hlr.writers import files
+
+            made = {
+                folder / "methods.csv": report.comma_separated(found).encode("utf-8"),
+                folder / "methods.md": report.markdown(found).encode("utf-8"),
+                folder / "methods.png": png(found, size),
+            }
+            with tidily():
+                try:
+                    folder.mkdir(parents=True, exist_ok=True)
+                except OSError as error:
+                    raise WriteError(f"cannot make the folder {folder}: {error.strerror}") from None
+                files.place(made)

@@ -1,0 +1,83 @@
+"""The visible-surface methods side by side: on scenes of so many polygons, and on a model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from hlr.errors import OptionError
+from hlr.plan.options import Options, View
+from hlr.plan.request import checked_views
+from hlr.source.model import Progress
+from hlr.surfaces.polygons import Polygons, polygons_of
+from hlr.surfaces.report import scene_name
+from hlr.surfaces.testbed import COUNTS, polygons
+from hlr.surfaces.timing import TRIALS, Scenery, Timing, Trial, label, measure
+from hlr.surfaces.viewport import SCREEN, Screen, checked_size, viewport
+from hlr.view.camera import Camera
+
+MOST = 10_000_000
+"""Polygons of a scene: more do not fit into memory."""
+
+
+def compare_methods(
+    source: Any = None,
+    *,
+    counts: Sequence[int] = COUNTS,
+    crossing: Sequence[int] = (),
+    view: View = "iso",
+    size: tuple[int, int] = (1024, 1024),
+    limit: float = 10.0,
+    methods: Sequence[str] = (),
+    progress: Progress | None = None,
+) -> list[Timing]:
+    """Time every method on every scene.
+
+    source  a model as well, meshed at a two-thousandth of its size; None: none
+    counts  polygons of the scenes, crossing: of those in which polygons pass through one another
+    limit   seconds for each method and scene;  methods: names of the only ones to time
+
+    Raises OptionError, SourceError, ViewError.
+    """
+    size = checked_size(size)
+    if not limit > 0.0:
+        raise OptionError(f"a limit of {limit!r} seconds leaves no time: give a positive number")
+    for count in (*counts, *crossing):
+        if not 1 <= count <= MOST:
+            raise OptionError(f"a scene of {count:,} polygons cannot be made: give 1 to {MOST:,}")
+    trials = _trials(methods)
+    sceneries: list[Scenery] = []
+    if source is not None:
+        sceneries.append(_of_model(source, view, size, progress))
+    for count, crosses in [*((c, False) for c in counts), *((c, True) for c in crossing)]:
+        sceneries.append(_scenery(scene_name(count, crosses), polygons(count, size, crosses), SCREEN, size))
+    return measure(sceneries, limit, trials, progress)
+
+
+def _trials(methods: Sequence[str]) -> Sequence[Trial]:
+    unknown = [m for m in methods if m not in map(label, TRIALS)]
+    if unknown:
+        raise OptionError(f"no method is called {unknown[0]!r}: use {', '.join(map(label, TRIALS))}")
+    return [t for t in TRIALS if not methods or label(t) in methods]
+
+
+def _scenery(name: str, own: Polygons, camera: Camera | Screen, size: tuple[int, int]) -> Scenery:
+    return Scenery(name, len(own), own.kernel, viewport(camera, own.points, size))
+
+
+def _of_model(source: Any, view: View, size: tuple[int, int], progress: Progress | None) -> Scenery:
+    from hlr.scene.build import build
+    from hlr.source import open_source
+    from hlr.tolerance import ANGLE, SMALL_DRAWING
+    from hlr.view.camera import resolve
+
+    view = checked_views([view])[0]
+    tell = progress or (lambda _stage, _done: None)
+    tell("source", 0.0)
+    opened = open_source(source)
+    bounds = opened.bounds()
+    camera = resolve(view, Options(), opened.frame, bounds)
+    tell("tessellate", 0.0)
+    deflection = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5) / SMALL_DRAWING
+    scene = build(opened.mesh(deflection, ANGLE, progress), 30.0, deflection)
+    return _scenery(opened.name, polygons_of(scene), camera, size)

@@ -1,0 +1,82 @@
+"""The methods timed side by side, each on each scene, within a time limit."""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hlr.surfaces.methods import METHODS
+from hlr.surfaces.render import Statistics
+from hlr.surfaces.viewport import Viewport
+
+REPEATS = 3
+QUICK = 0.5
+"""Seconds: what is over sooner is repeated, and the median taken."""
+
+Trial = tuple[str, str]
+"""A method and its variant."""
+
+TRIALS: tuple[Trial, ...] = (*((m, "") for m in METHODS), ("ray casting", "grid"), ("ray casting", "partition"))
+
+
+@dataclass(frozen=True, slots=True)
+class Scenery:
+    """A scene to measure on: its name, its number of polygons, the kernel's scene of it, made anew by `make`."""
+
+    name: str
+    count: int
+    make: Callable[[], Any]
+    viewport: Viewport
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """One method on one scene; statistics None: not finished within the limit.
+
+    seconds: all that depends on the method and the view, projecting and clipping included; trees and sorting as well
+    """
+
+    scene: str
+    count: int
+    method: str
+    seconds: float | None
+    statistics: Statistics | None
+
+
+def label(trial: Trial) -> str:
+    """ "ray casting, grid"."""
+    method, variant = trial
+    return f"{method}, {variant}" if variant else method
+
+
+def measure(
+    sceneries: Sequence[Scenery],
+    limit: float,
+    trials: Sequence[Trial] = TRIALS,
+    progress: Callable[[str, float], None] | None = None,
+) -> list[Timing]:
+    """Each trial on each scene. limit: seconds for each; Ctrl-C stops at once."""
+    out: list[Timing] = []
+    tell = progress or (lambda _stage, _done: None)
+    for i, scenery in enumerate(sceneries):
+        for k, trial in enumerate(trials):
+            tell("methods", (i + k / len(trials)) / len(sceneries))
+            out.append(_one(scenery, trial, limit))
+    tell("methods", 1.0)
+    return out
+
+
+def _one(scenery: Scenery, trial: Trial, limit: float) -> Timing:
+    found: list[Statistics] = []
+    for _ in range(REPEATS):
+        # A scene of its own: a BSP tree that is there already would be no work.
+        answer = scenery.make().render(scenery.viewport.kernel(), trial, limit, "", False)
+        if not answer["finished"]:
+            return Timing(scenery.name, scenery.count, label(trial), None, None)
+        found.append(Statistics(**answer["statistics"]))
+        if found[0].seconds > QUICK:
+            break
+    seconds = statistics.median(s.prepared + s.seconds for s in found)
+    return Timing(scenery.name, scenery.count, label(trial), seconds, found[0])
