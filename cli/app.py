@@ -9,7 +9,7 @@ import click
 
 VERBS = {
     "draw": "Draw a model as SVG, PDF or JSON.",
-    "methods": "Time the visible-surface methods side by side.",
+    "preview": "Shaded picture of a model as PNG.",
     "info": "Parts, faces, edges, triangles and defects of a model.",
 }
 
@@ -50,7 +50,9 @@ def command() -> None:
 
     \b
       hlr draw motor.step -o motor.svg
+      hlr preview motor.step -o motor.png --edges
       hlr info motor.step
 
-    Reads STEP, IGES, BREP, CadQuery and build123d scripts, STL, OBJ, PLY, OFF, 3MF and GLB. Writes SVG, PDF and JSON.
+    Reads STEP, IGES, BREP, CadQuery and build123d scripts, STL, OBJ, PLY, OFF, 3MF and GLB. Writes SVG, PDF, JSON and
+    PNG.
     """

@@ -14,8 +14,11 @@ if TYPE_CHECKING:
     from hlr.drawing import Drawing, Line
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
     from hlr.inspection import info
+    from hlr.picture import Picture
     from hlr.pipeline import draw, draw_views
+    from hlr.plan.effects import PreviewOptions
     from hlr.plan.options import Options, Perspective
+    from hlr.previews import preview, preview_views
     from hlr.scene.report import ModelInfo, PartReport
 
 __version__ = "0.1.0"
@@ -29,6 +32,8 @@ _HOME = {
     "Options": "hlr.plan.options",
     "PartReport": "hlr.scene.report",
     "Perspective": "hlr.plan.options",
+    "Picture": "hlr.picture",
+    "PreviewOptions": "hlr.plan.effects",
     "SourceError": "hlr.errors",
     "StrictError": "hlr.errors",
     "ViewError": "hlr.errors",
@@ -36,6 +41,8 @@ _HOME = {
     "draw": "hlr.pipeline",
     "draw_views": "hlr.pipeline",
     "info": "hlr.inspection",
+    "preview": "hlr.previews",
+    "preview_views": "hlr.previews",
 }
 
 __all__ = [
@@ -47,6 +54,8 @@ __all__ = [
     "Options",
     "PartReport",
     "Perspective",
+    "Picture",
+    "PreviewOptions",
     "SourceError",
     "StrictError",
     "ViewError",
@@ -54,6 +63,8 @@ __all__ = [
     "draw",
     "draw_views",
     "info",
+    "preview",
+    "preview_views",
 ]
 
 

@@ -50,17 +50,17 @@ def draw_views(
     opened = open_source(source)
     bounds = opened.bounds()
     cameras = [resolve(view, options, opened.frame, bounds) for view in views]
-    started = _lap(clock, "source", started)
+    started = lap(clock, "source", started)
 
     tell("tessellate", 0.0)
     placed = [place(c, options, opened, bounds) for c in cameras]
-    scene, curves, placed = _meshed(opened, cameras, placed, options, tell, clock)
+    scene, curves, placed = meshed_scene(opened, cameras, placed, options, tell, clock)
     started = perf_counter()
 
     out = []
     for i, (camera, at) in enumerate(zip(cameras, placed, strict=True)):
         tell("visibility", i / len(cameras))
-        out.append(_drawing(opened, scene, curves, camera, at, options, dict(clock)))
+        out.append(drawing_of(opened, scene, curves, camera, at, options, dict(clock)))
     tell("linework", 1.0)
     for drawing in out:
         if options.strict and drawing.notes:
@@ -77,13 +77,14 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
     return draw_views(source, [view], request, progress)[0]
 
 
-def _lap(clock: Clock, stage: str, started: float) -> float:
+def lap(clock: Clock, stage: str, started: float) -> float:
+    """Add the time since `started` to a stage's; returns now."""
     now = perf_counter()
     clock[stage] = clock.get(stage, 0.0) + now - started
     return now
 
 
-def _meshed(
+def meshed_scene(
     opened: Source,
     cameras: list[Camera],
     placed: list[Placed],
@@ -96,10 +97,10 @@ def _meshed(
         started = perf_counter()
         finest = min(at.tolerances.deflection for at in placed)
         meshed = opened.mesh(finest, placed[0].tolerances.angle, tell)
-        started = _lap(clock, "tessellate", started)
+        started = lap(clock, "tessellate", started)
         tell("scene", 0.0)
         scene = build(meshed, options.crease, finest)
-        _lap(clock, "scene", started)
+        lap(clock, "scene", started)
         final = [_fitted(scene, c, at, options) for c, at in zip(cameras, placed, strict=True)]
         if min(at.tolerances.deflection for at in final) > 0.8 * finest:
             break
@@ -116,7 +117,7 @@ def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options) -> Place
     return at.fitted(camera, options, with_silhouettes(scene, camera, at.tolerances, options.threads).points, curved)
 
 
-def _drawing(
+def drawing_of(
     opened: Source,
     scene: Scene,
     curves: EdgeCurveLookup,
@@ -125,24 +126,25 @@ def _drawing(
     options: Options,
     clock: Clock,
 ) -> Drawing:
+    """The lines of one view."""
     started = perf_counter()
     tolerances: Tolerances = at.tolerances
     seen, cuts = clip(with_silhouettes(scene, camera, tolerances, options.threads), planes(camera, at.aspect))
     plan = decide(seen, camera, options, tolerances)
     projected = camera.project(seen.points)
-    started = _lap(clock, "plan", started)
+    started = lap(clock, "plan", started)
     lifted = projected if seen.silhouettes is None else camera.project(seen.points + seen.silhouettes.lift)
     segments = at_outlines(seen, camera, solve(seen, plan, lifted, options.threads))
-    started = _lap(clock, "visibility", started)
+    started = lap(clock, "visibility", started)
     lines, origin = draw_lines(
         seen, curves, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads
     )
-    _lap(clock, "linework", started)
+    lap(clock, "linework", started)
     clock["write"] = 0.0
     clock["total"] = sum(clock.values())
     return Drawing(
         source=opened.name,
-        view=_drawn_view(camera),
+        view=drawn_view(camera),
         scale=at.scale,
         origin=origin,
         accuracy={
@@ -165,7 +167,8 @@ def _empty(lines: Sequence[object]) -> tuple[str, ...]:
     return () if lines else ("nothing of the model lies in this view",)
 
 
-def _drawn_view(camera: Camera) -> DrawnView:
+def drawn_view(camera: Camera) -> DrawnView:
+    """The camera as a result states it."""
     return DrawnView(
         name=camera.name,
         projection="orthographic" if camera.eye is None else "perspective",
@@ -179,4 +182,4 @@ def _drawn_view(camera: Camera) -> DrawnView:
     )
 
 
-__all__ = ["draw", "draw_views"]
+__all__ = ["draw", "draw_views", "drawing_of", "drawn_view", "lap", "meshed_scene"]

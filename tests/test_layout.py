@@ -12,10 +12,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 
 # The order in which a drawing passes through the stages: each imports only those before it.
-STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework", "writers")
+STAGES = ("source", "scene", "view", "plan", "visibility", "linework", "shading", "writers")
 
 # What every stage may import: no stage, and none of them imports one.
-COMMON = ("errors", "tolerance", "curve", "drawing", "_kernel")
+COMMON = ("errors", "tolerance", "curve", "drawing", "picture", "_kernel")
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.source.model", "hlr.plan.options")
@@ -56,11 +56,26 @@ def loaded_by(code, *arguments):
     return {name.partition(".")[0] for name in done.stderr.split()}
 
 
-HEAVY = {"numpy", "scipy", "OCP", "cadquery", "build123d", "trimesh", "manifold3d", "rich", "pydyf", "lxml", "networkx"}
+HEAVY = {
+    "numpy",
+    "scipy",
+    "OCP",
+    "cadquery",
+    "build123d",
+    "trimesh",
+    "manifold3d",
+    "rich",
+    "pydyf",
+    "lxml",
+    "networkx",
+    "PIL",
+}
 COMMAND = "from hlr.cli import main; main()"
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["draw", "--help"], ["info", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["--version"], ["draw", "--help"], ["preview", "--help"], ["info", "--help"]]
+)
 def test_help_loads_nothing_heavy(arguments):
     loaded = loaded_by(COMMAND, *arguments)
     assert "click" in loaded
@@ -111,7 +126,7 @@ def test_a_stage_imports_only_the_stages_before_it(stage):
     assert not wrong, "\n".join(wrong)
 
 
-@pytest.mark.parametrize("name", ["errors", "tolerance", "drawing"])
+@pytest.mark.parametrize("name", ["errors", "tolerance", "drawing", "picture"])
 def test_what_is_common_imports_no_stage(name):
     path = ROOT / "hlr" / f"{name}.py"
     if not path.exists():

@@ -15,9 +15,10 @@ from ..exits import warn
 from ..guard import start
 from ..meter import meter
 from ..outputs import STDOUT, plan
-from ..parameters import Scale, Size, Vector, Vector3, ViewName
+from ..parameters import Scale, Size, Vector3
 from ..signals import tidily
 from ..streams import Output, result_only
+from ..view_options import CAMERA, CARE, RUN, VIEW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
@@ -33,15 +34,7 @@ if TYPE_CHECKING:
     help="Where to write: .svg, .pdf or .json; - for standard output. {stem}, {view} and {n} stand for the source, "
     "the view and its number. Default: {stem}.svg in this folder.",
 )
-@click.option(
-    "--view",
-    "views",
-    type=ViewName(),
-    metavar="NAME|X,Y,Z",
-    multiple=True,
-    help="front, back, left, right, top, bottom, iso, iso-sw, iso-ne, iso-nw, or a direction toward the viewer. "
-    "May be repeated. Default: iso.",
-)
+@VIEW
 @click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on.")
 @click.option("--smooth", is_flag=True, help="Also tangent edges, thin.")
 @click.option("--seam", is_flag=True, help="Also the seams of closed surfaces.")
@@ -52,36 +45,7 @@ if TYPE_CHECKING:
 )
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
 @click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
-@click.option(
-    "--accuracy",
-    type=click.FloatRange(min=0.0, min_open=True),
-    metavar="MM",
-    help="How far a line may be off on paper. Default: 0.05, less for small drawings.",
-)
-@click.option(
-    "--crease",
-    type=click.FloatRange(0.0, 180.0),
-    metavar="DEG",
-    default=30.0,
-    help="Meshes: fold from which an edge is drawn. Default: 30.",
-)
-@click.option(
-    "--circles",
-    is_flag=True,
-    help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
-)
-@click.option("--up", type=Vector(), metavar="X,Y,Z", help="What points up on paper.")
-@click.option("--perspective", is_flag=True, help="Perspective instead of parallel projection.")
-@click.option("--eye", type=Vector(), metavar="X,Y,Z", help="Perspective: where the eye is.")
-@click.option("--target", type=Vector(), metavar="X,Y,Z", help="Perspective: what it looks at.")
-@click.option(
-    "--fov",
-    type=click.FloatRange(0.0, 180.0, min_open=True, max_open=True),
-    metavar="DEG",
-    help="Perspective: vertical field of view.",
-)
-@click.option("--threads", type=click.IntRange(min=0), metavar="N", default=0, help="Default: all cores.")
-@click.option("--strict", is_flag=True, help="Warnings are errors: nothing is written.")
+@options(*CARE, *CAMERA, *RUN)
 @click.option("--format", type=click.Choice(["svg", "pdf", "json"]), help="Format, where the name does not say it.")
 @click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
@@ -105,9 +69,8 @@ def draw(
     A CadQuery or build123d script is run to get its model.
     """
     views = views or ("iso",)
-    names = [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views]
-    options = _options(**wishes)
-    targets = _targets(output, source, names, format, as_json)
+    request = _options(**wishes)
+    targets = _targets(output, source, names_of(views), format, as_json)
 
     start(source)
     # While anything runs that is not ours, standard output is out of its reach.
@@ -115,8 +78,8 @@ def draw(
         with meter(quiet) as progress:
             import hlr
 
-            drawings = hlr.draw_views(source, list(views), options, progress=progress)
-        _warn(drawings, options.strict)
+            drawings = hlr.draw_views(source, list(views), request, progress=progress)
+        _warn(drawings, request.strict)
         _write(drawings, targets, out)
         if as_json:
             out.put(_summary(drawings, targets))
@@ -135,13 +98,11 @@ def _options(
     fov: float | None,
     **others: Any,
 ) -> Options:
-    from hlr.plan.options import Options, Perspective
+    from hlr.plan.options import Options
 
     if scale is not None and fit is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
-    camera = None
-    if perspective or eye is not None or target is not None or fov is not None:
-        camera = Perspective(eye=eye, target=target, fov=fov)
+    camera = perspective_of(perspective, eye, target, fov)
     return Options(scale=1.0 if scale is None else scale, fit=fit, perspective=camera, **others)
 
 

@@ -12,8 +12,20 @@ from hlr.errors import SourceError
 from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
-from hlr.source.model import EdgeCurves, Floats, Frame, Ints, Meshed, OnSurfaces, PartInfo, PartMesh, Progress, Surfaces
-from hlr.source.parts import Leaf, Part, Parts
+from hlr.source.model import (
+    EdgeCurves,
+    Floats,
+    Frame,
+    Ints,
+    Look,
+    Meshed,
+    OnSurfaces,
+    PartInfo,
+    PartMesh,
+    Progress,
+    Surfaces,
+)
+from hlr.source.parts import Leaf, Part, Parts, look
 from hlr.source.tessellate import Tessellator
 from hlr.source.topology import Meshes
 from hlr.source.weld import clean
@@ -86,6 +98,10 @@ class BrepSource:
     def infos(self) -> list[PartInfo]:
         """Counts of every part's index maps."""
         return [PartInfo(part.name, *self._counts[part.root]) for part in self._parts]
+
+    def looks(self) -> dict[str, Look]:
+        """Colours and opacities of parts and faces."""
+        return {part.name: look(part, self._roots[part.root]) for part in self._parts}
 
     def bounds(self) -> Floats:
         """(2, 3) corners in millimetres; free-form surfaces count with their control points."""

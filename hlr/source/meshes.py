@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy.typing as npt
 from hlr.errors import SourceError
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved
-from hlr.source.model import Color, Floats, Frame, Ints, Meshed, PartInfo, PartMesh, Progress
+from hlr.source.model import Color, Floats, Frame, Ints, Look, Meshed, PartInfo, PartMesh, Progress
 from hlr.source.weld import Clean, clean
 
 UNITS = {
@@ -43,12 +43,16 @@ Y_UP = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """One mesh standing somewhere: the number of its geometry and a (4, 4) transform."""
+    """One mesh standing somewhere: the number of its geometry and a (4, 4) transform.
+
+    mesh: the trimesh object that it comes from, which knows its colours; None for bare arrays.
+    """
 
     name: str
     geometry: int
     transform: Floats
     color: Color | None
+    mesh: Any = None
 
 
 class MeshSource:
@@ -73,10 +77,12 @@ class MeshSource:
         cleaned = [clean(points, triangles) for points, triangles in geometries]
         self._report(cleaned)
         self._parts: list[PartMesh] = []
+        self._drawn: list[tuple[PartMesh, Instance, Clean]] = []
         for instance, label in zip(instances, unique_names([i.name for i in instances]), strict=True):
             mesh = cleaned[instance.geometry]
             if len(mesh.triangles):
                 self._parts.append(_part(label, mesh, instance))
+                self._drawn.append((self._parts[-1], instance, mesh))
             else:
                 self._notes.append(f'Part "{label}" has no triangles and was left out.')
         if not self._parts:
@@ -128,6 +134,12 @@ class MeshSource:
     def infos(self) -> list[PartInfo]:
         """Meshes have no faces or edges of their own; both counts are 0."""
         return [PartInfo(part.name, 0, 0, 0) for part in self._parts]
+
+    def looks(self) -> dict[str, Look]:
+        """Materials, and colours of vertices and faces where there is no material."""
+        from hlr.source.meshlooks import look
+
+        return {part.name: look(part, instance.mesh, clean) for part, instance, clean in self._drawn}
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """The triangles as they are; deflection and angle (radians) have no effect."""
@@ -199,7 +211,7 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
     if not hasattr(thing, "graph"):
         if not hasattr(thing, "faces"):
             raise SourceError(f"{name} holds no triangles (only points or curves): there is nothing to draw.")
-        whole = Instance(part, 0, np.eye(4), _color(thing))
+        whole = Instance(part, 0, np.eye(4), _color(thing), thing)
         return MeshSource(name, kind, [_arrays(name, thing)], [whole], frame)
     geometries: list[tuple[Any, Any]] = []
     numbers: dict[str, int] = {}
@@ -212,9 +224,10 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
         if key not in numbers:
             numbers[key] = len(geometries)
             geometries.append(_arrays(name, geometry))
-        instances.append(Instance(_node_name(node, key, part), numbers[key], matrix, _color(geometry)))
+        named = _node_name(node, key, part)
+        instances.append(Instance(named, numbers[key], matrix, _color(geometry), geometry))
     if len(instances) == 1 and not instances[0].name:
-        instances = [Instance(part, 0, instances[0].transform, instances[0].color)]
+        instances = [replace(instances[0], name=part)]
     return MeshSource(name, kind, geometries, instances, frame)
 
 

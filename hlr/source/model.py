@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Protocol
@@ -13,6 +13,8 @@ import numpy.typing as npt
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
 Color = tuple[float, float, float]
+Rgba = tuple[float, float, float, float]
+"""Red, green, blue as screens show them (sRGB), and opacity; 0 to 1."""
 Progress = Callable[[str, float], None]
 """Called with a stage's name and the fraction done (0..1)."""
 
@@ -95,6 +97,28 @@ class PartMesh:
     edge_class: npt.NDArray[np.uint8]
     brep: bool
     on_surfaces: OnSurfaces | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """How one part looks.
+
+    whole    the part's own colour; None where the source says nothing
+    faces    by index in the part's TopExp face map, where a face has its own
+    corners  (m, 3, 4) float32 sRGB and opacity at the corners of the part's triangles, of meshes that are painted
+             finer than by part; `points` and `triangles` are those of the part as it was meshed
+    """
+
+    whole: Rgba | None = None
+    faces: Mapping[int, Rgba] = field(default_factory=dict)
+    corners: npt.NDArray[np.float32] | None = None
+    points: Floats | None = None
+    triangles: Ints | None = None
+
+
+def rgba(color: Color | None, opacity: float) -> Rgba | None:
+    """A colour with its opacity; None stays."""
+    return None if color is None else (*color, opacity)
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,3 +206,6 @@ class Source(Protocol):
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""
+
+    def looks(self) -> Mapping[str, Look]:
+        """How the parts look, by name; gathered when it is asked for, for a drawing has no use of it."""

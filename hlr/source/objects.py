@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from hlr.errors import SourceError
@@ -70,7 +71,7 @@ def to_leaves(thing: Any, name: str, color: Color | None = None) -> list[Leaf]:
 
 def _cadquery(thing: Any, name: str, color: Color | None) -> list[Leaf]:
     if _is_kind(thing, "Assembly"):
-        return _assembly(thing, None, None, name)
+        return _assembly(thing, None, None, 1.0, name)
     if _is_kind(thing, "Workplane"):
         return [leaf for item in thing.vals() if _is_kind(item, "Shape") for leaf in to_leaves(item, name, color)]
     if _is_kind(thing, "Sketch"):
@@ -80,39 +81,41 @@ def _cadquery(thing: Any, name: str, color: Color | None) -> list[Leaf]:
     raise SourceError(f"A cadquery.{type(thing).__name__} cannot be drawn: pass a Workplane, a Shape or an Assembly.")
 
 
-def _assembly(node: Any, place: Any, inherited: Color | None, fallback: str) -> list[Leaf]:
+def _assembly(node: Any, place: Any, inherited: Color | None, opacity: float, fallback: str) -> list[Leaf]:
     """A cq.Assembly, children after the node's own shapes."""
     from hlr.source.step import srgb
 
     here = node.loc.wrapped if place is None else place.Multiplied(node.loc.wrapped)
-    color = srgb(node.color.wrapped.GetRGB()) if node.color is not None else inherited
+    color = inherited
+    if node.color is not None:
+        color, opacity = srgb(node.color.wrapped.GetRGB()), round(node.color.wrapped.Alpha(), 6)
     name = _readable(node.name) or fallback
     leaves = []
     for shape in node.shapes:
         if shape is not None and shape.wrapped is not None:
-            leaves.append(Leaf(shape.wrapped.Moved(here, False), name, color))
+            leaves.append(Leaf(shape.wrapped.Moved(here, False), name, color, opacity=opacity))
     for child in node.children:
-        leaves.extend(_assembly(child, here, color, name))
+        leaves.extend(_assembly(child, here, color, opacity, name))
     return leaves
 
 
-def _build123d(thing: Any, name: str, color: Color | None) -> list[Leaf]:
+def _build123d(thing: Any, name: str, color: Color | None, opacity: float = 1.0) -> list[Leaf]:
     own = getattr(thing, "color", None)
     if own is not None and hasattr(own, "wrapped"):
         from hlr.source.step import srgb
 
-        color = srgb(own.wrapped.GetRGB())
+        color, opacity = srgb(own.wrapped.GetRGB()), round(own.wrapped.Alpha(), 6)
     label = getattr(thing, "label", "") or name
     for attribute in ("part", "sketch", "line"):
         if _is_kind(thing, "Builder") and getattr(thing, attribute, None) is not None:
-            return _build123d(getattr(thing, attribute), label, color)
+            return _build123d(getattr(thing, attribute), label, color, opacity)
     children = getattr(thing, "children", ())
     if children:
         # A compound's children hold locations relative to it; build123d composes them here.
-        return [leaf for child in children for leaf in _placed(child, thing, label, color)]
+        return [leaf for child in children for leaf in _placed(child, thing, label, color, opacity)]
     shape = _wrapped(thing)
     if shape is not None:
-        return [Leaf(shape, label, color)]
+        return [Leaf(shape, label, color, opacity=opacity)]
     if isinstance(thing, Iterable):
         return [leaf for item in thing for leaf in to_leaves(item, name, color)]
     if _is_kind(thing, "Shape", "Builder"):
@@ -120,12 +123,12 @@ def _build123d(thing: Any, name: str, color: Color | None) -> list[Leaf]:
     raise SourceError(f"A build123d.{type(thing).__name__} cannot be drawn: pass a shape or a builder.")
 
 
-def _placed(child: Any, parent: Any, name: str, color: Color | None) -> list[Leaf]:
-    leaves = _build123d(child, name, color)
+def _placed(child: Any, parent: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:
+    leaves = _build123d(child, name, color, opacity)
     outer = _wrapped(parent)
     if outer is None or outer.Location().IsIdentity():
         return leaves
-    return [Leaf(leaf.shape.Moved(outer.Location(), False), leaf.name, leaf.color, leaf.colors) for leaf in leaves]
+    return [replace(leaf, shape=leaf.shape.Moved(outer.Location(), False)) for leaf in leaves]
 
 
 def _wrapped(thing: Any) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from hlr.source.locations import chained
-from hlr.source.model import Color, Floats
+from hlr.source.model import Color, Floats, Look, Rgba, rgba
 
 
 @dataclass(slots=True)
@@ -16,12 +16,15 @@ class Leaf:
     """A shape as an assembly, a file or a caller names it.
 
     shape: TopoDS_Shape with its placement; colors: by underlying shape of a solid or face, where a file says so.
+    opacity: of `color`; opacities: of those `colors` that are not opaque.
     """
 
     shape: Any
     name: str
     color: Color | None = None
     colors: dict[Any, Color] = field(default_factory=dict)
+    opacity: float = 1.0
+    opacities: dict[Any, float] = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -31,6 +34,7 @@ class Part:
     name: its own; product: that of its leaf, which several parts may share.
     """
 
+    leaf: Leaf
     name: str
     product: str
     color: Color | None
@@ -78,6 +82,7 @@ class Parts:
             suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
             self.parts.append(
                 Part(
+                    leaf=leaf,
                     name=self._unique(leaf.name + suffix, several and piece.solid),
                     product=leaf.name,
                     color=piece.color or leaf.color,
@@ -141,6 +146,26 @@ def _majority(shape: Any, leaf: Leaf) -> Color | None:
         color = leaf.colors.get(face.TShape(), leaf.color)
         counts[color] = counts.get(color, 0) + 1
     return max(counts, key=lambda color: counts[color]) if counts else None
+
+
+def look(part: Part, root: Any) -> Look:
+    """How a part looks; root: its shape, without placement."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    leaf = part.leaf
+    own = _painted(leaf, root)
+    faces = {}
+    if leaf.colors:
+        for i, face in enumerate(explored(root, Kind.TopAbs_FACE)):
+            color = _painted(leaf, face)
+            if color is not None and color != own:
+                faces[i] = color
+    return Look(own or rgba(leaf.color, leaf.opacity), faces)
+
+
+def _painted(leaf: Leaf, shape: Any) -> Rgba | None:
+    key = shape.TShape()
+    return rgba(leaf.colors.get(key), leaf.opacities.get(key, 1.0))
 
 
 def explored(shape: Any, kind: Any, avoid: Any = None) -> list[Any]:

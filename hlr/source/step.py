@@ -8,7 +8,7 @@ from typing import Any
 from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
-from hlr.source.model import Color
+from hlr.source.model import Color, Rgba
 from hlr.source.occt import quiet, ready
 from hlr.source.parts import Leaf, explored, located
 
@@ -82,7 +82,7 @@ class _Tree:
         self.shapes, self.colors = shapes, colors
         self.leaves: list[Leaf] = []
         self.notes: list[str] = []
-        self._details: dict[str, dict[Any, Color]] = {}
+        self._details: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
 
     def walk(self, fallback: str) -> None:
         from OCP.TDF import TDF_LabelSequence
@@ -93,7 +93,7 @@ class _Tree:
         for i in range(1, free.Length() + 1):
             self._visit(free.Value(i), TopLoc_Location(), None, fallback, 0)
 
-    def _visit(self, label: Any, place: Any, inherited: Color | None, fallback: str, depth: int) -> None:
+    def _visit(self, label: Any, place: Any, inherited: Rgba | None, fallback: str, depth: int) -> None:
         from OCP.TDF import TDF_Label, TDF_LabelSequence
 
         product, color = label, self._color(label)
@@ -115,10 +115,14 @@ class _Tree:
             self.notes.append(f'Part "{name}" is empty and was left out.')
             return
         # A free shape carries its own placement; a product's stands in the reference.
-        self.leaves.append(Leaf(shape.Moved(place, False), name, color, self._detail(product)))
+        colors, opacities = self._detail(product)
+        leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities)
+        if color is not None:
+            leaf.color, leaf.opacity = color[:3], color[3]
+        self.leaves.append(leaf)
 
-    def _detail(self, product: Any) -> dict[Any, Color]:
-        """Colours of the solids and faces of a product, by underlying shape."""
+    def _detail(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
+        """Colours, and opacities below one, of the solids and faces of a product, by underlying shape."""
         from OCP.TCollection import TCollection_AsciiString
         from OCP.TDF import TDF_LabelSequence, TDF_Tool
 
@@ -126,23 +130,26 @@ class _Tree:
         TDF_Tool.Entry_s(product, entry)
         known = self._details.get(entry.ToCString())
         if known is None:
-            known = self._details[entry.ToCString()] = {}
+            known = self._details[entry.ToCString()] = ({}, {})
             children = TDF_LabelSequence()
             self.shapes.GetSubShapes_s(product, children)
             for i in range(1, children.Length() + 1):
                 color = self._color(children.Value(i))
                 if color is not None:
-                    known[self.shapes.GetShape_s(children.Value(i)).TShape()] = color
+                    shape = self.shapes.GetShape_s(children.Value(i)).TShape()
+                    known[0][shape] = color[:3]
+                    if color[3] < 1.0:
+                        known[1][shape] = color[3]
         return known
 
-    def _color(self, label: Any) -> Color | None:
-        from OCP.Quantity import Quantity_Color
+    def _color(self, label: Any) -> Rgba | None:
+        from OCP.Quantity import Quantity_ColorRGBA
         from OCP.XCAFDoc import XCAFDoc_ColorType
 
-        color = Quantity_Color()
+        color = Quantity_ColorRGBA()
         for kind in (XCAFDoc_ColorType.XCAFDoc_ColorSurf, XCAFDoc_ColorType.XCAFDoc_ColorGen):
             if self.colors.GetColor_s(label, kind, color):
-                return srgb(color)
+                return (*srgb(color.GetRGB()), round(color.Alpha(), 6))
         return None
 
 
@@ -169,12 +176,16 @@ def _sewn(leaf: Leaf) -> Leaf:
     sewn = sewing.SewedShape()
     if sewn is None or sewn.IsNull() or len(explored(sewn, Kind.TopAbs_FACE)) != len(faces):
         return leaf
-    colors = {}
+    colors, opacities = {}, {}
     for face in faces:
-        if face.TShape() in leaf.colors:
+        key = face.TShape()
+        if key in leaf.colors:
             after = sewing.ModifiedSubShape(face) if sewing.IsModifiedSubShape(face) else face
-            colors[after.TShape()] = leaf.colors[face.TShape()]
-    return Leaf(sewn.Moved(leaf.shape.Location(), False), leaf.name, leaf.color, colors)
+            colors[after.TShape()] = leaf.colors[key]
+            if key in leaf.opacities:
+                opacities[after.TShape()] = leaf.opacities[key]
+    place = leaf.shape.Location()
+    return Leaf(sewn.Moved(place, False), leaf.name, leaf.color, colors, leaf.opacity, opacities)
 
 
 def srgb(color: Any) -> Color:

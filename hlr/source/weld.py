@@ -12,13 +12,17 @@ from hlr.source.model import Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class Clean:
-    """points (n, 3), each used and each once; triangles (m, 3) without repeated corners; what was left out."""
+    """points (n, 3), each used and each once; triangles (m, 3) without repeated corners; what was left out.
+
+    kept: of the triangles that were given (m,) which each of these was.
+    """
 
     points: Floats
     triangles: Ints
     not_finite: int
     out_of_range: int
     degenerate: int
+    kept: npt.NDArray[np.intp]
 
 
 def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) -> Clean:
@@ -29,16 +33,17 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
     points = np.array(points, dtype=np.float64, copy=True).reshape(-1, 3)
     points += 0.0  # minus zero becomes zero: equal numbers, equal bits
     faces = np.asarray(triangles).reshape(-1, 3)
+    given = np.arange(len(faces))
     inside = ((faces >= 0) & (faces < len(points))).all(axis=1)
     out_of_range = int(len(faces) - inside.sum())
     if out_of_range:
-        faces = faces[inside]
+        faces, given = faces[inside], given[inside]
     finite_points = np.logical_and.reduce(np.isfinite(points), axis=1)
     not_finite = 0
     if not finite_points.all():
         finite = finite_points[faces].all(axis=1)
         not_finite = int(len(faces) - finite.sum())
-        faces = faces[finite]
+        faces, given = faces[finite], given[finite]
         points[~finite_points] = 0.0
     used = np.zeros(len(points), dtype=bool)
     used[faces] = True
@@ -51,7 +56,8 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
     a, b, c = faces.T
     whole = (a != b) & (b != c) & (c != a)
     degenerate = int(len(faces) - whole.sum())
-    return Clean(points[first], np.ascontiguousarray(faces[whole]), not_finite, out_of_range, degenerate)
+    whole_faces = np.ascontiguousarray(faces[whole], np.int32)
+    return Clean(points[first], whole_faces, not_finite, out_of_range, degenerate, given[whole])
 
 
 def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:

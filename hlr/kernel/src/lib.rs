@@ -7,7 +7,7 @@ pub mod geometry;
 pub mod ink;
 pub mod lines;
 pub mod paper;
-pub mod raster;
+pub mod preview;
 pub mod scan;
 pub mod silhouette;
 
@@ -28,8 +28,9 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::ink::path_data, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::painters::quadric_row, m)?)?;
-    m.add_class::<bind::raster::RasterScene>()?;
+    m.add_class::<bind::preview::ShadedModel>()?;
+    m.add_function(wrap_pyfunction!(bind::preview::stroke_picture, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::preview::surface_normals, m)?)?;
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;
     Ok(())
 }

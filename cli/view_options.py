@@ -1,0 +1,86 @@
+"""The options that say what is looked at from where, and how carefully; of every command that makes a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .parameters import Vector, Vector3, ViewName
+
+if TYPE_CHECKING:
+    from hlr.plan.options import Perspective
+
+Command = Callable[..., Any]
+
+VIEW = click.option(
+    "--view",
+    "views",
+    type=ViewName(),
+    metavar="NAME|X,Y,Z",
+    multiple=True,
+    help="front, back, left, right, top, bottom, iso, iso-sw, iso-ne, iso-nw, or a direction toward the viewer. "
+    "May be repeated. Default: iso.",
+)
+
+CAMERA = (
+    click.option("--up", type=Vector(), metavar="X,Y,Z", help="What points up on paper."),
+    click.option("--perspective", is_flag=True, help="Perspective instead of parallel projection."),
+    click.option("--eye", type=Vector(), metavar="X,Y,Z", help="Perspective: where the eye is."),
+    click.option("--target", type=Vector(), metavar="X,Y,Z", help="Perspective: what it looks at."),
+    click.option(
+        "--fov",
+        type=click.FloatRange(0.0, 180.0, min_open=True, max_open=True),
+        metavar="DEG",
+        help="Perspective: vertical field of view.",
+    ),
+)
+
+CARE = (
+    click.option(
+        "--accuracy",
+        type=click.FloatRange(min=0.0, min_open=True),
+        metavar="MM",
+        help="How far a line may be off on paper. Default: 0.05, less for small drawings.",
+    ),
+    click.option(
+        "--crease",
+        type=click.FloatRange(0.0, 180.0),
+        metavar="DEG",
+        default=30.0,
+        help="Meshes: fold from which an edge is drawn. Default: 30.",
+    ),
+)
+
+RUN = (
+    click.option("--threads", type=click.IntRange(min=0), metavar="N", default=0, help="Default: all cores."),
+    click.option("--strict", is_flag=True, help="Warnings are errors: nothing is written."),
+)
+
+
+def options(*chosen: Callable[[Command], Command]) -> Callable[[Command], Command]:
+    """Several options at once, in the order of the help text."""
+
+    def decorate(command: Command) -> Command:
+        for option in reversed(chosen):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+def names_of(views: tuple[str | Vector3, ...]) -> list[str]:
+    """Views as they are called in file names."""
+    return [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views]
+
+
+def perspective_of(
+    perspective: bool, eye: Vector3 | None, target: Vector3 | None, fov: float | None
+) -> Perspective | None:
+    """The camera that the options ask for; eye, target or field of view alone ask for perspective."""
+    from hlr.plan.options import Perspective
+
+    if perspective or eye is not None or target is not None or fov is not None:
+        return Perspective(eye=eye, target=target, fov=fov)
+    return None

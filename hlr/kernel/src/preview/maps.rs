@@ -1,0 +1,42 @@
+//! What is seen at the centre of each pixel: its depth and its triangle.
+
+use super::faces::faces;
+use super::lens::Lens;
+use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
+use super::tiles::each_tile;
+use super::{Model, NOTHING};
+
+/// Depth (0 nearest, 1 farthest, 2 nothing) and triangle (NOTHING for none).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    pub depth: f32,
+    pub triangle: u32,
+}
+
+/// Row by row. Glass counts as solid. None when stopped.
+pub fn seen(model: &Model, lens: &Lens, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Seen>> {
+    let sampling = Sampling::CENTRES;
+    let chunks = faces(model, lens, &sampling, stopped)?;
+    let [width, height] = lens.size;
+    let mut out = vec![Seen { depth: 2.0, triangle: NOTHING }; width * height];
+    let solid = vec![false; model.triangles.len()];
+    each_tile(
+        &chunks,
+        lens.size,
+        &sampling,
+        &solid,
+        &mut out,
+        stopped,
+        || (),
+        |(), filled, rows| {
+            let wide = TILE_WIDTH.min(width - filled.first[0]);
+            for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
+                let triangle = &filled.tile.triangle[j];
+                for (i, seen) in row[filled.first[0]..filled.first[0] + wide].iter_mut().enumerate() {
+                    *seen = Seen { depth: filled.tile.depth(i, j), triangle: triangle[i] };
+                }
+            }
+        },
+    )
+    .then_some(out)
+}

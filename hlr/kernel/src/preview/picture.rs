@@ -1,0 +1,141 @@
+//! The picture: each tile's samples shaded, once per pixel and triangle, and put together.
+
+use super::NOTHING;
+use super::faces::faces;
+use super::glass::{Layer, layers, over};
+use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
+use super::resolve::Encoder;
+use super::shade::{Ready, Scene};
+use super::tiles::{Filled, each_tile};
+
+/// Triangles a thread keeps ready, by the last bits of their numbers.
+const KEPT: usize = 1024;
+
+/// RGBA, row by row. `background`: linear light, premultiplied. None when stopped.
+pub fn picture(
+    scene: &Scene,
+    sampling: &Sampling,
+    background: [f32; 4],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<[u8; 4]>> {
+    let [width, height] = scene.lens.size;
+    let chunks = faces(scene.model, scene.lens, sampling, stopped)?;
+    let encoder = Encoder::new();
+    let mut out = vec![encoder.pixel(background); width * height];
+    let painter = || Painter { scene, sampling, background, encoder: &encoder, kept: vec![None; KEPT] };
+    each_tile(
+        &chunks,
+        scene.lens.size,
+        sampling,
+        scene.model.glass,
+        &mut out,
+        stopped,
+        painter,
+        |painter, filled, rows| {
+            painter.tile(filled, rows, width);
+        },
+    )
+    .then_some(out)
+}
+
+struct Painter<'a> {
+    scene: &'a Scene<'a>,
+    sampling: &'a Sampling,
+    background: [f32; 4],
+    encoder: &'a Encoder,
+    kept: Vec<Option<(u32, Ready)>>,
+}
+
+impl Painter<'_> {
+    fn tile(&mut self, filled: &Filled, rows: &mut [[u8; 4]], width: usize) {
+        let side = self.sampling.side;
+        let left = filled.first[0] / side;
+        let wide = (TILE_WIDTH / side).min(width - left);
+        let mut found: Vec<Layer> = Vec::new();
+        layers(filled.tile, filled.glass, filled.first, self.sampling, &mut found);
+        for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT / side).enumerate() {
+            for (i, pixel) in row[left..left + wide].iter_mut().enumerate() {
+                if side == 1 && found.is_empty() {
+                    let triangle = filled.tile.triangle[j][i];
+                    if triangle != NOTHING {
+                        let place = self.sampling.place(filled.first[0] + i, filled.first[1] + j);
+                        *pixel = self.encoder.pixel(self.colour(triangle, place));
+                    }
+                } else if let Some(colour) = self.mean(filled, &found, [i * side, j * side]) {
+                    *pixel = self.encoder.pixel(colour);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn colour(&mut self, triangle: u32, place: [f64; 2]) -> [f32; 4] {
+        let slot = &mut self.kept[triangle as usize % KEPT];
+        match slot {
+            Some((held, ready)) if *held == triangle => self.scene.shade(ready, place),
+            _ => {
+                let (_, ready) = slot.insert((triangle, self.scene.ready(triangle)));
+                self.scene.shade(ready, place)
+            }
+        }
+    }
+
+    /// The mean of a pixel's samples, the first of which is given within the tile; None for nothing but background.
+    fn mean(&mut self, filled: &Filled, layers: &[Layer], [i, j]: [usize; 2]) -> Option<[f32; 4]> {
+        let side = self.sampling.side;
+        let mut known = Known::default();
+        let mut sum = [0.0f32; 4];
+        let mut any = false;
+        for y in j..j + side {
+            for x in i..i + side {
+                let place = self.sampling.place(filled.first[0] + x, filled.first[1] + y);
+                let triangle = filled.tile.triangle[y][x];
+                let mut here = self.background;
+                if triangle != NOTHING {
+                    any = true;
+                    here = known.get(triangle, || opaque(self.colour(triangle, place)));
+                }
+                let sample = (y * TILE_WIDTH + x) as u16;
+                let from = layers.partition_point(|l| l.sample < sample);
+                for layer in layers[from..].iter().take_while(|l| l.sample == sample) {
+                    any = true;
+                    here = over(known.get(layer.triangle, || premultiplied(self.colour(layer.triangle, place))), here);
+                }
+                for k in 0..4 {
+                    sum[k] += here[k];
+                }
+            }
+        }
+        let share = 1.0 / (side * side) as f32;
+        any.then(|| sum.map(|c| c * share))
+    }
+}
+
+fn opaque(c: [f32; 4]) -> [f32; 4] {
+    [c[0], c[1], c[2], 1.0]
+}
+
+fn premultiplied(c: [f32; 4]) -> [f32; 4] {
+    // Highlights lie on the glass, but here they fade with it: close enough, and never brighter than white.
+    [c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]]
+}
+
+/// Colours of the triangles of one pixel: each is shaded where it is first met.
+#[derive(Default)]
+struct Known {
+    entries: [(u32, [f32; 4]); 4],
+    count: usize,
+}
+
+impl Known {
+    fn get(&mut self, triangle: u32, shade: impl FnOnce() -> [f32; 4]) -> [f32; 4] {
+        let held = self.count.min(self.entries.len());
+        if let Some((_, colour)) = self.entries[..held].iter().find(|(t, _)| *t == triangle) {
+            return *colour;
+        }
+        let colour = shade();
+        self.entries[self.count % self.entries.len()] = (triangle, colour);
+        self.count += 1;
+        colour
+    }
+}

@@ -1,0 +1,43 @@
+//! From linear light to the numbers of a picture (sRGB, IEC 61966-2-1), and back.
+
+/// Steps of linear light that are told apart: fine enough that each of the 256 values is met.
+const STEPS: usize = 1 << 13;
+
+pub struct Encoder {
+    table: Vec<u8>,
+}
+
+impl Encoder {
+    pub fn new() -> Encoder {
+        let table = (0..=STEPS).map(|i| (encoded(i as f64 / STEPS as f64) * 255.0).round() as u8).collect();
+        Encoder { table }
+    }
+
+    #[inline(always)]
+    fn channel(&self, linear: f32) -> u8 {
+        self.table[(linear.clamp(0.0, 1.0) * STEPS as f32 + 0.5) as usize]
+    }
+
+    /// From linear light, premultiplied by opacity, to sRGB with straight opacity.
+    #[inline(always)]
+    pub fn pixel(&self, c: [f32; 4]) -> [u8; 4] {
+        if c[3] >= 1.0 {
+            return [self.channel(c[0]), self.channel(c[1]), self.channel(c[2]), 255];
+        }
+        if c[3] <= 0.0 {
+            return [0; 4];
+        }
+        let [r, g, b] = [c[0], c[1], c[2]].map(|v| self.channel(v / c[3]));
+        [r, g, b, (c[3] * 255.0 + 0.5) as u8]
+    }
+}
+
+impl Default for Encoder {
+    fn default() -> Encoder {
+        Encoder::new()
+    }
+}
+
+fn encoded(linear: f64) -> f64 {
+    if linear <= 0.0031308 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}

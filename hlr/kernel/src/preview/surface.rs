@@ -1,0 +1,109 @@
+//! The point of a triangle that is seen at a place of the picture, found on the triangle as it is, not as it was snapped.
+//!
+//! M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", Graphics Hardware 1997: with the
+//! corners' homogeneous coordinates h_i = (x w, y w, w) as columns of H, the place p = (x, y, 1) is H m, and m / sum(m) are
+//! the barycentric coordinates in the model: perspective-correct, also where a corner lies behind the eye, so that what
+//! was cut by the near plane is interpolated between its true corners.
+
+use super::Model;
+use super::lens::Lens;
+use crate::geometry::vector::{Vector, cross, dot, sub, unit};
+
+#[derive(Clone, Debug)]
+pub struct Surface {
+    rows: [Vector; 3],
+    corners: [Vector; 3],
+    normals: [[f32; 3]; 3],
+    /// One normal all over.
+    pub flat: bool,
+    /// Seen from outside.
+    pub front: bool,
+}
+
+impl Surface {
+    pub fn new(model: &Model, lens: &Lens, triangle: u32) -> Surface {
+        let t = triangle as usize;
+        let corners = model.triangles[t].map(|i| model.points[i as usize]);
+        let h = corners.map(|p| lens.homogeneous(&lens.view(&p)));
+        let rows = [cross(&h[1], &h[2]), cross(&h[2], &h[0]), cross(&h[0], &h[1])];
+        // With y down, what is counter-clockwise to the viewer has a negative determinant.
+        let turn = dot(&h[0], &rows[0]);
+        // Of size one, where that can be, so that single precision holds their products.
+        let sign = if turn == 0.0 { 1.0 } else { 1.0 / turn };
+        let ids = model.corner[t];
+        let flat = ids[0] < 0;
+        let normals = if flat {
+            let n = unit(&cross(&sub(&corners[1], &corners[0]), &sub(&corners[2], &corners[0])));
+            [n.unwrap_or([0.0; 3]).map(|c| c as f32); 3]
+        } else {
+            ids.map(|i| model.normals[i as usize])
+        };
+        Surface {
+            rows: rows.map(|r| r.map(|c| c * sign)),
+            corners,
+            normals,
+            flat: flat || (ids[0] == ids[1] && ids[1] == ids[2]),
+            front: turn < 0.0,
+        }
+    }
+
+    /// The barycentric coordinates but for a common factor.
+    #[inline(always)]
+    fn shares(&self, place: [f64; 2]) -> [f64; 3] {
+        // Not negative but for rounding: a sample is owned by the snapped triangle.
+        let at = |r: &Vector| {
+            let v = r[0] * place[0] + r[1] * place[1] + r[2];
+            if v > 0.0 { v } else { 0.0 }
+        };
+        [at(&self.rows[0]), at(&self.rows[1]), at(&self.rows[2])]
+    }
+
+    /// The cosine between the normal and a unit vector; the factor cancels.
+    #[inline(always)]
+    pub fn facing(&self, place: [f64; 2], toward: [f32; 3]) -> f32 {
+        let [a, b, c] = self.shares(place);
+        let (a, b, c) = (a as f32, b as f32, c as f32);
+        let n = &self.normals;
+        let at = |k: usize| a * n[0][k] + b * n[1][k] + c * n[2][k];
+        let (x, y, z) = (at(0), at(1), at(2));
+        let square = x * x + y * y + z * z;
+        if square == 0.0 {
+            return 0.0;
+        }
+        let cosine = (x * toward[0] + y * toward[1] + z * toward[2]) / square.sqrt();
+        if self.front { cosine } else { -cosine }
+    }
+
+    /// Barycentric coordinates of what is seen at a place, in pixels from the lens's centre.
+    #[inline(always)]
+    pub fn weights(&self, place: [f64; 2]) -> [f32; 3] {
+        let [a, b, c] = self.shares(place);
+        let sum = a + b + c;
+        if sum > 0.0 {
+            let share = 1.0 / sum;
+            [(a * share) as f32, (b * share) as f32, (c * share) as f32]
+        } else {
+            [1.0 / 3.0; 3]
+        }
+    }
+
+    /// The unit normal, on the side from which the triangle is seen.
+    #[inline(always)]
+    pub fn normal(&self, w: [f32; 3]) -> [f32; 3] {
+        let n = &self.normals;
+        let at = |k: usize| w[0] * n[0][k] + w[1] * n[1][k] + w[2] * n[2][k];
+        let (x, y, z) = (at(0), at(1), at(2));
+        let length = (x * x + y * y + z * z).sqrt();
+        if length == 0.0 {
+            return [0.0; 3];
+        }
+        let share = if self.front { 1.0 / length } else { -1.0 / length };
+        [x * share, y * share, z * share]
+    }
+
+    pub fn point(&self, w: [f32; 3]) -> Vector {
+        let [a, b, c] = &self.corners;
+        let w = w.map(f64::from);
+        [0, 1, 2].map(|k| w[0] * a[k] + w[1] * b[k] + w[2] * c[k])
+    }
+}

@@ -1,0 +1,55 @@
+"""The shaded picture: pixels, and on request how deep each is and what it shows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.drawing import DrawnPart, DrawnView
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """One view, shaded.
+
+    source      base name of what is shown
+    scale       pixels per millimetre of the model, in the image plane
+    pixels      (h, w, 4) uint8: red, green, blue (sRGB) and straight opacity
+    depth       (h, w) float64: millimetres from the eye's plane, along the view, of what is seen at the centre of each
+                pixel (in parallel views from the plane through the origin); infinite where there is nothing; else None
+    ids         (h, w) int32: number of the face seen there, -1 for none; faces of all parts are numbered together,
+                part i from first_face[i] on; else None
+    first_face  (p + 1,) int32
+    timings     seconds: source, tessellate, scene, prepare, picture, edges, total
+    """
+
+    source: str
+    view: DrawnView
+    scale: float
+    pixels: npt.NDArray[np.uint8]
+    parts: tuple[DrawnPart, ...]
+    first_face: npt.NDArray[np.int32]
+    depth: npt.NDArray[np.float64] | None = None
+    ids: npt.NDArray[np.int32] | None = None
+    notes: tuple[str, ...] = ()
+    timings: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def part_ids(self) -> npt.NDArray[np.int32]:
+        """(h, w) int32 into `parts`, -1 for none. Raises ValueError where ids were not asked for."""
+        if self.ids is None:
+            raise ValueError("ask for ids=True")
+        return np.where(self.ids < 0, -1, np.searchsorted(self.first_face, self.ids, side="right") - 1).astype(np.int32)
+
+    def save(self, path: str | Path, depth: str | Path | None = None, ids: str | Path | None = None) -> Path:
+        """Write the picture as PNG, and its maps if they are named, all or none. `hlr/writers/PNG.md` describes them.
+
+        Raises WriteError where a file cannot be written, or a map that was not asked for is to be.
+        """
+        from hlr.writers.png import write_png
+
+        return write_png(self, path, depth, ids)

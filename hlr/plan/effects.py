@@ -1,0 +1,145 @@
+"""What a preview is asked for, and which effects the request and the scene call for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from numbers import Integral
+from typing import Any
+
+import numpy as np
+
+from hlr.errors import OptionError
+from hlr.plan.options import Options, Perspective, Vector
+from hlr.plan.request import checked
+
+MOST_PIXELS_A_SIDE = 16384
+MOST_PIXELS = 100_000_000
+"""Of a picture: 400 MB while it is made."""
+
+PIXELS_PER_MM = 4.0
+"""A picture is a sheet of paper with so many pixels a millimetre: lines have their ISO 128 widths on it, and the
+accuracy of 0.05 mm is a fifth of a pixel."""
+
+AMBIENT, DIFFUSE = 0.2, 0.8
+"""Shares of the light: from everywhere, and from the viewer's shoulder. In linear light; they add up to one."""
+
+SHOULDER = (-0.3, 0.45, 1.0)
+"""Toward the light: to the right, up and toward the viewer."""
+
+SPECULAR = 0.35
+"""Strength of highlights, of full light."""
+
+OCCLUSION = 0.045
+"""Radius within which things take the sky from one another, of the picture's smaller side."""
+
+
+@dataclass(frozen=True, slots=True)
+class PreviewOptions:
+    """What is asked of a shaded picture.
+
+    size         (width, height) in pixels
+    background   a CSS colour name, #rrggbb, or transparent
+    edges        the drawing's own visible lines on top
+    antialias    sixteen samples a pixel instead of one
+    shadows      the light casts shadows
+    occlusion    corners and crevices are darker (ambient occlusion, in screen space)
+    specular     highlights
+    depth, ids   also make the depth map and the map of parts and faces
+    smooth       with edges: also tangent edges, thin
+    crease       degrees: a mesh without B-rep is smooth where it folds less than this
+    accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
+    up, perspective, threads, strict   as of a drawing (`Options`)
+    """
+
+    size: tuple[int, int] = (1920, 1080)
+    background: str = "white"
+    edges: bool = False
+    antialias: bool = True
+    shadows: bool = False
+    occlusion: bool = False
+    specular: bool = False
+    depth: bool = False
+    ids: bool = False
+    smooth: bool = False
+    crease: float = 30.0
+    accuracy: float | None = None
+    up: Vector | None = None
+    perspective: Perspective | None = None
+    threads: int = 0
+    strict: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Effects:
+    """The kernel's instructions.
+
+    lines      the line drawing is made as well
+    antialias  sixteen samples a pixel
+    shadows    the light sees the scene too, in a map of so many texels a side; 0: no shadows
+    occlusion  radius in pixels; 0: none
+    specular   strength of highlights; 0: none
+    glass      some of what is shown is transparent: its back is seen through its front
+    """
+
+    lines: bool
+    antialias: bool
+    shadows: int
+    occlusion: float
+    specular: float
+    glass: bool
+
+
+def decide_effects(options: PreviewOptions, opacity: float) -> Effects:
+    """What a request and a scene, whose least opacity is given, call for."""
+    width, height = options.size
+    return Effects(
+        lines=options.edges,
+        antialias=options.antialias,
+        shadows=min(4096, max(1024, 2 * max(width, height))) if options.shadows else 0,
+        occlusion=max(4.0, OCCLUSION * min(width, height)) if options.occlusion else 0.0,
+        specular=SPECULAR if options.specular else 0.0,
+        glass=opacity < 1.0,
+    )
+
+
+def checked_preview(options: PreviewOptions) -> PreviewOptions:
+    """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
+    for name in ("edges", "antialias", "shadows", "occlusion", "specular", "depth", "ids"):
+        value = getattr(options, name)
+        if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
+            raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
+    check_size(options.size)
+    if not isinstance(options.background, str):
+        raise OptionError(f"background {options.background!r} is no colour: give a name, #rrggbb or transparent")
+    checked(line_options(options, None))
+    return options
+
+
+def check_size(size: Any) -> None:
+    """Raises OptionError for what is no size of a picture in pixels."""
+    sides = list(size) if isinstance(size, Sequence) and not isinstance(size, str) else []
+    if len(sides) != 2 or not all(isinstance(s, Integral) and not isinstance(s, bool) for s in sides):
+        raise OptionError(f"size needs a width and a height in whole pixels, such as 1920x1080, not {size!r}")
+    width, height = sides
+    if min(sides) < 1 or max(sides) > MOST_PIXELS_A_SIDE or width * height > MOST_PIXELS:
+        raise OptionError(
+            f"a picture of {width}x{height} pixels cannot be made: give 1 to {MOST_PIXELS_A_SIDE} a side, "
+            f"and {MOST_PIXELS // 1_000_000} million at most"
+        )
+
+
+def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale: float = 1.0) -> Options:
+    """The request for the drawing under the same camera; fit in millimetres of paper."""
+    return Options(
+        hidden=False,
+        smooth=options.smooth,
+        scale=scale,
+        fit=fit,
+        accuracy=options.accuracy,
+        crease=options.crease,
+        up=options.up,
+        perspective=options.perspective,
+        threads=options.threads,
+        strict=options.strict,
+    )

@@ -1,0 +1,78 @@
+"""The camera as the kernel's picture takes it: pixels, y down, and how far the scene reaches in depth."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hlr.source.model import Floats
+from hlr.view.camera import NEAR, Camera, Vector, cross, dot, normalized
+
+Lens = tuple[Vector, Vector, Vector, Vector, float, tuple[float, float], float, tuple[float, float], tuple[int, int]]
+"""right, up, ahead, origin, pixels per model unit, centre in pixels, distance of the image plane (0: parallel), nearest
+and farthest depth, (width, height)."""
+
+ROOM = 1e-6
+"""Of the depth's range: so much wider it is taken, that rounding keeps all within."""
+
+
+def lens(camera: Camera, points: Floats, scale: float, size: tuple[int, int]) -> Lens:
+    """points (n, 3) of all that is to be seen; scale: pixels per model unit in the image plane.
+
+    The picture's middle is the middle of what is seen, or where the camera looks if its eye was given.
+    """
+    ahead = camera.ahead(points)
+    nearest, farthest = float(ahead.min()), float(ahead.max())
+    distance = 0.0 if camera.eye is None or camera.distance is None else camera.distance
+    middle = (0.0, 0.0)
+    if distance:
+        nearest = max(nearest, NEAR * distance)
+        farthest = max(farthest, 2.0 * nearest)
+    if not camera.framed and (not distance or float(ahead.min()) > NEAR * distance):
+        flat = camera.project(points)[:, :2]
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        middle = (float(low[0] + high[0]) * 0.5, float(low[1] + high[1]) * 0.5)
+    room = ROOM * (farthest - nearest) or ROOM * max(1.0, abs(nearest))
+    d = camera.direction
+    return (
+        camera.right,
+        camera.up,
+        (-d[0], -d[1], -d[2]),
+        camera.eye or (0.0, 0.0, 0.0),
+        scale,
+        (0.5 * size[0] - middle[0] * scale, 0.5 * size[1] + middle[1] * scale),
+        distance,
+        (nearest - (0.0 if distance else room), farthest + room),
+        size,
+    )
+
+
+def frame_scale(camera: Camera, height: int) -> float | None:
+    """Pixels per model unit where the camera says what the picture shows: its eye was given. None otherwise."""
+    if not camera.framed or camera.distance is None or camera.fov is None:
+        return None
+    return 0.5 * height / (camera.distance * math.tan(math.radians(camera.fov) * 0.5))
+
+
+def toward_light(camera: Camera, shoulder: Vector) -> Vector:
+    """The unit vector toward a light that is given to the right, up and toward the viewer."""
+    axes = (camera.right, camera.up, camera.direction)
+    return normalized([sum(s * a[k] for s, a in zip(shoulder, axes, strict=True)) for k in range(3)], "the light")
+
+
+def light_lens(toward: Vector, camera: Camera, points: Floats, texels: int) -> Lens:
+    """The parallel view of all points from the light, in a square of so many texels a side."""
+    right = normalized(cross(camera.up, toward), "the light")
+    up = cross(toward, right)
+    ahead = (-toward[0], -toward[1], -toward[2])
+    x, y, z = dot(points, right), dot(points, up), dot(points, ahead)
+    extent = max(float(np.ptp(x)), float(np.ptp(y))) or 1.0
+    scale = (texels - 8) / extent
+    centre = (
+        0.5 * texels - 0.5 * (float(x.min()) + float(x.max())) * scale,
+        0.5 * texels + 0.5 * (float(y.min()) + float(y.max())) * scale,
+    )
+    low, high = float(z.min()), float(z.max())
+    room = ROOM * (high - low) or ROOM * max(1.0, abs(low))
+    return (right, up, ahead, (0.0, 0.0, 0.0), scale, centre, 0.0, (low - room, high + room), (texels, texels))

@@ -1,0 +1,51 @@
+"""The drawing's visible lines as straight pieces in pixels."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hlr.curve import Arc, Bezier, raised
+from hlr.drawing import Line, Points
+
+FLATNESS = 0.02
+"""Pixels: how far a chord may be off its curve."""
+
+
+def pieces(lines: list[Line], origin: tuple[float, float], per_mm: float, centre: tuple[float, float]) -> Points:
+    """(n, 4) x0 y0 x1 y1 in pixels, y down; origin as `Drawing.origin`, centre of the picture's lens in pixels."""
+    found = []
+    for line in lines:
+        flat = flattened(line, per_mm)
+        x = (flat[:, 0] + origin[0]) * per_mm + centre[0]
+        y = centre[1] - (flat[:, 1] + origin[1]) * per_mm
+        at = np.stack([x, y], axis=1)
+        found.append(np.concatenate([at[:-1], at[1:]], axis=1))
+    return np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *found]))
+
+
+def flattened(line: Line, per_mm: float) -> Points:
+    """(n, 2) millimetres along a line's true curve, with chords that are off it by FLATNESS at most."""
+    if isinstance(line.curve, Arc):
+        turn = float(line.curve.angles[1] - line.curve.angles[0])
+        reach = max(line.curve.radii) * per_mm
+        # The sagitta of a chord over the angle a is r (1 - cos a/2), about r a^2 / 8.
+        count = max(2, math.ceil(abs(turn) * math.sqrt(reach / (8.0 * FLATNESS))) + 1)
+        return line.curve.at(line.curve.angles[0] + turn * np.arange(count) / (count - 1))
+    if isinstance(line.curve, Bezier):
+        return _chain(line.curve, per_mm)
+    return line.points
+
+
+def _chain(curve: Bezier, per_mm: float) -> Points:
+    chain = curve if curve.degree == 3 else raised(curve)
+    p = chain.points
+    a, b, c, d = p[:-1:3], p[1::3], p[2::3], p[3::3]
+    # A cubic is off its n chords by at most |second differences| * 6 / (8 n^2) (Wang's formula).
+    second = np.maximum(np.abs(a - 2.0 * b + c).max(axis=1), np.abs(b - 2.0 * c + d).max(axis=1)) * math.sqrt(2.0)
+    count = np.maximum(1, np.ceil(np.sqrt(0.75 * second * per_mm / FLATNESS))).astype(np.int64)
+    first = np.cumsum(count) - count
+    within = (np.arange(count.sum()) - np.repeat(first, count)) / np.repeat(count, count)
+    piece = np.repeat(np.arange(len(count)), count)
+    return chain.at(np.append(piece + within, float(len(count))))

@@ -1,0 +1,102 @@
+"""Normals at the corners of triangles: of the true surfaces where there are any, else averaged up to creases."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.scene.scene import INTERIOR, Scene
+from hlr.source.model import EdgeClass, Ints
+
+Normals = npt.NDArray[np.float32]
+
+FLAT = np.int32(-1)
+"""In place of a number: the triangle's own normal."""
+
+
+def corner_normals(scene: Scene, threads: int = 0) -> tuple[Normals, Ints]:
+    """Unit normals (k, 3), and (t, 3) which of them each corner has; FLAT where the triangle has its own."""
+    true, of_true = _of_surfaces(scene, threads)
+    bare = scene.groups.bare[scene.triangle_group]
+    if not bare.any():
+        return true, of_true
+    averaged, of_averaged = _up_to_creases(scene, bare)
+    corner = np.where(bare[:, None], of_averaged + np.int32(len(true)), of_true).astype(np.int32)
+    return np.concatenate([true, averaged]), np.ascontiguousarray(corner)
+
+
+def _of_surfaces(scene: Scene, threads: int) -> tuple[Normals, Ints]:
+    on = scene.true_surfaces
+    none = np.full((len(scene.triangles), 3), FLAT, np.int32)
+    if on is None:
+        return np.zeros((0, 3), np.float32), none
+    face = np.ascontiguousarray(on.first[scene.triangle_part] + scene.triangle_face, np.int32)
+    known = on.number >= 0
+    used, which = np.unique(on.number[known], return_inverse=True)
+    surface = np.full(len(on.number), -1, np.int32)
+    surface[known] = which
+    records = on.surfaces.records(used.tolist())
+    normals = _kernel.surface_normals(
+        scene.points,
+        scene.triangles,
+        face,
+        on.corner,
+        on.uv,
+        surface,
+        np.ascontiguousarray(on.place.reshape(-1, 12)),
+        records.kind,
+        records.offsets,
+        records.data,
+        threads,
+    )
+    found = np.asarray((normals != 0.0).any(axis=1))
+    # Number -1 is the last one: it is never found.
+    sound = np.asarray(np.append(found, False)[on.corner].all(axis=1))
+    return normals, np.where(sound[:, None], on.corner, none)
+
+
+def _up_to_creases(scene: Scene, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
+    """Of the facets around a vertex, those that hang together without a crease share one normal.
+
+    Each counts with its angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets",
+    Journal of Graphics Tools 3, 1998): how a fan is triangulated makes no difference.
+    """
+    triangles = scene.triangles
+    count = np.diff(scene.offsets)
+    smooth = (scene.edge_kind == INTERIOR) | (scene.edge_kind == EdgeClass.SMOOTH)
+    inner = np.flatnonzero(smooth & (count == 2))
+    first = scene.offsets[:-1][inner]
+    one, two = scene.incident[first], scene.incident[first + 1]
+    mine = bare[one] & bare[two]
+    inner, one, two = inner[mine], one[mine], two[mine]
+    pairs = []
+    for k in (0, 1):
+        vertex = scene.edges[inner, k][:, None]
+        corner = [3 * t + np.argmax(triangles[t] == vertex, axis=1) for t in (one, two)]
+        pairs.append(np.stack(corner, axis=1))
+    # The last of these edges, from each corner to itself, tell the component that the corner belongs to.
+    corners = np.arange(3 * len(triangles))
+    joined = np.concatenate([*pairs, np.stack([corners, corners], axis=1)])
+    component = _kernel.edge_components(np.ascontiguousarray(joined, np.int32), len(corners))[-len(corners) :]
+    _, fan = np.unique(component, return_inverse=True)
+
+    p = scene.points[triangles]
+    facet = _cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+    facet = _unit(facet)
+    sums = np.zeros((int(fan.max(initial=-1)) + 1, 3))
+    for k in range(3):
+        a, b = _unit(p[:, (k + 1) % 3] - p[:, k]), _unit(p[:, (k + 2) % 3] - p[:, k])
+        angle = np.arccos(np.clip((a * b).sum(axis=1), -1.0, 1.0))
+        for axis in range(3):
+            sums[:, axis] += np.bincount(fan[k::3], weights=angle * facet[:, axis], minlength=len(sums))
+    return _unit(sums).astype(np.float32), fan.reshape(-1, 3).astype(np.int32)
+
+
+def _cross(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    return np.asarray(np.cross(a, b))
+
+
+def _unit(v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    length = np.sqrt((v * v).sum(axis=1))
+    return np.asarray(v / np.where(length > 0.0, length, 1.0)[:, None])

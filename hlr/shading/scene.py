@@ -1,0 +1,44 @@
+"""A scene made ready for pictures: its triangles with their normals and colours, in the kernel."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.scene.scene import Scene
+from hlr.shading.normals import corner_normals
+from hlr.shading.paint import corner_paint
+from hlr.source.model import Floats, Look
+
+
+@dataclass(frozen=True, slots=True)
+class ShadedScene:
+    """model: the kernel's; points (n, 3) of all that is shown; opacity: the least of all."""
+
+    model: _kernel.ShadedModel
+    points: Floats
+    opacity: float
+
+
+def shaded_scene(scene: Scene, looks: Mapping[str, Look], near: Floats | None = None, threads: int = 0) -> ShadedScene:
+    """The triangles of a scene, ready for any number of pictures.
+
+    near: (n,) what of the scene's points lies behind the near plane is not positive; None: nothing does. Bodies that
+    reach there are cut open, and seen from inside.
+    """
+    normals, corner = corner_normals(scene, threads)
+    colours, paint = corner_paint(scene, looks)
+    opened = np.zeros(len(scene.groups.cull), bool)
+    glass = (colours[:, 3] < 1.0)[paint].any(axis=1)
+    opened[scene.triangle_group[glass]] = True
+    if near is not None:
+        behind = (near[scene.triangles] <= 0.0).any(axis=1)
+        opened[scene.triangle_group[behind]] = True
+    cull = (scene.groups.cull & ~opened)[scene.triangle_group]
+    used = np.zeros(len(scene.points), bool)
+    used[scene.triangles] = True
+    model = _kernel.ShadedModel(scene.points, scene.triangles, corner, normals, paint, colours, cull)
+    return ShadedScene(model, scene.points[used], float(colours[paint, 3].min(initial=1.0)))

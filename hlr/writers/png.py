@@ -1,0 +1,132 @@
+"""PNG by Pillow: the picture, its depth map and its map of faces, each with what it shows in its text chunks.
+
+The same picture gives the same bytes: no dates, no paths.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hlr.errors import OptionError, WriteError
+from hlr.picture import Picture
+
+NOTHING = 65535
+"""In a depth map: nothing is seen there."""
+
+FARTHEST = 65534
+
+
+def parse_color(text: str) -> tuple[int, int, int, int]:
+    """Red, green, blue, opacity, 0 to 255, of a CSS colour name, #rrggbb or transparent; raises OptionError."""
+    if text.strip().lower() in ("transparent", "none"):
+        return (0, 0, 0, 0)
+    image_color = _pillow("ImageColor")
+    try:
+        found = image_color.getcolor(text.strip(), "RGBA")
+    except ValueError:
+        raise OptionError(f"{text!r} is no colour: give a CSS name such as white, #rrggbb, or transparent") from None
+    red, green, blue, opacity = found
+    return (int(red), int(green), int(blue), int(opacity))
+
+
+def picture_png(picture: Picture) -> bytes:
+    """RGB, or RGBA where some of it is transparent."""
+    pixels = picture.pixels
+    opaque = bool((pixels[:, :, 3] == 255).all())
+    return _encoded(picture, np.ascontiguousarray(pixels[:, :, :3]) if opaque else pixels, {})
+
+
+def depth_png(picture: Picture) -> bytes:
+    """16-bit grey: 0 nearest, 65534 farthest, 65535 nothing; Depth-Near and Depth-Far are in millimetres."""
+    depth = picture.depth
+    if depth is None:
+        raise WriteError("the picture has no depth map: ask for it with depth=True")
+    seen = np.isfinite(depth)
+    near, far = (float(depth[seen].min()), float(depth[seen].max())) if seen.any() else (0.0, 0.0)
+    share = (np.where(seen, depth, near) - near) / ((far - near) or 1.0)
+    levels = np.where(seen, np.rint(share * FARTHEST), NOTHING).astype(np.uint16)
+    return _encoded(picture, levels, {"Depth-Near": f"{near:.9g} mm", "Depth-Far": f"{far:.9g} mm"})
+
+
+def ids_png(picture: Picture) -> bytes:
+    """RGB: red * 65536 + green * 256 + blue is the number of the face plus one, 0 where there is none.
+
+    The text chunk Faces is JSON: for each part its name and the number of its first face.
+    """
+    ids = picture.ids
+    if ids is None:
+        raise WriteError("the picture has no map of faces: ask for it with ids=True")
+    if int(picture.first_face[-1]) >= 1 << 24:
+        raise WriteError("the model has more than 16.7 million faces: they cannot be told apart in a PNG")
+    number = (ids + 1).astype(np.uint32)
+    rgb = np.stack([number >> 16, number >> 8, number], axis=2).astype(np.uint8)
+    faces = [[part.name, int(first)] for part, first in zip(picture.parts, picture.first_face[:-1], strict=True)]
+    return _encoded(picture, rgb, {"Faces": json.dumps(faces)})
+
+
+def write_png(picture: Picture, path: str | Path, depth: str | Path | None, ids: str | Path | None) -> Path:
+    """All files or none; returns the picture's path."""
+    from hlr.writers import files
+
+    target = check_png(path)
+    wanted = {check_png(p): make for p, make in ((depth, depth_png), (ids, ids_png)) if p is not None}
+    if target in wanted or len(wanted) < (depth is not None) + (ids is not None):
+        raise WriteError(
+            f"two maps would be written to one file; give picture, depth and ids a name each, not {target}"
+        )
+    files.place({target: picture_png(picture), **{p: make(picture) for p, make in wanted.items()}})
+    return target
+
+
+def check_png(path: str | Path) -> Path:
+    """The path; raises WriteError where it does not end in .png, or clearly cannot be written."""
+    from hlr.writers import files
+
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise WriteError(f"cannot write {path}: a picture is written as PNG; give a name that ends in .png")
+    files.check(path)
+    return path
+
+
+def _encoded(picture: Picture, pixels: Any, more: dict[str, str]) -> bytes:
+    from importlib.metadata import version
+
+    image_module, plugin = _pillow("Image"), _pillow("PngImagePlugin")
+    view = picture.view
+    direction = ",".join(f"{c:.6g}" for c in view.direction)
+    told = {
+        "Software": f"hlr {version('hlr-drawing')}",
+        "Source": picture.source,
+        "View": view.name,
+        "Projection": view.projection,
+        "Direction": direction,
+        "Scale": f"{picture.scale:.9g} pixels per millimetre",
+        **more,
+    }
+    if view.eye is not None and view.fov is not None:
+        told["Eye"] = ",".join(f"{c:.9g}" for c in view.eye)
+        told["Field of view"] = f"{view.fov:.6g} degrees"
+    info = plugin.PngInfo()
+    for key, value in told.items():
+        if value.isascii():
+            info.add_text(key, value, zip=len(value) > 1000)
+        else:
+            info.add_itxt(key, value, zip=len(value) > 1000)
+    out = io.BytesIO()
+    image_module.fromarray(pixels).save(out, "PNG", pnginfo=info)
+    return out.getvalue()
+
+
+def _pillow(name: str) -> Any:
+    from importlib import import_module
+
+    try:
+        return import_module(f"PIL.{name}")
+    except ImportError:
+        raise WriteError("pictures need Pillow: pip install pillow") from None
