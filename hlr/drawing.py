@@ -41,6 +41,21 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
+class Fill:
+    """Faces under the lines, in the order of drawing: far to near.
+
+    points (n, 2) millimetres on paper, y up; loops (l + 1,) int32 into points, faces (f + 1,) int32 into loops, filled
+    by the even-odd rule; colors (f, 3) uint8 sRGB; part (f,) int32 index into Drawing.parts
+    """
+
+    points: Points
+    loops: npt.NDArray[np.int32]
+    faces: npt.NDArray[np.int32]
+    colors: npt.NDArray[np.uint8]
+    part: npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
 class DrawnPart:
     """A part as the drawing names it. color: sRGB 0..1; transform: (4, 4) placement, row major."""
 
@@ -76,6 +91,7 @@ class Drawing:
     accuracy  {"asked": mm or None, "used": mm, "deflection": model units, ...}
     unit      millimetres per model unit
     up_axis   (3, 3) model frame -> z-up world
+    fill      faces under the lines, in SVG and PDF; None unless asked for
     timings   seconds: source, tessellate, scene, plan, visibility, linework, write, total
     """
 
@@ -91,6 +107,7 @@ class Drawing:
     notes: tuple[str, ...] = ()
     counters: Mapping[str, int] = field(default_factory=dict)
     timings: dict[str, float] = field(default_factory=dict)
+    fill: Fill | None = None
 
     def bounds(self) -> tuple[float, float, float, float]:
         """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""

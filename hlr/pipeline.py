@@ -139,7 +139,12 @@ def drawing_of(
     lines, origin = draw_lines(
         seen, curves, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads
     )
-    lap(clock, "linework", started)
+    fill = None
+    if options.fill:
+        from hlr.surfaces.fill import filled
+
+        fill = filled(seen, camera, at.per_model, origin)
+    _lap(clock, "linework", started)
     clock["write"] = 0.0
     clock["total"] = sum(clock.values())
     return Drawing(
@@ -160,6 +165,7 @@ def drawing_of(
         notes=tuple(dict.fromkeys((*opened.notes, *scene.notes, *at.notes, *_empty(lines)))),
         counters={**segments.counters, "lines": len(lines), "clipping_planes": cuts},
         timings=clock,
+        fill=fill,
     )
 
 

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     default=True,
     help="Lines where surfaces pass through each other. Default: on.",
 )
+@click.option("--fill", is_flag=True, help="Paint the visible faces under the lines, in SVG and PDF.")
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
 @click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
 @options(*CARE, *CAMERA, *RUN)
@@ -69,8 +70,11 @@ def draw(
     A CadQuery or build123d script is run to get its model.
     """
     views = views or ("iso",)
-    request = _options(**wishes)
-    targets = _targets(output, source, names_of(views), format, as_json)
+    names = [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views]
+    options = _options(**wishes)
+    targets = _targets(output, source, names, format, as_json)
+    if options.fill and any(kind == "json" for _, kind in targets):
+        raise OptionError("--fill paints SVG and PDF; JSON holds lines only")
 
     start(source)
     # While anything runs that is not ours, standard output is out of its reach.

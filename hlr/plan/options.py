@@ -39,6 +39,7 @@ class Options:
                  neighbours are less than the crease angle (and 45 degrees) apart
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
+    fill         paint the visible faces, flat-shaded, under the lines (SVG and PDF)
     threads      0: all cores
     strict       warnings are errors
     """
@@ -54,5 +55,6 @@ class Options:
     circles: bool = False
     up: Vector | None = None
     perspective: Perspective | None = None
+    fill: bool = False
     threads: int = 0
     strict: bool = False

@@ -16,6 +16,9 @@ from hlr.view.camera import Camera
 
 PAINTERS = ("depth sort", "bsp")
 
+MOST = 2**63 - 1
+"""Comparisons, where nothing else is said."""
+
 
 @dataclass(frozen=True, slots=True)
 class PaintersList:
@@ -49,18 +52,22 @@ def painters_list(
     window: Window | None = None,
     space: str = "image",
     time_limit: float | None = None,
+    most_comparisons: int = MOST,
 ) -> PaintersList:
     """The polygons of a scene in the order of drawing, split where they overlap in a cycle or pass through one another.
 
-    method is "depth sort" or "bsp"; all else as in `render`. Raises OptionError, NotFinishedError.
+    method is "depth sort", which may be given up after so many comparisons, or "bsp"; all else as in
+    `render`. Raises OptionError, NotFinishedError.
     """
     if method not in PAINTERS:
         raise OptionError(f"{method!r} has no order of drawing: use {' or '.join(PAINTERS)}")
     polygons = polygons_of(scene, rule, cull)
     port = viewport(camera, polygons.points, size, window=window, space=space)
-    found = polygons.kernel().painters_list(port.kernel(), method, math.inf if time_limit is None else time_limit)
+    seconds = math.inf if time_limit is None else time_limit
+    found = polygons.kernel().painters_list(port.kernel(), method, seconds, most_comparisons)
     if found is None:
-        raise NotFinishedError(f"{method} did not finish within {time_limit:g} seconds")
+        limit = f"{most_comparisons:,} comparisons" if time_limit is None else f"{time_limit:g} seconds"
+        raise NotFinishedError(f"{method} did not finish within {limit}")
     return PaintersList(
         found["ids"], found["polygons"], found["loops"], found["points"], int(found["statistics"]["splits"])
     )

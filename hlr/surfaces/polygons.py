@@ -39,6 +39,22 @@ class Polygons:
     def __len__(self) -> int:
         return len(self.polygons) - 1
 
+    def chosen(self, which: npt.NDArray[np.int64]) -> Polygons:
+        """Only these polygons, in this order, renumbered; points stay as they are."""
+        loops = np.concatenate(
+            [np.zeros(0, np.int64), *[np.arange(self.polygons[p], self.polygons[p + 1]) for p in which]]
+        )
+        lengths = self.loops[loops + 1] - self.loops[loops]
+        runs = [self.corners[self.loops[k] : self.loops[k + 1]] for k in loops]
+        return Polygons(
+            self.points,
+            np.concatenate([np.zeros(0, np.int32), *runs]),
+            np.append(0, np.cumsum(lengths)).astype(np.int32),
+            np.append(0, np.cumsum(self.polygons[which + 1] - self.polygons[which])).astype(np.int32),
+            self.cull[which],
+            self.rule,
+        )
+
     def kernel(self, values: Floats | None = None) -> _kernel.RasterScene:
         """The kernel's scene; values (n, 3) per point are interpolated where that is asked for."""
         none = np.zeros((0, 3))

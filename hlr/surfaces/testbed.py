@@ -41,10 +41,11 @@ def polygons(count: int, size: tuple[int, int], crossing: bool = False, seed: in
         depth = rng.uniform(0.0, DEEP, count)
         slope = rng.uniform(-1.0, 1.0, (count, 2)) * 0.5 * DEEP / radius
     else:
-        depth = rng.permutation(count) * (DEEP / count)
+        depth = rng.permutation(count).astype(np.float64) * (DEEP / count)
         slope = rng.uniform(-1.0, 1.0, (count, 2)) * 0.3 * DEEP / count / radius
     z = depth[owner] + (away * slope[owner]).sum(axis=1)
-    points: Floats = np.concatenate([flat, z[:, None]], axis=1).astype(np.float64)
+    points: Floats = np.empty((len(z), 3), np.float64)
+    points[:, :2], points[:, 2] = flat, z
     offsets = np.append(first, len(owner)).astype(np.int32)
     return Polygons(
         points,

@@ -10,6 +10,7 @@ import numpy as np
 
 from hlr.errors import OptionError
 from hlr.source.model import Floats, Ints
+from hlr.surfaces.painters import MOST
 from hlr.surfaces.polygons import Polygons, polygons_of
 from hlr.surfaces.render import Rendering, rendering
 from hlr.surfaces.viewport import Screen, Window, viewport
@@ -51,7 +52,7 @@ class BspTree:
     def order(self, camera: Camera | Screen, size: tuple[int, int] = (1024, 1024)) -> Ints:
         """(n,) int32: the polygons in the order of drawing, far to near, once for each piece before the camera."""
         port = viewport(camera, self.polygons.points, size)
-        found = self._scene.painters_list(port.kernel(), "bsp", math.inf)
+        found = self._scene.painters_list(port.kernel(), "bsp", math.inf, MOST)
         return found["ids"] if found is not None else np.zeros(0, np.int32)
 
     def render(self, camera: Camera | Screen, size: tuple[int, int], *, window: Window | None = None) -> Rendering:

@@ -12,7 +12,7 @@ import zlib
 import pydyf
 
 from hlr import _kernel
-from hlr.drawing import Drawing
+from hlr.drawing import Drawing, Fill
 from hlr.writers import style
 from hlr.writers.number import number
 from hlr.writers.strokes import Strokes, strokes
@@ -30,8 +30,11 @@ def pdf(drawing: Drawing) -> bytes:
     page = strokes(drawing, cubic=True)
     document = pydyf.PDF()
     layers = []
-    for layer in page.layers:
-        group = pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(layer_name(layer.kind, layer.visible))})
+    labels = [layer_name(layer.kind, layer.visible) for layer in page.layers]
+    if drawing.fill is not None:
+        labels.insert(0, "Fill")
+    for name in labels:
+        group = pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(name)})
         document.add_object(group)
         layers.append(group.reference)
 
@@ -39,7 +42,7 @@ def pdf(drawing: Drawing) -> bytes:
     side = max(page.width, page.height) * unit * _POINTS_PER_MM
     user_unit = max(1, math.ceil(side / _MAX_SIDE))
     factor = _POINTS_PER_MM / user_unit
-    content = zlib.compress(_content(page, factor), _LEVEL)
+    content = zlib.compress(_content(page, factor, drawing.fill), _LEVEL)
     stream = pydyf.Stream([content], {"Filter": "/FlateDecode"})
     document.add_object(stream)
 
@@ -71,12 +74,16 @@ def layer_name(kind: str, visible: bool) -> str:
     return f"{'Visible' if visible else 'Hidden'} {kind}"
 
 
-def _content(page: Strokes, factor: float) -> bytes:
+def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
     """The page's drawing commands, in millimetres."""
     unit = 10.0**-page.places
     shift = f"{_real(-page.left * unit * factor)} {_real(-page.bottom * unit * factor)}"
     out = [f"{_real(factor)} 0 0 {_real(factor)} {shift} cm 1 j\n".encode("ascii")]
-    for index, layer in enumerate(page.layers):
+    if fill is not None:
+        from hlr.writers.fill import pdf_content
+
+        out += [b"/OC /L0 BDC ", pdf_content(fill, page.places), b"EMC\n"]
+    for index, layer in enumerate(page.layers, 0 if fill is None else 1):
         dash = style.dash(layer.visible)
         pattern = " ".join(number(v) for v in dash) if dash else ""
         # Round caps would lengthen each dash by the line width.

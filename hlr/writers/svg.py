@@ -42,6 +42,10 @@ def svg(drawing: Drawing) -> bytes:
         f"<title>{escape(_clean(title(drawing)))}</title>\n",
         _metadata(drawing),
     ]
+    if drawing.fill is not None:
+        from hlr.writers.fill import svg_group
+
+        out.extend(svg_group(drawing.fill, page.places))
     for visible, layers in groupby(page.layers, lambda layer: layer.visible):
         out.append(_open_group(visible))
         for layer in layers:

@@ -280,13 +280,15 @@ impl RasterScene {
     }
 
     /// The painter's list of depth sort or of the BSP tree: ids, where each one's loops and points begin, points in pixels.
-    #[pyo3(signature = (camera, method, seconds))]
+    /// None where it takes longer than so many seconds, or depth sort more than `most` comparisons.
+    #[pyo3(signature = (camera, method, seconds, most))]
     fn painters_list<'py>(
         &self,
         py: Python<'py>,
         camera: CameraTuple,
         method: &str,
         seconds: f64,
+        most: u64,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let camera = camera_of(camera);
         let by_tree = matches!(method_of(method, "")?, Method::Bsp);
@@ -297,7 +299,7 @@ impl RasterScene {
                 self.with_tree(&watch, &mut statistics, |tree, _| tree_list(tree, &camera, &watch))
             } else {
                 screen(&self.scene(), &camera, &watch, &mut statistics)
-                    .and_then(|on| sorted_list(&on, &watch, &mut statistics))
+                    .and_then(|on| sorted_list(&on, most, &watch, &mut statistics))
             };
             listed.map(|l| (l, statistics))
         })?;
