@@ -5,7 +5,8 @@
 //! 2. `near`       the six-plane cut, only of triangles that cross the near plane or leave the range of integers
 //! 3. `faces`      triangles as integers in 1/256 pixel, what cannot be seen left out, sorted into strips of the picture
 //! 4. `tiles`      each strip's faces sorted into tiles that stay in the first cache; one tile after another:
-//! 5. `raster`       which samples a face owns (top-left rule, exact), and which are nearer than what was there
+//! 5. `raster`     which samples a face owns (top-left rule, exact), and which are nearer than what was there: `spans`
+//!                with one sample a pixel, `edges` with sixteen
 //! 6. `glass`        transparent faces: all layers before the nearest opaque one, sorted by depth
 //! 7. `surface`      the point of the true triangle under a sample: perspective-correct, no clipping needed
 //! 8. `shade`        light
@@ -18,6 +19,7 @@
 //! Every tile is computed by one thread, from faces in the order of the model: the bytes do not depend on how many threads
 //! there are.
 
+pub mod edges;
 pub mod faces;
 pub mod glass;
 pub mod lens;
@@ -30,6 +32,7 @@ pub mod raster;
 pub mod resolve;
 pub mod shade;
 pub mod shadow;
+pub mod spans;
 pub mod stroke;
 pub mod surface;
 pub mod tiles;

@@ -18,23 +18,23 @@
 //!   +-------+
 //! ```
 
-use super::NOTHING;
 use super::faces::{Face, GRID};
+use super::{NOTHING, edges, spans};
 
 pub const TILE_WIDTH: usize = 64;
 pub const TILE_HEIGHT: usize = 64;
-const LANES: usize = 8;
+pub const LANES: usize = 8;
 const EMPTY: u32 = 2f32.to_bits();
 /// Beyond this an edge function keeps its sign all over the tile.
-const FAR: i64 = 1_000_000_000;
+pub const FAR: i64 = 1_000_000_000;
 
 /// Where a pixel is looked at.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampling {
     /// Samples along a side of a pixel: 1 or 4.
     pub side: usize,
-    shift: u32,
-    shear: [i32; 4],
+    pub shift: u32,
+    pub shear: [i32; 4],
 }
 
 impl Sampling {
@@ -87,6 +87,12 @@ impl Tile {
         self.triangle.as_flattened_mut().fill(NOTHING);
     }
 
+    /// Depths, as bits, and owners of a row.
+    #[inline(always)]
+    pub fn row(&mut self, row: usize) -> (&mut [u32; TILE_WIDTH], &mut [u32; TILE_WIDTH]) {
+        (&mut self.depth[row], &mut self.triangle[row])
+    }
+
     pub fn depth(&self, i: usize, j: usize) -> f32 {
         f32::from_bits(self.depth[j][i])
     }
@@ -120,131 +126,15 @@ fn fill_avx2(tile: &mut Tile, faces: &[Face], first: [i32; 2], sampling: &Sampli
 fn fill_any(tile: &mut Tile, faces: &[Face], first: [i32; 2], sampling: &Sampling) {
     for face in faces {
         if sampling.side == 1 {
-            fill_face::<1>(tile, face, first, sampling);
+            spans::fill(tile, face, first, sampling);
         } else {
-            fill_face::<4>(tile, face, first, sampling);
+            edges::fill(tile, face, first, sampling);
         }
-    }
-}
-
-/// An edge function at the samples of a tile's first rows and columns, `P` of them until the pattern repeats.
-#[derive(Clone, Copy)]
-struct Edge<const P: usize> {
-    at: [[i32; LANES]; P],
-    by_row: i32,
-    by_lanes: i32,
-}
-
-impl<const P: usize> Edge<P> {
-    /// `a`, `b`: growth per column and row; `value`: at the first sample.
-    #[inline(always)]
-    fn new(a: i32, b: i32, value: i64, sampling: &Sampling) -> Edge<P> {
-        // Left and top edges own what lies on them.
-        let value = value.wrapping_sub(i64::from(!(a > 0 || (a == 0 && b > 0))));
-        let mut at = [[0i32; LANES]; P];
-        for (row, lanes) in at.iter_mut().enumerate() {
-            if P == 1 {
-                *lanes = [(value >> sampling.shift).clamp(-FAR, FAR) as i32; LANES];
-            } else {
-                let value = value.wrapping_add(i64::from(a).wrapping_mul(i64::from(sampling.shear[row & 3])));
-                for l in 0..4 {
-                    let v = value.wrapping_add(i64::from(b).wrapping_mul(i64::from(sampling.shear[l])));
-                    let v = (v >> sampling.shift).clamp(-FAR, FAR) as i32;
-                    lanes[l] = v;
-                    lanes[l + 4] = v;
-                }
-            }
-            for (l, v) in lanes.iter_mut().enumerate() {
-                *v = v.wrapping_add(a.wrapping_mul(l as i32));
-            }
-        }
-        Edge { at, by_row: b, by_lanes: a.wrapping_mul(LANES as i32) }
-    }
-
-    /// At the lanes from column `chunk * LANES` of a row.
-    #[inline(always)]
-    fn lanes(&self, row: usize, chunk: usize) -> [i32; LANES] {
-        let more = self.by_row.wrapping_mul(row as i32).wrapping_add(self.by_lanes.wrapping_mul(chunk as i32));
-        let mut out = self.at[row % P];
-        for v in &mut out {
-            *v = v.wrapping_add(more);
-        }
-        out
-    }
-}
-
-/// The span of each row: columns that a face may own, widened by what the shear moves samples, and by what rounding may.
-/// The edge functions decide; this saves looking where they cannot all be positive. In 2^-20 of a column.
-struct Spans {
-    /// A bound by each edge, as start and slope: those of left edges, and those of right ones.
-    left: [[i64; 2]; 3],
-    right: [[i64; 2]; 3],
-}
-
-const FINE: u32 = 20;
-
-impl Spans {
-    const NONE: Spans = Spans { left: [[0; 2]; 3], right: [[(TILE_WIDTH as i64) << FINE, 0]; 3] };
-
-    /// Edge k with its coefficients a, b and its value at the first sample.
-    #[inline(always)]
-    fn bound<const P: usize>(&mut self, k: usize, a: i32, b: i32, value: i64, per_step: f64) {
-        if a == 0 {
-            return;
-        }
-        let over = -f64::from(1u32 << FINE) / f64::from(a);
-        let (start, slope) = (value as f64 * per_step * over, f64::from(b) * over);
-        let spare = if P == 1 { 1024.0 } else { 0.5 * f64::from(1u32 << FINE) + 0.5 * slope.abs() };
-        if a > 0 {
-            self.left[k] = [(start - spare) as i64, slope as i64];
-        } else {
-            self.right[k] = [(start + spare) as i64, slope as i64];
-        }
-    }
-
-    /// Chunks of lanes, within the face's own.
-    #[inline(always)]
-    fn row(&self, row: usize, chunks: [usize; 2]) -> [usize; 2] {
-        const CHUNK: u32 = FINE + LANES.trailing_zeros();
-        let at = |line: &[i64; 2]| line[0].wrapping_add(line[1].wrapping_mul(row as i64));
-        let low = at(&self.left[0]).max(at(&self.left[1])).max(at(&self.left[2])).max(0);
-        let high = at(&self.right[0]).min(at(&self.right[1])).min(at(&self.right[2]));
-        [((low >> CHUNK) as usize).max(chunks[0]), (((high >> CHUNK) + 1).max(0) as usize).min(chunks[1])]
-    }
-}
-
-/// All that a face needs in a tile.
-struct Ready<const P: usize> {
-    edges: [Edge<P>; 3],
-    spans: Spans,
-    slope: Slope<P>,
-    rows: [usize; 2],
-    chunks: [usize; 2],
-}
-
-impl<const P: usize> Ready<P> {
-    #[inline(always)]
-    fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Ready<P> {
-        let (rows, chunks) = window(face, first, sampling);
-        let half = 1i32 << (sampling.shift - 1);
-        let (x, y) = ((first[0] << sampling.shift).wrapping_add(half), (first[1] << sampling.shift).wrapping_add(half));
-        let per_step = 1.0 / f64::from(1u32 << sampling.shift);
-        let mut spans = Spans::NONE;
-        let mut edge = |k: usize, n: usize| {
-            let (a, b) = (face.y[k].wrapping_sub(face.y[n]), face.x[n].wrapping_sub(face.x[k]));
-            let value = i64::from(a)
-                .wrapping_mul(i64::from(x.wrapping_sub(face.x[k])))
-                .wrapping_add(i64::from(b).wrapping_mul(i64::from(y.wrapping_sub(face.y[k]))));
-            spans.bound::<P>(k, a, b, value, per_step);
-            Edge::new(a, b, value, sampling)
-        };
-        let edges = [edge(0, 1), edge(1, 2), edge(2, 0)];
-        Ready { edges, spans, slope: Slope::new(face, first, sampling), rows, chunks }
     }
 }
 
 /// Depth over a tile: affine, and never beyond the face's own.
-struct Slope<const P: usize> {
+pub struct Slope {
     start: f64,
     dx: f64,
     dy: f64,
@@ -253,9 +143,9 @@ struct Slope<const P: usize> {
     lanes: [f32; LANES],
 }
 
-impl<const P: usize> Slope<P> {
+impl Slope {
     #[inline(always)]
-    fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Slope<P> {
+    pub fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Slope {
         let (x1, y1) = (f64::from(face.x[1] - face.x[0]), f64::from(face.y[1] - face.y[0]));
         let (x2, y2) = (f64::from(face.x[2] - face.x[0]), f64::from(face.y[2] - face.y[0]));
         let z0 = f64::from(face.depth[0]);
@@ -267,7 +157,7 @@ impl<const P: usize> Slope<P> {
         let at = |f: i32, corner: i32| f64::from(f) + 0.5 - f64::from(corner) / step;
         let mut lanes = [0f32; LANES];
         for (l, v) in lanes.iter_mut().enumerate() {
-            let shear = if P == 1 { 0.0 } else { sampling.shear[l & 3] as f32 / 64.0 };
+            let shear = sampling.shear[l & 3] as f32 / 64.0;
             *v = dx as f32 * l as f32 + dy as f32 * shear;
         }
         Slope {
@@ -280,10 +170,11 @@ impl<const P: usize> Slope<P> {
         }
     }
 
+    /// At eight columns of a row; the first is a multiple of four, or samples are not sheared.
     #[inline(always)]
-    fn lanes(&self, row: usize, chunk: usize, sampling: &Sampling) -> [f32; LANES] {
-        let shear = if P == 1 { 0.0 } else { f64::from(sampling.shear[row & 3]) / 64.0 };
-        let start = (self.start + self.dy * row as f64 + self.dx * ((chunk * LANES) as f64 + shear)) as f32;
+    pub fn lanes(&self, row: usize, column: usize, sampling: &Sampling) -> [f32; LANES] {
+        let shear = f64::from(sampling.shear[row & 3]) / 64.0;
+        let start = (self.start + self.dy * row as f64 + self.dx * (column as f64 + shear)) as f32;
         let mut out = self.lanes;
         for v in &mut out {
             *v += start;
@@ -300,7 +191,7 @@ impl<const P: usize> Slope<P> {
 
 /// Rows and chunks of lanes of a tile that a face reaches.
 #[inline(always)]
-fn window(face: &Face, first: [i32; 2], sampling: &Sampling) -> ([usize; 2], [usize; 2]) {
+pub fn window(face: &Face, first: [i32; 2], sampling: &Sampling) -> ([usize; 2], [usize; 2]) {
     let columns = sampling.reach(&face.x, usize::MAX);
     let rows = sampling.reach(&face.y, usize::MAX);
     let within = |v: i32, from: i32, most: usize| v.wrapping_sub(from).clamp(0, most as i32) as usize;
@@ -309,29 +200,11 @@ fn window(face: &Face, first: [i32; 2], sampling: &Sampling) -> ([usize; 2], [us
     ([within(rows[0], first[1], TILE_HEIGHT), within(rows[1], first[1], TILE_HEIGHT)], chunks)
 }
 
+/// Where z is less than the depth, and nothing is masked as outside, it takes its place. Without branches: depths are not
+/// negative, so they compare as the integers that their bits are, and a sign shifted all through is a mask.
 #[inline(always)]
-fn fill_face<const P: usize>(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
-    let ready = Ready::<P>::new(face, first, sampling);
-    let edges = &ready.edges;
-    for row in ready.rows[0]..ready.rows[1].min(TILE_HEIGHT) {
-        let (depths, _) = tile.depth[row].as_chunks_mut::<LANES>();
-        let (owners, _) = tile.triangle[row].as_chunks_mut::<LANES>();
-        let [from, to] = ready.spans.row(row, ready.chunks);
-        for chunk in from..to.min(TILE_WIDTH / LANES) {
-            let (a, b, c) = (edges[0].lanes(row, chunk), edges[1].lanes(row, chunk), edges[2].lanes(row, chunk));
-            let z = ready.slope.lanes(row, chunk, sampling);
-            nearer(&a, &b, &c, &z, face.triangle, &mut depths[chunk], &mut owners[chunk]);
-        }
-    }
-}
-
-/// Where all three edge functions are positive and z is less than the depth, it takes its place. Without branches: depths
-/// are not negative, so they compare as the integers that their bits are, and a sign shifted all through is a mask.
-#[inline(always)]
-fn nearer(
-    a: &[i32; LANES],
-    b: &[i32; LANES],
-    c: &[i32; LANES],
+pub fn nearer(
+    outside: &[i32; LANES],
     z: &[f32; LANES],
     triangle: u32,
     depth: &mut [u32; LANES],
@@ -339,35 +212,28 @@ fn nearer(
 ) {
     for l in 0..LANES {
         let z = z[l].to_bits();
-        let outside = (a[l] | b[l] | c[l]) >> 31;
-        let wins = ((z.wrapping_sub(depth[l]) as i32 >> 31) & !outside) as u32;
+        let wins = ((z.wrapping_sub(depth[l]) as i32 >> 31) & !outside[l]) as u32;
         depth[l] ^= (depth[l] ^ z) & wins;
         owner[l] ^= (owner[l] ^ triangle) & wins;
     }
 }
 
 /// Call `found` with column, row and depth of each sample of the tile that the face owns.
-pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, found: impl FnMut(usize, usize, f32)) {
+pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
     if sampling.side == 1 {
-        each::<1>(face, first, sampling, found);
+        spans::each(face, first, sampling, |row, from, to, slope| {
+            for column in from..to {
+                found(column, row, slope.lanes(row, column, sampling)[0]);
+            }
+        });
     } else {
-        each::<4>(face, first, sampling, found);
-    }
-}
-
-fn each<const P: usize>(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
-    let ready = Ready::<P>::new(face, first, sampling);
-    for row in ready.rows[0]..ready.rows[1] {
-        let [from, to] = ready.spans.row(row, ready.chunks);
-        for chunk in from..to {
-            let [a, b, c] = [0, 1, 2].map(|k| ready.edges[k].lanes(row, chunk));
-            let z = ready.slope.lanes(row, chunk, sampling);
+        edges::each(face, first, sampling, |row, chunk, outside, z| {
             for l in 0..LANES {
-                if (a[l] | b[l] | c[l]) >= 0 {
+                if outside[l] == 0 {
                     found(chunk * LANES + l, row, z[l]);
                 }
             }
-        }
+        });
     }
 }
 

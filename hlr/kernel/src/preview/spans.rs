@@ -1,0 +1,127 @@
+//! One sample a pixel: the exact span of each row, followed from row to row by whole numbers.
+//!
+//! J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4, 1965, for polygons: with
+//! n(j) = E(0, j), floored to steps of the grid, a left edge (a > 0) owns the columns
+//!
+//! ```text
+//!     a i + n(j) >= 0      i >= -floor(n(j) / a)              quotient and remainder of n(j + 1) = n(j) + b
+//!                                                             follow from those of n(j) by an addition and a carry
+//! ```
+//!
+//! and a right one those up to floor(n(j) / -a). There are no edge functions left within the row.
+
+use super::faces::Face;
+use super::raster::{LANES, Sampling, Slope, TILE_WIDTH, Tile, nearer, window};
+
+/// floor(n(j) / d) as j grows.
+#[derive(Clone, Copy)]
+struct Quotient {
+    value: i64,
+    rest: i64,
+    /// Of what is added per row.
+    value_by_row: i64,
+    rest_by_row: i64,
+    divisor: i64,
+}
+
+impl Quotient {
+    const fn constant(value: i64) -> Quotient {
+        Quotient { value, rest: 0, value_by_row: 0, rest_by_row: 0, divisor: 1 }
+    }
+
+    #[inline(always)]
+    fn new(n: i64, by_row: i64, divisor: i64) -> Quotient {
+        let over = 1.0 / divisor as f64;
+        let (value, rest) = divided(n, divisor, over);
+        let (value_by_row, rest_by_row) = divided(by_row, divisor, over);
+        Quotient { value, rest, value_by_row, rest_by_row, divisor }
+    }
+
+    #[inline(always)]
+    fn step(&mut self) {
+        let rest = self.rest.wrapping_add(self.rest_by_row).wrapping_sub(self.divisor);
+        // Minus one where there is no carry.
+        let none = rest >> 63;
+        self.rest = rest.wrapping_add(self.divisor & none);
+        self.value = self.value.wrapping_add(self.value_by_row).wrapping_add(1).wrapping_add(none);
+    }
+}
+
+/// Floor and remainder of n / d, for |n| < 2^45: the quotient in floating point is off by one at most.
+#[inline(always)]
+fn divided(n: i64, d: i64, over: f64) -> (i64, i64) {
+    let q = (n as f64 * over) as i64;
+    let r = n.wrapping_sub(q.wrapping_mul(d));
+    let (q, r) = if r < 0 { (q.wrapping_sub(1), r.wrapping_add(d)) } else { (q, r) };
+    let (q, r) = if r < 0 { (q.wrapping_sub(1), r.wrapping_add(d)) } else { (q, r) };
+    if r >= d { (q.wrapping_add(1), r.wrapping_sub(d)) } else { (q, r) }
+}
+
+#[inline(always)]
+pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
+    each(face, first, sampling, |row, from, to, slope| {
+        let (depths, owners) = tile.row(row);
+        let mut column = from;
+        while column < to {
+            // Eight lanes that begin with the span, or end with the tile.
+            let at = column.min(TILE_WIDTH - LANES);
+            let z = slope.lanes(row, at, sampling);
+            let mut outside = [0i32; LANES];
+            for (l, v) in outside.iter_mut().enumerate() {
+                let i = (at + l) as i32;
+                *v = (i.wrapping_sub(column as i32) | (to as i32 - 1).wrapping_sub(i)) >> 31;
+            }
+            if let (Some(depth), Some(owner)) =
+                (depths[at..].first_chunk_mut::<LANES>(), owners[at..].first_chunk_mut::<LANES>())
+            {
+                nearer(&outside, &z, face.triangle, depth, owner);
+            }
+            column = at + LANES;
+        }
+    });
+}
+
+/// Call `found` with each row and the span of columns that the face owns there, first and one after the last.
+#[inline(always)]
+pub fn each(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, usize, &Slope)) {
+    let (rows, _) = window(face, first, sampling);
+    let (mut top, mut end) = (rows[0] as i64, rows[1] as i64);
+    let half = 1i32 << (sampling.shift - 1);
+    let (x, y) = ((first[0] << sampling.shift).wrapping_add(half), (first[1] << sampling.shift).wrapping_add(half));
+    let mut left = [Quotient::constant(0); 2];
+    let mut right = [Quotient::constant(TILE_WIDTH as i64 - 1); 2];
+    let (mut lefts, mut rights) = (0, 0);
+    for (k, n) in [(0, 1), (1, 2), (2, 0)] {
+        let (a, b) = (face.y[k].wrapping_sub(face.y[n]), face.x[n].wrapping_sub(face.x[k]));
+        let value = i64::from(a)
+            .wrapping_mul(i64::from(x.wrapping_sub(face.x[k])))
+            .wrapping_add(i64::from(b).wrapping_mul(i64::from(y.wrapping_sub(face.y[k]))));
+        // Left and top edges own what lies on them.
+        let value = value.wrapping_sub(i64::from(!(a > 0 || (a == 0 && b > 0)))) >> sampling.shift;
+        let (a, b) = (i64::from(a), i64::from(b));
+        let start = value.wrapping_add(b.wrapping_mul(rows[0] as i64));
+        if a > 0 {
+            left[lefts & 1] = Quotient::new(start, b, a);
+            lefts += 1;
+        } else if a < 0 {
+            right[rights & 1] = Quotient::new(start, b, -a);
+            rights += 1;
+        } else if b > 0 {
+            top = top.max(-value.div_euclid(b));
+        } else if b < 0 {
+            end = end.min(value.div_euclid(-b) + 1);
+        }
+    }
+    let slope = Slope::new(face, first, sampling);
+    for row in rows[0]..rows[1] {
+        let from = (-left[0].value).max(-left[1].value).max(0);
+        let to = right[0].value.min(right[1].value).min(TILE_WIDTH as i64 - 1) + 1;
+        if from < to && (top..end).contains(&(row as i64)) {
+            found(row, from as usize, to as usize, &slope);
+        }
+        for side in [&mut left, &mut right] {
+            side[0].step();
+            side[1].step();
+        }
+    }
+}
