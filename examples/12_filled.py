@@ -5,10 +5,10 @@ from pathlib import Path
 import hlr
 
 here = Path(__file__).parent
-models = here / "models"
+views = {"as1-oc-214.stp": ("iso", 1.0), "nist_ctc_01_asme1_ap242-e1.stp": ("iso-sw", 0.25)}
 
-drawing = hlr.draw(models / "as1-oc-214.stp", hidden=False, fill=True)
-drawing.save(here / "filled.svg")
-
-casting = hlr.draw(models / "nist_ctc_01_asme1_ap242-e1.stp", hidden=False, fill=True, scale=0.25)
-casting.save(here / "filled_casting.svg")
+drawings = []
+for model, (view, scale) in views.items():
+    drawing = hlr.draw(here / "models" / model, view=view, scale=scale, hidden=False, fill=True)
+    drawing.save(here / f"filled-{drawing.view.name}.svg")
+    drawings.append(drawing)

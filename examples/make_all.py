@@ -10,12 +10,13 @@ DOTS_PER_MM = 5
 
 
 def raster(drawing, path):
-    """The drawing as a grey PNG on white, by way of its PDF."""
+    """The drawing as a PNG on white, grey unless it is filled, by way of its PDF."""
     import pypdfium2
 
     with TemporaryDirectory() as folder:
         page = pypdfium2.PdfDocument(drawing.save(Path(folder) / "page.pdf").read_bytes())[0]
-        image = page.render(scale=DOTS_PER_MM * 25.4 / 72).to_pil().convert("L").quantize(16)
+        image = page.render(scale=DOTS_PER_MM * 25.4 / 72).to_pil()
+        image = image.convert("L").quantize(16) if drawing.fill is None else image.convert("RGB").quantize(64)
     image.save(path, optimize=True)
 
 

@@ -20,7 +20,7 @@ use crate::raster::ray_casting::Acceleration;
 use crate::raster::scan_line::Coherence;
 use crate::raster::scan_line_z_buffer::Lists;
 use crate::raster::scene::{Camera, Rule, Scene};
-use crate::raster::screen::{NONE, Screen, screen};
+use crate::raster::screen::{Bent, NONE, Screen, screen};
 use crate::raster::statistics::Statistics;
 use crate::raster::warped::planar;
 use crate::raster::watch::Watch;
@@ -122,7 +122,7 @@ impl RasterScene {
     fn picture(&self, camera: &Camera, method: Method, shaded: &str, traced: bool, watch: &Watch) -> Picture {
         let mut statistics = Statistics::default();
         let started = Instant::now();
-        let on = screen(&self.scene(), camera, watch, &mut statistics);
+        let on = screen(&self.scene(), camera, Bent::Triangulated, watch, &mut statistics);
         let prepared = started.elapsed().as_secs_f64();
         let started = Instant::now();
         let mut canvas = Canvas::new(camera.width.into(), camera.height.into(), traced);
@@ -298,7 +298,7 @@ impl RasterScene {
             let listed = if by_tree {
                 self.with_tree(&watch, &mut statistics, |tree, _| tree_list(tree, &camera, &watch))
             } else {
-                screen(&self.scene(), &camera, &watch, &mut statistics)
+                screen(&self.scene(), &camera, Bent::Whole, &watch, &mut statistics)
                     .and_then(|on| sorted_list(&on, most, &watch, &mut statistics))
             };
             listed.map(|l| (l, statistics))
@@ -330,7 +330,9 @@ impl RasterScene {
         let watch = Watch::new(&never, None);
         let mut statistics = Statistics::default();
         let (edges, spans) = (PyList::empty(py), PyList::empty(py));
-        let Some(on) = screen(&self.scene(), &camera, &watch, &mut statistics) else { return Ok((edges, spans)) };
+        let Some(on) = screen(&self.scene(), &camera, Bent::Triangulated, &watch, &mut statistics) else {
+            return Ok((edges, spans));
+        };
         let table = EdgeTable::new(&on);
         let mut active = ActiveEdges::new(&table);
         let id = |f: u32| self.id(on.facets[f as usize].id);
@@ -364,7 +366,7 @@ impl RasterScene {
             let mut statistics = Statistics::default();
             let mut canvas = Canvas::new(camera.width.into(), camera.height.into(), false);
             let mut out = Vec::new();
-            if let Some(on) = screen(&self.scene(), &camera, &watch, &mut statistics) {
+            if let Some(on) = screen(&self.scene(), &camera, Bent::Triangulated, &watch, &mut statistics) {
                 let mut paired = |w: Write| {
                     let id = self.id(on.facets[w.facet as usize].id);
                     out.extend([w.row as i32, w.from as i32, w.to as i32, id]);

@@ -112,8 +112,23 @@ impl Screen {
     }
 }
 
+/// What becomes of polygons whose corners rounding has moved out of their plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Bent {
+    /// Triangles, which are exact: for pictures.
+    Triangulated,
+    /// They stay in one piece, in Newell's plane: for lists of polygons, where a little depth does not matter.
+    Whole,
+}
+
 /// The scene before the camera, or None if there was no time.
-pub fn screen(scene: &Scene, camera: &Camera, watch: &Watch, statistics: &mut Statistics) -> Option<Screen> {
+pub fn screen(
+    scene: &Scene,
+    camera: &Camera,
+    bent: Bent,
+    watch: &Watch,
+    statistics: &mut Statistics,
+) -> Option<Screen> {
     // 1. project all points; which of them lie outside which wall
     let (frame, guard) =
         (walls(camera, 0.0), walls(camera, LIMIT / STEPS as f64 - f64::from(camera.width.max(camera.height))));
@@ -150,7 +165,7 @@ pub fn screen(scene: &Scene, camera: &Camera, watch: &Watch, statistics: &mut St
             return None;
         }
         let range = loops.start as usize..loops.end as usize;
-        out.add(*id, &flat.loops[range], &flat.points, scene.cull[*id as usize], statistics);
+        out.add(*id, &flat.loops[range], &flat.points, scene.cull[*id as usize], bent, statistics);
     }
     statistics.facets = out.facets.len() as u64;
     Some(out)
@@ -257,7 +272,15 @@ fn snap(p: &[f64; 3], zero: f64, step: f64) -> Point {
 
 impl Screen {
     /// One polygon, in as many facets as it takes.
-    fn add(&mut self, id: u32, loops: &[Range<u32>], exact: &[[f64; 3]], cull: bool, statistics: &mut Statistics) {
+    fn add(
+        &mut self,
+        id: u32,
+        loops: &[Range<u32>],
+        exact: &[[f64; 3]],
+        cull: bool,
+        bent: Bent,
+        statistics: &mut Statistics,
+    ) {
         let runs = loops.iter().map(|l| &self.points[l.start as usize..l.end as usize]);
         let plane = Plane::newell(runs.clone());
         let corners = loops.iter().map(|l| l.len()).sum::<usize>();
@@ -274,7 +297,7 @@ impl Screen {
             _ => {}
         }
         let slack = self.slack(loops, exact);
-        if planar {
+        if planar || (bent == Bent::Whole && facing(&plane) != Facing::EdgeOn) {
             self.push(id, loops, plane, slack);
             return;
         }

@@ -6,7 +6,7 @@ use super::ray_casting::Acceleration;
 use super::scan_line::Coherence;
 use super::scan_line_z_buffer::Lists;
 use super::scene::{Camera, Rule, Scene};
-use super::screen::screen;
+use super::screen::{Bent, screen};
 use super::statistics::Statistics;
 use super::watch::Watch;
 use super::z_buffer::Nearer;
@@ -47,7 +47,7 @@ fn random_triangles_look_the_same_to_all_methods() {
         };
         let watch = Watch::new(&never, None);
         let mut statistics = Statistics::default();
-        let on = screen(&scene, &camera, &watch, &mut statistics).unwrap();
+        let on = screen(&scene, &camera, Bent::Triangulated, &watch, &mut statistics).unwrap();
         let picture = |name: &str| {
             let mut canvas = Canvas::new(40, 30, false);
             let mut s = Statistics::default();
