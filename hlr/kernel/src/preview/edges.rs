@@ -120,39 +120,47 @@ impl Ready {
         let edges = [edge(0, 1), edge(1, 2), edge(2, 0)];
         Ready { edges, spans, slope: Slope::new(face, first, sampling), rows, chunks }
     }
+
+    /// Of eight samples a mask of those that are not owned, and the depths.
+    #[inline(always)]
+    fn lanes(&self, row: usize, chunk: usize, sampling: &Sampling) -> ([i32; LANES], [f32; LANES]) {
+        let [a, b, c] = &self.edges;
+        let (mut outside, b, c) = (a.lanes(row, chunk), b.lanes(row, chunk), c.lanes(row, chunk));
+        for l in 0..LANES {
+            outside[l] = (outside[l] | b[l] | c[l]) >> 31;
+        }
+        (outside, self.slope.lanes(row, chunk * LANES, sampling))
+    }
 }
 
 #[inline(always)]
 pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
-    each(face, first, sampling, |row, chunk, outside, z| {
+    let ready = Ready::new(face, first, sampling);
+    for row in ready.rows[0]..ready.rows[1] {
         let (depths, owners) = tile.row(row);
-        let at = chunk * LANES;
-        if let (Some(depth), Some(owner)) =
-            (depths[at..].first_chunk_mut::<LANES>(), owners[at..].first_chunk_mut::<LANES>())
-        {
-            nearer(outside, z, face.triangle, depth, owner);
+        let [from, to] = ready.spans.row(row, ready.chunks);
+        for chunk in from..to {
+            let (outside, z) = ready.lanes(row, chunk, sampling);
+            let at = chunk * LANES;
+            if let (Some(depth), Some(owner)) =
+                (depths[at..].first_chunk_mut::<LANES>(), owners[at..].first_chunk_mut::<LANES>())
+            {
+                nearer(&outside, &z, face.triangle, depth, owner);
+            }
         }
-    });
+    }
 }
 
-/// Call `found` with row, chunk, and for each of its lanes a mask of what is not owned, and the depth.
-#[inline(always)]
-pub fn each(
-    face: &Face,
-    first: [i32; 2],
-    sampling: &Sampling,
-    mut found: impl FnMut(usize, usize, &[i32; LANES], &[f32; LANES]),
-) {
+/// Call `found` with column, row and depth of each sample that the face owns.
+pub fn each(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
     let ready = Ready::new(face, first, sampling);
-    let edges = &ready.edges;
     for row in ready.rows[0]..ready.rows[1] {
         let [from, to] = ready.spans.row(row, ready.chunks);
         for chunk in from..to {
-            let (mut a, b, c) = (edges[0].lanes(row, chunk), edges[1].lanes(row, chunk), edges[2].lanes(row, chunk));
-            for l in 0..LANES {
-                a[l] = (a[l] | b[l] | c[l]) >> 31;
+            let (outside, z) = ready.lanes(row, chunk, sampling);
+            for l in (0..LANES).filter(|&l| outside[l] == 0) {
+                found(chunk * LANES + l, row, z[l]);
             }
-            found(row, chunk, &a, &ready.slope.lanes(row, chunk * LANES, sampling));
         }
     }
 }

@@ -220,20 +220,14 @@ pub fn nearer(
 
 /// Call `found` with column, row and depth of each sample of the tile that the face owns.
 pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
-    if sampling.side == 1 {
-        spans::each(face, first, sampling, |row, from, to, slope| {
-            for column in from..to {
-                found(column, row, slope.lanes(row, column, sampling)[0]);
-            }
-        });
-    } else {
-        edges::each(face, first, sampling, |row, chunk, outside, z| {
-            for l in 0..LANES {
-                if outside[l] == 0 {
-                    found(chunk * LANES + l, row, z[l]);
-                }
-            }
-        });
+    if sampling.side > 1 {
+        return edges::each(face, first, sampling, found);
+    }
+    let mut scan = spans::Scan::new(face, first, sampling);
+    while let Some((row, from, to)) = scan.next_span() {
+        for column in from..to {
+            found(column, row, scan.slope.lanes(row, column, sampling)[0]);
+        }
     }
 }
 

@@ -11,11 +11,11 @@
 //! and a right one those up to floor(n(j) / -a). There are no edge functions left within the row.
 
 use super::faces::Face;
-use super::raster::{LANES, Sampling, Slope, TILE_WIDTH, Tile, nearer, window};
+use super::raster::{LANES, Sampling, Slope, TILE_HEIGHT, TILE_WIDTH, Tile, nearer, window};
 
 /// floor(n(j) / d) as j grows.
 #[derive(Clone, Copy)]
-struct Quotient {
+pub struct Quotient {
     value: i64,
     rest: i64,
     /// Of what is added per row.
@@ -59,13 +59,14 @@ fn divided(n: i64, d: i64, over: f64) -> (i64, i64) {
 
 #[inline(always)]
 pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
-    each(face, first, sampling, |row, from, to, slope| {
+    let mut scan = Scan::new(face, first, sampling);
+    while let Some((row, from, to)) = scan.next_span() {
         let (depths, owners) = tile.row(row);
         let mut column = from;
         while column < to {
             // Eight lanes that begin with the span, or end with the tile.
             let at = column.min(TILE_WIDTH - LANES);
-            let z = slope.lanes(row, at, sampling);
+            let z = scan.slope.lanes(row, at, sampling);
             let mut outside = [0i32; LANES];
             for (l, v) in outside.iter_mut().enumerate() {
                 let i = (at + l) as i32;
@@ -78,50 +79,78 @@ pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) 
             }
             column = at + LANES;
         }
-    });
+    }
 }
 
-/// Call `found` with each row and the span of columns that the face owns there, first and one after the last.
-#[inline(always)]
-pub fn each(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, usize, &Slope)) {
-    let (rows, _) = window(face, first, sampling);
-    let (mut top, mut end) = (rows[0] as i64, rows[1] as i64);
-    let half = 1i32 << (sampling.shift - 1);
-    let (x, y) = ((first[0] << sampling.shift).wrapping_add(half), (first[1] << sampling.shift).wrapping_add(half));
-    let mut left = [Quotient::constant(0); 2];
-    let mut right = [Quotient::constant(TILE_WIDTH as i64 - 1); 2];
-    let (mut lefts, mut rights) = (0, 0);
-    for (k, n) in [(0, 1), (1, 2), (2, 0)] {
-        let (a, b) = (face.y[k].wrapping_sub(face.y[n]), face.x[n].wrapping_sub(face.x[k]));
-        let value = i64::from(a)
-            .wrapping_mul(i64::from(x.wrapping_sub(face.x[k])))
-            .wrapping_add(i64::from(b).wrapping_mul(i64::from(y.wrapping_sub(face.y[k]))));
-        // Left and top edges own what lies on them.
-        let value = value.wrapping_sub(i64::from(!(a > 0 || (a == 0 && b > 0)))) >> sampling.shift;
-        let (a, b) = (i64::from(a), i64::from(b));
-        let start = value.wrapping_add(b.wrapping_mul(rows[0] as i64));
-        if a > 0 {
-            left[lefts & 1] = Quotient::new(start, b, a);
-            lefts += 1;
-        } else if a < 0 {
-            right[rights & 1] = Quotient::new(start, b, -a);
-            rights += 1;
-        } else if b > 0 {
-            top = top.max(-value.div_euclid(b));
-        } else if b < 0 {
-            end = end.min(value.div_euclid(-b) + 1);
+/// The spans of a face in a tile, row by row.
+pub struct Scan {
+    left: [Quotient; 2],
+    right: [Quotient; 2],
+    row: usize,
+    end: usize,
+    pub slope: Slope,
+}
+
+impl Scan {
+    #[inline(always)]
+    pub fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Scan {
+        let (rows, _) = window(face, first, sampling);
+        let (mut top, mut end) = (rows[0] as i64, rows[1] as i64);
+        let half = 1i32 << (sampling.shift - 1);
+        let (x, y) = ((first[0] << sampling.shift).wrapping_add(half), (first[1] << sampling.shift).wrapping_add(half));
+        let mut left = [Quotient::constant(0); 2];
+        let mut right = [Quotient::constant(TILE_WIDTH as i64 - 1); 2];
+        let (mut lefts, mut rights) = (0, 0);
+        for (k, n) in [(0, 1), (1, 2), (2, 0)] {
+            let (a, b) = (face.y[k].wrapping_sub(face.y[n]), face.x[n].wrapping_sub(face.x[k]));
+            let value = i64::from(a)
+                .wrapping_mul(i64::from(x.wrapping_sub(face.x[k])))
+                .wrapping_add(i64::from(b).wrapping_mul(i64::from(y.wrapping_sub(face.y[k]))));
+            // Left and top edges own what lies on them.
+            let value = value.wrapping_sub(i64::from(!(a > 0 || (a == 0 && b > 0)))) >> sampling.shift;
+            let (a, b) = (i64::from(a), i64::from(b));
+            let start = value.wrapping_add(b.wrapping_mul(rows[0] as i64));
+            if a > 0 {
+                left[lefts & 1] = Quotient::new(start, b, a);
+                lefts += 1;
+            } else if a < 0 {
+                right[rights & 1] = Quotient::new(start, b, -a);
+                rights += 1;
+            } else if b > 0 {
+                top = top.max(-value.div_euclid(b));
+            } else if b < 0 {
+                end = end.min(value.div_euclid(-b) + 1);
+            }
         }
+        let mut scan =
+            Scan { left, right, row: rows[0], end: end.max(0) as usize, slope: Slope::new(face, first, sampling) };
+        while (scan.row as i64) < top && scan.row < scan.end {
+            scan.step();
+        }
+        scan
     }
-    let slope = Slope::new(face, first, sampling);
-    for row in rows[0]..rows[1] {
-        let from = (-left[0].value).max(-left[1].value).max(0);
-        let to = right[0].value.min(right[1].value).min(TILE_WIDTH as i64 - 1) + 1;
-        if from < to && (top..end).contains(&(row as i64)) {
-            found(row, from as usize, to as usize, &slope);
+
+    /// The next row in which the face owns anything: first column, and one after the last.
+    #[inline(always)]
+    pub fn next_span(&mut self) -> Option<(usize, usize, usize)> {
+        while self.row < self.end.min(TILE_HEIGHT) {
+            let row = self.row;
+            let from = (-self.left[0].value).max(-self.left[1].value).max(0);
+            let to = self.right[0].value.min(self.right[1].value).min(TILE_WIDTH as i64 - 1) + 1;
+            self.step();
+            if from < to {
+                return Some((row, from as usize, to as usize));
+            }
         }
-        for side in [&mut left, &mut right] {
-            side[0].step();
-            side[1].step();
-        }
+        None
+    }
+
+    #[inline(always)]
+    fn step(&mut self) {
+        self.row += 1;
+        self.left[0].step();
+        self.left[1].step();
+        self.right[0].step();
+        self.right[1].step();
     }
 }
