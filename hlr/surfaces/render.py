@@ -35,7 +35,8 @@ class Statistics:
     splits of polygons or spans; recursion: areas or nodes visited, deepest: how deep
     rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
     memory: bytes of the method's own tables and buffers, its frame included, at their largest
-    prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else
+    prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else;
+              of the thread's own work where the system tells it (Linux), else as they passed
     """
 
     polygons: int

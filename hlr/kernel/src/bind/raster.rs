@@ -22,6 +22,7 @@ use crate::raster::scan_line_z_buffer::Lists;
 use crate::raster::scene::{Camera, Rule, Scene};
 use crate::raster::screen::{Bent, NONE, Screen, screen};
 use crate::raster::statistics::Statistics;
+use crate::raster::stopwatch::Stopwatch;
 use crate::raster::warped::planar;
 use crate::raster::watch::Watch;
 use crate::raster::z_buffer::Nearer;
@@ -121,13 +122,13 @@ impl RasterScene {
 
     fn picture(&self, camera: &Camera, method: Method, shaded: &str, traced: bool, watch: &Watch) -> Picture {
         let mut statistics = Statistics::default();
-        let started = Instant::now();
+        let started = Stopwatch::start();
         let on = screen(&self.scene(), camera, Bent::Triangulated, watch, &mut statistics);
-        let prepared = started.elapsed().as_secs_f64();
-        let started = Instant::now();
+        let prepared = started.seconds();
+        let started = Stopwatch::start();
         let mut canvas = Canvas::new(camera.width.into(), camera.height.into(), traced);
         let done = on.as_ref().and_then(|on| self.fill(on, camera, method, &mut canvas, watch, &mut statistics));
-        let seconds = started.elapsed().as_secs_f64();
+        let seconds = started.seconds();
         let mut out = Picture {
             finished: done.is_some(),
             ids: Vec::new(),
@@ -188,9 +189,9 @@ impl RasterScene {
     ) -> Option<T> {
         let mut slot = self.tree.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if slot.is_none() {
-            let started = Instant::now();
+            let started = Stopwatch::start();
             *slot = Some(Tree::new(&self.scene(), watch, statistics)?);
-            statistics.setup = started.elapsed().as_secs_f64();
+            statistics.setup = started.seconds();
         }
         slot.as_ref().and_then(|tree| work(tree, statistics))
     }

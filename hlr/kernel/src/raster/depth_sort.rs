@@ -31,8 +31,8 @@ use super::pieces::{Half, Painter};
 use super::plane::STEPS;
 use super::screen::{Screen, first_centre};
 use super::statistics::Statistics;
+use super::stopwatch::Stopwatch;
 use super::watch::Watch;
-use std::time::Instant;
 
 /// What cuts have left of a facet. Corners in 256ths of a pixel and steps of depth.
 #[derive(Clone, Debug)]
@@ -63,9 +63,9 @@ impl Slope {
 }
 
 pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
-    let started = Instant::now();
+    let started = Stopwatch::start();
     let ordered = order(screen, u64::MAX, watch, statistics)?;
-    statistics.setup = started.elapsed().as_secs_f64();
+    statistics.setup = started.seconds();
     let bytes: usize = ordered.pieces.iter().map(Piece::bytes).sum();
     statistics.holds(bytes + ordered.wary.len() + canvas.bytes());
     let mut painter = Painter::new(screen, canvas, &ordered.wary);

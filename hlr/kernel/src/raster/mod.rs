@@ -44,6 +44,7 @@ pub mod screen;
 pub mod shading;
 pub mod span_list;
 pub mod statistics;
+pub mod stopwatch;
 pub mod triangulate;
 pub mod warnock;
 pub mod warped;

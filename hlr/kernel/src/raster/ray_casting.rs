@@ -15,9 +15,9 @@ use super::grid::Grid;
 use super::partition::Partition;
 use super::screen::{NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
+use super::stopwatch::Stopwatch;
 use super::watch::Watch;
 use std::cmp::Ordering;
-use std::time::Instant;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acceleration {
@@ -41,14 +41,14 @@ pub fn render(
     watch: &Watch,
     statistics: &mut Statistics,
 ) -> Option<()> {
-    let started = Instant::now();
+    let started = Stopwatch::start();
     let index = match acceleration {
         Acceleration::Flat => Index::Flat((0..screen.facets.len() as u32).map(|f| Box3::of(screen, f)).collect()),
         Acceleration::Hierarchy => Index::Hierarchy(Hierarchy::new(screen, watch)?),
         Acceleration::Grid => Index::Grid(Grid::new(screen, watch)?),
         Acceleration::Partition => Index::Partition(Partition::new(screen, watch)?),
     };
-    statistics.setup = started.elapsed().as_secs_f64();
+    statistics.setup = started.seconds();
     let bytes = match &index {
         Index::Flat(boxes) => bytes_of(boxes),
         Index::Hierarchy(h) => h.bytes(),

@@ -142,8 +142,18 @@ pub fn screen(
         if watch.over() {
             return None;
         }
-        clipped(scene, polygon, &projected, [&unseen, &outside], &guard, &mut work, statistics);
-        flat.add(polygon, &work);
+        match crossed(scene, polygon, &unseen, &outside) {
+            Place::Beyond => statistics.clipped += 1,
+            // Mostly nothing crosses anything: no loop is copied then.
+            Place::Within => {
+                flat.add(polygon, scene.loops_of(polygon).map(|l| l.iter().map(|&i| corner(scene, &projected, i))))
+            }
+            Place::Crossing(crossed) => {
+                statistics.clipped += 1;
+                clipped(scene, polygon, &projected, crossed, &guard, &mut work);
+                flat.add(polygon, work.iter().map(|l| l.iter().copied()));
+            }
+        }
     }
     statistics.polygons = scene.len() as u64;
     // 3. round, with one step of depth for all
@@ -176,40 +186,47 @@ fn outcode(p: &[f64; 4], walls: &[Wall]) -> u8 {
     walls.iter().enumerate().fold(0, |code, (k, wall)| if wall.height(p) >= 0.0 { code } else { code | 1 << k })
 }
 
-/// The loops of one polygon within the walls; those that come out empty are left out. Per point: the planes of the view
-/// volume, and the walls, that it lies beyond.
-fn clipped(
-    scene: &Scene,
-    polygon: usize,
-    projected: &[[f64; 4]],
-    [unseen, outside]: [&[u8]; 2],
-    walls: &[Wall],
-    out: &mut Vec<Vec<Corner>>,
-    statistics: &mut Statistics,
-) {
-    out.clear();
+/// Where a polygon lies: wholly beyond one plane of the view volume; across some of the walls, as bits; or neither.
+enum Place {
+    Beyond,
+    Within,
+    Crossing(u8),
+}
+
+fn crossed(scene: &Scene, polygon: usize, unseen: &[u8], outside: &[u8]) -> Place {
     let (mut any, mut all) = (0u8, u8::MAX);
     for &i in scene.loops_of(polygon).flatten() {
         any |= outside[i as usize];
         all &= unseen[i as usize];
     }
-    if all != 0 {
-        statistics.clipped += 1;
-        return;
+    match (all, any) {
+        (0, 0) => Place::Within,
+        (0, _) => Place::Crossing(any),
+        _ => Place::Beyond,
     }
-    for l in scene.loops_of(polygon) {
-        let value = |i: i32| scene.values.get(i as usize).copied().unwrap_or([0.0; 3]);
-        out.push(l.iter().map(|&i| Corner { at: projected[i as usize], value: value(i) }).collect());
-    }
-    if any != 0 {
-        statistics.clipped += 1;
-        let mut next = Vec::new();
-        for (k, wall) in walls.iter().enumerate().filter(|&(k, _)| any >> k & 1 != 0) {
-            debug_assert!(k < 8);
-            for l in out.iter_mut() {
-                clip_loop(l, wall, &mut next);
-                std::mem::swap(l, &mut next);
-            }
+}
+
+fn corner(scene: &Scene, projected: &[[f64; 4]], i: i32) -> Corner {
+    let value = scene.values.get(i as usize).copied().unwrap_or([0.0; 3]);
+    Corner { at: projected[i as usize], value }
+}
+
+/// The loops of one polygon within the walls that it crosses; those that come out empty are left out.
+fn clipped(
+    scene: &Scene,
+    polygon: usize,
+    projected: &[[f64; 4]],
+    crossed: u8,
+    walls: &[Wall],
+    out: &mut Vec<Vec<Corner>>,
+) {
+    out.clear();
+    out.extend(scene.loops_of(polygon).map(|l| l.iter().map(|&i| corner(scene, projected, i)).collect::<Vec<_>>()));
+    let mut next = Vec::new();
+    for wall in walls.iter().enumerate().filter(|(k, _)| crossed >> k & 1 != 0).map(|(_, wall)| wall) {
+        for l in out.iter_mut() {
+            clip_loop(l, wall, &mut next);
+            std::mem::swap(l, &mut next);
         }
     }
     out.retain(|l| l.len() > 2);
@@ -225,7 +242,7 @@ struct Flat {
 }
 
 impl Flat {
-    fn add(&mut self, polygon: usize, loops: &[Vec<Corner>]) {
+    fn add(&mut self, polygon: usize, loops: impl Iterator<Item = impl Iterator<Item = Corner>>) {
         let first = self.loops.len() as u32;
         for l in loops {
             let start = self.points.len() as u32;
