@@ -137,15 +137,13 @@ impl Ready {
 pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
     let ready = Ready::new(face, first, sampling);
     for row in ready.rows[0]..ready.rows[1] {
-        let (depths, owners) = tile.row(row);
+        let seen = tile.row(row);
         let [from, to] = ready.spans.row(row, ready.chunks);
         for chunk in from..to {
             let (outside, z) = ready.lanes(row, chunk, sampling);
             let at = chunk * LANES;
-            if let (Some(depth), Some(owner)) =
-                (depths[at..].first_chunk_mut::<LANES>(), owners[at..].first_chunk_mut::<LANES>())
-            {
-                nearer(&outside, &z, face.triangle, depth, owner);
+            if let Some(lanes) = seen[at..].first_chunk_mut::<LANES>() {
+                nearer(&outside, &z, face.triangle, lanes);
             }
         }
     }

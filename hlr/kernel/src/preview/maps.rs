@@ -31,9 +31,8 @@ pub fn seen(model: &Model, lens: &Lens, stopped: &(dyn Fn() -> bool + Sync)) -> 
         |(), filled, rows| {
             let wide = TILE_WIDTH.min(width - filled.first[0]);
             for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
-                let triangle = &filled.tile.triangle[j];
                 for (i, seen) in row[filled.first[0]..filled.first[0] + wide].iter_mut().enumerate() {
-                    *seen = Seen { depth: filled.tile.depth(i, j), triangle: triangle[i] };
+                    *seen = Seen { depth: filled.tile.depth(i, j), triangle: filled.tile.triangle(i, j) };
                 }
             }
         },

@@ -56,7 +56,7 @@ impl Painter<'_> {
         for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT / side).enumerate() {
             for (i, pixel) in row[left..left + wide].iter_mut().enumerate() {
                 if side == 1 && found.is_empty() {
-                    let triangle = filled.tile.triangle[j][i];
+                    let triangle = filled.tile.triangle(i, j);
                     if triangle != NOTHING {
                         let place = self.sampling.place(filled.first[0] + i, filled.first[1] + j);
                         *pixel = self.encoder.pixel(self.colour(triangle, place));
@@ -74,7 +74,7 @@ impl Painter<'_> {
         match slot {
             Some((held, ready)) if *held == triangle => self.scene.shade(ready, place),
             _ => {
-                let (_, ready) = slot.insert((triangle, self.scene.ready(triangle)));
+                let (_, ready) = slot.insert((triangle, self.scene.ready(triangle, place)));
                 self.scene.shade(ready, place)
             }
         }
@@ -89,7 +89,7 @@ impl Painter<'_> {
         for y in j..j + side {
             for x in i..i + side {
                 let place = self.sampling.place(filled.first[0] + x, filled.first[1] + y);
-                let triangle = filled.tile.triangle[y][x];
+                let triangle = filled.tile.triangle(x, y);
                 let mut here = self.background;
                 if triangle != NOTHING {
                     any = true;

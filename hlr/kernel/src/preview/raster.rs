@@ -24,7 +24,8 @@ use super::{NOTHING, edges, spans};
 pub const TILE_WIDTH: usize = 64;
 pub const TILE_HEIGHT: usize = 64;
 pub const LANES: usize = 8;
-const EMPTY: u32 = 2f32.to_bits();
+/// Depth 2, farther than all, and no triangle.
+const EMPTY: f64 = f64::from_bits((2f32.to_bits() as u64) << 32 | NOTHING as u64);
 /// Beyond this an edge function keeps its sign all over the tile.
 pub const FAR: i64 = 1_000_000_000;
 
@@ -70,34 +71,40 @@ impl Sampling {
     }
 }
 
-/// Depth and owner of the samples of one tile.
+/// Depth and owner of the samples of one tile: the bits of a depth, which is not negative, above the number of a triangle.
+/// So the nearer of two is the smaller number, and of equal depths that of the first triangle. It is kept as the double of
+/// those bits, which compares alike, because processors have an instruction for the lesser of doubles.
 pub struct Tile {
-    /// The bits of depths: 0 nearest, 1 farthest, 2 where nothing is.
-    depth: [[u32; TILE_WIDTH]; TILE_HEIGHT],
-    pub triangle: [[u32; TILE_WIDTH]; TILE_HEIGHT],
+    seen: [[f64; TILE_WIDTH]; TILE_HEIGHT],
 }
 
 impl Tile {
     pub fn new() -> Tile {
-        Tile { depth: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT], triangle: [[NOTHING; TILE_WIDTH]; TILE_HEIGHT] }
+        Tile { seen: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT] }
     }
 
     pub fn clear(&mut self) {
-        self.depth.as_flattened_mut().fill(EMPTY);
-        self.triangle.as_flattened_mut().fill(NOTHING);
+        self.seen.as_flattened_mut().fill(EMPTY);
     }
 
-    /// Depths, as bits, and owners of a row.
+    /// What is seen along a row.
     #[inline(always)]
-    pub fn row(&mut self, row: usize) -> (&mut [u32; TILE_WIDTH], &mut [u32; TILE_WIDTH]) {
-        (&mut self.depth[row], &mut self.triangle[row])
+    pub fn row(&mut self, row: usize) -> &mut [f64; TILE_WIDTH] {
+        &mut self.seen[row]
     }
 
+    #[inline(always)]
     pub fn depth(&self, i: usize, j: usize) -> f32 {
-        f32::from_bits(self.depth[j][i])
+        f32::from_bits((self.seen[j][i].to_bits() >> 32) as u32)
     }
 
-    /// Faces in their order: of equal depths the first stays. `first`: column and row of the tile's first sample.
+    /// NOTHING for none.
+    #[inline(always)]
+    pub fn triangle(&self, i: usize, j: usize) -> u32 {
+        self.seen[j][i].to_bits() as u32
+    }
+
+    /// `first`: column and row of the tile's first sample.
     pub fn fill(&mut self, faces: &[Face], first: [i32; 2], sampling: &Sampling) {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {
@@ -200,21 +207,14 @@ pub fn window(face: &Face, first: [i32; 2], sampling: &Sampling) -> ([usize; 2],
     ([within(rows[0], first[1], TILE_HEIGHT), within(rows[1], first[1], TILE_HEIGHT)], chunks)
 }
 
-/// Where z is less than the depth, and nothing is masked as outside, it takes its place. Without branches: depths are not
-/// negative, so they compare as the integers that their bits are, and a sign shifted all through is a mask.
+/// Where nothing is masked as outside, and z is less than the depth, the triangle takes its place.
 #[inline(always)]
-pub fn nearer(
-    outside: &[i32; LANES],
-    z: &[f32; LANES],
-    triangle: u32,
-    depth: &mut [u32; LANES],
-    owner: &mut [u32; LANES],
-) {
+pub fn nearer(outside: &[i32; LANES], z: &[f32; LANES], triangle: u32, seen: &mut [f64; LANES]) {
     for l in 0..LANES {
-        let z = z[l].to_bits();
-        let wins = ((z.wrapping_sub(depth[l]) as i32 >> 31) & !outside[l]) as u32;
-        depth[l] ^= (depth[l] ^ z) & wins;
-        owner[l] ^= (owner[l] ^ triangle) & wins;
+        // What is outside is farther than anything, and still a number.
+        let z = z[l].to_bits() | (outside[l] as u32 & 0x7000_0000);
+        let here = f64::from_bits(u64::from(z) << 32 | u64::from(triangle));
+        seen[l] = if here < seen[l] { here } else { seen[l] };
     }
 }
 
@@ -273,14 +273,14 @@ mod tests {
                 let mut listed = 0;
                 owned(&f, first, &sampling, |i, j, _| {
                     listed += 1;
-                    assert_eq!(tile.triangle[j][i], 7);
+                    assert_eq!(tile.triangle(i, j), 7);
                 });
                 let mut count = 0;
                 for j in 0..TILE_HEIGHT {
                     for i in 0..TILE_WIDTH {
                         let [x, y] = sampling.place(i + first[0] as usize, j + first[1] as usize);
                         let expected = owns(&f, (x * 256.0) as i64, (y * 256.0) as i64);
-                        assert_eq!(tile.triangle[j][i] == 7, expected, "{f:?} {i} {j}");
+                        assert_eq!(tile.triangle(i, j) == 7, expected, "{f:?} {i} {j}");
                         count += usize::from(expected);
                     }
                 }
@@ -330,7 +330,7 @@ mod tests {
             let (mut one, mut two) = (Tile::new(), Tile::new());
             one.fill(&faces, [0, 0], &sampling);
             fill_any(&mut two, &faces, [0, 0], &sampling);
-            assert!(one.triangle == two.triangle && one.depth == two.depth);
+            assert!(one.seen == two.seen);
         }
     }
 }

@@ -1,16 +1,19 @@
 //! From linear light to the numbers of a picture (sRGB, IEC 61966-2-1), and back.
 
+use std::sync::OnceLock;
+
 /// Steps of linear light that are told apart: fine enough that each of the 256 values is met.
 const STEPS: usize = 1 << 13;
 
 pub struct Encoder {
-    table: Vec<u8>,
+    table: &'static [u8],
 }
 
 impl Encoder {
     pub fn new() -> Encoder {
-        let table = (0..=STEPS).map(|i| (encoded(i as f64 / STEPS as f64) * 255.0).round() as u8).collect();
-        Encoder { table }
+        static TABLE: OnceLock<Vec<u8>> = OnceLock::new();
+        let fill = || (0..=STEPS).map(|i| (encoded(i as f64 / STEPS as f64) * 255.0).round() as u8).collect();
+        Encoder { table: TABLE.get_or_init(fill) }
     }
 
     #[inline(always)]

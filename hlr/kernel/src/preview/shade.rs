@@ -4,7 +4,7 @@ use super::Model;
 use super::lens::Lens;
 use super::occlusion::Occlusion;
 use super::shadow::Shadow;
-use super::surface::Surface;
+use super::surface::{Surface, normals};
 use crate::geometry::vector::{add, dot, unit};
 
 pub struct Light {
@@ -31,51 +31,103 @@ pub struct Scene<'a> {
 
 /// A triangle made ready: what is the same wherever on it one looks.
 #[derive(Clone, Debug)]
-pub struct Ready {
-    surface: Surface,
-    colours: [[f32; 4]; 3],
-    /// One colour all over.
-    plain: bool,
-    /// The light where it is the same all over.
-    constant: Option<[f32; 4]>,
+pub enum Ready {
+    /// One normal, one colour: one light.
+    Flat([f32; 4]),
+    Round(Round),
+    Any(Box<Any>),
 }
 
+/// One colour, and a normal that turns. But for its length the interpolated normal is an affine function of the place: the
+/// factor by which barycentric coordinates are off cancels.
+#[derive(Clone, Debug)]
+pub struct Round {
+    colour: [f32; 4],
+    /// The place to which `at` belongs.
+    origin: [f64; 2],
+    /// x, y, z of the normal and its product with the light: there, and how they grow by x and by y.
+    at: [f32; 4],
+    by_x: [f32; 4],
+    by_y: [f32; 4],
+}
+
+#[derive(Clone, Debug)]
+pub struct Any {
+    surface: Surface,
+    colours: [[f32; 4]; 3],
+}
+
+/// Pixels: a triangle lower than this is not interpolated affinely. A sample may lie a grid step outside of it, which is
+/// nothing for larger ones.
+const LOW: f64 = 1.0 / 16.0;
+
 impl Scene<'_> {
-    pub fn ready(&self, triangle: u32) -> Ready {
-        let surface = Surface::new(self.model, self.lens, triangle);
+    /// `place`: some place where the triangle is seen, in pixels.
+    pub fn ready(&self, triangle: u32, place: [f64; 2]) -> Ready {
         let paint = self.model.paint[triangle as usize];
         let colours = paint.map(|i| self.model.colours[i as usize]);
         let plain = paint[0] == paint[1] && paint[1] == paint[2];
-        let matt = self.light.specular == 0.0 && self.shadow.is_none();
-        let constant = (plain && surface.flat && matt && self.occlusion.is_none())
-            .then(|| self.lit(colours[0], self.facing(surface.normal([1.0, 0.0, 0.0])), 1.0));
-        Ready { surface, colours, plain, constant }
+        let matt = self.light.specular == 0.0 && self.shadow.is_none() && self.occlusion.is_none();
+        if !plain || !matt {
+            return Ready::Any(Box::new(Any { surface: Surface::new(self.model, self.lens, triangle), colours }));
+        }
+        let n = normals(self.model, triangle);
+        let flat = n[0] == n[1] && n[1] == n[2];
+        if flat && self.model.cull[triangle as usize] {
+            return Ready::Flat(self.lit(colours[0], self.facing(n[0]), 1.0));
+        }
+        let surface = Surface::new(self.model, self.lens, triangle);
+        if flat {
+            return Ready::Flat(self.lit(colours[0], self.facing(surface.normal([1.0, 0.0, 0.0])), 1.0));
+        }
+        // The height over a side is one over the growth of the barycentric coordinate of the corner opposite.
+        let steep = surface.rows.iter().any(|r| r[0] * r[0] + r[1] * r[1] > 1.0 / (LOW * LOW));
+        if steep || self.lens.distance.is_some() {
+            return Ready::Any(Box::new(Any { surface, colours }));
+        }
+        let origin = [place[0].floor(), place[1].floor()];
+        let side = if surface.front { 1.0 } else { -1.0 };
+        let mixed = |weight: &dyn Fn(&[f64; 3]) -> f64| {
+            let w = [weight(&surface.rows[0]), weight(&surface.rows[1]), weight(&surface.rows[2])];
+            let v = [0, 1, 2].map(|k| (0..3).map(|i| w[i] * f64::from(n[i][k])).sum::<f64>() * side);
+            let light = dot(&v, &self.light.toward);
+            [v[0] as f32, v[1] as f32, v[2] as f32, light as f32]
+        };
+        let from = [origin[0] - self.lens.centre[0], origin[1] - self.lens.centre[1]];
+        Ready::Round(Round {
+            colour: colours[0],
+            origin,
+            at: mixed(&|r| r[0] * from[0] + r[1] * from[1] + r[2]),
+            by_x: mixed(&|r| r[0]),
+            by_y: mixed(&|r| r[1]),
+        })
     }
 
     /// Linear light and opacity of what is seen at a place, in pixels.
     #[inline(always)]
     pub fn shade(&self, ready: &Ready, place: [f64; 2]) -> [f32; 4] {
-        match ready.constant {
-            Some(colour) => colour,
-            None => self.shade_anew(ready, place),
+        match ready {
+            Ready::Flat(colour) => *colour,
+            Ready::Round(round) => {
+                let (x, y) = ((place[0] - round.origin[0]) as f32, (place[1] - round.origin[1]) as f32);
+                let at = |k: usize| round.at[k] + round.by_x[k] * x + round.by_y[k] * y;
+                let n = [at(0), at(1), at(2), at(3)];
+                let square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+                self.lit(round.colour, if square > 0.0 { n[3] / square.sqrt() } else { 0.0 }, 1.0)
+            }
+            Ready::Any(any) => self.shade_any(any, place),
         }
     }
 
-    #[inline(always)]
-    fn shade_anew(&self, ready: &Ready, place: [f64; 2]) -> [f32; 4] {
-        let surface = &ready.surface;
-        let place = [place[0] - self.lens.centre[0], place[1] - self.lens.centre[1]];
-        let plain = self.light.specular == 0.0 && self.shadow.is_none() && self.occlusion.is_none();
-        if plain && ready.plain {
-            return self.lit(ready.colours[0], surface.facing(place, self.light.toward.map(|c| c as f32)), 1.0);
-        }
-        let w = surface.weights(place);
-        let n = surface.normal(w);
-        let colour = mixed(&ready.colours, w);
-        if plain {
+    #[inline(never)]
+    fn shade_any(&self, any: &Any, place: [f64; 2]) -> [f32; 4] {
+        let w = any.surface.weights([place[0] - self.lens.centre[0], place[1] - self.lens.centre[1]]);
+        let n = any.surface.normal(w);
+        let colour = mixed(&any.colours, w);
+        if self.light.specular == 0.0 && self.shadow.is_none() && self.occlusion.is_none() {
             return self.lit(colour, self.facing(n), 1.0);
         }
-        self.effects(surface, w, n, colour)
+        self.effects(&any.surface, w, n, colour)
     }
 
     /// What takes the point itself.

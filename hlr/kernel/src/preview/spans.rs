@@ -61,7 +61,7 @@ fn divided(n: i64, d: i64, over: f64) -> (i64, i64) {
 pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
     let mut scan = Scan::new(face, first, sampling);
     while let Some((row, from, to)) = scan.next_span() {
-        let (depths, owners) = tile.row(row);
+        let seen = tile.row(row);
         let mut column = from;
         while column < to {
             // Eight lanes that begin with the span, or end with the tile.
@@ -72,10 +72,8 @@ pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) 
                 let i = (at + l) as i32;
                 *v = (i.wrapping_sub(column as i32) | (to as i32 - 1).wrapping_sub(i)) >> 31;
             }
-            if let (Some(depth), Some(owner)) =
-                (depths[at..].first_chunk_mut::<LANES>(), owners[at..].first_chunk_mut::<LANES>())
-            {
-                nearer(&outside, &z, face.triangle, depth, owner);
+            if let Some(lanes) = seen[at..].first_chunk_mut::<LANES>() {
+                nearer(&outside, &z, face.triangle, lanes);
             }
             column = at + LANES;
         }

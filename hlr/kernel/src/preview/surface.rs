@@ -11,40 +11,37 @@ use crate::geometry::vector::{Vector, cross, dot, sub, unit};
 
 #[derive(Clone, Debug)]
 pub struct Surface {
-    rows: [Vector; 3],
+    /// Barycentric coordinates, but for a common factor, as functions of (x, y, 1) in pixels from the lens's centre.
+    pub rows: [Vector; 3],
     corners: [Vector; 3],
-    normals: [[f32; 3]; 3],
-    /// One normal all over.
-    pub flat: bool,
+    pub normals: [[f32; 3]; 3],
     /// Seen from outside.
     pub front: bool,
 }
 
+/// The unit normals at the corners of a triangle, all equal where it is flat.
+#[inline(always)]
+pub fn normals(model: &Model, triangle: u32) -> [[f32; 3]; 3] {
+    let ids = model.corner[triangle as usize];
+    if ids[0] >= 0 {
+        return [model.normals[ids[0] as usize], model.normals[ids[1] as usize], model.normals[ids[2] as usize]];
+    }
+    let [a, b, c] = model.triangles[triangle as usize].map(|i| &model.points[i as usize]);
+    let n = unit(&cross(&sub(b, a), &sub(c, a))).unwrap_or([0.0; 3]);
+    [[n[0] as f32, n[1] as f32, n[2] as f32]; 3]
+}
+
 impl Surface {
     pub fn new(model: &Model, lens: &Lens, triangle: u32) -> Surface {
-        let t = triangle as usize;
-        let corners = model.triangles[t].map(|i| model.points[i as usize]);
+        let corners = model.triangles[triangle as usize].map(|i| model.points[i as usize]);
         let h = corners.map(|p| lens.homogeneous(&lens.view(&p)));
         let rows = [cross(&h[1], &h[2]), cross(&h[2], &h[0]), cross(&h[0], &h[1])];
         // With y down, what is counter-clockwise to the viewer has a negative determinant.
         let turn = dot(&h[0], &rows[0]);
         // Of size one, where that can be, so that single precision holds their products.
-        let sign = if turn == 0.0 { 1.0 } else { 1.0 / turn };
-        let ids = model.corner[t];
-        let flat = ids[0] < 0;
-        let normals = if flat {
-            let n = unit(&cross(&sub(&corners[1], &corners[0]), &sub(&corners[2], &corners[0])));
-            [n.unwrap_or([0.0; 3]).map(|c| c as f32); 3]
-        } else {
-            ids.map(|i| model.normals[i as usize])
-        };
-        Surface {
-            rows: rows.map(|r| r.map(|c| c * sign)),
-            corners,
-            normals,
-            flat: flat || (ids[0] == ids[1] && ids[1] == ids[2]),
-            front: turn < 0.0,
-        }
+        let share = if turn == 0.0 { 1.0 } else { 1.0 / turn };
+        let normals = normals(model, triangle);
+        Surface { rows: rows.map(|r| r.map(|c| c * share)), corners, normals, front: turn < 0.0 }
     }
 
     /// The barycentric coordinates but for a common factor.
@@ -56,22 +53,6 @@ impl Surface {
             if v > 0.0 { v } else { 0.0 }
         };
         [at(&self.rows[0]), at(&self.rows[1]), at(&self.rows[2])]
-    }
-
-    /// The cosine between the normal and a unit vector; the factor cancels.
-    #[inline(always)]
-    pub fn facing(&self, place: [f64; 2], toward: [f32; 3]) -> f32 {
-        let [a, b, c] = self.shares(place);
-        let (a, b, c) = (a as f32, b as f32, c as f32);
-        let n = &self.normals;
-        let at = |k: usize| a * n[0][k] + b * n[1][k] + c * n[2][k];
-        let (x, y, z) = (at(0), at(1), at(2));
-        let square = x * x + y * y + z * z;
-        if square == 0.0 {
-            return 0.0;
-        }
-        let cosine = (x * toward[0] + y * toward[1] + z * toward[2]) / square.sqrt();
-        if self.front { cosine } else { -cosine }
     }
 
     /// Barycentric coordinates of what is seen at a place, in pixels from the lens's centre.
