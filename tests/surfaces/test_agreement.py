@@ -31,3 +31,30 @@ def test_random_scenes(kind, rule):
             assert (found.ids == ids).all(), told
             sign = -1.0 if variant == "larger" else 1.0
             np.testing.assert_allclose(sign * found.depth, depths, rtol=1e-14, atol=1e-12, err_msg=told)
+
+
+def side_by_side(seed):
+    """Two polygons on either side of a wall seen edge-on, at whose foot they end; corners between the grid's steps."""
+    rng = np.random.default_rng(seed)
+    wide, high = 48, 36
+    start, way = rng.uniform((0.4 * wide, 0), (0.6 * wide, 1)), rng.uniform((-0.3, 1.0), (0.3, 1.0))
+
+    def foot(share):
+        return start + way * share * high
+
+    def tilted(corners):
+        a, b, c = rng.uniform((-9, -9, 0), (9, 9, 50))
+        return [(x, y, a * x + b * y + c) for x, y in corners]
+
+    left = tilted([foot(rng.uniform(0, 0.4)), foot(rng.uniform(0.6, 1)), (0, high), (0, 0)])
+    right = tilted([foot(rng.uniform(0, 0.4)), (wide, 0), (wide, high), foot(rng.uniform(0.6, 1))])
+    (x, y), (u, v) = foot(-1), foot(2)
+    wall = [(x, y, -200), (u, v, -200), (u, v, 300), (x, y, 300)]
+    return [wall, left, right]
+
+
+def test_rounding_lays_neighbours_over_one_another():
+    for seed in range(1500):
+        polygons = side_by_side(seed)
+        expected = render(polygons, SCREEN, (48, 36), "z-buffer").ids
+        assert (render(polygons, SCREEN, (48, 36), "bsp").ids == expected).all(), seed

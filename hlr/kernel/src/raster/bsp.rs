@@ -381,7 +381,7 @@ pub fn render(
     statistics.holds(tree.bytes() + canvas.bytes());
     let mut order = Vec::new();
     tree.order(&view, watch, |f| order.push(f))?;
-    let (mut painter, mut halves) = (Painter::new(screen, canvas, &[]), Vec::new());
+    let (mut painter, mut halves) = (Painter::new(screen, canvas, &[], true), Vec::new());
     for f in order {
         let polygon = tree.fragments[f as usize].polygon as usize;
         tree.halves(f, &view, &mut halves);

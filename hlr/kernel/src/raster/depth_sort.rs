@@ -68,7 +68,7 @@ pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &
     statistics.setup = started.seconds();
     let bytes: usize = ordered.pieces.iter().map(Piece::bytes).sum();
     statistics.holds(bytes + ordered.wary.len() + canvas.bytes());
-    let mut painter = Painter::new(screen, canvas, &ordered.wary);
+    let mut painter = Painter::new(screen, canvas, &ordered.wary, false);
     for piece in &ordered.pieces {
         painter.paint(piece.facet, &piece.halves, watch, statistics)?;
     }

@@ -6,11 +6,14 @@
 //!
 //! A painter trusts his order and compares no depths. But the order comes from planes before rounding, or from corners in
 //! floating point; where two depths are closer than rounding may have moved them (`Facet::slack`) the pixel is settled by
-//! the exact comparison, and counted. That is also where ties are: the lowest id wins.
+//! the exact comparison, and counted. That is also where ties are: the lowest id wins. An order from before rounding (that of
+//! the BSP tree) is not trusted at the borders either: there rounding may have laid two polygons over one another that were
+//! side by side.
 
 use super::canvas::Canvas;
 use super::coverage::{Scratch, runs};
-use super::screen::{NONE, Screen};
+use super::plane::{STEPS, centre};
+use super::screen::{Facet, NONE, Screen};
 use super::statistics::Statistics;
 use super::watch::Watch;
 use std::cmp::Ordering;
@@ -26,6 +29,12 @@ impl Half {
     #[inline(always)]
     fn holds(&self, column: i64, base: f64) -> bool {
         (self.line[0] * column as f64 + base >= 0.0) == self.positive
+    }
+
+    /// Whether a pixel's centre is so near to the cut that rounding may have put it on the wrong side.
+    fn is_near(&self, column: i64, row: i64) -> bool {
+        let [a, b, c] = self.line;
+        (a * column as f64 + b * row as f64 + c).abs() <= BORDER / STEPS as f64 * a.hypot(b)
     }
 
     /// What is left of the columns [from, to) in a row. The line is monotonic along it, rounding included.
@@ -52,20 +61,31 @@ pub struct Painter<'a> {
     pub canvas: &'a mut Canvas,
     /// Per facet: its place in the order is in doubt; empty where that is so for none.
     pub wary: &'a [bool],
+    /// The order is from before rounding.
+    unrounded: bool,
     scratch: Scratch,
 }
 
+/// 256ths of a pixel: how near to a border rounding may have changed what covers what.
+const BORDER: f64 = 2.0;
+
 impl<'a> Painter<'a> {
-    pub fn new(screen: &'a Screen, canvas: &'a mut Canvas, wary: &'a [bool]) -> Painter<'a> {
-        Painter { screen, canvas, wary, scratch: Scratch::default() }
+    pub fn new(screen: &'a Screen, canvas: &'a mut Canvas, wary: &'a [bool], unrounded: bool) -> Painter<'a> {
+        Painter { screen, canvas, wary, unrounded, scratch: Scratch::default() }
     }
 
     /// A facet, or what the halves leave of it.
     pub fn paint(&mut self, number: u32, halves: &[Half], watch: &Watch, statistics: &mut Statistics) -> Option<()> {
-        let Painter { screen, canvas, wary, scratch } = self;
+        let Painter { screen, canvas, wary, unrounded, scratch } = self;
         let facet = &screen.facets[number as usize];
         let doubt = |f: u32| wary.get(f as usize).is_some_and(|&w| w);
         let doubted = doubt(number);
+        let at_border = |column: i64, row: i64, under: &Facet| {
+            *unrounded
+                && (near_edge(screen, facet, column, row)
+                    || near_edge(screen, under, column, row)
+                    || halves.iter().any(|h| h.is_near(column, row)))
+        };
         let mut over = false;
         runs(screen, number, facet.columns, facet.rows, scratch, |row, mut from, mut to| {
             for half in halves {
@@ -83,7 +103,7 @@ impl<'a> Painter<'a> {
                     let under = &screen.facets[owner as usize];
                     let apart = (facet.depth_at(column, row) - under.depth_at(column, row)).abs();
                     let trusted = apart > f64::from(facet.slack + under.slack);
-                    if !trusted || doubted || doubt(owner) {
+                    if !trusted || doubted || doubt(owner) || at_border(column, row, under) {
                         statistics.settled += 1;
                         if screen.compare(number, owner, column, row, statistics) != Ordering::Less {
                             if start < column {
@@ -102,4 +122,18 @@ impl<'a> Painter<'a> {
         });
         (!over).then_some(())
     }
+}
+
+/// Whether a pixel's centre lies within `BORDER` of the line through an edge of a facet.
+fn near_edge(screen: &Screen, facet: &Facet, column: i64, row: i64) -> bool {
+    let (x, y) = (centre(column) as f64, centre(row) as f64);
+    screen.loops_of(facet).any(|l| {
+        let mut p = &l[l.len() - 1];
+        l.iter().any(|q| {
+            let (dx, dy) = (f64::from(q[0]) - f64::from(p[0]), f64::from(q[1]) - f64::from(p[1]));
+            let off = dx * (y - f64::from(p[1])) - dy * (x - f64::from(p[0]));
+            p = q;
+            off * off <= BORDER * BORDER * (dx * dx + dy * dy)
+        })
+    })
 }
