@@ -10,6 +10,7 @@ import click
 VERBS = {
     "draw": "Draw a model as SVG, PDF or JSON.",
     "preview": "Shaded picture of a model as PNG.",
+    "methods": "Time the visible-surface methods side by side.",
     "info": "Parts, faces, edges, triangles and defects of a model.",
 }
 

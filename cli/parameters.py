@@ -77,11 +77,11 @@ class Pixels(click.ParamType[tuple[int, int]]):
     name = "WxH"
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
-        """Two whole numbers; how large they may be is the picture's own concern."""
-        match = re.fullmatch(r"\s*(-?\d{1,9})\s*[xX×]\s*(-?\d{1,9})\s*", str(value))
-        if match is None:
+        """Two positive whole numbers; what is too large the pictures' own check says."""
+        match = re.fullmatch(r"\s*(\d{1,9})\s*[xX×]\s*(\d{1,9})\s*", str(value))
+        if match is None or "0" in (match[1].lstrip("0") or "0", match[2].lstrip("0") or "0"):
             self.fail(f"{value!r} is not a size in pixels such as 1920x1080", param, ctx)
-        return (int(match[1]), int(match[2]))
+        return int(match[1]), int(match[2])
 
 
 def vector_of(text: str) -> Vector3 | None:

@@ -142,6 +142,54 @@ class ShadedModel:
     """A triangle mesh with normals and colours, for any number of pictures."""
 
     def __new__(
+        cls,
+        points: Floats,
+        triangles: Ints,
+        corner: Ints,
+        normals: npt.NDArray[np.float32],
+        paint: Ints,
+        colours: npt.NDArray[np.float32],
+        cull: Bools,
+    ) -> ShadedModel: ...
+    def picture(
+        self,
+        lens: Lens,
+        light: tuple[float, float, float],
+        ambient: float,
+        diffuse: float,
+        specular: float,
+        background: tuple[float, float, float, float],
+        antialias: bool,
+        shadow: Lens | None = None,
+        occlusion: float = 0.0,
+        threads: int = 0,
+    ) -> Bytes: ...
+    def maps(self, lens: Lens, threads: int = 0) -> tuple[Floats, Ints]: ...
+
+def stroke_picture(
+    picture: Bytes, pieces: Floats, width: float, colour: tuple[int, int, int, int], threads: int = 0
+) -> None: ...
+def surface_normals(
+    points: Floats,
+    triangles: Ints,
+    triangle_face: Ints,
+    corner: Ints,
+    uv: Floats,
+    face_surface: Ints,
+    face_place: Floats,
+    surface_kind: Bytes,
+    surface_offsets: Ints,
+    surface_data: Floats,
+    threads: int = 0,
+) -> npt.NDArray[np.float32]: ...
+def quadric_row(coefficients: list[int], x0: int, y: int, count: int) -> tuple[npt.NDArray[np.int64], int]: ...
+
+RasterCamera = tuple[tuple[tuple[float, float, float, float], ...], tuple[int, int], tuple[float, float, float], bool]
+
+class RasterScene:
+    """Polygons for the visible-surface methods."""
+
+    def __new__(
         cls, points: Floats, corners: Ints, loops: Ints, polygons: Ints, cull: Bools, values: Floats, non_zero: bool
     ) -> RasterScene: ...
     def render(

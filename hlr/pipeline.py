@@ -144,7 +144,7 @@ def drawing_of(
         from hlr.surfaces.fill import filled
 
         fill = filled(seen, camera, at.per_model, origin)
-    _lap(clock, "linework", started)
+    lap(clock, "linework", started)
     clock["write"] = 0.0
     clock["total"] = sum(clock.values())
     return Drawing(

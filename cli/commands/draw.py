@@ -46,6 +46,11 @@ if TYPE_CHECKING:
 @click.option("--fill", is_flag=True, help="Paint the visible faces under the lines, in SVG and PDF.")
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
 @click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
+@click.option(
+    "--circles",
+    is_flag=True,
+    help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
+)
 @options(*CARE, *CAMERA, *RUN)
 @click.option("--format", type=click.Choice(["svg", "pdf", "json"]), help="Format, where the name does not say it.")
 @click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
@@ -70,10 +75,9 @@ def draw(
     A CadQuery or build123d script is run to get its model.
     """
     views = views or ("iso",)
-    names = [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views]
-    options = _options(**wishes)
-    targets = _targets(output, source, names, format, as_json)
-    if options.fill and any(kind == "json" for _, kind in targets):
+    request = _options(**wishes)
+    targets = _targets(output, source, names_of(views), format, as_json)
+    if request.fill and any(kind == "json" for _, kind in targets):
         raise OptionError("--fill paints SVG and PDF; JSON holds lines only")
 
     start(source)

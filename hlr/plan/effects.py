@@ -34,6 +34,10 @@ OCCLUSION = 0.045
 """Radius within which things take the sky from one another, of the picture's smaller side."""
 
 
+LEAST_TEXELS, MOST_TEXELS = 1024, 4096
+"""Along a side of what the light sees; else one for each pixel along the picture's longer side."""
+
+
 @dataclass(frozen=True, slots=True)
 class PreviewOptions:
     """What is asked of a shaded picture.
@@ -92,12 +96,11 @@ class Effects:
 
 def decide_effects(options: PreviewOptions, opacity: float) -> Effects:
     """What a request and a scene, whose least opacity is given, call for."""
-    width, height = options.size
     return Effects(
         lines=options.edges,
         antialias=options.antialias,
-        shadows=min(4096, max(1024, 2 * max(width, height))) if options.shadows else 0,
-        occlusion=max(4.0, OCCLUSION * min(width, height)) if options.occlusion else 0.0,
+        shadows=min(MOST_TEXELS, max(LEAST_TEXELS, *options.size)) if options.shadows else 0,
+        occlusion=max(4.0, OCCLUSION * min(options.size)) if options.occlusion else 0.0,
         specular=SPECULAR if options.specular else 0.0,
         glass=opacity < 1.0,
     )

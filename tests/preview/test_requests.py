@@ -69,7 +69,8 @@ def command(*arguments, cwd):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--size", "0x5"], "cannot be made"),
+        (["--size", "0x5"], "not a size in pixels"),
+        (["--size", "20000x5"], "cannot be made"),
         (["--size", "many"], "not a size in pixels"),
         (["--background", "blurple"], "no colour"),
         (["-o", "nowhere/a.png"], "does not exist"),

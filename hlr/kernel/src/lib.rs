@@ -8,6 +8,7 @@ pub mod ink;
 pub mod lines;
 pub mod paper;
 pub mod preview;
+pub mod raster;
 pub mod scan;
 pub mod silhouette;
 
@@ -31,6 +32,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<bind::preview::ShadedModel>()?;
     m.add_function(wrap_pyfunction!(bind::preview::stroke_picture, m)?)?;
     m.add_function(wrap_pyfunction!(bind::preview::surface_normals, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::painters::quadric_row, m)?)?;
+    m.add_class::<bind::raster::RasterScene>()?;
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;
     Ok(())
 }

@@ -10,7 +10,9 @@ use super::maps::seen;
 use crate::geometry::vector::{Vector, along, dot};
 
 /// In texels: how far along its normal a point is moved before it is looked up, so that no surface shades itself.
-const LIFT: f64 = 2.0;
+const LIFT: f64 = 3.0;
+/// Texels along a side of the square over which answers are averaged: about two pixels of the picture.
+const WIDE: usize = 5;
 
 pub struct Shadow {
     lens: Lens,
@@ -40,18 +42,23 @@ impl Shadow {
         let v = self.lens.view(&lifted);
         let place = self.lens.place(&v);
         let depth = self.lens.depth(v[2]) as f32;
-        // The 4 x 4 texels around, each weighted by how much of a square of 3 x 3 about the point it covers.
-        let [x, y] = [place[0] - 1.5, place[1] - 1.5];
+        // The texels around, each weighted by how much of a square about the point it covers.
+        let [x, y] = [place[0] - 0.5 * WIDE as f64, place[1] - 0.5 * WIDE as f64];
         let (i, j) = (x.floor(), y.floor());
         let (u, t) = ((x - i) as f32, (y - j) as f32);
+        let weight = |k: usize, part: f32| match k {
+            0 => 1.0 - part,
+            WIDE => part,
+            _ => 1.0,
+        };
         let mut lit = 0.0;
-        for (row, wy) in [1.0 - t, 1.0, 1.0, t].into_iter().enumerate() {
-            for (column, wx) in [1.0 - u, 1.0, 1.0, u].into_iter().enumerate() {
+        for row in 0..=WIDE {
+            for column in 0..=WIDE {
                 let free = self.at(i as i64 + column as i64, j as i64 + row as i64) >= depth;
-                lit += wx * wy * f32::from(u8::from(free));
+                lit += weight(column, u) * weight(row, t) * f32::from(u8::from(free));
             }
         }
-        lit / 9.0
+        lit / (WIDE * WIDE) as f32
     }
 
     fn at(&self, i: i64, j: i64) -> f32 {
