@@ -163,6 +163,7 @@ class ShadedModel:
         shadow: Lens | None = None,
         occlusion: float = 0.0,
         threads: int = 0,
+        out: Bytes | None = None,
     ) -> Bytes: ...
     def maps(self, lens: Lens, threads: int = 0) -> tuple[Floats, Ints]: ...
 

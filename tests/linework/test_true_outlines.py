@@ -243,3 +243,28 @@ def test_a_rim_seen_along_its_wall_is_hidden_by_what_lies_on_it():
     # The box covers x > -2 of a circle of radius 3.
     assert turn[True] == pytest.approx(2 * np.arccos(2 / 3), abs=0.01)
     assert turn[False] == pytest.approx(2 * np.pi - 2 * np.arccos(2 / 3), abs=0.01)
+
+
+def test_outlines_reach_the_rims_they_end_on():
+    """They touch there, and coincide with the rim before that: each ends at the place farthest to its side."""
+    drawing = hlr.draw(cq.Workplane().circle(10).extrude(20), "iso")
+    ends = [line.points[k] + drawing.origin for line in drawing.lines if line.kind == "outline" for k in (0, -1)]
+    right, up = np.array(drawing.view.right), np.array(drawing.view.up)
+    places = [
+        np.array([(centre + side * right) @ right, (centre + side * right) @ up])
+        for centre in (np.zeros(3), np.array([0.0, 0.0, 20.0]))
+        for side in (-10, 10)
+    ]
+    assert len(ends) == 4
+    for place in places:
+        assert min(np.hypot(*(end - place)) for end in ends) < 0.1 * drawing.accuracy["used"]
+
+
+@pytest.mark.parametrize(("height", "seen"), [(0.02, False), (1.0, True)])
+def test_a_bump_that_hardly_rises_has_no_outline(height, seen):
+    """Over the smaller one N . v changes its sign as well, but it rises less than the accuracy above its own foot."""
+    grid = np.linspace(0, 30, 31)
+    bump = [[cq.Vector(x, y, height * np.exp(-((x - 15) ** 2 + (y - 15) ** 2) / 4)) for y in grid] for x in grid]
+    face = cq.Face.makeSplineApprox(bump, tol=1e-4, minDeg=3, maxDeg=3)
+    scene, _, _ = traced(face, (1.0, 0.0, 0.1 * height), None)
+    assert any(True for _ in outlines(scene)) is seen

@@ -9,6 +9,7 @@ use _kernel::preview::maps::seen;
 use _kernel::preview::picture::picture;
 use _kernel::preview::raster::Sampling;
 use _kernel::preview::shade::{Light, Scene};
+use _kernel::preview::workspace::Workspace;
 
 struct Random(u64);
 
@@ -104,27 +105,33 @@ fn main() {
         occlusion: None,
     };
     let go = || false;
-    let drawn: usize =
-        faces(&model, &lens, &Sampling::CENTRES, &go).unwrap_or_default().iter().map(|c| c.faces.len()).sum();
-    println!("{parts} parts, {count} triangles, {drawn} faces");
+    let mut space = Workspace::default();
+    faces(&model, &lens, &Sampling::CENTRES, &mut space, &go);
+    println!("{parts} parts, {count} triangles, {} faces", space.faces());
+    let mut pixels = vec![[0u8; 4]; lens.size[0] * lens.size[1]];
     for threads in [1, 2] {
         let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
         pool.install(|| {
-            let time = |what: &str, work: &dyn Fn()| {
+            let mut time = |what: &str, work: &mut dyn FnMut(&mut Workspace)| {
                 let mut all: Vec<f64> = (0..15)
                     .map(|_| {
                         let start = Instant::now();
-                        work();
+                        work(&mut space);
                         1000.0 * start.elapsed().as_secs_f64()
                     })
                     .collect();
                 all.sort_by(f64::total_cmp);
                 println!("{threads} threads, {what}: {:.2} ms, best {:.2}", all[7], all[0]);
             };
-            time("faces", &|| drop(faces(&model, &lens, &Sampling::CENTRES, &go)));
-            time("depth and owners", &|| drop(seen(&model, &lens, &go)));
-            time("picture", &|| drop(picture(&scene, &Sampling::CENTRES, [1.0; 4], &go)));
-            time("antialiased", &|| drop(picture(&scene, &Sampling::SIXTEEN, [1.0; 4], &go)));
+            time("faces", &mut |space| {
+                faces(&model, &lens, &Sampling::CENTRES, space, &go);
+            });
+            time("depth and owners", &mut |space| drop(seen(&model, &lens, space, &go)));
+            for (what, sampling) in [("picture", Sampling::CENTRES), ("antialiased", Sampling::SIXTEEN)] {
+                time(what, &mut |space| {
+                    picture(&scene, &sampling, [1.0; 4], space, &mut pixels, &go);
+                });
+            }
         });
     }
 }

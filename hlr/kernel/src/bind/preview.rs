@@ -1,5 +1,7 @@
 //! The shaded preview as Python sees it.
 
+use std::sync::Mutex;
+
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use numpy::{PyReadwriteArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -18,6 +20,7 @@ use crate::preview::raster::Sampling;
 use crate::preview::shade::{Light, Scene};
 use crate::preview::shadow::Shadow;
 use crate::preview::stroke::{Piece, stroke};
+use crate::preview::workspace::Workspace;
 use crate::preview::{Model, NOTHING};
 
 /// right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: see `preview/lens.rs`.
@@ -51,9 +54,18 @@ pub struct ShadedModel {
     colours: Vec<[f32; 4]>,
     cull: Vec<bool>,
     glass: Vec<bool>,
+    space: Mutex<Workspace>,
 }
 
 impl ShadedModel {
+    /// Work in the memory of the last picture, or in fresh memory while another thread is at it.
+    fn with_space<T>(&self, work: impl FnOnce(&mut Workspace) -> T) -> T {
+        match self.space.try_lock() {
+            Ok(mut space) => work(&mut space),
+            Err(_) => work(&mut Workspace::default()),
+        }
+    }
+
     fn model(&self) -> Model<'_> {
         Model {
             points: &self.points,
@@ -103,12 +115,13 @@ impl ShadedModel {
             colours: colours.to_vec(),
             cull: cull.to_vec(),
             glass: paint.iter().map(|p| p.iter().any(|&i| colours[i as usize][3] < 1.0)).collect(),
+            space: Mutex::default(),
         })
     }
 
-    /// (h, w, 4) uint8.
+    /// (h, w, 4) uint8; `out`: a picture of that shape to draw over instead of a new one.
     #[pyo3(signature = (lens, light, ambient, diffuse, specular, background, antialias, shadow = None, occlusion = 0.0,
-        threads = 0))]
+        threads = 0, out = None))]
     #[allow(clippy::too_many_arguments)] // one argument per effect: the stub names them
     fn picture<'py>(
         &self,
@@ -123,27 +136,40 @@ impl ShadedModel {
         shadow: Option<LensTuple>,
         occlusion: f64,
         threads: usize,
+        out: Option<Bound<'py, PyArray3<u8>>>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let lens = lens_of(lens)?;
         let shadow = shadow.map(lens_of).transpose()?;
         let [width, height] = lens.size;
         let sampling = if antialias { Sampling::SIXTEEN } else { Sampling::CENTRES };
-        let pixels = run(py, threads, |stopped| {
-            let model = self.model();
-            let shadow = match shadow {
-                Some(lens) => Some(Shadow::new(&model, lens, stopped)?),
-                None => None,
-            };
-            let occlusion = if occlusion > 0.0 {
-                Some(Occlusion::new(&model, &lens, &seen(&model, &lens, stopped)?, occlusion, stopped)?)
-            } else {
-                None
-            };
-            let light = Light { toward: light, ambient, diffuse, specular };
-            picture(&Scene { model: &model, lens: &lens, light, shadow, occlusion }, &sampling, background, stopped)
-        })?
-        .ok_or_else(stopped_error)?;
-        pixels.into_flattened().into_pyarray(py).reshape([height, width, 4])
+        let out = out.unwrap_or_else(|| PyArray3::zeros(py, [height, width, 4], false));
+        let mut writable = out.try_readwrite().map_err(|_| PyValueError::new_err("out cannot be written"))?;
+        let pixels = writable.as_slice_mut().map_err(|_| PyValueError::new_err("out must be C-contiguous"))?;
+        if pixels.len() != width * height * 4 || out.shape()[1] != width {
+            return Err(PyValueError::new_err("out must be (height, width, 4)"));
+        }
+        let (pixels, _) = pixels.as_chunks_mut::<4>();
+        let done = run(py, threads, |stopped| {
+            self.with_space(|space| {
+                let model = self.model();
+                let shadow = match shadow {
+                    Some(lens) => Some(Shadow::new(&model, lens, space, stopped)?),
+                    None => None,
+                };
+                let occlusion = if occlusion > 0.0 {
+                    let map = seen(&model, &lens, space, stopped)?;
+                    Some(Occlusion::new(&model, &lens, &map, occlusion, stopped)?)
+                } else {
+                    None
+                };
+                let light = Light { toward: light, ambient, diffuse, specular };
+                let scene = Scene { model: &model, lens: &lens, light, shadow, occlusion };
+                picture(&scene, &sampling, background, space, pixels, stopped).then_some(())
+            })
+        })?;
+        drop(writable);
+        done.ok_or_else(stopped_error)?;
+        Ok(out)
     }
 
     /// What is seen at the centres of pixels: distance ahead (h, w) float64, infinite for nothing; triangle (h, w) int32,
@@ -158,7 +184,8 @@ impl ShadedModel {
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>)> {
         let lens = lens_of(lens)?;
         let [width, height] = lens.size;
-        let found = run(py, threads, |stopped| seen(&self.model(), &lens, stopped))?.ok_or_else(stopped_error)?;
+        let found = run(py, threads, |stopped| self.with_space(|space| seen(&self.model(), &lens, space, stopped)))?
+            .ok_or_else(stopped_error)?;
         let ahead = |s: &crate::preview::maps::Seen| {
             if s.triangle == NOTHING { f64::INFINITY } else { lens.ahead_at(f64::from(s.depth)) }
         };

@@ -104,7 +104,7 @@ struct Ready {
 impl Ready {
     #[inline(always)]
     fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Ready {
-        let (rows, chunks) = window(face, first, sampling);
+        let (rows, chunks) = window(face, first);
         let half = 1i32 << (sampling.shift - 1);
         let (x, y) = ((first[0] << sampling.shift).wrapping_add(half), (first[1] << sampling.shift).wrapping_add(half));
         let per_step = 1.0 / f64::from(1u32 << sampling.shift);

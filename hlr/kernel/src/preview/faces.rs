@@ -1,19 +1,21 @@
-//! Triangles as the raster takes them: corners on the grid of 1/256 pixel, depth at each, sorted into strips of the picture.
+//! Triangles as the raster takes them: corners on the grid of 1/256 pixel, depth at each; what lies in front comes first.
 
 use rayon::prelude::*;
 
 use super::Model;
 use super::lens::Lens;
 use super::near::cut;
-use super::raster::{Sampling, TILE_HEIGHT};
+use super::raster::Sampling;
+use super::workspace::Workspace;
 use crate::geometry::vector::Vector;
 
 /// Steps of the grid in a pixel.
 pub const GRID: i32 = 256;
 /// Most pixels a side: the raster's integers hold tiles of faces twice as large.
 pub const MOST_PIXELS: usize = 16384;
-/// Triangles a thread takes at a time.
-const CHUNK: usize = 4096;
+/// Triangles that are sorted as one, by their nearest corner. Few, so that what lies in front is drawn first; many enough
+/// that sorting them costs nothing.
+const CHUNK: usize = 256;
 
 /// A triangle in the picture, its corners in the order of positive area, y down.
 #[derive(Clone, Copy, Debug)]
@@ -22,24 +24,36 @@ pub struct Face {
     pub y: [i32; 3],
     pub depth: [f32; 3],
     pub triangle: u32,
+    /// Columns and rows of samples that it may own: first, and one after the last.
+    pub reach: [[i32; 2]; 2],
 }
 
-/// The faces of some triangles, and which of them reach into which strip.
-pub struct Chunk {
-    pub faces: Vec<Face>,
-    starts: Vec<u32>,
-    listed: Vec<u32>,
-}
+impl Face {
+    pub const NONE: Face = Face { x: [0; 3], y: [0; 3], depth: [0.0; 3], triangle: 0, reach: [[0; 2]; 2] };
 
-impl Chunk {
-    pub fn in_strip(&self, strip: usize) -> impl Iterator<Item = &Face> {
-        let range = self.starts[strip] as usize..self.starts[strip + 1] as usize;
-        self.listed[range].iter().map(|&i| &self.faces[i as usize])
+    /// `size`: of the picture, in pixels.
+    #[inline(always)]
+    pub fn new(
+        x: [i32; 3],
+        y: [i32; 3],
+        depth: [f32; 3],
+        triangle: u32,
+        sampling: &Sampling,
+        size: [usize; 2],
+    ) -> Face {
+        Face { x, y, depth, triangle, reach: [sampling.reach(&x, size[0]), sampling.reach(&y, size[1])] }
     }
 }
 
+/// The faces of some triangles.
+#[derive(Default)]
+pub struct Chunk {
+    pub faces: Vec<Face>,
+    nearest: f32,
+}
+
 #[derive(Clone, Copy)]
-struct Vertex {
+pub struct Vertex {
     x: i32,
     y: i32,
     depth: f32,
@@ -54,49 +68,46 @@ impl Vertex {
     }
 }
 
-/// All faces that own a sample of the picture, in the order of the triangles. None when stopped.
+/// All faces that own a sample of the picture, into `space.chunks`, roughly from near to far: what is seen does not depend on
+/// their order, but what is hidden is found out sooner. False when stopped.
 pub fn faces(
     model: &Model,
     lens: &Lens,
     sampling: &Sampling,
+    space: &mut Workspace,
     stopped: &(dyn Fn() -> bool + Sync),
-) -> Option<Vec<Chunk>> {
+) -> bool {
     let (wide, high) = (lens.size[0] as f64 * f64::from(GRID), lens.size[1] as f64 * f64::from(GRID));
     let near = lens.near();
     let projector = lens.projector();
-    let vertices: Vec<Vertex> = model
-        .points
-        .par_iter()
-        .with_min_len(4096)
-        .map(|p| {
-            let [x, y, depth, z] = projector.project(p);
-            let (x, y) = (x * f64::from(GRID), y * f64::from(GRID));
-            // Half a picture beyond the border; what is no number is not within it either.
-            let within = (x - 0.5 * wide).abs() <= wide && (y - 0.5 * high).abs() <= high && z >= near;
-            if within { Vertex { x: nearest(x), y: nearest(y), depth: depth.max(0.0) as f32 } } else { Vertex::OFF }
-        })
-        .collect();
-    let strips = sampling.strips(lens.size[1]);
+    let project = |p: &Vector| {
+        let [x, y, depth, z] = projector.project(p);
+        let (x, y) = (x * f64::from(GRID), y * f64::from(GRID));
+        // Half a picture beyond the border; what is no number is not within it either.
+        let within = (x - 0.5 * wide).abs() <= wide && (y - 0.5 * high).abs() <= high && z >= near;
+        if within { Vertex { x: nearest(x), y: nearest(y), depth: depth.max(0.0) as f32 } } else { Vertex::OFF }
+    };
+    model.points.par_iter().with_min_len(4096).map(project).collect_into_vec(&mut space.vertices);
+    let vertices = &space.vertices;
     let count = model.triangles.len();
-    let chunks: Vec<Chunk> = (0..count.div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|c| {
-            let mut faces = Vec::with_capacity(CHUNK);
-            if !stopped() {
-                for t in c * CHUNK..(c * CHUNK + CHUNK).min(count) {
-                    let [a, b, c] = model.triangles[t];
-                    let (a, b, c) = (vertices[a as usize], vertices[b as usize], vertices[c as usize]);
-                    if a.is_off() || b.is_off() || c.is_off() {
-                        cut_faces(model, lens, sampling, t, &mut faces);
-                    } else {
-                        add(a, b, c, t, model.cull[t], lens, sampling, &mut faces);
-                    }
+    space.chunks.resize_with(count.div_ceil(CHUNK), Chunk::default);
+    space.chunks.par_iter_mut().enumerate().with_min_len(16).for_each(|(c, chunk)| {
+        chunk.faces.clear();
+        if !stopped() {
+            for t in c * CHUNK..(c * CHUNK + CHUNK).min(count) {
+                let [a, b, c] = model.triangles[t];
+                let (a, b, c) = (vertices[a as usize], vertices[b as usize], vertices[c as usize]);
+                if a.is_off() || b.is_off() || c.is_off() {
+                    cut_faces(model, lens, sampling, t, &mut chunk.faces);
+                } else {
+                    add(a, b, c, t, model.cull[t], lens, sampling, &mut chunk.faces);
                 }
             }
-            listed(faces, sampling, strips)
-        })
-        .collect();
-    (!stopped()).then_some(chunks)
+        }
+        chunk.nearest = chunk.faces.iter().flat_map(|f| f.depth).fold(f32::INFINITY, f32::min);
+    });
+    space.chunks.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
+    !stopped()
 }
 
 #[inline(always)]
@@ -115,9 +126,9 @@ fn add(a: Vertex, b: Vertex, c: Vertex, t: usize, cull: bool, lens: &Lens, sampl
         return;
     }
     let (b, c) = if area > 0 { (b, c) } else { (c, b) };
-    let face = Face { x: [a.x, b.x, c.x], y: [a.y, b.y, c.y], depth: [a.depth, b.depth, c.depth], triangle: t as u32 };
-    let (columns, rows) = (sampling.reach(&face.x, lens.size[0]), sampling.reach(&face.y, lens.size[1]));
-    if columns[0] < columns[1] && rows[0] < rows[1] {
+    let depth = [a.depth, b.depth, c.depth];
+    let face = Face::new([a.x, b.x, c.x], [a.y, b.y, c.y], depth, t as u32, sampling, lens.size);
+    if face.reach.iter().all(|r| r[0] < r[1]) {
         out.push(face);
     }
 }
@@ -135,33 +146,4 @@ fn cut_faces(model: &Model, lens: &Lens, sampling: &Sampling, t: usize, out: &mu
     for i in 2..polygon.len() {
         add(polygon[0], polygon[i - 1], polygon[i], t, model.cull[t], lens, sampling, out);
     }
-}
-
-/// A counting sort by strip.
-fn listed(faces: Vec<Face>, sampling: &Sampling, strips: usize) -> Chunk {
-    let reach: Vec<[u32; 2]> = faces
-        .iter()
-        .map(|f| {
-            let rows = sampling.reach(&f.y, usize::MAX);
-            [rows[0] as usize / TILE_HEIGHT, (rows[1] as usize - 1) / TILE_HEIGHT].map(|s| s.min(strips - 1) as u32)
-        })
-        .collect();
-    let mut starts = vec![0u32; strips + 1];
-    for r in &reach {
-        for s in r[0]..=r[1] {
-            starts[s as usize + 1] += 1;
-        }
-    }
-    for s in 0..strips {
-        starts[s + 1] += starts[s];
-    }
-    let mut next = starts.clone();
-    let mut list = vec![0u32; starts[strips] as usize];
-    for (i, r) in reach.iter().enumerate() {
-        for s in r[0]..=r[1] {
-            list[next[s as usize] as usize] = i as u32;
-            next[s as usize] += 1;
-        }
-    }
-    Chunk { faces, starts, listed: list }
 }

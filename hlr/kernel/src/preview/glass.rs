@@ -15,7 +15,7 @@ pub struct Layer {
 }
 
 /// All layers of a tile, by sample; of a sample the farthest first. At equal depths the first triangle lies in front.
-pub fn layers(tile: &Tile, faces: &[Face], first: [usize; 2], sampling: &Sampling, out: &mut Vec<Layer>) {
+pub fn layers(tile: &Tile, faces: &[&Face], first: [usize; 2], sampling: &Sampling, out: &mut Vec<Layer>) {
     out.clear();
     for face in faces {
         owned(face, first.map(|c| c as i32), sampling, |i, j, depth| {

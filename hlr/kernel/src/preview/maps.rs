@@ -4,6 +4,7 @@ use super::faces::faces;
 use super::lens::Lens;
 use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
 use super::tiles::each_tile;
+use super::workspace::Workspace;
 use super::{Model, NOTHING};
 
 /// Depth (0 nearest, 1 farthest, 2 nothing) and triangle (NOTHING for none).
@@ -14,18 +15,27 @@ pub struct Seen {
 }
 
 /// Row by row. Glass counts as solid. None when stopped.
-pub fn seen(model: &Model, lens: &Lens, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Vec<Seen>> {
+pub fn seen(
+    model: &Model,
+    lens: &Lens,
+    space: &mut Workspace,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<Seen>> {
     let sampling = Sampling::CENTRES;
-    let chunks = faces(model, lens, &sampling, stopped)?;
+    if !faces(model, lens, &sampling, space, stopped) {
+        return None;
+    }
     let [width, height] = lens.size;
-    let mut out = vec![Seen { depth: 2.0, triangle: NOTHING }; width * height];
+    let nothing = Seen { depth: 2.0, triangle: NOTHING };
+    let mut out = vec![nothing; width * height];
     let solid = vec![false; model.triangles.len()];
     each_tile(
-        &chunks,
+        space,
         lens.size,
         &sampling,
         &solid,
         &mut out,
+        nothing,
         stopped,
         || (),
         |(), filled, rows| {

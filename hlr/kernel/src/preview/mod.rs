@@ -6,7 +6,7 @@
 //! 3. `faces`      triangles as integers in 1/256 pixel, what cannot be seen left out, sorted into strips of the picture
 //! 4. `tiles`      each strip's faces sorted into tiles that stay in the first cache; one tile after another:
 //! 5. `raster`     which samples a face owns (top-left rule, exact), and which are nearer than what was there: `spans`
-//!                with one sample a pixel, `edges` with sixteen
+//!                with one sample a pixel, `small` for narrow faces, `edges` with sixteen; `pyramid` leaves out what lies behind all that is there
 //! 6. `glass`        transparent faces: all layers before the nearest opaque one, sorted by depth
 //! 7. `surface`      the point of the true triangle under a sample: perspective-correct, no clipping needed
 //! 8. `shade`        light
@@ -22,20 +22,24 @@
 pub mod edges;
 pub mod faces;
 pub mod glass;
+pub mod kept;
 pub mod lens;
 pub mod maps;
 pub mod near;
 pub mod normals;
 pub mod occlusion;
 pub mod picture;
+pub mod pyramid;
 pub mod raster;
 pub mod resolve;
 pub mod shade;
 pub mod shadow;
+pub mod small;
 pub mod spans;
 pub mod stroke;
 pub mod surface;
 pub mod tiles;
+pub mod workspace;
 
 /// What is to be shown, borrowed. Colours are linear light, premultiplied by nothing; alpha below one is glass.
 pub struct Model<'a> {

@@ -3,39 +3,32 @@
 use super::NOTHING;
 use super::faces::faces;
 use super::glass::{Layer, layers, over};
+use super::kept::Kept;
 use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
 use super::resolve::Encoder;
 use super::shade::{Ready, Scene};
 use super::tiles::{Filled, each_tile};
+use super::workspace::Workspace;
 
-/// Triangles a thread keeps ready, by the last bits of their numbers.
-const KEPT: usize = 1024;
-
-/// RGBA, row by row. `background`: linear light, premultiplied. None when stopped.
+/// RGBA, row by row, into `out`. `background`: linear light, premultiplied. False when stopped.
 pub fn picture(
     scene: &Scene,
     sampling: &Sampling,
     background: [f32; 4],
+    space: &mut Workspace,
+    out: &mut [[u8; 4]],
     stopped: &(dyn Fn() -> bool + Sync),
-) -> Option<Vec<[u8; 4]>> {
-    let [width, height] = scene.lens.size;
-    let chunks = faces(scene.model, scene.lens, sampling, stopped)?;
+) -> bool {
+    if !faces(scene.model, scene.lens, sampling, space, stopped) {
+        return false;
+    }
     let encoder = Encoder::new();
-    let mut out = vec![encoder.pixel(background); width * height];
-    let painter = || Painter { scene, sampling, background, encoder: &encoder, kept: vec![None; KEPT] };
-    each_tile(
-        &chunks,
-        scene.lens.size,
-        sampling,
-        scene.model.glass,
-        &mut out,
-        stopped,
-        painter,
-        |painter, filled, rows| {
-            painter.tile(filled, rows, width);
-        },
-    )
-    .then_some(out)
+    let nothing = encoder.pixel(background);
+    let painter = || Painter { scene, sampling, background, encoder: &encoder, kept: Kept::new() };
+    let size = scene.lens.size;
+    each_tile(space, size, sampling, scene.model.glass, out, nothing, stopped, painter, |painter, filled, rows| {
+        painter.tile(filled, rows, size[0]);
+    })
 }
 
 struct Painter<'a> {
@@ -43,41 +36,56 @@ struct Painter<'a> {
     sampling: &'a Sampling,
     background: [f32; 4],
     encoder: &'a Encoder,
-    kept: Vec<Option<(u32, Ready)>>,
+    kept: Kept,
 }
 
 impl Painter<'_> {
     fn tile(&mut self, filled: &Filled, rows: &mut [[u8; 4]], width: usize) {
+        self.kept.forget();
         let side = self.sampling.side;
         let left = filled.first[0] / side;
         let wide = (TILE_WIDTH / side).min(width - left);
         let mut found: Vec<Layer> = Vec::new();
         layers(filled.tile, filled.glass, filled.first, self.sampling, &mut found);
         for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT / side).enumerate() {
-            for (i, pixel) in row[left..left + wide].iter_mut().enumerate() {
-                if side == 1 && found.is_empty() {
-                    let triangle = filled.tile.triangle(i, j);
-                    if triangle != NOTHING {
-                        let place = self.sampling.place(filled.first[0] + i, filled.first[1] + j);
-                        *pixel = self.encoder.pixel(self.colour(triangle, place));
-                    }
-                } else if let Some(colour) = self.mean(filled, &found, [i * side, j * side]) {
+            let row = &mut row[left..left + wide];
+            if side == 1 && found.is_empty() {
+                self.runs(filled, j, row);
+                continue;
+            }
+            for (i, pixel) in row.iter_mut().enumerate() {
+                if let Some(colour) = self.mean(filled, &found, [i * side, j * side]) {
                     *pixel = self.encoder.pixel(colour);
                 }
             }
         }
     }
 
+    /// A row with one opaque sample a pixel: from triangle to triangle.
+    fn runs(&mut self, filled: &Filled, j: usize, row: &mut [[u8; 4]]) {
+        let mut column = 0;
+        while let Some((from, to, triangle)) = filled.tile.run(j, column) {
+            if from >= row.len() {
+                return;
+            }
+            let place = self.sampling.place(filled.first[0] + from, filled.first[1] + j);
+            let (scene, encoder) = (self.scene, self.encoder);
+            let to = to.min(row.len());
+            scene.shade_run(self.ready(triangle, place), place, &mut row[from..to], encoder);
+            column = to;
+        }
+    }
+
     #[inline(always)]
     fn colour(&mut self, triangle: u32, place: [f64; 2]) -> [f32; 4] {
-        let slot = &mut self.kept[triangle as usize % KEPT];
-        match slot {
-            Some((held, ready)) if *held == triangle => self.scene.shade(ready, place),
-            _ => {
-                let (_, ready) = slot.insert((triangle, self.scene.ready(triangle, place)));
-                self.scene.shade(ready, place)
-            }
-        }
+        let scene = self.scene;
+        scene.shade(self.ready(triangle, place), place)
+    }
+
+    #[inline(always)]
+    fn ready(&mut self, triangle: u32, place: [f64; 2]) -> &Ready {
+        let scene = self.scene;
+        self.kept.get(triangle, || scene.ready(triangle, place))
     }
 
     /// The mean of a pixel's samples, the first of which is given within the tile; None for nothing but background.

@@ -19,7 +19,8 @@
 //! ```
 
 use super::faces::{Face, GRID};
-use super::{NOTHING, edges, spans};
+use super::pyramid::Pyramid;
+use super::{NOTHING, edges, small, spans};
 
 pub const TILE_WIDTH: usize = 64;
 pub const TILE_HEIGHT: usize = 64;
@@ -76,15 +77,39 @@ impl Sampling {
 /// those bits, which compares alike, because processors have an instruction for the lesser of doubles.
 pub struct Tile {
     seen: [[f64; TILE_WIDTH]; TILE_HEIGHT],
+    pyramid: Pyramid,
 }
 
 impl Tile {
     pub fn new() -> Tile {
-        Tile { seen: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT] }
+        Tile { seen: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT], pyramid: Pyramid::EMPTY }
     }
 
     pub fn clear(&mut self) {
         self.seen.as_flattened_mut().fill(EMPTY);
+        self.pyramid.clear();
+    }
+
+    /// The next run of one triangle in a row, from a column on: its first column, the one after its last, and the triangle.
+    #[inline(always)]
+    pub fn run(&self, row: usize, from: usize) -> Option<(usize, usize, u32)> {
+        let (seen, drawn) = (&self.seen[row], self.pyramid.drawn(row));
+        let mut at = from;
+        while at < TILE_WIDTH {
+            let triangle = seen[at].to_bits() as u32;
+            if triangle != NOTHING {
+                let mut to = at + 1;
+                while to < TILE_WIDTH && seen[to].to_bits() as u32 == triangle {
+                    to += 1;
+                }
+                return Some((at, to, triangle));
+            }
+            at += 1;
+            while at.is_multiple_of(LANES) && at < TILE_WIDTH && drawn >> (at / LANES) & 1 == 0 {
+                at += LANES;
+            }
+        }
+        None
     }
 
     /// What is seen along a row.
@@ -105,7 +130,7 @@ impl Tile {
     }
 
     /// `first`: column and row of the tile's first sample.
-    pub fn fill(&mut self, faces: &[Face], first: [i32; 2], sampling: &Sampling) {
+    pub fn fill(&mut self, faces: &[&Face], first: [i32; 2], sampling: &Sampling) {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has what the function is compiled for. It is the same function, and no instruction
@@ -125,14 +150,24 @@ impl Default for Tile {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn fill_avx2(tile: &mut Tile, faces: &[Face], first: [i32; 2], sampling: &Sampling) {
+fn fill_avx2(tile: &mut Tile, faces: &[&Face], first: [i32; 2], sampling: &Sampling) {
     fill_any(tile, faces, first, sampling);
 }
 
 #[inline(always)]
-fn fill_any(tile: &mut Tile, faces: &[Face], first: [i32; 2], sampling: &Sampling) {
+fn fill_any(tile: &mut Tile, faces: &[&Face], first: [i32; 2], sampling: &Sampling) {
     for face in faces {
-        if sampling.side == 1 {
+        let (rows, chunks) = window(face, first);
+        let nearest = face.depth[0].min(face.depth[1]).min(face.depth[2]);
+        if tile.pyramid.hides(&tile.seen, rows, chunks, nearest) {
+            continue;
+        }
+        tile.pyramid.touch(rows, chunks);
+        if sampling.side == 1 && small::lanes(face) == 1 {
+            small::fill::<1>(&mut tile.seen, face, first, rows);
+        } else if sampling.side == 1 && small::lanes(face) == 2 {
+            small::fill::<2>(&mut tile.seen, face, first, rows);
+        } else if sampling.side == 1 {
             spans::fill(tile, face, first, sampling);
         } else {
             edges::fill(tile, face, first, sampling);
@@ -198,9 +233,8 @@ impl Slope {
 
 /// Rows and chunks of lanes of a tile that a face reaches.
 #[inline(always)]
-pub fn window(face: &Face, first: [i32; 2], sampling: &Sampling) -> ([usize; 2], [usize; 2]) {
-    let columns = sampling.reach(&face.x, usize::MAX);
-    let rows = sampling.reach(&face.y, usize::MAX);
+pub fn window(face: &Face, first: [i32; 2]) -> ([usize; 2], [usize; 2]) {
+    let [columns, rows] = face.reach;
     let within = |v: i32, from: i32, most: usize| v.wrapping_sub(from).clamp(0, most as i32) as usize;
     let chunks =
         [within(columns[0], first[0], TILE_WIDTH) / LANES, within(columns[1], first[0], TILE_WIDTH).div_ceil(LANES)];
@@ -240,12 +274,12 @@ mod tests {
         ((*state >> 33) as i32).rem_euclid(n)
     }
 
-    fn face(p: [[i32; 2]; 3], triangle: u32) -> Option<Face> {
+    fn face(p: [[i32; 2]; 3], triangle: u32, sampling: &Sampling) -> Option<Face> {
         let [a, b, c] = p.map(|q| q.map(i64::from));
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         let order = if area > 0 { [0, 1, 2] } else { [0, 2, 1] };
         let at = |k: usize| order.map(|o| p[o][k]);
-        (area != 0).then(|| Face { x: at(0), y: at(1), depth: [0.5; 3], triangle })
+        (area != 0).then(|| Face::new(at(0), at(1), [0.5; 3], triangle, sampling, [usize::MAX; 2]))
     }
 
     /// The rule in rational terms: inside, or on a left or top edge.
@@ -266,10 +300,10 @@ mod tests {
                 let spread = [300, 3000, 20000, 4_000_000][turn % 4];
                 let mut p = || [0, 1].map(|_| random(&mut state, 2 * spread) - spread / 2);
                 let points = [p(), p(), p()].map(|q| if turn % 3 == 0 { q.map(|c| c / 64 * 64 + 32) } else { q });
-                let Some(f) = face(points, 7) else { continue };
+                let Some(f) = face(points, 7, &sampling) else { continue };
                 let first = [64 * (turn as i32 % 3), 32 * (turn as i32 % 2)];
                 let mut tile = Tile::new();
-                tile.fill(&[f], first, &sampling);
+                tile.fill(&[&f], first, &sampling);
                 let mut listed = 0;
                 owned(&f, first, &sampling, |i, j, _| {
                     listed += 1;
@@ -299,7 +333,7 @@ mod tests {
                     vec![[0, 0], [1500, 0], [3000, 100], [3000, 3000], [1000, 3100], [0, 3000], [0, 777]];
                 let mut painted = vec![0; TILE_WIDTH * TILE_HEIGHT];
                 for k in 0..ring.len() {
-                    if let Some(f) = face([centre, ring[k], ring[(k + 1) % ring.len()]], 0) {
+                    if let Some(f) = face([centre, ring[k], ring[(k + 1) % ring.len()]], 0, &sampling) {
                         owned(&f, [0, 0], &sampling, |i, j, _| painted[j * TILE_WIDTH + i] += 1);
                     }
                 }
@@ -315,6 +349,36 @@ mod tests {
         }
     }
 
+    /// What lies behind is left out sooner or later, by the order of the faces, but never what is seen.
+    #[test]
+    fn the_order_of_faces_does_not_matter() {
+        let mut state = 11;
+        for sampling in [Sampling::CENTRES, Sampling::SIXTEEN] {
+            for size in [500, 2000, 4000, 30000] {
+                let mut faces: Vec<Face> = (0..1500)
+                    .filter_map(|t| {
+                        let corner = [0, 1].map(|_| random(&mut state, 16384));
+                        let mut p = || corner.map(|c| c + random(&mut state, size) - size / 2);
+                        let mut f = face([p(), p(), p()], t, &sampling)?;
+                        let depth = random(&mut state, 50) as f32 / 50.0;
+                        f.depth = [0, 1, 2].map(|_| depth + random(&mut state, 3) as f32 / 100.0);
+                        Some(f)
+                    })
+                    .collect();
+                let mut filled = |faces: &[Face]| {
+                    let mut tile = Tile::new();
+                    tile.fill(&faces.iter().collect::<Vec<_>>(), [0, 0], &sampling);
+                    tile
+                };
+                let one = filled(&faces);
+                faces.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]));
+                assert!(one.seen == filled(&faces).seen, "from near to far");
+                faces.reverse();
+                assert!(one.seen == filled(&faces).seen, "from far to near");
+            }
+        }
+    }
+
     #[test]
     fn without_avx_it_is_the_same() {
         let mut state = 9;
@@ -322,12 +386,13 @@ mod tests {
             let faces: Vec<Face> = (0..300)
                 .filter_map(|t| {
                     let mut p = || [0, 1].map(|_| random(&mut state, 16000));
-                    let mut f = face([p(), p(), p()], t)?;
+                    let mut f = face([p(), p(), p()], t, &sampling)?;
                     f.depth = [0, 1, 2].map(|_| random(&mut state, 1000) as f32 / 1000.0);
                     Some(f)
                 })
                 .collect();
             let (mut one, mut two) = (Tile::new(), Tile::new());
+            let faces: Vec<&Face> = faces.iter().collect();
             one.fill(&faces, [0, 0], &sampling);
             fill_any(&mut two, &faces, [0, 0], &sampling);
             assert!(one.seen == two.seen);

@@ -18,14 +18,20 @@ impl Encoder {
 
     #[inline(always)]
     fn channel(&self, linear: f32) -> u8 {
-        self.table[(linear.clamp(0.0, 1.0) * STEPS as f32 + 0.5) as usize]
+        let step = (linear * STEPS as f32 + 0.5) as i32;
+        self.table[step.clamp(0, STEPS as i32) as usize]
+    }
+
+    #[inline(always)]
+    pub fn opaque(&self, c: [f32; 3]) -> [u8; 4] {
+        [self.channel(c[0]), self.channel(c[1]), self.channel(c[2]), 255]
     }
 
     /// From linear light, premultiplied by opacity, to sRGB with straight opacity.
     #[inline(always)]
     pub fn pixel(&self, c: [f32; 4]) -> [u8; 4] {
         if c[3] >= 1.0 {
-            return [self.channel(c[0]), self.channel(c[1]), self.channel(c[2]), 255];
+            return self.opaque([c[0], c[1], c[2]]);
         }
         if c[3] <= 0.0 {
             return [0; 4];

@@ -3,9 +3,10 @@
 use super::Model;
 use super::lens::Lens;
 use super::occlusion::Occlusion;
+use super::resolve::Encoder;
 use super::shadow::Shadow;
 use super::surface::{Surface, normals};
-use crate::geometry::vector::{add, dot, unit};
+use crate::geometry::vector::{add, dot, sub, unit};
 
 pub struct Light {
     /// Unit vector from the model toward the light, in the model.
@@ -76,31 +77,52 @@ impl Scene<'_> {
         if flat && self.model.cull[triangle as usize] {
             return Ready::Flat(self.lit(colours[0], self.facing(n[0]), 1.0));
         }
-        let surface = Surface::new(self.model, self.lens, triangle);
-        if flat {
-            return Ready::Flat(self.lit(colours[0], self.facing(surface.normal([1.0, 0.0, 0.0])), 1.0));
-        }
-        // The height over a side is one over the growth of the barycentric coordinate of the corner opposite.
-        let steep = surface.rows.iter().any(|r| r[0] * r[0] + r[1] * r[1] > 1.0 / (LOW * LOW));
-        if steep || self.lens.distance.is_some() {
+        if flat || self.lens.distance.is_some() {
+            let surface = Surface::new(self.model, self.lens, triangle);
+            if flat {
+                return Ready::Flat(self.lit(colours[0], self.facing(surface.normal([1.0, 0.0, 0.0])), 1.0));
+            }
             return Ready::Any(Box::new(Any { surface, colours }));
         }
         let origin = [place[0].floor(), place[1].floor()];
-        let side = if surface.front { 1.0 } else { -1.0 };
-        let mixed = |weight: &dyn Fn(&[f64; 3]) -> f64| {
-            let w = [weight(&surface.rows[0]), weight(&surface.rows[1]), weight(&surface.rows[2])];
-            let v = [0, 1, 2].map(|k| (0..3).map(|i| w[i] * f64::from(n[i][k])).sum::<f64>() * side);
-            let light = dot(&v, &self.light.toward);
-            [v[0] as f32, v[1] as f32, v[2] as f32, light as f32]
-        };
-        let from = [origin[0] - self.lens.centre[0], origin[1] - self.lens.centre[1]];
-        Ready::Round(Round {
-            colour: colours[0],
-            origin,
-            at: mixed(&|r| r[0] * from[0] + r[1] * from[1] + r[2]),
-            by_x: mixed(&|r| r[0]),
-            by_y: mixed(&|r| r[1]),
-        })
+        match self.round(triangle, &n, origin, colours[0]) {
+            Some(round) => Ready::Round(round),
+            None => Ready::Any(Box::new(Any { surface: Surface::new(self.model, self.lens, triangle), colours })),
+        }
+    }
+
+    /// In a parallel view: the normal as an affine function of the place, from its values at the corners. None for a
+    /// triangle too low for that.
+    #[inline(always)]
+    fn round(&self, triangle: u32, n: &[[f32; 3]; 3], origin: [f64; 2], colour: [f32; 4]) -> Option<Round> {
+        let lens = self.lens;
+        let corners = self.model.triangles[triangle as usize].map(|i| {
+            let q = sub(&self.model.points[i as usize], &lens.origin);
+            [lens.scale * dot(&q, &lens.right) + lens.centre[0], lens.centre[1] - lens.scale * dot(&q, &lens.up)]
+        });
+        let [x0, y0] = corners[0];
+        let [x1, y1] = [corners[1][0] - x0, corners[1][1] - y0];
+        let [x2, y2] = [corners[2][0] - x0, corners[2][1] - y0];
+        let turn = x1 * y2 - x2 * y1;
+        // The height over the longest side is the lowest.
+        let square = |x: f64, y: f64| x * x + y * y;
+        let longest = square(x1, y1).max(square(x2, y2)).max(square(x2 - x1, y2 - y1));
+        if turn * turn <= longest * (LOW * LOW) {
+            return None;
+        }
+        // With y down, what is counter-clockwise to the viewer turns negatively.
+        let side = if turn < 0.0 { 1.0 } else { -1.0 };
+        let light = n.map(|n| self.facing(n));
+        let values = |k: usize| [0, 1, 2].map(|i: usize| side * f64::from(if k < 3 { n[i][k] } else { light[i] }));
+        let (mut at, mut by_x, mut by_y) = ([0.0f32; 4], [0.0f32; 4], [0.0f32; 4]);
+        let (over, from) = (1.0 / turn, [origin[0] - x0, origin[1] - y0]);
+        for k in 0..4 {
+            let [v0, v1, v2] = values(k);
+            let x = ((v1 - v0) * y2 - (v2 - v0) * y1) * over;
+            let y = ((v2 - v0) * x1 - (v1 - v0) * x2) * over;
+            (at[k], by_x[k], by_y[k]) = ((v0 + x * from[0] + y * from[1]) as f32, x as f32, y as f32);
+        }
+        Some(Round { colour, origin, at, by_x, by_y })
     }
 
     /// Linear light and opacity of what is seen at a place, in pixels.
@@ -109,13 +131,32 @@ impl Scene<'_> {
         match ready {
             Ready::Flat(colour) => *colour,
             Ready::Round(round) => {
-                let (x, y) = ((place[0] - round.origin[0]) as f32, (place[1] - round.origin[1]) as f32);
-                let at = |k: usize| round.at[k] + round.by_x[k] * x + round.by_y[k] * y;
-                let n = [at(0), at(1), at(2), at(3)];
-                let square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-                self.lit(round.colour, if square > 0.0 { n[3] / square.sqrt() } else { 0.0 }, 1.0)
+                let [x, y] = [place[0] - round.origin[0], place[1] - round.origin[1]].map(|c| c as f32);
+                self.lit(round.colour, round.facing(x, y), 1.0)
             }
             Ready::Any(any) => self.shade_any(any, place),
+        }
+    }
+
+    /// Pixels side by side, the first of which has its centre at `place`.
+    #[inline(always)]
+    pub fn shade_run(&self, ready: &Ready, place: [f64; 2], row: &mut [[u8; 4]], encoder: &Encoder) {
+        if let Ready::Flat(colour) = ready {
+            row.fill(encoder.pixel(*colour));
+            return;
+        }
+        if let Ready::Round(round) = ready
+            && round.colour[3] >= 1.0
+        {
+            let from = [place[0] - round.origin[0], place[1] - round.origin[1]].map(|c| c as f32);
+            for (i, pixel) in row.iter_mut().enumerate() {
+                let light = self.share(round.facing(from[0] + i as f32, from[1]), 1.0);
+                *pixel = encoder.opaque([0, 1, 2].map(|k: usize| round.colour[k] * light));
+            }
+            return;
+        }
+        for (i, pixel) in row.iter_mut().enumerate() {
+            *pixel = encoder.pixel(self.shade(ready, [place[0] + i as f64, place[1]]));
         }
     }
 
@@ -165,9 +206,26 @@ impl Scene<'_> {
 
     #[inline(always)]
     fn lit(&self, colour: [f32; 4], facing: f32, sun: f32) -> [f32; 4] {
-        let facing = if facing > 0.0 { facing } else { 0.0 };
-        let light = self.light.ambient + self.light.diffuse * facing * sun;
+        let light = self.share(facing, sun);
         [colour[0] * light, colour[1] * light, colour[2] * light, colour[3]]
+    }
+
+    /// How much a surface gives back.
+    #[inline(always)]
+    fn share(&self, facing: f32, sun: f32) -> f32 {
+        let facing = if facing > 0.0 { facing } else { 0.0 };
+        self.light.ambient + self.light.diffuse * facing * sun
+    }
+}
+
+impl Round {
+    /// The cosine between the normal and the light, at a place relative to the origin.
+    #[inline(always)]
+    fn facing(&self, x: f32, y: f32) -> f32 {
+        let at = |k: usize| self.at[k] + self.by_x[k] * x + self.by_y[k] * y;
+        let n = [at(0), at(1), at(2), at(3)];
+        let square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        if square > 0.0 { n[3] / square.sqrt() } else { 0.0 }
     }
 }
 

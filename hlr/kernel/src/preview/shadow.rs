@@ -7,6 +7,7 @@
 use super::Model;
 use super::lens::Lens;
 use super::maps::seen;
+use super::workspace::Workspace;
 use crate::geometry::vector::{Vector, along, dot};
 
 /// In texels: how far along its normal a point is moved before it is looked up, so that no surface shades itself.
@@ -23,8 +24,13 @@ pub struct Shadow {
 
 impl Shadow {
     /// `lens`: parallel, as the light looks. None when stopped.
-    pub fn new(model: &Model, lens: Lens, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Shadow> {
-        let depth = seen(model, &lens, stopped)?.iter().map(|s| s.depth).collect();
+    pub fn new(
+        model: &Model,
+        lens: Lens,
+        space: &mut Workspace,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Shadow> {
+        let depth = seen(model, &lens, space, stopped)?.iter().map(|s| s.depth).collect();
         let texel = 1.0 / lens.scale;
         Some(Shadow { lens, depth, texel })
     }

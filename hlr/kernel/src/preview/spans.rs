@@ -92,7 +92,7 @@ pub struct Scan {
 impl Scan {
     #[inline(always)]
     pub fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Scan {
-        let (rows, _) = window(face, first, sampling);
+        let (rows, _) = window(face, first);
         let (mut top, mut end) = (rows[0] as i64, rows[1] as i64);
         let half = 1i32 << (sampling.shift - 1);
         let (x, y) = ((first[0] << sampling.shift).wrapping_add(half), (first[1] << sampling.shift).wrapping_add(half));

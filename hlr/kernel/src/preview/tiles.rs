@@ -1,14 +1,18 @@
 //! Strip by strip on all cores, tile by tile within a strip.
 //!
 //! ```text
-//!   strip 0  | tile | tile | tile |      a face is copied into each tile it reaches, so that a tile reads its faces
-//!   strip 1  | tile | tile | tile |      one after the other
+//!   strip 0  | tile | tile | tile |      faces are listed for each tile that they reach: chunks of them side by side,
+//!   strip 1  | tile | tile | tile |      and each tile goes through all lists
 //! ```
 
 use rayon::prelude::*;
 
 use super::faces::{Chunk, Face};
 use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH, Tile};
+use super::workspace::Workspace;
+
+/// Lists that are made side by side: enough for any machine's cores, few enough that a tile finds its faces at once.
+const LISTS: usize = 32;
 
 /// A tile whose z-buffer is filled with the opaque faces.
 pub struct Filled<'a> {
@@ -16,33 +20,45 @@ pub struct Filled<'a> {
     /// Of the first sample: column and row.
     pub first: [usize; 2],
     /// Transparent faces, in the order of the model.
-    pub glass: &'a [Face],
+    pub glass: &'a [&'a Face],
 }
 
-/// Fill all tiles that something reaches of a picture of `size`; `show` writes a tile into the rows of its strip, which are `size[0]` wide, and may keep
-/// what it likes in a `scratch` of its thread.
-/// `glass` tells the transparent triangles. False when stopped.
+/// Fill all tiles that `space.chunks` reach of a picture of `size`; `show` writes a tile into the rows of its strip, which are
+/// `size[0]` wide and hold `nothing`, and may keep what it likes in a `scratch` of its thread. `glass` tells the
+/// transparent triangles. False when stopped.
 #[allow(clippy::too_many_arguments)] // what is drawn, where to, and how
-pub fn each_tile<P: Send, S>(
-    chunks: &[Chunk],
+pub fn each_tile<P: Copy + Send + Sync, S>(
+    space: &mut Workspace,
     size: [usize; 2],
     sampling: &Sampling,
     glass: &[bool],
     out: &mut [P],
+    nothing: P,
     stopped: &(dyn Fn() -> bool + Sync),
     scratch: impl Fn() -> S + Sync + Send,
     show: impl Fn(&mut S, &Filled, &mut [P]) + Sync,
 ) -> bool {
     let rows = TILE_HEIGHT / sampling.side;
+    let tiles = [(size[0] * sampling.side).div_ceil(TILE_WIDTH), sampling.strips(size[1])];
+    let chunks = &space.chunks;
+    let share = chunks.len().div_ceil(LISTS).max(1);
+    space.lists.resize_with(chunks.len().div_ceil(share), List::default);
+    space.lists.par_iter_mut().zip(chunks.par_chunks(share)).for_each(|(l, c)| l.refill(c, tiles, glass));
+    let faces = |tile: usize| space.lists.iter().zip(chunks.chunks(share)).flat_map(move |(l, c)| l.of(tile, c));
     out.par_chunks_mut(rows * size[0]).enumerate().with_max_len(1).for_each_init(
-        || (Tile::new(), Bins::default(), scratch()),
-        |(tile, bins, scratch), (strip, out)| {
+        || (Tile::new(), Vec::new(), Vec::new(), scratch()),
+        |(tile, solid, clear, scratch), (strip, out)| {
             if stopped() {
                 return;
             }
-            bins.sort(chunks, strip, size, sampling, glass);
-            for column in 0..bins.columns {
-                let (solid, clear) = (bins.solid.of(column), bins.clear.of(column));
+            // By the thread that goes on with them: the pages of a new picture are had when they are first written.
+            out.fill(nothing);
+            for column in 0..tiles[0] {
+                solid.clear();
+                clear.clear();
+                for (face, is_clear) in faces(strip * tiles[0] + column) {
+                    if is_clear { &mut *clear } else { &mut *solid }.push(face);
+                }
                 if solid.is_empty() && clear.is_empty() {
                     continue;
                 }
@@ -56,67 +72,54 @@ pub fn each_tile<P: Send, S>(
     !stopped()
 }
 
-/// The faces of one strip by tile.
+/// Which of some chunks' faces reach into which tile, in their order: a counting sort by tile.
 #[derive(Default)]
-struct Bins {
-    columns: usize,
-    solid: Bin,
-    clear: Bin,
-}
-
-#[derive(Default)]
-struct Bin {
+pub struct List {
     starts: Vec<u32>,
-    faces: Vec<Face>,
+    /// Chunk, face, and whether it is transparent.
+    listed: Vec<(u32, u16, bool)>,
 }
 
-impl Bin {
-    fn of(&self, column: usize) -> &[Face] {
-        &self.faces[self.starts[column] as usize..self.starts[column + 1] as usize]
-    }
-
-    fn reset(&mut self, columns: usize) {
-        self.starts.clear();
-        self.starts.resize(columns + 2, 0);
-        self.faces.clear();
-    }
-}
-
-impl Bins {
-    /// A counting sort by column.
-    fn sort(&mut self, chunks: &[Chunk], strip: usize, size: [usize; 2], sampling: &Sampling, glass: &[bool]) {
-        self.columns = (size[0] * sampling.side).div_ceil(TILE_WIDTH);
-        let last = self.columns - 1;
-        let reach = |face: &Face| {
-            let columns = sampling.reach(&face.x, size[0]);
-            [columns[0] as usize / TILE_WIDTH, ((columns[1] - 1) as usize / TILE_WIDTH).min(last)]
+impl List {
+    /// `tiles`: how many, across and down.
+    fn refill(&mut self, chunks: &[Chunk], [across, down]: [usize; 2], glass: &[bool]) {
+        let reached = |face: &Face| {
+            let [columns, rows] = face.reach;
+            let of = |[first, end]: [i32; 2], side: usize| first as usize / side..(end as usize - 1) / side + 1;
+            (of(columns, TILE_WIDTH), of(rows, TILE_HEIGHT))
         };
-        let all = || chunks.iter().flat_map(|chunk| chunk.in_strip(strip));
-        self.solid.reset(self.columns);
-        self.clear.reset(self.columns);
-        for face in all() {
-            let bin = if glass[face.triangle as usize] { &mut self.clear } else { &mut self.solid };
-            let [a, b] = reach(face);
-            for column in a..=b {
-                bin.starts[column + 2] += 1;
+        // One ahead while filling: starts[t + 1] runs from the start of t to its end.
+        let starts = &mut self.starts;
+        starts.clear();
+        starts.resize(across * down + 2, 0);
+        for face in chunks.iter().flat_map(|c| &c.faces) {
+            let (columns, rows) = reached(face);
+            for row in rows {
+                for count in &mut starts[2 + row * across..][columns.clone()] {
+                    *count += 1;
+                }
             }
         }
-        for bin in [&mut self.solid, &mut self.clear] {
-            for column in 2..bin.starts.len() {
-                bin.starts[column] += bin.starts[column - 1];
-            }
-            let none = Face { x: [0; 3], y: [0; 3], depth: [0.0; 3], triangle: 0 };
-            bin.faces.resize(bin.starts[self.columns + 1] as usize, none);
+        for t in 2..starts.len() {
+            starts[t] += starts[t - 1];
         }
-        for face in all() {
-            let bin = if glass[face.triangle as usize] { &mut self.clear } else { &mut self.solid };
-            let [a, b] = reach(face);
-            for column in a..=b {
-                // One ahead while filling: starts[c + 1] runs from the start of c to its end.
-                let place = &mut bin.starts[column + 1];
-                bin.faces[*place as usize] = *face;
-                *place += 1;
+        self.listed.resize(starts[across * down + 1] as usize, (0, 0, false));
+        for (c, chunk) in chunks.iter().enumerate() {
+            for (i, face) in chunk.faces.iter().enumerate() {
+                let (columns, rows) = reached(face);
+                let entry = (c as u32, i as u16, glass[face.triangle as usize]);
+                for row in rows {
+                    for next in &mut starts[1 + row * across..][columns.clone()] {
+                        self.listed[*next as usize] = entry;
+                        *next += 1;
+                    }
+                }
             }
         }
+    }
+
+    fn of<'a>(&'a self, tile: usize, chunks: &'a [Chunk]) -> impl Iterator<Item = (&'a Face, bool)> {
+        let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
+        self.listed[range].iter().map(|&(c, i, clear)| (&chunks[c as usize].faces[i as usize], clear))
     }
 }

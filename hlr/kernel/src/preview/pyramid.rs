@@ -1,0 +1,88 @@
+//! The farthest depth of each block of a tile: a face that begins beyond it is hidden there, whatever its shape.
+//!
+//! N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", SIGGRAPH 1993, with the two lowest levels of their
+//! pyramid only: a tile is small. A block is looked at anew only when it is asked for after something was drawn into it.
+//!
+//! ```text
+//!   +---+---+---+--       8 x 8 samples a block: a row of it is what the raster takes at once
+//!   | 7 | 9 | 2 |         hidden: nearest corner of the face > farthest sample of each block that the face's box meets
+//!   +---+---+---+--
+//! ```
+
+use super::raster::{LANES, TILE_HEIGHT, TILE_WIDTH};
+
+const ROWS: usize = 8;
+const DOWN: usize = TILE_HEIGHT / ROWS;
+const ACROSS: usize = TILE_WIDTH / LANES;
+const _: () = assert!(ACROSS <= 8);
+
+pub struct Pyramid {
+    farthest: [[f32; ACROSS]; DOWN],
+    /// Blocks that were drawn into since: a bit for each column of blocks.
+    stale: [u8; DOWN],
+    /// Blocks that were drawn into at all.
+    drawn: [u8; DOWN],
+}
+
+impl Pyramid {
+    /// Nothing is drawn yet.
+    pub const EMPTY: Pyramid =
+        Pyramid { farthest: [[f32::INFINITY; ACROSS]; DOWN], stale: [0; DOWN], drawn: [0; DOWN] };
+
+    pub fn clear(&mut self) {
+        *self = Pyramid::EMPTY;
+    }
+
+    /// Whether nothing beyond `nearest` can be seen in these rows and chunks of lanes. `seen`: depths, as `Tile` has them.
+    #[inline(always)]
+    pub fn hides(
+        &mut self,
+        seen: &[[f64; TILE_WIDTH]; TILE_HEIGHT],
+        rows: [usize; 2],
+        chunks: [usize; 2],
+        nearest: f32,
+    ) -> bool {
+        for down in rows[0] / ROWS..rows[1].div_ceil(ROWS) {
+            for across in chunks[0]..chunks[1] {
+                if self.stale[down] >> across & 1 == 1 {
+                    self.stale[down] &= !(1 << across);
+                    self.farthest[down][across] = farthest(seen, down, across);
+                }
+                if nearest <= self.farthest[down][across] {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Something is drawn there.
+    #[inline(always)]
+    pub fn touch(&mut self, rows: [usize; 2], chunks: [usize; 2]) {
+        let columns = ((1u32 << chunks[1]) - (1u32 << chunks[0].min(chunks[1]))) as u8;
+        for down in rows[0] / ROWS..rows[1].div_ceil(ROWS) {
+            self.stale[down] |= columns;
+            self.drawn[down] |= columns;
+        }
+    }
+
+    /// The chunks of lanes of a row into which something may have been drawn: a bit each.
+    #[inline(always)]
+    pub fn drawn(&self, row: usize) -> u8 {
+        self.drawn[row / ROWS]
+    }
+}
+
+#[inline(always)]
+fn farthest(seen: &[[f64; TILE_WIDTH]; TILE_HEIGHT], down: usize, across: usize) -> f32 {
+    let mut most = [0.0f64; LANES];
+    for row in &seen[down * ROWS..(down + 1) * ROWS] {
+        if let Some(lanes) = row[across * LANES..].first_chunk::<LANES>() {
+            for (m, v) in most.iter_mut().zip(lanes) {
+                *m = if *v > *m { *v } else { *m };
+            }
+        }
+    }
+    let most = most.iter().fold(0.0f64, |m, v| if *v > m { *v } else { m });
+    f32::from_bits((most.to_bits() >> 32) as u32)
+}
