@@ -365,7 +365,7 @@ mod tests {
                         Some(f)
                     })
                     .collect();
-                let mut filled = |faces: &[Face]| {
+                let filled = |faces: &[Face]| {
                     let mut tile = Tile::new();
                     tile.fill(&faces.iter().collect::<Vec<_>>(), [0, 0], &sampling);
                     tile
