@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
+
+if TYPE_CHECKING:
+    from hlr.measure.reached import Reached
+    from hlr.plan.options import Request
 
 Points = npt.NDArray[np.float64]
 
@@ -93,6 +97,8 @@ class Drawing:
     up_axis   (3, 3) model frame -> z-up world
     fill      faces under the lines, in SVG and PDF; None unless asked for
     timings   seconds: source, tessellate, scene, plan, visibility, linework, write, total
+    request   what was asked for; None for drawings that were made otherwise
+    reached   the errors that were measured; None unless asked for
     """
 
     source: str
@@ -108,6 +114,8 @@ class Drawing:
     counters: Mapping[str, int] = field(default_factory=dict)
     timings: dict[str, float] = field(default_factory=dict)
     fill: Fill | None = None
+    request: Request | None = None
+    reached: Reached | None = None
 
     def bounds(self) -> tuple[float, float, float, float]:
         """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""

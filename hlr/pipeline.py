@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -12,7 +13,7 @@ from hlr.drawing import Drawing, DrawnPart, DrawnView
 from hlr.errors import OptionError, StrictError
 from hlr.linework.exact import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
-from hlr.plan.options import Options, View
+from hlr.plan.options import Options, Request, View
 from hlr.plan.plan import decide
 from hlr.plan.request import checked, checked_views
 from hlr.scene.build import build
@@ -58,9 +59,10 @@ def draw_views(
     started = perf_counter()
 
     out = []
-    for i, (camera, at) in enumerate(zip(cameras, placed, strict=True)):
+    for i, (view, camera, at) in enumerate(zip(views, cameras, placed, strict=True)):
         tell("visibility", i / len(cameras))
-        out.append(drawing_of(opened, scene, curves, camera, at, options, dict(clock)))
+        drawing = drawing_of(opened, scene, curves, camera, at, options, dict(clock))
+        out.append(replace(drawing, request=Request(view, options)))
     tell("linework", 1.0)
     for drawing in out:
         if options.strict and drawing.notes:

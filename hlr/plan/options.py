@@ -42,6 +42,7 @@ class Options:
     fill         paint the visible faces, flat-shaded, under the lines (SVG and PDF)
     threads      0: all cores
     strict       warnings are errors
+    report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
     """
 
     hidden: bool = True
@@ -58,3 +59,12 @@ class Options:
     fill: bool = False
     threads: int = 0
     strict: bool = False
+    report: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What was asked for: one view with its options. Asked again, it gives the same drawing."""
+
+    view: View
+    options: Options

@@ -70,6 +70,11 @@ class Strokes:
     layers: tuple[Layer, ...]
 
 
+def places_of(drawing: Drawing, bounds: tuple[float, float, float, float]) -> int:
+    """Decimals of the points in SVG and PDF."""
+    return number.decimals(float(drawing.accuracy["used"]), max(map(abs, bounds)))
+
+
 def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     """Sort and join the lines of a drawing: hidden layers first, so that visible lines lie on top.
 
@@ -78,11 +83,10 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     groups: dict[tuple[bool, str], list[Line]] = {(v, k): [] for v in (False, True) for k in style.KINDS}
     for line in drawing.lines:
         groups[line.visible, line.kind].append(line)
-    box = np.array(drawing.bounds()).reshape(2, 2)
-    accuracy = float(drawing.accuracy["used"])
-    places = number.decimals(accuracy, float(np.abs(box).max()))
-    layers = [_layer(*key, lines, _rows(lines, places, accuracy, cubic)) for key, lines in groups.items() if lines]
-    corners = number.grid(box, places)
+    bounds = drawing.bounds()
+    accuracy, places = float(drawing.accuracy["used"]), places_of(drawing, bounds)
+    layers = [_layer(*key, lines, rows_of(lines, places, accuracy, cubic)) for key, lines in groups.items() if lines]
+    corners = number.grid(np.array(bounds).reshape(2, 2), places)
     border = math.ceil((style.MARGIN + style.WIDE) * 10**places)
     left, bottom = (int(v) - border for v in corners[0])
     right, top = (int(v) + border for v in corners[1])
@@ -90,8 +94,8 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
 
 
 @dataclass(slots=True)
-class _Rows:
-    """Rows of some lines one after another, and how many each line has."""
+class Rows:
+    """Rows of some lines one after another, and how many each line has; `Layer` says what they hold."""
 
     points: Ints
     op: Bytes
@@ -100,7 +104,8 @@ class _Rows:
     counts: Ints
 
 
-def _rows(lines: Sequence[Line], places: int, accuracy: float, cubic: bool) -> _Rows:
+def rows_of(lines: Sequence[Line], places: int, accuracy: float, cubic: bool) -> Rows:
+    """What is written of each line, before what continues another is joined to it."""
     round_ = [i for i, line in enumerate(lines) if isinstance(line.curve, Arc)]
     points, ops = [], []
     for line in lines:
@@ -120,7 +125,7 @@ def _rows(lines: Sequence[Line], places: int, accuracy: float, cubic: bool) -> _
     op = np.concatenate(ops)
     arc = np.full(len(op), -1, np.int32)
     if not round_:
-        return _Rows(grid, op, arc, np.zeros((0, 5), np.int64), counts)
+        return Rows(grid, op, arc, np.zeros((0, 5), np.int64), counts)
     arcs = [line.curve for line in lines if isinstance(line.curve, Arc)]
     values = np.concatenate([np.concatenate([c.centre, c.axes.ravel(), c.angles]) for c in arcs]).reshape(-1, 8)
     ends = np.concatenate([lines[i].points[[0, -1]] for i in round_]).reshape(-1, 4)
@@ -130,7 +135,7 @@ def _rows(lines: Sequence[Line], places: int, accuracy: float, cubic: bool) -> _
     # Each arc's rows at its line's place among the others.
     where = np.repeat((np.cumsum(counts) - counts)[round_], found["counts"])
     counts[round_] = found["counts"]
-    return _Rows(
+    return Rows(
         np.insert(grid, where, found["points"], axis=0),
         np.insert(op, where, found["op"]),
         np.insert(arc, where, found["arc"]),
@@ -152,7 +157,7 @@ def _ops(op: int, count: int) -> Bytes:
     return result
 
 
-def _layer(visible: bool, kind: str, lines: Sequence[Line], rows: _Rows) -> Layer:
+def _layer(visible: bool, kind: str, lines: Sequence[Line], rows: Rows) -> Layer:
     """One layer: drop points that coincide on the grid, join consecutive lines, find closed strokes."""
     points, op, arc, counts = rows.points, rows.op.copy(), rows.arc, rows.counts
     owner = np.repeat(np.arange(len(lines)), counts)

@@ -6,6 +6,7 @@ pub mod exact;
 pub mod geometry;
 pub mod ink;
 pub mod lines;
+pub mod measure;
 pub mod paper;
 pub mod preview;
 pub mod raster;
@@ -35,5 +36,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::painters::quadric_row, m)?)?;
     m.add_class::<bind::raster::RasterScene>()?;
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::measure::nearest, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::measure::blocked, m)?)?;
     Ok(())
 }

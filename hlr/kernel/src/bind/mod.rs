@@ -4,6 +4,7 @@ pub mod clash;
 pub mod geometry;
 pub mod ink;
 pub mod lines;
+pub mod measure;
 pub mod painters;
 pub mod preview;
 pub mod raster;

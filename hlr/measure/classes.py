@@ -1,0 +1,64 @@
+"""All classes of error of one drawing."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import Any
+
+from hlr.drawing import Drawing
+from hlr.errors import OptionError
+from hlr.measure.edges import TrueEdges, edge_errors
+from hlr.measure.paper import Paper
+from hlr.measure.reached import Errors, Labels, Reached, errors
+from hlr.measure.written import written
+from hlr.source import open_source
+
+SAMPLES = 20_000
+"""Points judged by rays, and points of outlines, where the caller does not say how many."""
+
+FINENESS = 8.0
+"""How much finer the drawing is that changes and lost lines are found by."""
+
+
+def measured(
+    source: Any,
+    drawing: Drawing,
+    *,
+    threads: int = 0,
+    samples: int = SAMPLES,
+    finer: Drawing | None = None,
+) -> Reached:
+    """How far a drawing is from the truth.
+
+    source: what it was drawn from: a path or an object, better a source that is open already.
+    samples: how many points are judged by rays, and how many points of outlines are put on their surfaces.
+    finer: the same request at a finer accuracy, where there is one; else it is drawn, `FINENESS` times as fine.
+
+    Raises OptionError where the drawing does not know what was asked for, SourceError where the source cannot be read.
+    """
+    if drawing.request is None:
+        raise OptionError("this drawing does not know what it was asked for: measure one that hlr.draw has made")
+    started = perf_counter()
+    opened = open_source(source)
+    paper = Paper.of(drawing)
+    forms = (written(drawing), written(drawing, cubic=True))
+    not_yet = Errors(None, why="not measured")
+    if hasattr(opened, "edge_shape"):
+        wanted = sorted({(x.part, x.edge) for x in drawing.lines if x.edge is not None})
+        edges = errors(*edge_errors(TrueEdges(opened, drawing, wanted, paper), drawing, forms, threads))
+    else:
+        edges = Errors(None, why="a mesh has no edges but its own")
+    return Reached(
+        accuracy=float(drawing.accuracy["used"]),
+        edges=edges,
+        outlines=not_yet,
+        meshes=not_yet,
+        intersections=not_yet,
+        changes=not_yet,
+        grazing=not_yet,
+        bound=None,
+        lost=not_yet,
+        short=not_yet,
+        labels=Labels(None, why="not measured"),
+        seconds=perf_counter() - started,
+    )
