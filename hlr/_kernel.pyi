@@ -37,6 +37,7 @@ def visibility(
     cap: Floats,
     tight: Bools,
     threads: int = 0,
+    arithmetic: str = "exact",
 ) -> dict[str, Any]: ...
 def curve_points(kind: Bytes, offsets: Ints, values: Floats, which: Ints, parameters: Floats) -> Floats: ...
 def true_lines(

@@ -32,8 +32,10 @@ class Segments:
     counters: dict[str, int]
 
 
-def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments:
+def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic: str = "exact") -> Segments:
     """Visibility of all edges that the plan draws; projected (n, 3) as Camera.project gives it.
+
+    arithmetic: of the predicates, "exact"; "f64" and "f32" show what that is worth, and are for nothing else.
 
     Raises KeyboardInterrupt within milliseconds of Ctrl-C.
     """
@@ -52,6 +54,7 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int) -> Segments
         np.ascontiguousarray(plan.cap),
         scene.groups.tight,
         threads,
+        arithmetic,
     )
     # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
     state, edge = found["state"], found["edge"]

@@ -6,6 +6,7 @@
 
 use std::time::Instant;
 
+use _kernel::exact::arithmetic::Exact;
 use _kernel::exact::snap::Grid;
 use _kernel::scan::active_edges::crossings;
 use _kernel::scan::active_spans::Seeds;
@@ -148,12 +149,12 @@ fn main() {
         let go = || false;
         let topo = median(|| drop(topology(&scene.triangles, scene.points.len())));
         let snap = median(|| drop(view.iter().map(|p| grid.snap(p)).collect::<Vec<_>>()));
-        let polygons = PolygonTable::new(&mesh);
+        let polygons = PolygonTable::new::<Exact>(&mesh);
         let edges = EdgeTable::new(&mesh, &polygons);
-        let tables = median(|| drop(EdgeTable::new(&mesh, &PolygonTable::new(&mesh))));
-        let seeds = median(|| drop(Seeds::new(&mesh, &polygons, &edges.drawn, &go)));
-        let cross = median(|| drop(crossings(&mesh, &edges.drawn, &edges.contours, &go)));
-        let pierce = median(|| drop(piercings(&mesh, &polygons, &edges.drawn, &go)));
+        let tables = median(|| drop(EdgeTable::new(&mesh, &PolygonTable::new::<Exact>(&mesh))));
+        let seeds = median(|| drop(Seeds::new::<Exact>(&mesh, &polygons, &edges.drawn, &go)));
+        let cross = median(|| drop(crossings::<Exact>(&mesh, &edges.drawn, &edges.contours, &go)));
+        let pierce = median(|| drop(piercings::<Exact>(&mesh, &polygons, &edges.drawn, &go)));
         let whole = median(|| drop(visibility(&mesh, &go)));
         println!(
             "| {count} | {} | {topo:.1} | {snap:.1} | {tables:.1} | {seeds:.1} | {cross:.1} | {pierce:.1} | {whole:.1} |",

@@ -8,9 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::running::run;
+use crate::exact::arithmetic::{Double, Single};
 use crate::exact::snap::Grid;
 use crate::scan::mesh::{Mesh, Part};
-use crate::scan::sweep::{self, Counters};
+use crate::scan::sweep::{self, Counters, Outcome};
 use crate::scan::topology;
 
 /// Rows of a C-contiguous (n, N) array.
@@ -133,8 +134,10 @@ pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangle
     Ok(())
 }
 
+type Pass = fn(&Mesh, &(dyn Fn() -> bool + Sync)) -> Option<Outcome>;
+
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0))]
+#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0, arithmetic = "exact"))]
 #[allow(clippy::too_many_arguments)] // one argument per array of the scene: the stub names them
 pub fn visibility<'py>(
     py: Python<'py>,
@@ -152,7 +155,14 @@ pub fn visibility<'py>(
     cap: PyReadonlyArray1<'py, f64>,
     tight: PyReadonlyArray1<'py, bool>,
     threads: usize,
+    arithmetic: &str,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let pass: Pass = match arithmetic {
+        "exact" => sweep::visibility,
+        "f64" => sweep::visibility_by::<Double>,
+        "f32" => sweep::visibility_by::<Single>,
+        _ => return Err(PyValueError::new_err(format!("no arithmetic is called {arithmetic}: exact, f64 or f32"))),
+    };
     let points = rows::<f64, 3>(&points, "points")?;
     let triangles = rows::<i32, 3>(&triangles, "triangles")?;
     let edges = rows::<i32, 2>(&edges, "edges")?;
@@ -194,7 +204,7 @@ pub fn visibility<'py>(
                 })
                 .collect(),
         };
-        Some(sweep::visibility(&mesh, stopped))
+        Some(pass(&mesh, stopped))
     })?;
     let Some(outcome) = outcome else {
         return Err(PyValueError::new_err("points hold coordinates that are not finite"));

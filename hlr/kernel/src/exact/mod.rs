@@ -1,5 +1,7 @@
 //! One rounding to a grid, then integer predicates without any error.
 
+pub mod arithmetic;
+pub mod parameter;
 pub mod predicates;
 pub mod snap;
 pub mod wide;

@@ -11,14 +11,18 @@
 //! ```
 //! So a face that contains f, or is coplanar with it, never hides it, and an edge that leaves a shared vertex
 //! behind a face is hidden from its very start.
+//!
+//! Written once for all kinds of numbers (`arithmetic`); only with exact ones are the signs the true ones.
 
 use super::Point;
+use super::arithmetic::{Arithmetic, Ring};
 
 /// Twice the signed area of p, q, r in the image; positive counter-clockwise. |result| < 2^63.
 #[inline(always)]
-pub fn orient2d(p: &Point, q: &Point, r: &Point) -> i64 {
-    let (px, py) = (i64::from(p[0]), i64::from(p[1]));
-    (i64::from(q[0]) - px) * (i64::from(r[1]) - py) - (i64::from(q[1]) - py) * (i64::from(r[0]) - px)
+pub fn orient2d<A: Arithmetic>(p: &Point, q: &Point, r: &Point) -> A::Area {
+    let c = A::coordinate;
+    let (px, py) = (c(p[0]), c(p[1]));
+    (c(q[0]) - px) * (c(r[1]) - py) - (c(q[1]) - py) * (c(r[0]) - px)
 }
 
 /// Side of the line p -> q on which a point shifted by (e^2, e^3) lies, where the point itself is on the line.
@@ -33,71 +37,71 @@ pub fn shifted_side(p: &Point, q: &Point) -> i32 {
 
 /// Side of the line p -> q of the inward-moved end point of f, from the orientations of this end and the other.
 #[inline]
-pub fn end_side(here: i64, there: i64, p: &Point, q: &Point) -> i32 {
-    if here != 0 {
-        here.signum() as i32
-    } else if there != 0 {
-        there.signum() as i32
+pub fn end_side<N: Ring>(here: N, there: N, p: &Point, q: &Point) -> i32 {
+    if here != N::ZERO {
+        here.sign()
+    } else if there != N::ZERO {
+        there.sign()
     } else {
         shifted_side(p, q)
     }
 }
 
 /// Where f = a -> b passes behind the edge p -> q: the parameter n / d on f, and the depth of f beneath the edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Crossing {
-    pub n: i64,
-    pub d: i64,
+#[derive(Clone, Copy, Debug)]
+pub struct Crossing<A: Arithmetic> {
+    pub n: A::Area,
+    pub d: A::Area,
     /// (z of f - z of the edge) * d at the crossing.
-    pub beneath: i128,
+    pub beneath: A::Volume,
     /// +1 where f goes to the left of p -> q, -1 where it goes to the right.
     pub to_left: i32,
 }
 
 /// The crossing of two segments in the image, or None. Degree 2 to find it, degree 3 for the depth.
 #[inline(always)]
-pub fn crossing(a: &Point, b: &Point, p: &Point, q: &Point) -> Option<Crossing> {
-    let oa = orient2d(p, q, a);
-    let ob = orient2d(p, q, b);
+pub fn crossing<A: Arithmetic>(a: &Point, b: &Point, p: &Point, q: &Point) -> Option<Crossing<A>> {
+    let zero = A::Area::ZERO;
+    let oa = orient2d::<A>(p, q, a);
+    let ob = orient2d::<A>(p, q, b);
     // A touching end point takes the side of the other end, so only a strict change of side crosses.
-    if (oa <= 0 && ob <= 0) || (oa >= 0 && ob >= 0) {
+    if (oa <= zero && ob <= zero) || (oa >= zero && ob >= zero) {
         return None;
     }
-    let op = orient2d(a, b, p);
-    let oq = orient2d(a, b, q);
-    let side = |o: i64| if o != 0 { o.signum() as i32 } else { -shifted_side(a, b) };
+    let op = orient2d::<A>(a, b, p);
+    let oq = orient2d::<A>(a, b, q);
+    let side = |o: A::Area| if o != zero { o.sign() } else { -shifted_side(a, b) };
     if side(op) == side(oq) {
         return None;
     }
     let d = oa - ob;
-    let dz_f = i128::from(b[2]) - i128::from(a[2]);
-    let dz_e = i128::from(q[2]) - i128::from(p[2]);
-    let beneath = (i128::from(a[2]) - i128::from(p[2])) * i128::from(d) + i128::from(oa) * dz_f + i128::from(op) * dz_e;
-    let flip = d < 0;
+    let z = |v: &Point| A::depth(i64::from(v[2]));
+    let beneath = (z(a) - z(p)) * A::raise(d) + A::raise(oa) * (z(b) - z(a)) + A::raise(op) * (z(q) - z(p));
+    let flip = d < zero;
     Some(Crossing {
         n: if flip { -oa } else { oa },
-        d: d.abs(),
+        d: if flip { -d } else { d },
         beneath: if flip { -beneath } else { beneath },
-        to_left: if oa < 0 { 1 } else { -1 },
+        to_left: if oa < zero { 1 } else { -1 },
     })
 }
 
 /// A triangle with non-zero image area, turned counter-clockwise, ready for point queries.
 #[derive(Clone, Copy, Debug)]
-pub struct Cover {
+pub struct Cover<A: Arithmetic> {
     pub p: Point,
     pub q: Point,
     pub r: Point,
     /// Twice its image area, positive.
-    pub area: i64,
+    pub area: A::Area,
 }
 
-impl Cover {
+impl<A: Arithmetic> Cover<A> {
     /// None for a triangle seen edge-on: it never covers.
     #[inline]
-    pub fn new(p: &Point, q: &Point, r: &Point) -> Option<Cover> {
-        let area = orient2d(p, q, r);
-        match area.signum() {
+    pub fn new(p: &Point, q: &Point, r: &Point) -> Option<Cover<A>> {
+        let area = orient2d::<A>(p, q, r);
+        match area.sign() {
             1 => Some(Cover { p: *p, q: *q, r: *r, area }),
             -1 => Some(Cover { p: *p, q: *r, r: *q, area: -area }),
             _ => None,
@@ -106,14 +110,15 @@ impl Cover {
 
     /// Orientations of `v` against the three edges, each opposite to p, q, r in turn.
     #[inline(always)]
-    pub fn sides(&self, v: &Point) -> [i64; 3] {
-        [orient2d(&self.q, &self.r, v), orient2d(&self.r, &self.p, v), orient2d(&self.p, &self.q, v)]
+    pub fn sides(&self, v: &Point) -> [A::Area; 3] {
+        [orient2d::<A>(&self.q, &self.r, v), orient2d::<A>(&self.r, &self.p, v), orient2d::<A>(&self.p, &self.q, v)]
     }
 
     /// (z of v - z of the triangle's plane there) * area: positive where the triangle's plane is in front.
     #[inline(always)]
-    pub fn beneath(&self, v: &Point, sides: &[i64; 3]) -> i128 {
-        let z = |s: i64, c: &Point| i128::from(s) * (i128::from(c[2]) - i128::from(v[2]));
+    pub fn beneath(&self, v: &Point, sides: &[A::Area; 3]) -> A::Volume {
+        let depth = |c: &Point| A::depth(i64::from(c[2]));
+        let z = |s: A::Area, c: &Point| A::raise(s) * (depth(c) - depth(v));
         -(z(sides[0], &self.p) + z(sides[1], &self.q) + z(sides[2], &self.r))
     }
 
@@ -130,29 +135,43 @@ impl Cover {
     /// Whether the triangle hides the inward-moved end `here` of the segment here -> there, for f as it lies and
     /// for f moved toward the viewer by `delta`.
     pub fn hides_end(&self, here: &Point, there: &Point, delta: i64) -> (bool, bool) {
-        let mut oh = [0; 3];
+        let zero = A::Area::ZERO;
+        let mut oh = [zero; 3];
         for (k, side) in oh.iter_mut().enumerate() {
             let (p, q) = self.edge(k);
-            *side = orient2d(p, q, here);
+            *side = orient2d::<A>(p, q, here);
             // Mostly a triangle around the vertex itself, away from the direction in which f leaves: out at once.
-            if *side < 0 || (*side == 0 && end_side(0, orient2d(p, q, there), p, q) < 0) {
+            if *side < zero || (*side == zero && end_side(zero, orient2d::<A>(p, q, there), p, q) < 0) {
                 return (false, false);
             }
         }
         let gh = self.beneath(here, &oh);
-        let shift = i128::from(delta) * i128::from(self.area);
+        let shift = self.shift(delta);
         let mut gt = None;
-        let mut behind = |s: i128| {
+        let mut behind = |s: A::Volume| {
             if gh != s { gh > s } else { *gt.get_or_insert_with(|| self.beneath(there, &self.sides(there))) > s }
         };
-        let plain = behind(0);
-        (plain, if shift == 0 { plain } else { behind(shift) })
+        let plain = behind(A::Volume::ZERO);
+        (plain, if delta == 0 { plain } else { behind(shift) })
+    }
+
+    /// A depth tolerance as `beneath` counts depth.
+    #[inline(always)]
+    pub fn shift(&self, delta: i64) -> A::Volume {
+        A::depth(delta) * A::raise(self.area)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::arithmetic::Exact;
+
+    type Cover = super::Cover<Exact>;
+
+    fn crossing(a: &Point, b: &Point, p: &Point, q: &Point) -> Option<Crossing<Exact>> {
+        super::crossing(a, b, p, q)
+    }
 
     #[test]
     fn a_segment_beneath_an_edge_is_crossed_once() {

@@ -8,12 +8,13 @@ use rayon::prelude::*;
 
 use super::bands::{Bands, clipped_x, y_range};
 use super::edge_table::Contour;
-use super::invisibility::{Event, Parameter};
+use super::invisibility::Event;
 use super::mesh::Mesh;
+use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::crossing;
 
-pub struct Crossings {
-    pub events: Vec<Vec<Event>>,
+pub struct Crossings<P> {
+    pub events: Vec<Vec<Event<P>>>,
     pub tests: u64,
     pub bands: usize,
 }
@@ -29,7 +30,12 @@ struct Entry {
     item: u32,
 }
 
-pub fn crossings(mesh: &Mesh, drawn: &[u32], contours: &[Contour], stopped: &(dyn Fn() -> bool + Sync)) -> Crossings {
+pub fn crossings<A: Arithmetic>(
+    mesh: &Mesh,
+    drawn: &[u32],
+    contours: &[Contour],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Crossings<A::Parameter> {
     let range = |e: u32| {
         let (a, b) = mesh.ends(e as usize);
         y_range(a, b)
@@ -40,7 +46,7 @@ pub fn crossings(mesh: &Mesh, drawn: &[u32], contours: &[Contour], stopped: &(dy
     let bands = Bands::choose(&ranges, 0.75);
     let (offsets, items) = bands.bucket(&ranges);
     let first_drawn = contours.len() as u32;
-    let found: Vec<(Vec<Event>, u64)> = (0..bands.count)
+    let found: Vec<(Vec<Event<A::Parameter>>, u64)> = (0..bands.count)
         .into_par_iter()
         .map(|k| {
             let bucket = &items[offsets[k] as usize..offsets[k + 1] as usize];
@@ -63,25 +69,25 @@ pub fn crossings(mesh: &Mesh, drawn: &[u32], contours: &[Contour], stopped: &(dy
                 bucket[split..].iter().map(|&i| i - first_drawn).map(|i| entry(drawn[i as usize], i, false)).collect();
             cs.sort_unstable_by_key(by_x);
             fs.sort_unstable_by_key(by_x);
-            Sweep { mesh, drawn, contours, bands: &bands, band: k, events: Vec::new(), tests: 0 }.run(&cs, &fs)
+            Sweep::<A> { mesh, drawn, contours, bands: &bands, band: k, events: Vec::new(), tests: 0 }.run(&cs, &fs)
         })
         .collect();
     let tests = found.iter().map(|f| f.1).sum();
     Crossings { events: found.into_iter().map(|f| f.0).collect(), tests, bands: bands.count }
 }
 
-struct Sweep<'a> {
+struct Sweep<'a, A: Arithmetic> {
     mesh: &'a Mesh<'a>,
     drawn: &'a [u32],
     contours: &'a [Contour],
     bands: &'a Bands,
     band: usize,
-    events: Vec<Event>,
+    events: Vec<Event<A::Parameter>>,
     tests: u64,
 }
 
-impl Sweep<'_> {
-    fn run(mut self, cs: &[Entry], fs: &[Entry]) -> (Vec<Event>, u64) {
+impl<A: Arithmetic> Sweep<'_, A> {
+    fn run(mut self, cs: &[Entry], fs: &[Entry]) -> (Vec<Event<A::Parameter>>, u64) {
         let mut active_c: Vec<Entry> = Vec::new();
         let mut active_f: Vec<Entry> = Vec::new();
         let (mut i, mut j) = (0, 0);
@@ -126,8 +132,8 @@ impl Sweep<'_> {
         let drawn = self.drawn[f.item as usize] as usize;
         let (a, b) = self.mesh.ends(drawn);
         let (p, q) = self.mesh.ends(contour.edge as usize);
-        let Some(hit) = crossing(a, b, p, q) else { return };
-        if hit.beneath <= 0 {
+        let Some(hit) = crossing::<A>(a, b, p, q) else { return };
+        if hit.beneath <= A::Volume::ZERO {
             return;
         }
         let first = self.bands.of(f.ymin.max(c.ymin));
@@ -135,11 +141,11 @@ impl Sweep<'_> {
         if first != last {
             // y of the crossing against the band's limits: (y_a - y) d + n (y_b - y_a), degree 3.
             let at = |y: i64| {
-                (i128::from(a[1]) - i128::from(y)) * i128::from(hit.d)
-                    + i128::from(hit.n) * (i128::from(b[1]) - i128::from(a[1]))
+                let (ya, yb) = (i64::from(a[1]), i64::from(b[1]));
+                A::depth(ya - y) * A::raise(hit.d) + A::raise(hit.n) * A::depth(yb - ya)
             };
             let (y0, y1) = self.bands.limits(self.band);
-            if (self.band > first && at(y0) < 0) || (self.band < last && at(y1) >= 0) {
+            if (self.band > first && at(y0) < A::Volume::ZERO) || (self.band < last && at(y1) >= A::Volume::ZERO) {
                 return;
             }
         }
@@ -147,9 +153,9 @@ impl Sweep<'_> {
         let jump = contour.jump * hit.to_left;
         self.events.push(Event {
             drawn: f.item,
-            at: Parameter::crossing(hit.n, hit.d),
+            at: A::crossing(hit.n, hit.d),
             plain: jump,
-            moved: if hit.beneath > i128::from(delta) * i128::from(hit.d) { jump } else { 0 },
+            moved: if hit.beneath > A::depth(delta) * A::raise(hit.d) { jump } else { 0 },
         });
     }
 }

@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use super::bands::{Bands, clipped_x, y_range};
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
+use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::Cover;
 
 /// Polygons in front of a drawn edge's end: as it lies, and moved toward the viewer by the contact tolerance.
@@ -41,14 +42,14 @@ struct Span {
     triangle: u32,
 }
 
-struct Active {
+struct Active<A: Arithmetic> {
     xmax: i32,
     ymin: i32,
     ymax: i32,
     zmin: i32,
     zmax: i32,
     triangle: u32,
-    cover: Cover,
+    cover: Cover<A>,
 }
 
 #[derive(Default)]
@@ -59,7 +60,12 @@ struct Found {
 
 impl Seeds {
     /// Ask for every end of the given edges.
-    pub fn new(mesh: &Mesh, table: &PolygonTable, edges: &[u32], stopped: &(dyn Fn() -> bool + Sync)) -> Seeds {
+    pub fn new<A: Arithmetic>(
+        mesh: &Mesh,
+        table: &PolygonTable,
+        edges: &[u32],
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Seeds {
         let mut slot = vec![u32::MAX; mesh.points.len()];
         let mut asked: Vec<(u32, i32)> = Vec::new();
         for &e in edges {
@@ -97,20 +103,20 @@ impl Seeds {
                 if here.is_empty() || polygons.is_empty() || stopped() {
                     return Found::default();
                 }
-                sweep_band(mesh, &bands, k, here, &asked, polygons, &counted)
+                sweep_band::<A>(mesh, &bands, k, here, &asked, polygons, &counted)
             })
             .collect();
         gather(slot, asked.len(), &found)
     }
 
     /// The count at the inward-moved end `here` of the drawn edge here -> there.
-    pub fn at(&self, mesh: &Mesh, part: i32, here: i32, there: i32) -> Count {
+    pub fn at<A: Arithmetic>(&self, mesh: &Mesh, part: i32, here: i32, there: i32) -> Count {
         let s = self.slot[here as usize] as usize;
         let mut count = self.strict[s];
         let (h, o) = (&mesh.points[here as usize], &mesh.points[there as usize]);
         for &t in &self.ties[self.tie_offsets[s] as usize..self.tie_offsets[s + 1] as usize] {
             let t = t as usize;
-            let Some(cover) = mesh.cover(t) else { continue };
+            let Some(cover) = mesh.cover::<A>(t) else { continue };
             let (plain, moved) = cover.hides_end(h, o, mesh.delta(part, mesh.triangle_part[t]));
             count.plain += i32::from(plain);
             count.moved += i32::from(moved);
@@ -119,7 +125,7 @@ impl Seeds {
     }
 }
 
-fn sweep_band(
+fn sweep_band<A: Arithmetic>(
     mesh: &Mesh,
     bands: &Bands,
     band: usize,
@@ -133,7 +139,7 @@ fn sweep_band(
     spans.sort_unstable_by_key(|s| (s.xmin, s.triangle));
     let mut stops: Vec<(i32, u32)> = here.iter().map(|&s| (mesh.points[asked[s as usize].0 as usize][0], s)).collect();
     stops.sort_unstable();
-    let mut active: Vec<Active> = Vec::new();
+    let mut active: Vec<Active<A>> = Vec::new();
     let mut next = 0;
     let mut found = Found::default();
     for &(x, slot) in &stops {
@@ -158,10 +164,11 @@ fn sweep_band(
                 continue;
             }
             let sides = a.cover.sides(v);
-            if sides[0] < 0 || sides[1] < 0 || sides[2] < 0 {
+            let zero = A::Area::ZERO;
+            if sides[0] < zero || sides[1] < zero || sides[2] < zero {
                 continue;
             }
-            if sides[0] == 0 || sides[1] == 0 || sides[2] == 0 {
+            if sides[0] == zero || sides[1] == zero || sides[2] == zero {
                 found.ties.push((slot, a.triangle));
                 continue;
             }
@@ -172,12 +179,12 @@ fn sweep_band(
                 continue;
             }
             let beneath = a.cover.beneath(v, &sides);
-            let shift = i128::from(delta) * i128::from(a.cover.area);
-            if beneath == 0 || beneath == shift {
+            let shift = a.cover.shift(delta);
+            if beneath == A::Volume::ZERO || beneath == shift {
                 found.ties.push((slot, a.triangle));
                 continue;
             }
-            count.plain += i32::from(beneath > 0);
+            count.plain += i32::from(beneath > A::Volume::ZERO);
             count.moved += i32::from(beneath > shift);
         }
         if count != Count::default() {
@@ -201,7 +208,7 @@ fn span(mesh: &Mesh, triangle: u32, y0: i64, y1: i64) -> Span {
     Span { xmin, xmax, triangle }
 }
 
-fn enter(mesh: &Mesh, span: &Span, active: &mut Vec<Active>) {
+fn enter<A: Arithmetic>(mesh: &Mesh, span: &Span, active: &mut Vec<Active<A>>) {
     let (p, q, r) = mesh.corners(span.triangle as usize);
     if let Some(cover) = Cover::new(p, q, r) {
         active.push(Active {

@@ -7,10 +7,11 @@ use std::sync::OnceLock;
 
 use super::active_spans::Count;
 use super::box_tree::{Aabb, BoxTree};
-use super::invisibility::{Event, Parameter, Segment, walk};
+use super::invisibility::{Event, Segment, walk};
 use super::mesh::Mesh;
 use super::piercing::pierce;
 use super::polygon_table::PolygonTable;
+use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::crossing;
 
 pub struct ExactQuery<'a> {
@@ -38,17 +39,17 @@ impl<'a> ExactQuery<'a> {
     }
 
     /// Segments of one drawn edge; false if even these counts contradict each other.
-    pub fn decide(&self, edge: usize, out: &mut Vec<Segment>) -> bool {
+    pub fn decide<A: Arithmetic>(&self, edge: usize, out: &mut Vec<Segment>) -> bool {
         let mesh = self.mesh;
         let (a, b) = mesh.ends(edge);
         let part = mesh.edge_part[edge];
         let mut shadow = Aabb::of(&[a, b]);
         shadow.low[2] = i32::MIN;
         let (mut start, mut end) = (Count::default(), Count::default());
-        let mut events: Vec<Event> = Vec::new();
+        let mut events: Vec<Event<A::Parameter>> = Vec::new();
         self.tree().query(&shadow, |t| {
             let t = t as usize;
-            let Some(cover) = mesh.cover(t) else { return };
+            let Some(cover) = mesh.cover::<A>(t) else { return };
             let delta = mesh.delta(part, mesh.triangle_part[t]);
             let (plain, moved) = cover.hides_end(a, b, delta);
             start.plain += i32::from(plain);
@@ -58,11 +59,11 @@ impl<'a> ExactQuery<'a> {
             end.moved += i32::from(moved);
             for k in 0..3 {
                 let (p, q) = cover.edge(k);
-                if let Some(hit) = crossing(a, b, p, q)
-                    && hit.beneath > 0
+                if let Some(hit) = crossing::<A>(a, b, p, q)
+                    && hit.beneath > A::Volume::ZERO
                 {
-                    let beyond = hit.beneath > i128::from(delta) * i128::from(hit.d);
-                    let at = Parameter::crossing(hit.n, hit.d);
+                    let beyond = hit.beneath > A::depth(delta) * A::raise(hit.d);
+                    let at = A::crossing(hit.n, hit.d);
                     let moved = if beyond { hit.to_left } else { 0 };
                     events.push(Event { drawn: 0, at, plain: hit.to_left, moved });
                 }

@@ -1,6 +1,7 @@
 //! What the pass works on: borrowed topology, snapped points, and per part what may be assumed of it.
 
 use crate::exact::Point;
+use crate::exact::arithmetic::Arithmetic;
 use crate::exact::predicates::Cover;
 
 /// Drawn always.
@@ -50,7 +51,7 @@ impl Mesh<'_> {
     }
 
     #[inline(always)]
-    pub fn cover(&self, triangle: usize) -> Option<Cover> {
+    pub fn cover<A: Arithmetic>(&self, triangle: usize) -> Option<Cover<A>> {
         let (p, q, r) = self.corners(triangle);
         Cover::new(p, q, r)
     }

@@ -15,21 +15,26 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 
 use super::box_tree::{Aabb, BoxTree};
-use super::invisibility::{Event, Parameter};
+use super::invisibility::Event;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use crate::exact::Point;
+use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::{Cover, shifted_side};
-use crate::exact::wide::cmp_products;
 
-pub struct Piercings {
-    pub events: Vec<Vec<Event>>,
+pub struct Piercings<P> {
+    pub events: Vec<Vec<Event<P>>>,
     pub tests: u64,
     /// Parts for which a search was needed at all.
     pub parts: usize,
 }
 
-pub fn piercings(mesh: &Mesh, table: &PolygonTable, drawn: &[u32], stopped: &(dyn Fn() -> bool + Sync)) -> Piercings {
+pub fn piercings<A: Arithmetic>(
+    mesh: &Mesh,
+    table: &PolygonTable,
+    drawn: &[u32],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Piercings<A::Parameter> {
     let boxes = part_boxes(mesh);
     let sought = sought_parts(mesh, &boxes);
     let searched = sought.iter().filter(|&&s| s).count();
@@ -46,7 +51,7 @@ pub fn piercings(mesh: &Mesh, table: &PolygonTable, drawn: &[u32], stopped: &(dy
     let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::new).collect();
     let parts = BoxTree::new((0..mesh.parts.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
     let largest = mesh.parts.iter().map(|p| p.delta).max().unwrap_or(0);
-    let found: Vec<(Vec<Event>, u64)> = drawn
+    let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
         .par_chunks(256)
         .enumerate()
         .map(|(chunk, edges)| {
@@ -70,7 +75,7 @@ pub fn piercings(mesh: &Mesh, table: &PolygonTable, drawn: &[u32], stopped: &(dy
                     let reach = Aabb::of(&[a, b]).toward_viewer(delta);
                     trees[other as usize].query(&reach, |t| {
                         tests += 1;
-                        let Some(cover) = mesh.cover(t as usize) else { return };
+                        let Some(cover) = mesh.cover::<A>(t as usize) else { return };
                         pierce(a, b, &cover, delta, |at, plain, moved| {
                             events.push(Event { drawn: (chunk * 256 + i) as u32, at, plain, moved });
                         });
@@ -85,15 +90,21 @@ pub fn piercings(mesh: &Mesh, table: &PolygonTable, drawn: &[u32], stopped: &(dy
 }
 
 /// Report where a -> b passes through the polygon: as it lies, and moved toward the viewer by `delta`.
-pub fn pierce(a: &Point, b: &Point, cover: &Cover, delta: i64, mut report: impl FnMut(Parameter, i32, i32)) {
+pub fn pierce<A: Arithmetic>(
+    a: &Point,
+    b: &Point,
+    cover: &Cover<A>,
+    delta: i64,
+    mut report: impl FnMut(A::Parameter, i32, i32),
+) {
     let sa = cover.sides(a);
     let sb = cover.sides(b);
-    if (0..3).any(|k| sa[k] < 0 && sb[k] < 0) {
+    if (0..3).any(|k| sa[k] < A::Area::ZERO && sb[k] < A::Area::ZERO) {
         return;
     }
     let ga = cover.beneath(a, &sa);
     let gb = cover.beneath(b, &sb);
-    let shift = i128::from(delta) * i128::from(cover.area);
+    let shift = cover.shift(delta);
     if delta == 0 {
         if let Some((at, jump)) = through(cover, &sa, &sb, ga, gb) {
             report(at, jump, jump);
@@ -111,14 +122,21 @@ pub fn pierce(a: &Point, b: &Point, cover: &Cover, delta: i64, mut report: impl 
 /// Parameter and jump where the depths ga, gb beneath the plane change sign inside the polygon. An end point on the
 /// plane takes the other's sign, so only a strict change counts. On the polygon's border the shift in depth (-e)
 /// moves the piercing along f, and only where f runs along the border does the shift in the image decide.
-fn through(cover: &Cover, sa: &[i64; 3], sb: &[i64; 3], ga: i128, gb: i128) -> Option<(Parameter, i32)> {
-    if (ga <= 0 && gb <= 0) || (ga >= 0 && gb >= 0) {
+fn through<A: Arithmetic>(
+    cover: &Cover<A>,
+    sa: &[A::Area; 3],
+    sb: &[A::Area; 3],
+    ga: A::Volume,
+    gb: A::Volume,
+) -> Option<(A::Parameter, i32)> {
+    let zero = A::Volume::ZERO;
+    if (ga <= zero && gb <= zero) || (ga >= zero && gb >= zero) {
         return None;
     }
     // side(t) * d = sb * ga - sa * gb with t = ga / d, d = ga - gb, so sign(d) = sign(ga).
-    let sign_d = if ga > 0 { 1 } else { -1 };
+    let sign_d = if ga > zero { 1 } else { -1 };
     for k in 0..3 {
-        let side = match cmp_products(i128::from(sb[k]), ga, i128::from(sa[k]), gb) {
+        let side = match A::compare_products(sb[k], ga, sa[k], gb) {
             Ordering::Greater => sign_d,
             Ordering::Less => -sign_d,
             Ordering::Equal if sa[k] != sb[k] => -sign_d * if sb[k] > sa[k] { 1 } else { -1 },
@@ -131,7 +149,7 @@ fn through(cover: &Cover, sa: &[i64; 3], sb: &[i64; 3], ga: i128, gb: i128) -> O
             return None;
         }
     }
-    Some((Parameter::piercing(ga, ga - gb), if gb > 0 { 1 } else { -1 }))
+    Some((A::piercing(ga, ga - gb), if gb > zero { 1 } else { -1 }))
 }
 
 fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
@@ -172,6 +190,10 @@ fn sought_parts(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::arithmetic::Exact;
+    use crate::exact::parameter::Place;
+
+    type Cover = super::Cover<Exact>;
 
     fn found(a: Point, b: Point, cover: &Cover, delta: i64) -> Vec<(f64, i32, i32)> {
         let mut out = Vec::new();

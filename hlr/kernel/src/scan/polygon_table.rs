@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::orient2d;
 
 pub struct PolygonTable {
@@ -12,12 +13,12 @@ pub struct PolygonTable {
 }
 
 impl PolygonTable {
-    pub fn new(mesh: &Mesh) -> PolygonTable {
+    pub fn new<A: Arithmetic>(mesh: &Mesh) -> PolygonTable {
         let facing: Vec<i8> = (0..mesh.triangles.len())
             .into_par_iter()
             .map(|t| {
                 let (p, q, r) = mesh.corners(t);
-                orient2d(p, q, r).signum() as i8
+                orient2d::<A>(p, q, r).sign() as i8
             })
             .collect();
         let culled =

@@ -10,6 +10,7 @@ use super::invisibility::{Event, Segment, State, walk};
 use super::mesh::Mesh;
 use super::piercing::piercings;
 use super::polygon_table::PolygonTable;
+use crate::exact::arithmetic::{Arithmetic, Exact};
 
 /// One piece of one edge; parameters run from the edge's first to its second vertex.
 #[derive(Clone, Copy, Debug)]
@@ -45,21 +46,26 @@ pub struct Outcome {
 
 /// None if `stopped` said so.
 pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
+    visibility_by::<Exact>(mesh, stopped)
+}
+
+/// The same with any numbers: with others than exact ones pieces may be wrong, and counts contradict each other.
+pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
     // 1. facing, contours, drawn edges
-    let table = PolygonTable::new(mesh);
+    let table = PolygonTable::new::<A>(mesh);
     let edges = EdgeTable::new(mesh, &table);
     // 2. seeds: the count at both ends of every drawn edge
-    let seeds = Seeds::new(mesh, &table, &edges.drawn, stopped);
+    let seeds = Seeds::new::<A>(mesh, &table, &edges.drawn, stopped);
     // 3. crossings and piercings: the jumps between
-    let crossed = crossings(mesh, &edges.drawn, &edges.contours, stopped);
-    let pierced = piercings(mesh, &table, &edges.drawn, stopped);
+    let crossed = crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped);
+    let pierced = piercings::<A>(mesh, &table, &edges.drawn, stopped);
     if stopped() {
         return None;
     }
     // 4. count along every drawn edge; check; decide the failed ones polygon by polygon
     let (offsets, mut events) = by_edge(edges.drawn.len(), &crossed.events, &pierced.events);
     let exact = ExactQuery::new(mesh, &table);
-    let walked = walk_all(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
+    let walked = walk_all::<A>(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
     if stopped() {
         return None;
     }
@@ -99,7 +105,7 @@ pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Ou
 }
 
 /// Counting sort of all events by drawn edge.
-fn by_edge(drawn: usize, crossed: &[Vec<Event>], pierced: &[Vec<Event>]) -> (Vec<u32>, Vec<Event>) {
+fn by_edge<P: Copy>(drawn: usize, crossed: &[Vec<Event<P>>], pierced: &[Vec<Event<P>>]) -> (Vec<u32>, Vec<Event<P>>) {
     let all = || crossed.iter().chain(pierced).flatten();
     let mut offsets = vec![0u32; drawn + 1];
     for e in all() {
@@ -127,18 +133,18 @@ struct Walked {
     contradictions: u64,
 }
 
-fn walk_all(
+fn walk_all<A: Arithmetic>(
     mesh: &Mesh,
     drawn: &[u32],
     seeds: &Seeds,
     offsets: &[u32],
-    events: &mut [Event],
+    events: &mut [Event<A::Parameter>],
     exact: &ExactQuery,
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Vec<Walked> {
     const CHUNK: usize = 512;
     // Each chunk owns its run of events: split the one array along the chunk borders.
-    let mut runs: Vec<&mut [Event]> = Vec::new();
+    let mut runs: Vec<&mut [Event<A::Parameter>]> = Vec::new();
     let mut rest = events;
     for first in (0..drawn.len()).step_by(CHUNK) {
         let last = (first + CHUNK).min(drawn.len());
@@ -161,10 +167,10 @@ fn walk_all(
                 let part = mesh.edge_part[edge as usize];
                 let [a, b] = mesh.edges[edge as usize];
                 let own = &mut run[(offsets[i] - base) as usize..(offsets[i + 1] - base) as usize];
-                let (start, end) = (seeds.at(mesh, part, a, b), seeds.at(mesh, part, b, a));
+                let (start, end) = (seeds.at::<A>(mesh, part, a, b), seeds.at::<A>(mesh, part, b, a));
                 if !walk(start, own, end, &mut segments) {
                     out.failed += 1;
-                    if !exact.decide(edge as usize, &mut segments) {
+                    if !exact.decide::<A>(edge as usize, &mut segments) {
                         out.contradictions += 1;
                         segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
                     }
