@@ -8,6 +8,7 @@ from typing import Any
 from hlr.drawing import Drawing
 from hlr.errors import OptionError
 from hlr.measure.edges import TrueEdges, edge_errors
+from hlr.measure.outlines import outline_errors
 from hlr.measure.paper import Paper
 from hlr.measure.reached import Errors, Labels, Reached, errors
 from hlr.measure.written import written
@@ -46,12 +47,14 @@ def measured(
     if hasattr(opened, "edge_shape"):
         wanted = sorted({(x.part, x.edge) for x in drawing.lines if x.edge is not None})
         edges = errors(*edge_errors(TrueEdges(opened, drawing, wanted, paper), drawing, forms, threads))
+        outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples, threads))
     else:
         edges = Errors(None, why="a mesh has no edges but its own")
+        outlines = Errors(None, why="a mesh has no true surface")
     return Reached(
         accuracy=float(drawing.accuracy["used"]),
         edges=edges,
-        outlines=not_yet,
+        outlines=outlines,
         meshes=not_yet,
         intersections=not_yet,
         changes=not_yet,

@@ -1,7 +1,7 @@
 """Distance of written curves from the true curves of the model's edges, projected.
 
-The curve of an edge is taken from its record, which is checked against OpenCASCADE's own evaluation: what the two differ
-by is added. The nearest point is found by Newton's method on paper, from the nearest chord of a dense polyline; a wrong
+The curve of an edge is taken from its record, which is checked against OpenCASCADE's own evaluation: their difference
+is added. The nearest point is found by Newton's method on paper, from the nearest chord of a dense polyline; a wrong
 start makes the distance larger, never smaller.
 """
 

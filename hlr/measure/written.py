@@ -100,7 +100,7 @@ def _bezier(control: Floats, t: Floats) -> Floats:
     s = t[None, :, None]
     while len(p) > 1:
         p = [a + (b - a) * s for a, b in pairwise(p)]
-    return np.asarray(np.broadcast_to(p[0], (control.shape[1], len(t), 2)))
+    return np.broadcast_to(p[0], (control.shape[1], len(t), 2))
 
 
 def _arcs(rows: Rows, which: Index, at: Floats, unit: float, t: Floats, whole: bool) -> Floats:

@@ -72,7 +72,7 @@ class BrepSource:
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._curves = EdgeCurveReader(self._roots)
-        self._edge_maps: dict[int, Any] = {}
+        self._maps: dict[tuple[int, Any], Any] = {}
         self._root_of = {part.name: part.root for part in self._parts}
 
     @property
@@ -117,15 +117,38 @@ class BrepSource:
     def edge_shape(self, part: str, index: int) -> Any:
         """The TopoDS_Edge with this number in the TopExp edge map of the part of that name, without its placement."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-        from OCP.TopExp import TopExp
         from OCP.TopoDS import TopoDS
+
+        return TopoDS.Edge_s(self._map(part, Kind.TopAbs_EDGE).FindKey(index + 1))
+
+    def face_shape(self, part: str, index: int) -> Any:
+        """The TopoDS_Face with this number in the TopExp face map of the part of that name, without its placement."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopoDS import TopoDS
+
+        return TopoDS.Face_s(self._map(part, Kind.TopAbs_FACE).FindKey(index + 1))
+
+    def face_edges(self, part: str, index: int) -> list[int]:
+        """Numbers of the edges of a face of a part, both counted as TopExp does."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopExp import TopExp
         from OCP.TopTools import TopTools_IndexedMapOfShape
 
-        root = self._root_of[part]
-        if root not in self._edge_maps:
-            self._edge_maps[root] = TopTools_IndexedMapOfShape()
-            TopExp.MapShapes_s(self._roots[root], Kind.TopAbs_EDGE, self._edge_maps[root])
-        return TopoDS.Edge_s(self._edge_maps[root].FindKey(index + 1))
+        own = TopTools_IndexedMapOfShape()
+        TopExp.MapShapes_s(self.face_shape(part, index), Kind.TopAbs_EDGE, own)
+        every = self._map(part, Kind.TopAbs_EDGE)
+        return [every.FindIndex(own.FindKey(i)) - 1 for i in range(1, own.Extent() + 1)]
+
+    def _map(self, part: str, kind: Any) -> Any:
+        """The TopExp map of a part's edges or faces."""
+        from OCP.TopExp import TopExp
+        from OCP.TopTools import TopTools_IndexedMapOfShape
+
+        key = self._root_of[part], kind
+        if key not in self._maps:
+            self._maps[key] = TopTools_IndexedMapOfShape()
+            TopExp.MapShapes_s(self._roots[key[0]], kind, self._maps[key])
+        return self._maps[key]
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).
