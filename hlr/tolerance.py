@@ -34,6 +34,9 @@ edge is still seen there from all but the most oblique directions."""
 ROUNDING = 0.04
 """In deflections: what lies in a plane is off by what its file rounds."""
 
+UNDER = 3.0
+"""In accuracies: a hidden line this close to a visible one lies under its ink, which is at least as wide again."""
+
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9
 """Of the drawing's diagonal. Finer tessellations do not fit into memory; finer meshes do not fit the integer grid."""
@@ -109,7 +112,7 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         short=accuracy,
         stub=10.0 * accuracy,
         width=0.5 * accuracy,
-        under=3.0 * accuracy,
+        under=UNDER * accuracy,
         thin_paper=0.25 * accuracy,
         thin_model=0.25 * model,
     )

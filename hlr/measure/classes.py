@@ -8,16 +8,21 @@ from typing import Any
 from hlr.drawing import Drawing
 from hlr.errors import OptionError
 from hlr.measure.edges import TrueEdges, edge_errors
+from hlr.measure.figures import shortest
+from hlr.measure.finer import Comparison, finer_drawing, on_the_same_paper
+from hlr.measure.meshes import mesh_errors
 from hlr.measure.outlines import outline_errors
 from hlr.measure.paper import Paper
-from hlr.measure.reached import Errors, Labels, Reached, errors
+from hlr.measure.rays import Caster, labels
+from hlr.measure.reached import Errors, Reached, errors
 from hlr.measure.written import written
 from hlr.source import open_source
+from hlr.tolerance import UNDER
 
 SAMPLES = 20_000
 """Points judged by rays, and points of outlines, where the caller does not say how many."""
 
-FINENESS = 8.0
+FINENESS = 4.0
 """How much finer the drawing is that changes and lost lines are found by."""
 
 
@@ -43,25 +48,38 @@ def measured(
     opened = open_source(source)
     paper = Paper.of(drawing)
     forms = (written(drawing), written(drawing, cubic=True))
-    not_yet = Errors(None, why="not measured")
+    meshes = Errors(None, why="the model is no mesh")
+    edges = Errors(None, why="a mesh has no edges but its own")
+    outlines = Errors(None, why="a mesh has no true surface")
     if hasattr(opened, "edge_shape"):
         wanted = sorted({(x.part, x.edge) for x in drawing.lines if x.edge is not None})
         edges = errors(*edge_errors(TrueEdges(opened, drawing, wanted, paper), drawing, forms, threads))
         outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples, threads))
     else:
-        edges = Errors(None, why="a mesh has no edges but its own")
-        outlines = Errors(None, why="a mesh has no true surface")
+        meshes = errors(*mesh_errors(opened, drawing, forms[0], paper, threads))
+    found = finer_drawing(opened, drawing, FINENESS) if finer is None else finer
+    deflection = float(drawing.accuracy["deflection"]) / FINENESS
+    if not isinstance(found, str):
+        deflection = min(deflection, float(found.accuracy["deflection"]))
+    caster = Caster.of(opened, drawing, paper, deflection)
+    if isinstance(found, str):
+        intersections = changes = grazing = lost = Errors(None, why=found)
+        bound = None
+    else:
+        beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
+        changes, grazing, bound = beside.changes(caster)
+        lost, intersections = beside.lost(UNDER * float(drawing.accuracy["used"])), beside.kind("intersection")
     return Reached(
         accuracy=float(drawing.accuracy["used"]),
         edges=edges,
         outlines=outlines,
-        meshes=not_yet,
-        intersections=not_yet,
-        changes=not_yet,
-        grazing=not_yet,
-        bound=None,
-        lost=not_yet,
-        short=not_yet,
-        labels=Labels(None, why="not measured"),
+        meshes=meshes,
+        intersections=intersections,
+        changes=changes,
+        grazing=grazing,
+        bound=bound,
+        lost=lost,
+        short=shortest(drawing, forms[0], threads),
+        labels=labels(drawing, forms[0], caster, samples, threads),
         seconds=perf_counter() - started,
     )

@@ -17,17 +17,17 @@ outline. Where a fold lies on an edge of the face, that edge is the true outline
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from hlr import _kernel
 from hlr.drawing import Drawing
 from hlr.measure.edges import TrueEdges
 from hlr.measure.paper import Paper
-from hlr.measure.written import Index, Written
+from hlr.measure.written import Index, Written, in_model
 from hlr.source.model import Floats
 
 ITERATIONS = 30
@@ -50,7 +50,7 @@ def outline_errors(
         return np.zeros(0), []
     q, line = drawn.points[mine], drawn.line[mine]
     way = _directions(drawn, mine)
-    near = _beside(drawing, q, line, threads)
+    near = in_model(drawing, q, line, threads)
     accuracy = float(drawing.accuracy["used"])
     faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, number in enumerate(line.tolist()):
@@ -79,26 +79,6 @@ def _directions(drawn: Written, which: Index) -> Floats:
     way = drawn.points[after] - drawn.points[before]
     size = np.hypot(way[:, 0], way[:, 1])[:, None]
     return np.asarray(np.divide(way, size, out=np.zeros_like(way), where=size > 0.0))
-
-
-def _beside(drawing: Drawing, q: Floats, line: Index, threads: int) -> Floats:
-    """(n, 3) where the lines' own points say that these points (n, 2) of theirs are in the model."""
-    chords, ends, owner = [], [], []
-    for number in np.unique(line).tolist():
-        of = drawing.lines[number]
-        chords.append(np.concatenate([of.points[:-1], of.points[1:]], axis=1))
-        ends.append(np.stack([of.points3[:-1], of.points3[1:]], axis=1))
-        owner.append(np.full(len(of.points) - 1, number, np.int32))
-    chord, end = np.concatenate(chords), np.concatenate(ends)
-    _, found = _kernel.nearest(
-        np.ascontiguousarray(q), line.astype(np.int32), chord, np.concatenate(owner), np.inf, threads
-    )
-    a, b = chord[found, :2], chord[found, 2:]
-    size = ((b - a) ** 2).sum(axis=1)
-    with np.errstate(all="ignore"):
-        s = np.where(size > 0.0, ((q - a) * (b - a)).sum(axis=1) / size, 0.0)
-    s = np.clip(s, 0.0, 1.0)[:, None]
-    return np.asarray(end[found, 0] * (1.0 - s) + end[found, 1] * s)
 
 
 class _Face:
@@ -152,8 +132,8 @@ class _Face:
                 rows.append(flat[:, 1] @ way / self._accuracy)
                 values.append(float(off @ way) / self._accuracy)
             if abs(values[0]) < EDGE_ON:
-                best = min(best, float(np.hypot(*off)))
-            wrong = float(np.hypot(*values)) if beside else abs(values[0])
+                best = min(best, math.hypot(*off.tolist()))
+            wrong = math.hypot(*values) if beside else abs(values[0])
             if wrong > least:
                 step = 0.5 * step
                 at = at + step
@@ -182,7 +162,7 @@ def _least(rows: Floats, values: Floats) -> Floats:
         if len(rows) == 1:
             return np.asarray(rows[0] * (values[0] / (rows[0] @ rows[0])))
         (a, b), (c, d) = rows
-        return np.array([d * values[0] - b * values[1], a * values[1] - c * values[0]]) / (a * d - b * c)
+        return np.asarray(np.array([d * values[0] - b * values[1], a * values[1] - c * values[0]]) / (a * d - b * c))
 
 
 def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Index, threads: int) -> Floats:
@@ -196,9 +176,9 @@ def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Inde
     true = TrueEdges(opened, drawing, sorted({e for those in edges.values() for e in those}), paper)
     best = np.full(len(q), np.inf)
     keys = [(drawing.lines[i].part, drawing.lines[i].face or 0) for i in line.tolist()]
-    for key in edges:
+    for key, own in edges.items():
         mine = np.array([i for i, k in enumerate(keys) if k == key], np.int64)
-        for edge in edges[key]:
+        for edge in own:
             which = np.full(len(mine), true.number[edge], np.int32)
             best[mine] = np.minimum(best[mine], true.distance(q[mine], which, threads)[0])
     return best

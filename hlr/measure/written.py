@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
 from hlr.drawing import Drawing
 from hlr.source.model import Floats
 from hlr.writers.strokes import ARC, CUBIC, LINE, QUADRATIC, WHOLE, Rows, places_of, rows_of
@@ -36,21 +37,22 @@ class Written:
         same = self.line[1:] == self.line[:-1]
         return np.concatenate([self.points[:-1], self.points[1:]], axis=1)[same], self.line[:-1][same]
 
-    def every(self, step: float) -> Written:
-        """The same lines with points at most `step` apart along them."""
+    def middles(self, step: float) -> tuple[Floats, Index]:
+        """(n, 2) points along the lines, in the middle of pieces at most `step` long, and the line of each."""
         segments, line = self.steps()
-        if len(segments) == 0:
-            return self
         length = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
-        count = np.maximum(np.ceil(length / step), 1.0).astype(np.int64)
-        first = np.cumsum(count) - count
-        t = ((np.arange(count.sum()) - np.repeat(first, count)) / np.repeat(count, count))[:, None]
-        which = np.repeat(np.arange(len(segments)), count)
+        # Running length over all lines: pieces go over bends, and each line's own begin at its start.
+        ends = np.cumsum(length)
+        last = np.flatnonzero(np.append(line[1:] != line[:-1], True)) if len(line) else np.zeros(0, np.int64)
+        total = np.diff(np.append(0.0, ends[last]))
+        count = np.maximum(np.ceil(total / step), 1.0).astype(np.int64)
+        number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
+        along = np.repeat(ends[last] - total, count) + (number + 0.5) * np.repeat(total / np.maximum(count, 1), count)
+        which = np.minimum(np.searchsorted(ends, along), np.repeat(last, count))
+        with np.errstate(all="ignore"):
+            t = np.nan_to_num((along - (ends[which] - length[which])) / length[which])[:, None]
         points = segments[which, :2] * (1.0 - t) + segments[which, 2:] * t
-        # The last point of each line ends no further segment.
-        last = np.flatnonzero(np.append(line[1:] != line[:-1], True))
-        where = np.cumsum(count)[last]
-        return Written(np.insert(points, where, segments[last, 2:], axis=0), np.insert(line[which], where, line[last]))
+        return np.ascontiguousarray(points), np.repeat(line[last], count)
 
 
 def written(drawing: Drawing, *, cubic: bool = False) -> Written:
@@ -94,13 +96,35 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
     return Written(np.concatenate(points)[order][keep], line_of[keep])
 
 
+def in_model(drawing: Drawing, points: Floats, line: Index, threads: int) -> Floats:
+    """(n, 3) where points (n, 2) of lines (n,) are in the model, as far as the lines' own points tell."""
+    if len(points) == 0:
+        return np.zeros((0, 3))
+    chords, ends, owner = [], [], []
+    for number in np.unique(line).tolist():
+        of = drawing.lines[number]
+        chords.append(np.concatenate([of.points[:-1], of.points[1:]], axis=1))
+        ends.append(np.stack([of.points3[:-1], of.points3[1:]], axis=1))
+        owner.append(np.full(len(of.points) - 1, number, np.int32))
+    chord, end = np.concatenate(chords), np.concatenate(ends)
+    _, found = _kernel.nearest(
+        np.ascontiguousarray(points), line.astype(np.int32), chord, np.concatenate(owner), np.inf, threads
+    )
+    a, b = chord[found, :2], chord[found, 2:]
+    size = ((b - a) ** 2).sum(axis=1)
+    with np.errstate(all="ignore"):
+        s = np.where(size > 0.0, ((points - a) * (b - a)).sum(axis=1) / size, 0.0)
+    s = np.clip(s, 0.0, 1.0)[:, None]
+    return np.asarray(end[found, 0] * (1.0 - s) + end[found, 1] * s)
+
+
 def _bezier(control: Floats, t: Floats) -> Floats:
     """(m, k, 2) points of m curves at (k,) parameters; control (degree + 1, m, 2)."""
     p = list(control[:, :, None, :])
     s = t[None, :, None]
     while len(p) > 1:
         p = [a + (b - a) * s for a, b in pairwise(p)]
-    return np.broadcast_to(p[0], (control.shape[1], len(t), 2))
+    return np.asarray(np.broadcast_to(p[0], (control.shape[1], len(t), 2)))
 
 
 def _arcs(rows: Rows, which: Index, at: Floats, unit: float, t: Floats, whole: bool) -> Floats:

@@ -1,0 +1,52 @@
+"""Distance of written lines of meshes to the mesh's own edges: creases, borders, and edges where it folds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.drawing import Drawing
+from hlr.measure.paper import Paper
+from hlr.measure.written import Written
+from hlr.scene.build import build
+from hlr.scene.scene import INTERIOR
+from hlr.source.model import Floats
+from hlr.tolerance import ANGLE
+
+
+def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, threads: int) -> tuple[Floats, list[str]]:
+    """(n,) the largest distance of each line of a mesh without B-rep, but for intersections; and names for them."""
+    assert drawing.request is not None
+    deflection = float(drawing.accuracy["deflection"])
+    scene = build(opened.mesh(deflection, ANGLE), drawing.request.options.crease, deflection)
+    bare = np.array([p.faces == 0 for p in scene.parts], bool)
+    wanted = np.array([bare[x.part] and x.kind != "intersection" for x in drawing.lines], bool)
+    mine = np.flatnonzero(wanted[drawn.line]) if len(wanted) else np.zeros(0, np.int64)
+    if len(mine) == 0:
+        return np.zeros(0), []
+    corner = scene.points[scene.triangles]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    ahead = (normal * paper.sight(corner[:, 0])).sum(axis=1) > 0.0
+    first, count = scene.offsets[:-1], np.diff(scene.offsets)
+    faced = np.flatnonzero(count > 0)
+    some = np.zeros(len(scene.edges), np.int64)
+    some[faced] = np.add.reduceat(ahead[scene.incident].astype(np.int64), first[faced])
+    folds = (some > 0) & (some < count)
+    edge = np.flatnonzero(folds | (scene.edge_kind != INTERIOR))
+    ends = paper(scene.points[scene.edges[edge].ravel()]).reshape(-1, 4)
+    good = np.isfinite(ends).all(axis=1)
+    part = np.array([x.part for x in drawing.lines], np.int32)
+    line = drawn.line[mine]
+    off, _ = _kernel.nearest(
+        np.ascontiguousarray(drawn.points[mine]),
+        np.ascontiguousarray(part[line]),
+        np.ascontiguousarray(ends[good]),
+        np.ascontiguousarray(scene.edge_part[edge][good], np.int32),
+        np.inf,
+        threads,
+    )
+    starts = np.flatnonzero(np.append(True, line[1:] != line[:-1]))
+    of = [drawing.lines[i] for i in line[starts].tolist()]
+    return np.maximum.reduceat(off, starts), [f"{drawing.parts[x.part].name}, {x.kind}" for x in of]
