@@ -136,7 +136,7 @@ class Comparison:
         return errors(np.array(found)), grazing, bound if doubtful else None
 
     def _ends(self) -> Floats:
-        """Ends of lines, as far as the finer drawing has an end of the same edge within the accuracy."""
+        """Ends of lines, as far as the finer drawing has such an end of the same edge within the accuracy."""
         mine, key = _ends_of(self._drawing, self._own)
         theirs, their_key = _ends_of(self._finer.drawing, self._theirs)
         shift = np.array(self._finer.drawing.origin)
@@ -196,10 +196,10 @@ class Comparison:
 
 
 def _ends_of(drawing: Drawing, key: Ints) -> tuple[Floats, Ints]:
-    """(2 n, 2) ends of lines that do not close, and the keys (2 n,) of their edges."""
+    """(2 n, 2) ends of lines that do not close, and the keys (2 n,) of their edges and visibility."""
     ends = [x.points[[0, -1]] for x in drawing.lines]
     if not ends:
         return np.zeros((0, 2)), np.zeros(0, np.int32)
     points = np.array(ends)
     open_ = (points[:, 0] != points[:, 1]).any(axis=1)
-    return np.ascontiguousarray(points[open_].reshape(-1, 2)), np.repeat(key[open_] // 2, 2).astype(np.int32)
+    return np.ascontiguousarray(points[open_].reshape(-1, 2)), np.repeat(key[open_], 2).astype(np.int32)

@@ -155,6 +155,5 @@ def _arcs(rows: Rows, which: Index, at: Floats, unit: float, t: Floats, whole: b
         turn = np.where(~rising & (turn > 0.0), turn - 2.0 * np.pi, turn)
     angle = begin[:, None] + turn[:, None] * t
     u, v = np.cos(angle) * rx[:, None], np.sin(angle) * ry[:, None]
-    return centre[:, None] + np.stack(
-        [cos[:, None] * u - sin[:, None] * v, sin[:, None] * u + cos[:, None] * v], axis=2
-    )
+    turned = np.stack([cos[:, None] * u - sin[:, None] * v, sin[:, None] * u + cos[:, None] * v], axis=2)
+    return np.asarray(centre[:, None] + turned, np.float64)
