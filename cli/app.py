@@ -11,6 +11,7 @@ VERBS = {
     "draw": "Draw a model as SVG, PDF or JSON.",
     "preview": "Shaded picture of a model as PNG.",
     "methods": "Time the visible-surface methods side by side.",
+    "study": "What accuracy costs, beside others.",
     "info": "Parts, faces, edges, triangles and defects of a model.",
 }
 

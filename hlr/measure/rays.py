@@ -114,7 +114,7 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
     near = Written(drawn.points[np.isin(drawn.line, bad)], drawn.line[np.isin(drawn.line, bad)])
     dense = max(DENSE * accuracy, step / 64.0)
     points, line = near.middles(dense)
-    close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step)
+    close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step, threads)
     points, line = points[close], line[close]
     again = contradicted(drawing, points, line, caster, threads)
     where, longest = longest_run(points, line, again, dense)
@@ -161,14 +161,11 @@ def _picked(drawn: Written, step: float, wrong: npt.NDArray[np.bool_]) -> tuple[
     return points[wrong], line[wrong]
 
 
-def _within(points: Floats, line: Index, seeds: Floats, seed_line: Index, most: float) -> npt.NDArray[np.bool_]:
+def _within(
+    points: Floats, line: Index, seeds: Floats, seed_line: Index, most: float, threads: int
+) -> npt.NDArray[np.bool_]:
     """(n,) whether a seed on the same line is no farther away than `most`."""
     dots = np.concatenate([seeds, seeds], axis=1)
-    far, _ = _kernel.nearest(
-        np.ascontiguousarray(points),
-        line.astype(np.int32),
-        np.ascontiguousarray(dots),
-        seed_line.astype(np.int32),
-        most,
-    )
+    own, theirs = line.astype(np.int32), seed_line.astype(np.int32)
+    far, _ = _kernel.nearest(np.ascontiguousarray(points), own, np.ascontiguousarray(dots), theirs, most, threads)
     return np.isfinite(far)

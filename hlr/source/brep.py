@@ -25,7 +25,7 @@ from hlr.source.model import (
     Progress,
     Surfaces,
 )
-from hlr.source.parts import Leaf, Part, Parts, look
+from hlr.source.parts import Leaf, Part, Parts, compound, look
 from hlr.source.tessellate import Tessellator
 from hlr.source.topology import Meshes
 from hlr.source.weld import clean
@@ -149,6 +149,18 @@ class BrepSource:
             self._maps[key] = TopTools_IndexedMapOfShape()
             TopExp.MapShapes_s(self._roots[key[0]], kind, self._maps[key])
         return self._maps[key]
+
+    def shape(self) -> Any:
+        """All parts that are drawn, each where it stands, as one TopoDS_Compound."""
+        from OCP.gp import gp_Trsf
+        from OCP.TopLoc import TopLoc_Location
+
+        placed = []
+        for part in self._parts:
+            move = gp_Trsf()
+            move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
+            placed.append(self._roots[part.root].Moved(TopLoc_Location(move), False))
+        return compound(placed)
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).

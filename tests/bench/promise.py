@@ -93,7 +93,11 @@ def row(result: dict[str, Any]) -> str:
         return "" if value is None else f"{value / promise:.2f}"
 
     cells = [share(result[name]["worst"]) for name in CLASSES]
-    cells += [share(result["labels"].get("longest")), share(result["grazing"]["worst"]), share(result["short"]["worst"])]
+    cells += [
+        share(result["labels"].get("longest")),
+        share(result["grazing"]["worst"]),
+        share(result["short"]["worst"]),
+    ]
     return f"{head} {' | '.join(cells)} | {result['draw']:.1f} | {result['measure']:.0f} |"
 
 

@@ -1,0 +1,137 @@
+"""`hlr study`: what accuracy costs, beside others, on one model."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from hlr.errors import OptionError, SourceError, WriteError
+
+from ..meter import meter
+from ..parameters import Scale, Size, Vector3, ViewName
+from ..signals import Stopped, tidily
+
+if TYPE_CHECKING:
+    from hlr.study.sweep import Study
+
+_MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
+
+
+@click.command()
+@click.argument("source")
+@click.option("-o", "--output", metavar="DIR", required=True, help="A folder for study.md, its tables and its plots.")
+@click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="Default: iso.")
+@click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model.")
+@click.option("--fit", type=Size(), metavar="WxH", help="Fit into so many millimetres. Default: 277x190, an A4 sheet.")
+@click.option(
+    "--accuracy",
+    "accuracies",
+    type=_MILLIMETRES,
+    metavar="MM",
+    multiple=True,
+    help="May be repeated. Default: 2 to 0.0005 in steps of 1-2-5.",
+)
+@click.option(
+    "--pixels",
+    type=click.IntRange(16, 16384),
+    metavar="N",
+    multiple=True,
+    help="Along the longer side of a depth buffer; may be repeated. Default: 512, 1024, 2048, 4096 and 8192.",
+)
+@click.option("--rivals/--no-rivals", default=True, help="OpenCASCADE and a z-buffer on the same axes. Default: on.")
+@click.option(
+    "--reached/--no-reached", default=True, help="Measure errors class by class too; it takes long. Default: on."
+)
+@click.option(
+    "--limit",
+    type=_MILLIMETRES,
+    metavar="S",
+    default=60.0,
+    help="Seconds for each point, reading included. Default: 60.",
+)
+@click.option("--runs", type=click.IntRange(min=1), metavar="N", default=3, help="Runs of each point. Default: 3.")
+@click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
+def study(
+    *,
+    source: str,
+    output: str,
+    view: str | Vector3,
+    scale: float | None,
+    fit: tuple[float, float] | None,
+    accuracies: tuple[float, ...],
+    pixels: tuple[int, ...],
+    rivals: bool,
+    reached: bool,
+    limit: float,
+    runs: int,
+    quiet: bool,
+) -> None:
+    """Measure what accuracy costs on SOURCE, beside OpenCASCADE, a z-buffer, and predicates that round.
+
+    \b
+      hlr study part.step -o figures
+      hlr study part.step -o figures --accuracy 0.5 --accuracy 0.05 --no-rivals --runs 1
+
+    Ctrl-C leaves what is finished.
+    """
+    folder = Path(output)
+    if folder.exists() and not folder.is_dir():
+        raise WriteError(f"cannot write into {folder}: it is not a folder")
+    if scale is not None and fit is not None:
+        raise OptionError("--scale and --fit contradict one another; give one of them")
+    if not Path(source).is_file():
+        raise SourceError(f"{source}: there is no such file")
+    from hlr.study import plot
+    from hlr.study.job import ACCURACIES, PIXELS, PREDICATES
+    from hlr.study.sweep import Study, Wish
+    from hlr.study.sweep import study as measure
+
+    plot.available()
+    wish = Wish(
+        accuracies=accuracies or ACCURACIES,
+        pixels=pixels or PIXELS,
+        predicates=PREDICATES if not accuracies else accuracies[:1],
+        rivals=rivals,
+        reached=reached,
+    )
+    found = Study(source, view, limit, runs)
+    # No worker process as for a drawing: the work is done in processes of its own, and this one has to outlive Ctrl-C.
+    with tidily():
+        try:
+            with meter(quiet) as progress:
+                measure(
+                    source, view, scale=scale, fit=fit, wish=wish, limit=limit, runs=runs, into=found, progress=progress
+                )
+        except Stopped:
+            _write(folder, found)
+            raise
+        _write(folder, found)
+    if not quiet and sys.stderr is not None and sys.stderr.isatty():
+        click.echo(f"{folder / 'study.md'}: {len(found.points)} points", err=True)
+
+
+def _write(folder: Path, found: Study) -> None:
+    """All files; none where nothing was measured."""
+    from hlr.study import plot, report
+    from hlr.writers import files
+
+    if not any(point.failure is None for point in found.points):
+        if not found.points:
+            return
+        raise SourceError(f"{found.source} cannot be studied: no point was finished")
+    made = {
+        folder / "study.csv": report.comma_separated(found).encode("utf-8"),
+        folder / "study.md": report.markdown(found, ("error.png", "stages.png")).encode("utf-8"),
+        folder / "error.png": plot.error_plot(found),
+        folder / "stages.png": plot.stage_plot(found),
+    }
+    if found.arithmetic:
+        made[folder / "arithmetic.csv"] = report.arithmetic_csv(found).encode("utf-8")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise WriteError(f"cannot make the folder {folder}: {error.strerror}") from None
+    files.place(made)

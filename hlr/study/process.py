@@ -1,0 +1,46 @@
+"""Jobs in processes of their own, with a time limit: what cannot be had there is a sentence here."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hlr.study.job import Job
+
+
+def answer(job: Job, limit: float) -> dict[str, Any]:
+    """What the job's process answered, or {"failure": sentence}. limit: seconds.
+
+    Whatever interrupts this ends the process first.
+    """
+    with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
+        path = Path(folder) / "answer.json"
+        # -P: the folder that hlr was started in must not provide modules.
+        command = [sys.executable, "-P", "-m", "hlr.study.child", str(path)]
+        child = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True
+        )
+        try:
+            child.communicate(json.dumps(job.as_dict()) + "\n", timeout=limit)
+        except subprocess.TimeoutExpired:
+            return {"failure": f"not finished in {limit:g} s"}
+        finally:
+            if child.poll() is None:
+                child.kill()
+                child.wait()
+        if child.returncode != 0 or not path.exists():
+            return {"failure": _end(child.returncode)}
+        found: dict[str, Any] = json.loads(path.read_text("utf-8"))
+        return found
+
+
+def _end(code: int) -> str:
+    if code < 0:
+        name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
+        return f"its process ended by {name}" + (" (out of memory?)" if name in ("SIGKILL", "SIGABRT") else "")
+    return f"its process ended with code {code}"

@@ -1,0 +1,222 @@
+"""The study itself: which points are measured, in which order, and what is left out and why."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from hlr.errors import OptionError, SourceError
+from hlr.plan.options import View
+from hlr.source.model import Progress
+from hlr.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Cost, Job, Point, point_of
+from hlr.study.process import answer
+
+A4 = (277.0, 190.0)
+"""Millimetres: a landscape sheet with its margins."""
+
+FINER = 0.4
+"""Of the finest accuracy that could be drawn: the accuracy of the lines that all are judged by."""
+PATIENCE = 4.0
+"""Limits of time that the truth and the judge may take: they are nobody's cost."""
+
+
+@dataclass(slots=True)
+class Study:
+    """All that was measured of one model.
+
+    look    what is drawn: name, scale, width, height, parts, lines, triangles
+    truth   accuracy of the lines that all were judged by, millimetres; None: there are none, and no errors
+    arithmetic  per accuracy, the kernel's pass with each kind of numbers (`hlr.study.arithmetic.Rounding`)
+    notes   what was left out, in sentences
+    finished  False where it was stopped
+    """
+
+    source: str
+    view: View
+    limit: float
+    runs: int
+    look: dict[str, Any] = field(default_factory=dict)
+    truth: float | None = None
+    points: list[Point] = field(default_factory=list)
+    arithmetic: list[dict[str, Any]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    finished: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What is to be measured.
+
+    accuracies  of ours and of PolyAlgo, millimetres; pixels: of depth buffers; predicates: accuracies at which kinds of
+    arithmetic are compared; rivals, reached: whether others are measured, and our own drawings class by class
+    """
+
+    accuracies: Sequence[float] = ACCURACIES
+    pixels: Sequence[int] = PIXELS
+    predicates: Sequence[float] = PREDICATES
+    rivals: bool = True
+    reached: bool = True
+
+
+def study(
+    source: str,
+    view: View = "iso",
+    *,
+    scale: float | None = None,
+    fit: tuple[float, float] | None = None,
+    wish: Wish | None = None,
+    limit: float = 60.0,
+    runs: int = 3,
+    into: Study | None = None,
+    progress: Progress | None = None,
+) -> Study:
+    """Measure all points, the cheap ones first, `runs` times in turns.
+
+    scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: seconds for each point.
+    into: is filled step by step, so that what is finished survives whatever stops this.
+
+    Raises OptionError, and SourceError where the model cannot be drawn at all.
+    """
+    wish = wish or Wish()
+    if not limit > 0.0 or runs < 1:
+        raise OptionError("a study needs a positive limit of seconds, and at least one run")
+    out = into if into is not None else Study(source, view, limit, runs)
+    tell = progress or (lambda _stage, _done: None)
+    with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
+        # Without a scale as large as fits; from then on the same for all.
+        first = Job("look", source, view, scale=scale, fit=fit or A4)
+        tell("look", 0.0)
+        out.look = answer(first, PATIENCE * limit)
+        if out.look.get("failure"):
+            raise SourceError(f"{source} cannot be studied: {out.look['failure']}")
+        common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder}
+        _Rounds(out, common, wish, limit, tell).run(runs)
+    out.finished = True
+    return out
+
+
+class _Rounds:
+    """Rounds over all points: each measured once a round, so that what else the machine does hits all alike."""
+
+    def __init__(
+        self, out: Study, common: dict[str, Any], wish: Wish, limit: float, tell: Callable[[str, float], None]
+    ) -> None:
+        self._out, self._common, self._wish, self._limit, self._tell = out, common, wish, limit, tell
+        self._costs: dict[int, list[dict[str, Cost]]] = {}
+        self._steps, self._done = 1, 0
+
+    def run(self, runs: int) -> None:
+        wanted: list[tuple[str, Sequence[float]]] = [(HLR, sorted(self._wish.accuracies, reverse=True))]
+        if self._wish.rivals:
+            wanted += [
+                (POLY, sorted(self._wish.accuracies, reverse=True)),
+                (EXACT, [0.0]),
+                (ZBUFFER, sorted(self._wish.pixels)),
+            ]
+        count = sum(len(settings) for _, settings in wanted)
+        self._steps = count * (runs + 1) + len(self._wish.predicates) + len(self._wish.accuracies) + 1
+        for who, settings in wanted:
+            self._first(who, settings)
+        self._truth()
+        self._judge()
+        for accuracy in self._wish.predicates:
+            self._arithmetic(accuracy)
+        for _ in range(runs - 1):
+            for number, point in enumerate(self._out.points):
+                if point.failure is None:
+                    self._again(number, point)
+        if self._wish.reached:
+            self._reached()
+
+    def _answer(self, work: str, setting: float, name: str = "", patience: float = 1.0) -> dict[str, Any]:
+        self._done += 1
+        self._tell(f"{work} {setting:g}" if setting else work, min(self._done / self._steps, 1.0))
+        return answer(Job(work, setting=setting, name=name, **self._common), self._limit * patience)
+
+    def _first(self, who: str, settings: Sequence[float]) -> None:
+        """Coarse to fine, until one takes too long: then the finer ones would as well."""
+        late: float | None = None
+        for setting in settings:
+            number = len(self._out.points)
+            if late is not None:
+                found: dict[str, Any] = {"failure": f"not tried: {late:g} was not finished in {self._limit:g} s"}
+            else:
+                found = self._answer(who, setting, f"{number}")
+            if found.get("failure"):
+                if found["failure"].startswith("not finished"):
+                    late = setting
+                accuracy = setting if who in (HLR, POLY) else None
+                self._out.points.append(Point(who, setting, accuracy, failure=found["failure"]))
+                continue
+            point = point_of(found)
+            point.runs = 1
+            self._costs[number] = [point.stages]
+            self._out.points.append(point)
+
+    def _again(self, number: int, point: Point) -> None:
+        found = self._answer(point.who, point.setting, f"{number}")
+        if found.get("failure"):  # it was close to the limit: what was measured before stays
+            return
+        self._costs[number].append(point_of(found).stages)
+        runs = self._costs[number]
+        point.runs = len(runs)
+        point.stages = {
+            name: Cost(
+                median(run[name].wall for run in runs),
+                median(run[name].cpu for run in runs),
+                median(run[name].memory for run in runs),
+            )
+            for name in runs[0]
+        }
+
+    def _truth(self) -> None:
+        """A drawing finer than all, or as fine as the finest."""
+        drawn = [p.setting for p in self._out.points if p.who == HLR and p.failure is None]
+        if not drawn:
+            return
+        finest = min(drawn)
+        for accuracy in (FINER * finest, finest):
+            found = self._answer("truth", accuracy, "truth", PATIENCE)
+            if not found.get("failure"):
+                self._out.truth = accuracy
+                return
+        self._out.notes.append(f"No errors were measured: the true lines could not be drawn ({found['failure']}).")
+
+    def _judge(self) -> None:
+        if self._out.truth is None:
+            return
+        for number, point in enumerate(self._out.points):
+            if point.failure is None:
+                found = self._answer("judge", point.setting, f"{number}", PATIENCE)
+                if found.get("failure"):
+                    self._out.notes.append(f"{point.who} at {point.setting:g} was not judged: {found['failure']}.")
+                else:
+                    point.errors = found["errors"]
+
+    def _arithmetic(self, accuracy: float) -> None:
+        found = self._answer("arithmetic", accuracy, patience=PATIENCE)
+        if found.get("failure"):
+            self._out.notes.append(f"Kinds of arithmetic were not compared at {accuracy:g} mm: {found['failure']}.")
+        else:
+            self._out.arithmetic += found["kinds"]
+
+    def _reached(self) -> None:
+        for point in self._out.points:
+            if point.who != HLR or point.failure is not None:
+                continue
+            found = self._answer("reached", point.setting, patience=PATIENCE)
+            if found.get("failure"):
+                point.reached = {"why": found["failure"]}
+            else:
+                point.reached = found["reached"]
+
+
+def work_folder(path: Path) -> Path:
+    """The folder for results. Raises OptionError where it is something else."""
+    if path.exists() and not path.is_dir():
+        raise OptionError(f"cannot write into {path}: it is not a folder")
+    return path
