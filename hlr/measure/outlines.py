@@ -17,9 +17,9 @@ outline. Where a fold lies on an edge of the face, that edge is the true outline
 
 from __future__ import annotations
 
-import math
 from collections import defaultdict
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,8 @@ from hlr.source.model import Floats
 ITERATIONS = 30
 EDGE_ON = 1e-9
 """|N . V| of unit vectors below which a place counts as edge-on."""
+SETTLED = 1e-13
+"""Steps and remainders below which a search has ended, in longest steps and accuracies."""
 STEP = 10.0
 """In accuracies: the longest step on a surface. What is farther away is another outline."""
 ENOUGH = 0.25
@@ -60,8 +62,7 @@ def outline_errors(
     for (part, face), those in faces.items():
         of = drawing.parts[part]
         judge = _Face(opened.face_shape(of.name, face), of.transform, paper, accuracy)
-        for i in those:
-            off[i] = judge.error(near[i], q[i], way[i])
+        off[those] = judge.errors(near[those], q[those], way[those])
     far = np.flatnonzero(off > ENOUGH * accuracy)
     if len(far):
         off[far] = np.minimum(off[far], _to_folds(opened, drawing, paper, q[far], line[far], threads))
@@ -97,72 +98,90 @@ class _Face:
         self._enough = ENOUGH * accuracy
         self._accuracy = accuracy
 
-    def error(self, near: Floats, q: Floats, way: Floats) -> float:
-        """Distance on paper between q (2,) and an edge-on place beside it; infinity where none is found."""
+    def errors(self, near: Floats, q: Floats, way: Floats) -> Floats:
+        """(n,) distance on paper between q (n, 2) and edge-on places beside them; infinity where none is found."""
         from OCP.gp import gp_Pnt
 
-        start = self._find.ValueOfUV(gp_Pnt(*(self._back @ (near - self._shift)).tolist()), 1e-9)
-        at = np.array([start.X(), start.Y()])
-        best = np.inf
+        start = [self._find.ValueOfUV(gp_Pnt(*p), 1e-9) for p in ((near - self._shift) @ self._back.T).tolist()]
+        at = np.array([(p.X(), p.Y()) for p in start])
         # First toward the place beside q; where the outline runs along the sight, at a cusp, to any place nearby.
-        for beside in (True, False):
-            best = min(best, self._search(at, q, way, beside))
-            if best < self._enough:
-                break
+        best = self._search(at, q, way, True)
+        again = np.flatnonzero(best > self._enough)
+        best[again] = np.minimum(best[again], self._search(at[again], q[again], way[again], False))
         return best
 
-    def _search(self, at: Floats, q: Floats, way: Floats, beside: bool) -> float:
-        """The least error among the edge-on places that Newton's method comes by; steps that lead astray are halved."""
-        best, least, step = np.inf, np.inf, np.zeros(2)
+    def _search(self, start: Floats, q: Floats, way: Floats, beside: bool) -> Floats:
+        """The least errors at edge-on places that Newton's method comes by; steps that lead astray are halved."""
+        n = len(q)
+        best, least, going = np.full(n, np.inf), np.full(n, np.inf), np.arange(n)
+        at, step = start.copy(), np.zeros((n, 2))
         for _ in range(ITERATIONS):
-            try:
-                point, (su, sv, suu, svv, suv) = self._jet(at)
-            except Exception:  # OpenCASCADE's exceptions derive from Exception alone
-                return best
-            normal = np.cross(su, sv)
-            sight = self._paper.sight(point[None])[0]
-            size = float(np.linalg.norm(normal) * np.linalg.norm(sight))
-            if not size > 0.0:
-                return best
-            slope = [np.cross(suu, sv) + np.cross(su, suv), np.cross(suv, sv) + np.cross(su, svv)]
-            flat = self._paper.derived(np.array([[point, su, suv], [point, sv, suv]]))
-            off = flat[0, 0] - q
-            rows, values = [np.array(slope) @ sight / size], [float(normal @ sight) / size]
-            if beside:
-                rows.append(flat[:, 1] @ way / self._accuracy)
-                values.append(float(off @ way) / self._accuracy)
-            if abs(values[0]) < EDGE_ON:
-                best = min(best, math.hypot(*off.tolist()))
-            wrong = math.hypot(*values) if beside else abs(values[0])
-            if wrong > least:
-                step = 0.5 * step
-                at = at + step
-                continue
-            least = wrong
-            step = _least(np.array(rows), np.array(values))
-            moved = float(np.linalg.norm(su * step[0] + sv * step[1]))
-            if not moved > 0.0 or not np.isfinite(moved):
-                return best
-            step = step * min(1.0, self._most / moved)
-            at = at - step
+            if len(going) == 0:
+                break
+            jet = self._jets(at[going])
+            point, su, sv, suu, svv, suv = (jet[:, k] for k in range(6))
+            sight = self._paper.sight(point)
+            normal = cross(su, sv)
+            with np.errstate(all="ignore"):
+                size = np.sqrt(dot(normal, normal) * dot(sight, sight))
+                g = dot(normal, sight) / size
+                rows = np.empty((len(going), 2, 2))
+                rows[:, 0, 0] = dot(cross(suu, sv) + cross(su, suv), sight) / size
+                rows[:, 0, 1] = dot(cross(suv, sv) + cross(su, svv), sight) / size
+                along = [self._paper.derived(np.stack([point, s, suv], axis=1)) for s in (su, sv)]
+                off = along[0][:, 0] - q[going]
+                value = np.stack([g, dot(off, way[going]) / self._accuracy], axis=1)
+                for k in (0, 1):
+                    rows[:, 1, k] = dot(along[k][:, 1], way[going]) / self._accuracy
+                found = np.where(np.abs(g) < EDGE_ON, np.sqrt(dot(off, off)), np.inf)
+                best[going] = np.fmin(best[going], found)
+                wrong = np.sqrt(dot(value, value)) if beside else np.abs(g)
+                astray = wrong > least[going]
+                new = _least(rows, value, beside)
+                moved = np.sqrt(dot(su * new[:, :1] + sv * new[:, 1:], su * new[:, :1] + sv * new[:, 1:]))
+                new *= np.minimum(1.0, self._most / moved)[:, None]
+            # Back by half of the last step, or on by a new one.
+            step[going] = np.where(astray[:, None], 0.5 * step[going], new)
+            move = np.where(astray[:, None], step[going], -step[going])
+            least[going] = np.where(astray, least[going], wrong)
+            settled = ~np.isfinite(moved) | (~astray & ((wrong < SETTLED) | (moved < SETTLED * self._most)))
+            going, move = going[~settled], move[~settled]
+            at[going] += move
         return best
 
-    def _jet(self, at: Floats) -> tuple[Floats, list[Floats]]:
-        """Point and derivatives du, dv, duu, dvv, duv in the model."""
+    def _jets(self, at: Floats) -> Floats:
+        """(n, 6, 3) points and derivatives du, dv, duu, dvv, duv in the model; NaN where there are none."""
         from OCP.gp import gp_Pnt, gp_Vec
 
         p, d = gp_Pnt(), [gp_Vec() for _ in range(5)]
-        self._surface.D2(float(at[0]), float(at[1]), p, *d)
-        return self._turn @ p.Coord() + self._shift, [self._turn @ v.Coord() for v in d]
+        out = np.full((len(at), 6, 3), np.nan)
+        with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone
+            for i, (u, v) in enumerate(at.tolist()):
+                self._surface.D2(u, v, p, *d)
+                out[i] = [p.Coord(), *[w.Coord() for w in d]]
+        moved: Floats = np.einsum("ij,nkj->nki", self._turn, out)
+        moved[:, 0] += self._shift
+        return moved
 
 
-def _least(rows: Floats, values: Floats) -> Floats:
-    """The shortest x (2,) with rows (k, 2) . x = values (k,), k 1 or 2; NaN where there is none."""
-    with np.errstate(all="ignore"):
-        if len(rows) == 1:
-            return np.asarray(rows[0] * (values[0] / (rows[0] @ rows[0])))
-        (a, b), (c, d) = rows
-        return np.asarray(np.array([d * values[0] - b * values[1], a * values[1] - c * values[0]]) / (a * d - b * c))
+def dot(a: Floats, b: Floats) -> Floats:
+    """Row by row."""
+    return np.asarray((a * b).sum(axis=1))
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """Row by row."""
+    x, y = a.T, b.T
+    return np.stack([x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]], axis=1)
+
+
+def _least(rows: Floats, values: Floats, both: bool) -> Floats:
+    """(n, 2) the x with rows (n, 2, 2) . x = values (n, 2), or the shortest for the first row alone."""
+    a, b, c, d = rows[:, 0, 0], rows[:, 0, 1], rows[:, 1, 0], rows[:, 1, 1]
+    g, h = values.T
+    if not both:
+        return np.stack([a, b], axis=1) * (g / (a * a + b * b))[:, None]
+    return np.asarray(np.stack([d * g - b * h, a * h - c * g], axis=1) / (a * d - b * c)[:, None])
 
 
 def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Index, threads: int) -> Floats:
