@@ -71,6 +71,20 @@ class Size(click.ParamType[tuple[float, float]]):
         self.fail(f"{value!r} is not a size in millimetres such as 200x150", param, ctx)
 
 
+class Duration(click.ParamType[float]):
+    """A time: 2s, 500ms, 1min; a number alone is seconds."""
+
+    name = "TIME"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Seconds, more than none."""
+        match = re.fullmatch(r"\s*([0-9.eE+-]+?)\s*(ms|s|min|)\s*", str(value))
+        number = number_of(match[1]) if match else None
+        if match is None or number is None or number <= 0.0:
+            self.fail(f"{value!r} is not a time such as 2s, 500ms or 1min", param, ctx)
+        return number * {"ms": 1e-3, "s": 1.0, "": 1.0, "min": 60.0}[match[2]]
+
+
 class Pixels(click.ParamType[tuple[int, int]]):
     """Width and height in pixels: 1920x1080."""
 

@@ -24,6 +24,13 @@ class Output:
     def __init__(self, descriptor: int | None) -> None:
         self._descriptor = descriptor
 
+    @property
+    def descriptor(self) -> int:
+        """For a process that writes in our place. Raises WriteError where there is none."""
+        if self._descriptor is None:
+            raise WriteError("cannot write to standard output: it is closed")
+        return self._descriptor
+
     def put(self, data: bytes) -> None:
         """Write all of it. Raises WriteError where the system refuses, ReaderGoneError where nobody reads it."""
         if self._descriptor is None:

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing, Line
+    from hlr.drawings import draw, draw_views
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
     from hlr.inspection import info
     from hlr.picture import Picture
-    from hlr.pipeline import draw, draw_views
     from hlr.plan.effects import PreviewOptions
     from hlr.plan.options import Options, Perspective
     from hlr.previews import preview, preview_views
@@ -38,8 +38,8 @@ _HOME = {
     "StrictError": "hlr.errors",
     "ViewError": "hlr.errors",
     "WriteError": "hlr.errors",
-    "draw": "hlr.pipeline",
-    "draw_views": "hlr.pipeline",
+    "draw": "hlr.drawings",
+    "draw_views": "hlr.drawings",
     "info": "hlr.inspection",
     "preview": "hlr.previews",
     "preview_views": "hlr.previews",

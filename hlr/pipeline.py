@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hlr.drawing import Drawing, DrawnPart, DrawnView
-from hlr.errors import OptionError, StrictError
+from hlr.errors import StrictError
 from hlr.linework.exact import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
 from hlr.plan.options import Options, Request, View
@@ -68,15 +68,6 @@ def draw_views(
         if options.strict and drawing.notes:
             raise StrictError(drawing.notes[0])
     return out
-
-
-def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Drawing:
-    """One view of a source; the keywords are the fields of `Options`."""
-    try:
-        request = Options(**options)
-    except TypeError as error:
-        raise OptionError(f"{error}".replace("Options.__init__()", "draw()")) from None
-    return draw_views(source, [view], request, progress)[0]
 
 
 def lap(clock: Clock, stage: str, started: float) -> float:
@@ -190,4 +181,4 @@ def drawn_view(camera: Camera) -> DrawnView:
     )
 
 
-__all__ = ["draw", "draw_views", "drawing_of", "drawn_view", "lap", "meshed_scene"]
+__all__ = ["draw_views", "drawing_of", "drawn_view", "lap", "meshed_scene"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from ..exits import warn
 from ..guard import start
 from ..meter import meter
 from ..outputs import STDOUT, plan
-from ..parameters import Scale, Size, Vector3
+from ..parameters import Duration, Scale, Size, Vector3
 from ..signals import tidily
 from ..streams import Output, result_only
 from ..view_options import CAMERA, CARE, RUN, VIEW, names_of, options, perspective_of
@@ -23,6 +24,8 @@ from ..view_options import CAMERA, CARE, RUN, VIEW, names_of, options, perspecti
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
     from hlr.plan.options import Options
+
+    from ..meter import Progress
 
 
 @click.command()
@@ -51,7 +54,15 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
 )
-@options(*CARE, *CAMERA, *RUN)
+@options(*CARE)
+@click.option(
+    "--within",
+    type=Duration(),
+    metavar="TIME",
+    help="Draw coarsely first, then finer while time lasts: 2s, 500ms, 1min. Not finer than --accuracy.",
+)
+@click.option("--report", is_flag=True, help="Measure what accuracy was reached; takes longer than the drawing.")
+@options(*CAMERA, *RUN)
 @click.option("--format", type=click.Choice(["svg", "pdf", "json"]), help="Format, where the name does not say it.")
 @click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
@@ -74,6 +85,7 @@ def draw(
 
     A CadQuery or build123d script is run to get its model.
     """
+    started = time.perf_counter() - time.process_time()  # what loading has taken counts as well
     views = views or ("iso",)
     request = _options(**wishes)
     targets = _targets(output, source, names_of(views), format, as_json)
@@ -86,9 +98,15 @@ def draw(
         with meter(quiet) as progress:
             import hlr
 
-            drawings = hlr.draw_views(source, list(views), request, progress=progress)
+            if request.within is None:
+                drawings = hlr.draw_views(source, list(views), request, progress=progress)
+            else:
+                drawings = _within(source, list(views), request, progress, targets, out, started)
         _warn(drawings, request.strict)
-        _write(drawings, targets, out)
+        if request.within is None or (request.report and targets[0][0] is not None):
+            _write(drawings, targets, out.put)
+        if request.report:
+            _report(drawings)
         if as_json:
             out.put(_summary(drawings, targets))
     if not quiet and sys.stderr is not None and sys.stderr.isatty():
@@ -134,6 +152,44 @@ def _targets(
     return [(path, format or format_of(path)) for path in paths]
 
 
+def _within(
+    source: str,
+    views: list[str | Vector3],
+    request: Options,
+    progress: Progress,
+    targets: list[tuple[Path | None, str]],
+    out: Output,
+    started: float,
+) -> list[Drawing]:
+    """Each finished drawing is written at once, so that the last one stays, however the process ends."""
+    from contextlib import ExitStack
+
+    from hlr.drawings import with_report
+    from hlr.source import open_source
+    from hlr.within import draw_within
+
+    with ExitStack() as stack:
+        # What is measured afterwards is written again, with what was reached; standard output takes only one.
+        put = out.put if targets[0][0] is not None else None
+        if put is None:
+            from ..keeper import kept
+
+            put = stack.enter_context(kept(out))
+
+        def finished(drawings: list[Drawing]) -> None:
+            if request.strict and any(drawing.notes for drawing in drawings):
+                return
+            _write(drawings, targets, put)
+
+        opened = open_source(source)
+        drawings = draw_within(opened, views, request, progress, finished, started)
+        if request.report:
+            drawings = [with_report(opened, drawing, progress) for drawing in drawings]
+            if targets[0][0] is None:
+                _write(drawings, targets, put)
+    return drawings
+
+
 def _warn(drawings: list[Drawing], strict: bool) -> None:
     """Each warning once, though every view has met it."""
     notes = list(dict.fromkeys(note for drawing in drawings for note in drawing.notes))
@@ -144,7 +200,7 @@ def _warn(drawings: list[Drawing], strict: bool) -> None:
         warn(note)
 
 
-def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], out: Output) -> None:
+def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], put: Callable[[bytes], None]) -> None:
     """All files or none."""
     from hlr.writers import files, note_time, render
 
@@ -153,12 +209,20 @@ def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], out:
         begin = time.perf_counter()
         data = render(drawing, format)
         if path is None:
-            out.put(data)
+            put(data)
         else:
             made[path] = data
         note_time(drawing, time.perf_counter() - begin)
     with tidily():
         files.place(made)
+
+
+def _report(drawings: list[Drawing]) -> None:
+    """What was asked and what was reached, for people."""
+    from hlr.measure.table import table
+
+    for drawing in drawings:
+        click.echo(table(drawing), err=True)
 
 
 def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) -> bytes:
@@ -198,6 +262,6 @@ def _tell(drawing: Drawing, path: Path | None) -> None:
     where = "standard output" if path is None else str(path)
     click.echo(
         f"{where}: {drawing.view.name}, {ratio(drawing.scale)}, {counts['visible']} visible and "
-        f"{counts['hidden']} hidden lines, {seconds:.1f} s",
+        f"{counts['hidden']} hidden lines, accuracy {float(drawing.accuracy['used']):.3g} mm, {seconds:.1f} s",
         err=True,
     )

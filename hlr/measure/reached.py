@@ -10,6 +10,9 @@ import numpy as np
 
 from hlr.source.model import Floats
 
+CLASSES = ("edges", "outlines", "meshes", "intersections", "changes", "grazing", "lost")
+"""Those that are errors; the names are those of `Reached`."""
+
 USUAL = 0.99
 """Share of what was measured that is at most `Errors.usual`."""
 
@@ -102,6 +105,12 @@ class Reached:
         """Whether nothing that was measured exceeds a promise in millimetres; None: the drawing's own accuracy."""
         promise = self.accuracy if promise is None else promise
         return self.worst <= promise and (self.short.worst is None or self.short.worst >= promise)
+
+    def figures(self) -> dict[str, float]:
+        """The worst of each class that was measured, the longest mislabelled stretch, the shortest figure."""
+        found = {name: getattr(self, name).worst for name in CLASSES}
+        found |= {"bound": self.bound, "mislabelled": self.labels.longest, "shortest": self.short.worst}
+        return {name: value for name, value in found.items() if value is not None}
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON: what was not measured is null, with the reason beside it. Without `seconds`, which differ."""

@@ -43,6 +43,7 @@ class Options:
     threads      0: all cores
     strict       warnings are errors
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
+    within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
     """
 
     hidden: bool = True
@@ -60,6 +61,7 @@ class Options:
     threads: int = 0
     strict: bool = False
     report: bool = False
+    within: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

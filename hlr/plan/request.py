@@ -31,6 +31,9 @@ def checked(options: Options) -> Options:
     accuracy = options.accuracy
     if accuracy is not None and (not _is_real(accuracy) or not (math.isfinite(accuracy) and accuracy > 0.0)):
         raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
+    within = options.within
+    if within is not None and (not _is_real(within) or not (math.isfinite(within) and within > 0.0)):
+        raise OptionError(f"{_shown(within)} s leave no time: give a positive number of seconds")
     if options.fit is not None and (
         not _is_vector(options.fit, 2) or min(options.fit) < SMALLEST_FIT or max(options.fit) > LARGEST_FIT
     ):

@@ -16,7 +16,7 @@ from hlr.drawing import Drawing, Fill
 from hlr.writers import style
 from hlr.writers.number import number
 from hlr.writers.strokes import Strokes, strokes
-from hlr.writers.svg import title
+from hlr.writers.svg import accuracies, reached, title
 
 _POINTS_PER_MM = 72.0 / 25.4
 # The largest page side that PDF 1.7 allows, in its user units; beyond it the unit itself grows.
@@ -64,6 +64,11 @@ def pdf(drawing: Drawing) -> bytes:
         document.catalog["OCProperties"] = pydyf.Dictionary({"OCGs": pydyf.Array(layers), "D": shown})
     document.info["Title"] = pydyf.String(title(drawing).encode("utf-8", "replace").decode("utf-8"))
     document.info["Creator"] = pydyf.String("hlr")
+    told = accuracies(drawing)
+    document.info["Accuracy"], document.info["AccuracyAsked"] = map(pydyf.String, told.values())
+    errors = ", ".join(f"{name} {value}" for name, value in reached(drawing).items())
+    if errors:
+        document.info["AccuracyReached"] = pydyf.String(errors)
     out = io.BytesIO()
     document.write(out, version=b"1.7", identifier=True)
     return out.getvalue()

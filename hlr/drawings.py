@@ -1,0 +1,58 @@
+"""What `hlr.draw` is: one pass of the pipeline, or as many as fit into a time; and what was reached, if asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from hlr.errors import OptionError
+from hlr.pipeline import draw_views as drawn_once
+from hlr.plan.options import Options, View
+from hlr.plan.request import checked
+from hlr.source import open_source
+
+if TYPE_CHECKING:
+    from hlr.drawing import Drawing
+    from hlr.source.model import Progress
+
+
+def draw_views(
+    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+) -> list[Drawing]:
+    """One drawing per view; the source is read and meshed once.
+
+    source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
+    Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
+    """
+    options = checked(options or Options())
+    if not options.report and options.within is None:
+        return drawn_once(source, views, options, progress)
+    opened = open_source(source)
+    if options.within is None:
+        drawings = drawn_once(opened, views, options, progress)
+    else:
+        from hlr.within import draw_within
+
+        drawings = draw_within(opened, views, options, progress)
+    return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
+
+
+def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Drawing:
+    """One view of a source; the keywords are the fields of `Options`."""
+    try:
+        request = Options(**options)
+    except TypeError as error:
+        raise OptionError(f"{error}".replace("Options.__init__()", "draw()")) from None
+    return draw_views(source, [view], request, progress)[0]
+
+
+def with_report(source: Any, drawing: Drawing, progress: Progress | None = None) -> Drawing:
+    """The drawing with `reached`, measured."""
+    from hlr.measure import measured
+
+    if progress is not None:
+        progress("measure", 0.0)
+    threads = drawing.request.options.threads if drawing.request is not None else 0
+    reached = measured(source, drawing, threads=threads)
+    return replace(drawing, reached=reached, accuracy={**drawing.accuracy, "reached": reached.as_dict()})
