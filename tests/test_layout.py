@@ -69,12 +69,13 @@ HEAVY = {
     "lxml",
     "networkx",
     "PIL",
+    "matplotlib",
 }
 COMMAND = "from hlr.cli import main; main()"
 
 
 @pytest.mark.parametrize(
-    "arguments", [["--help"], ["--version"], ["draw", "--help"], ["preview", "--help"], ["info", "--help"]]
+    "arguments", [["--help"], ["--version"], ["draw", "--help"], ["preview", "--help"], ["info", "--help"], ["study", "--help"]]
 )
 def test_help_loads_nothing_heavy(arguments):
     loaded = loaded_by(COMMAND, *arguments)
@@ -124,6 +125,22 @@ def test_a_stage_imports_only_the_stages_before_it(stage):
     assert paths
     wrong = [text for path in paths for text in wrong_imports(path, stage, f"hlr.{stage}")]
     assert not wrong, "\n".join(wrong)
+
+
+def test_only_the_command_line_knows_the_study():
+    # It stands above everything else; what it imports itself may be anything below.
+    paths = [path for path in (ROOT / "hlr").rglob("*.py") if path.relative_to(ROOT / "hlr").parts[0] != "study"]
+    package = {path: ".".join(("hlr", *path.relative_to(ROOT / "hlr").parent.parts)) for path in paths}
+    names = [(path.name, name) for path in paths for _, name in imports(path, package[path])]
+    assert ("pipeline.py", "hlr.linework.lines.draw_lines") in names
+    assert not [(file, name) for file, name in names if name.startswith("hlr.study")]
+
+
+def test_the_study_knows_nothing_of_the_command_line():
+    paths = sorted((ROOT / "hlr" / "study").glob("*.py"))
+    assert paths
+    names = [name for path in paths for _, name in imports(path, "hlr.study")]
+    assert not [name for name in names if name.startswith(("hlr.cli", "cli"))]
 
 
 @pytest.mark.parametrize("name", ["errors", "tolerance", "drawing", "picture"])

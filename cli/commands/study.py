@@ -49,8 +49,8 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
     "--limit",
     type=_MILLIMETRES,
     metavar="S",
-    default=60.0,
-    help="Seconds for each point, reading included. Default: 60.",
+    default=30.0,
+    help="Processor seconds for each point, reading included. Default: 30.",
 )
 @click.option("--runs", type=click.IntRange(min=1), metavar="N", default=3, help="Runs of each point. Default: 3.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
@@ -82,18 +82,18 @@ def study(
         raise WriteError(f"cannot write into {folder}: it is not a folder")
     if scale is not None and fit is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
-    if not Path(source).is_file():
-        raise SourceError(f"{source}: there is no such file")
+    from hlr.source.files import check_readable
     from hlr.study import plot
     from hlr.study.job import ACCURACIES, PIXELS, PREDICATES
     from hlr.study.sweep import Study, Wish
     from hlr.study.sweep import study as measure
 
+    check_readable(Path(source))
     plot.available()
     wish = Wish(
         accuracies=accuracies or ACCURACIES,
         pixels=pixels or PIXELS,
-        predicates=PREDICATES if not accuracies else accuracies[:1],
+        predicates=accuracies or PREDICATES,
         rivals=rivals,
         reached=reached,
     )

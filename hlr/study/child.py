@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import signal
 import sys
@@ -19,7 +20,7 @@ def main() -> int:
     """Exit code 0, and an answer or a failure in a sentence in the file."""
     data = json.loads(sys.stdin.readline())
     _tie()
-    _limit_memory()
+    _limit(data["limit"])
     from hlr.errors import HlrError
     from hlr.study.job import Job
     from hlr.study.work import done
@@ -48,9 +49,13 @@ def _tie() -> None:
             ctypes.CDLL(None).prctl(1, int(signal.SIGKILL))  # PR_SET_PDEATHSIG
 
 
-def _limit_memory() -> None:
+def _limit(seconds: float) -> None:
+    """Of processor time, which does not depend on who else computes, and of memory."""
     with contextlib.suppress(ImportError, OSError, ValueError, AttributeError):
         import resource
+
+        hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
+        resource.setrlimit(resource.RLIMIT_CPU, (max(math.ceil(seconds), 1), hard))
 
         most = int(SHARE * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
         resource.setrlimit(resource.RLIMIT_AS, (most, resource.getrlimit(resource.RLIMIT_AS)[1]))

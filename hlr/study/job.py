@@ -38,6 +38,8 @@ class Job:
     scale     paper : model; None: as large as fits
     fit       (width, height) millimetres
     folder    where lines are kept for the judge; name: under which
+    runs      how often a contestant draws, if that is quick
+    limit     seconds of processor time for all
     """
 
     work: str
@@ -48,6 +50,8 @@ class Job:
     fit: tuple[float, float] | None = None
     folder: str = ""
     name: str = ""
+    runs: int = 1
+    limit: float = 60.0
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -82,10 +82,11 @@ def markdown(found: Study, plots: Sequence[str] = ()) -> str:
     look = found.look
     parts = [
         f"# What accuracy costs: {look['name']}",
-        f"View {_view(found)}, {look['width']:.0f} x {look['height']:.0f} mm on paper, {look['scale']:.4g} times as "
-        f"large as the model; "{look['parts']} part{'s' if look['parts'] > 1 else ''}. Each point is measured in a process of its own, "
-        f"{'once' if found.runs == 1 else f'medians of {found.runs} runs in turns'}; whatever takes longer than "
-        f"{found.limit:g} s, reading included, is not finished. {_floor(found)}"
+        f"View {_view(found)}, {look['width']:.0f} x {look['height']:.0f} mm on paper, "
+        f"{look['scale']:.4g} times as large as the model; {look['parts']} part{'s' if look['parts'] > 1 else ''}. "
+        "Each point is measured in a process of its own, "
+        f"{'once' if found.runs == 1 else f'medians of {found.runs} runs, fewer where they take long'}; whatever needs "
+        f"more than {found.limit:g} s of processor time, reading included, is not finished. {_floor(found)}"
         + ("" if found.finished else " **The study was stopped; this is what was finished.**"),
     ]
     words = advice(found.points)

@@ -5,14 +5,12 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
-from statistics import median
 from typing import Any
 
 from hlr.errors import OptionError, SourceError
 from hlr.plan.options import View
 from hlr.source.model import Progress
-from hlr.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Cost, Job, Point, point_of
+from hlr.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Job, Point, point_of
 from hlr.study.process import answer
 
 A4 = (277.0, 190.0)
@@ -20,7 +18,7 @@ A4 = (277.0, 190.0)
 
 FINER = 0.4
 """Of the finest accuracy that could be drawn: the accuracy of the lines that all are judged by."""
-PATIENCE = 4.0
+PATIENCE = 3.0
 """Limits of time that the truth and the judge may take: they are nobody's cost."""
 
 
@@ -69,14 +67,14 @@ def study(
     scale: float | None = None,
     fit: tuple[float, float] | None = None,
     wish: Wish | None = None,
-    limit: float = 60.0,
+    limit: float = 30.0,
     runs: int = 3,
     into: Study | None = None,
     progress: Progress | None = None,
 ) -> Study:
-    """Measure all points, the cheap ones first, `runs` times in turns.
+    """Measure all points, each `runs` times in a process of its own.
 
-    scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: seconds for each point.
+    scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: processor seconds for each point.
     into: is filled step by step, so that what is finished survives whatever stops this.
 
     Raises OptionError, and SourceError where the model cannot be drawn at all.
@@ -88,28 +86,27 @@ def study(
     tell = progress or (lambda _stage, _done: None)
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
         # Without a scale as large as fits; from then on the same for all.
-        first = Job("look", source, view, scale=scale, fit=fit or A4)
+        first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit)
         tell("look", 0.0)
-        out.look = answer(first, PATIENCE * limit)
+        out.look = answer(first)
         if out.look.get("failure"):
             raise SourceError(f"{source} cannot be studied: {out.look['failure']}")
-        common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder}
-        _Rounds(out, common, wish, limit, tell).run(runs)
+        common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder, "runs": runs}
+        _Points(out, common, wish, limit, tell).run()
     out.finished = True
     return out
 
 
-class _Rounds:
-    """Rounds over all points: each measured once a round, so that what else the machine does hits all alike."""
+class _Points:
+    """All points, one after another."""
 
     def __init__(
         self, out: Study, common: dict[str, Any], wish: Wish, limit: float, tell: Callable[[str, float], None]
     ) -> None:
         self._out, self._common, self._wish, self._limit, self._tell = out, common, wish, limit, tell
-        self._costs: dict[int, list[dict[str, Cost]]] = {}
         self._steps, self._done = 1, 0
 
-    def run(self, runs: int) -> None:
+    def run(self) -> None:
         wanted: list[tuple[str, Sequence[float]]] = [(HLR, sorted(self._wish.accuracies, reverse=True))]
         if self._wish.rivals:
             wanted += [
@@ -118,24 +115,20 @@ class _Rounds:
                 (ZBUFFER, sorted(self._wish.pixels)),
             ]
         count = sum(len(settings) for _, settings in wanted)
-        self._steps = count * (runs + 1) + len(self._wish.predicates) + len(self._wish.accuracies) + 1
+        self._steps = 2 * count + len(self._wish.predicates) + len(self._wish.accuracies) + 1
         for who, settings in wanted:
             self._first(who, settings)
         self._truth()
         self._judge()
         for accuracy in self._wish.predicates:
             self._arithmetic(accuracy)
-        for _ in range(runs - 1):
-            for number, point in enumerate(self._out.points):
-                if point.failure is None:
-                    self._again(number, point)
         if self._wish.reached:
             self._reached()
 
     def _answer(self, work: str, setting: float, name: str = "", patience: float = 1.0) -> dict[str, Any]:
         self._done += 1
         self._tell(f"{work} {setting:g}" if setting else work, min(self._done / self._steps, 1.0))
-        return answer(Job(work, setting=setting, name=name, **self._common), self._limit * patience)
+        return answer(Job(work, setting=setting, name=name, limit=self._limit * patience, **self._common))
 
     def _first(self, who: str, settings: Sequence[float]) -> None:
         """Coarse to fine, until one takes too long: then the finer ones would as well."""
@@ -143,7 +136,7 @@ class _Rounds:
         for setting in settings:
             number = len(self._out.points)
             if late is not None:
-                found: dict[str, Any] = {"failure": f"not tried: {late:g} was not finished in {self._limit:g} s"}
+                found: dict[str, Any] = {"failure": f"not tried: {late:g} was not finished"}
             else:
                 found = self._answer(who, setting, f"{number}")
             if found.get("failure"):
@@ -152,26 +145,7 @@ class _Rounds:
                 accuracy = setting if who in (HLR, POLY) else None
                 self._out.points.append(Point(who, setting, accuracy, failure=found["failure"]))
                 continue
-            point = point_of(found)
-            point.runs = 1
-            self._costs[number] = [point.stages]
-            self._out.points.append(point)
-
-    def _again(self, number: int, point: Point) -> None:
-        found = self._answer(point.who, point.setting, f"{number}")
-        if found.get("failure"):  # it was close to the limit: what was measured before stays
-            return
-        self._costs[number].append(point_of(found).stages)
-        runs = self._costs[number]
-        point.runs = len(runs)
-        point.stages = {
-            name: Cost(
-                median(run[name].wall for run in runs),
-                median(run[name].cpu for run in runs),
-                median(run[name].memory for run in runs),
-            )
-            for name in runs[0]
-        }
+            self._out.points.append(point_of(found))
 
     def _truth(self) -> None:
         """A drawing finer than all, or as fine as the finest."""
@@ -205,18 +179,18 @@ class _Rounds:
             self._out.arithmetic += found["kinds"]
 
     def _reached(self) -> None:
+        """Coarse to fine, as long as it is finished in time."""
+        late: float | None = None
         for point in self._out.points:
             if point.who != HLR or point.failure is not None:
                 continue
+            if late is not None:
+                point.reached = {"why": f"not tried: {late:g} mm was not finished"}
+                continue
             found = self._answer("reached", point.setting, patience=PATIENCE)
-            if found.get("failure"):
-                point.reached = {"why": found["failure"]}
-            else:
+            if not found.get("failure"):
                 point.reached = found["reached"]
-
-
-def work_folder(path: Path) -> Path:
-    """The folder for results. Raises OptionError where it is something else."""
-    if path.exists() and not path.is_dir():
-        raise OptionError(f"cannot write into {path}: it is not a folder")
-    return path
+                continue
+            point.reached = {"why": found["failure"]}
+            if found["failure"].startswith("not finished"):
+                late = point.setting

@@ -49,7 +49,7 @@ def edge_table(scene: Scene) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return edges, offsets, incident
 
 
-def visibility(scene: Scene, way: Way, threads: int = 1) -> Found:
+def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exact") -> Found:
     """Every edge and wire of the scene, drawn."""
     points, triangles = scene.arrays()
     edges, offsets, incident = edge_table(scene)
@@ -82,6 +82,7 @@ def visibility(scene: Scene, way: Way, threads: int = 1) -> Found:
         cap=np.full(parts, float(way.bias)),
         tight=np.zeros(parts, bool),
         threads=threads,
+        arithmetic=arithmetic,
     )
     pieces: dict[Edge, list[Piece]] = {}
     # Diving (3) is a way of being within the tolerance.
