@@ -1,6 +1,6 @@
 //! `clashes` as Python sees it.
 
-use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -9,6 +9,7 @@ use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::clash::search::Surfaces;
 use crate::clash::weld::weld;
+use crate::scan::box_tree::{Aabb, BoxTree};
 use crate::exact::snap::Grid;
 
 #[pyfunction]
@@ -50,4 +51,33 @@ pub fn clashes<'py>(
     out.set_item("searched", found.searched)?;
     out.set_item("tests", found.tests)?;
     Ok(out)
+}
+
+/// Whether each box (low, high) comes near another one: never no where it does, rarely yes where it does not.
+#[pyfunction]
+pub fn boxes_meet<'py>(
+    py: Python<'py>,
+    low: PyReadonlyArray2<'py, f64>,
+    high: PyReadonlyArray2<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<bool>>> {
+    let (low, high) = (rows::<f64, 3>(&low, "low")?, rows::<f64, 3>(&high, "high")?);
+    expect_len("high", high.len(), low.len())?;
+    let whole = |i: &usize| low[*i].iter().chain(&high[*i]).all(|c| c.is_finite());
+    let used: Vec<usize> = (0..low.len()).filter(whole).collect();
+    let corners: Vec<[f64; 3]> = used.iter().flat_map(|&i| [low[i], high[i]]).collect();
+    let Some(grid) = Grid::around(&corners) else {
+        return Err(PyValueError::new_err("boxes hold coordinates that are not finite"));
+    };
+    let grid = grid.uniform();
+    // A step more on each side than what was rounded.
+    let boxes: Vec<Aabb> = used
+        .iter()
+        .map(|&i| Aabb { low: grid.snap(&low[i]).map(|c| c - 1), high: grid.snap(&high[i]).map(|c| c + 1) })
+        .collect();
+    let tree = BoxTree::new(boxes.iter().enumerate().map(|(k, b)| (*b, k as u32)).collect());
+    let mut meets = vec![false; low.len()];
+    for (k, &i) in used.iter().enumerate() {
+        tree.query(&boxes[k], |other| meets[i] |= other as usize != k);
+    }
+    Ok(meets.into_pyarray(py))
 }

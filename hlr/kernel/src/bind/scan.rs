@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::running::run;
-use crate::exact::arithmetic::{Double, Single};
+use crate::exact::arithmetic::{Double, Exact, Single};
 use crate::exact::snap::Grid;
 use crate::scan::mesh::{Mesh, Part};
-use crate::scan::sweep::{self, Counters, Outcome};
+use crate::scan::sweep::{self, Counters, Outcome, Seconds, Steps};
 use crate::scan::topology;
 
 /// Rows of a C-contiguous (n, N) array.
@@ -134,10 +134,10 @@ pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangle
     Ok(())
 }
 
-type Pass = fn(&Mesh, &(dyn Fn() -> bool + Sync)) -> Option<Outcome>;
+type Pass = fn(&Mesh, Steps, &(dyn Fn() -> bool + Sync)) -> Option<Outcome>;
 
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0, arithmetic = "exact"))]
+#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0, arithmetic = "exact", crossings = true, piercings = true, pyramid = false))]
 #[allow(clippy::too_many_arguments)] // one argument per array of the scene: the stub names them
 pub fn visibility<'py>(
     py: Python<'py>,
@@ -156,9 +156,12 @@ pub fn visibility<'py>(
     tight: PyReadonlyArray1<'py, bool>,
     threads: usize,
     arithmetic: &str,
+    crossings: bool,
+    piercings: bool,
+    pyramid: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pass: Pass = match arithmetic {
-        "exact" => sweep::visibility,
+        "exact" => sweep::visibility_by::<Exact>,
         "f64" => sweep::visibility_by::<Double>,
         "f32" => sweep::visibility_by::<Single>,
         _ => return Err(PyValueError::new_err(format!("no arithmetic is called {arithmetic}: exact, f64 or f32"))),
@@ -204,7 +207,7 @@ pub fn visibility<'py>(
                 })
                 .collect(),
         };
-        Some(pass(&mesh, stopped))
+        Some(pass(&mesh, Steps { crossings, piercings, pyramid }, stopped))
     })?;
     let Some(outcome) = outcome else {
         return Err(PyValueError::new_err("points hold coordinates that are not finite"));
@@ -218,6 +221,22 @@ pub fn visibility<'py>(
     out.set_item("state", pieces.iter().map(|p| p.segment.state as u8).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("facing", outcome.facing.into_pyarray(py))?;
     out.set_item("counters", counters(py, &outcome.counters)?)?;
+    out.set_item("seconds", seconds(py, &outcome.seconds)?)?;
+    Ok(out)
+}
+
+fn seconds<'py>(py: Python<'py>, s: &Seconds) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    for (name, value) in [
+        ("tables", s.tables),
+        ("pyramid", s.pyramid),
+        ("seeds", s.seeds),
+        ("crossings", s.crossings),
+        ("piercings", s.piercings),
+        ("counting", s.counting),
+    ] {
+        out.set_item(name, value)?;
+    }
     Ok(out)
 }
 
@@ -239,6 +258,9 @@ fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> 
         ("piercings", c.piercings),
         ("failed_checks", c.failed_checks),
         ("contradictions", c.contradictions),
+        ("by_culling_alone", c.by_culling_alone),
+        ("pyramid_parts", c.pyramid_parts),
+        ("hidden_by_pyramid", c.hidden_by_pyramid),
     ] {
         out.set_item(name, value)?;
     }

@@ -12,6 +12,9 @@
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
 //!
+//! Two shortcuts, taken where the scene calls for them, with the same result: `one_sheet` (a convex body: culling alone
+//! decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
+//!
 //! It departs from Appel in that nothing is carried from edge to edge: every drawn edge has its own two counts, so an
 //! error cannot spread, and from the classic scan line in that bands are coherence only: parameters are global to
 //! the edge, edges are never cut at bands, and bands run in parallel without stitching.
@@ -20,10 +23,12 @@ pub mod active_edges;
 pub mod active_spans;
 pub mod bands;
 pub mod box_tree;
+pub mod depth_pyramid;
 pub mod edge_table;
 pub mod exact_query;
 pub mod invisibility;
 pub mod mesh;
+pub mod one_sheet;
 pub mod piercing;
 pub mod polygon_table;
 pub mod sweep;

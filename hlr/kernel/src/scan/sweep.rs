@@ -1,14 +1,18 @@
 //! The pass as a whole: the numbered steps of `scan`, one after another.
 
+use std::time::Instant;
+
 use rayon::prelude::*;
 
 use super::active_edges::crossings;
 use super::active_spans::Seeds;
+use super::depth_pyramid::DepthPyramid;
 use super::edge_table::EdgeTable;
 use super::exact_query::ExactQuery;
 use super::invisibility::{Event, Segment, State, walk};
 use super::mesh::Mesh;
-use super::piercing::piercings;
+use super::one_sheet::one_sheet;
+use super::piercing::{Piercings, piercings};
 use super::polygon_table::PolygonTable;
 use crate::exact::arithmetic::{Arithmetic, Exact};
 
@@ -36,41 +40,58 @@ pub struct Counters {
     pub piercings: u64,
     pub failed_checks: u64,
     pub contradictions: u64,
+    /// Drawn edges of a convex body, decided without any search.
+    pub by_culling_alone: u64,
+    pub pyramid_parts: u64,
+    pub hidden_by_pyramid: u64,
+}
+
+/// Seconds of the steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seconds {
+    pub tables: f64,
+    pub pyramid: f64,
+    pub seeds: f64,
+    pub crossings: f64,
+    pub piercings: f64,
+    pub counting: f64,
 }
 
 pub struct Outcome {
     pub pieces: Vec<Piece>,
     pub facing: Vec<i8>,
     pub counters: Counters,
+    pub seconds: Seconds,
+}
+
+/// Which steps this scene calls for. Whatever is chosen within the conditions, the pieces are the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps {
+    /// Seeds and crossings; may be left out for a scene of one convex body, and is not, where that turns out to overlap
+    /// itself in the image.
+    pub crossings: bool,
+    /// May be left out where no edge comes within the contact tolerance of a polygon of another part, and all are sound.
+    pub piercings: bool,
+    pub pyramid: bool,
+}
+
+impl Steps {
+    /// The pass without any shortcut.
+    pub const ALL: Steps = Steps { crossings: true, piercings: true, pyramid: false };
 }
 
 /// None if `stopped` said so.
 pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
-    visibility_by::<Exact>(mesh, stopped)
+    visibility_by::<Exact>(mesh, Steps::ALL, stopped)
 }
 
 /// The same with any numbers: with others than exact ones pieces may be wrong, and counts contradict each other.
-pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
+pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, steps: Steps, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
+    let mut clock = Clock::start();
+    let mut seconds = Seconds::default();
     // 1. facing, contours, drawn edges
     let table = PolygonTable::new::<A>(mesh);
-    let edges = EdgeTable::new(mesh, &table);
-    // 2. seeds: the count at both ends of every drawn edge
-    let seeds = Seeds::new::<A>(mesh, &table, &edges.drawn, stopped);
-    // 3. crossings and piercings: the jumps between
-    let crossed = crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped);
-    let pierced = piercings::<A>(mesh, &table, &edges.drawn, stopped);
-    if stopped() {
-        return None;
-    }
-    // 4. count along every drawn edge; check; decide the failed ones polygon by polygon
-    let (offsets, mut events) = by_edge(edges.drawn.len(), &crossed.events, &pierced.events);
-    let exact = ExactQuery::new(mesh, &table);
-    let walked = walk_all::<A>(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
-    if stopped() {
-        return None;
-    }
-    // 5. edges that culling decided
-    let whole = Segment { start: 0.0, end: 1.0, state: State::Hidden };
+    let mut edges = EdgeTable::new(mesh, &table);
     let mut counters = Counters {
         triangles: mesh.triangles.len() as u64,
         culled: table.culled as u64,
@@ -78,6 +99,46 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, stopped: &(dyn Fn() -> bool + S
         drawn: edges.drawn.len() as u64,
         hidden_by_culling: edges.hidden.len() as u64,
         projecting: edges.projecting as u64,
+        ..Counters::default()
+    };
+    let exact = ExactQuery::new(mesh, &table);
+    seconds.tables = clock.lap();
+    if !steps.crossings && one_sheet(mesh, &edges.contours) {
+        let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
+        counters.by_culling_alone = edges.drawn.len() as u64;
+        seconds.counting = clock.lap();
+        let pieces = gathered(walked, &edges.hidden, &mut counters);
+        return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
+    }
+    // 2. edges that surely lie behind something need no search
+    if steps.pyramid {
+        let pyramid = DepthPyramid::new(mesh, &table, &edges.contours);
+        counters.pyramid_parts = pyramid.parts as u64;
+        counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
+        seconds.pyramid = clock.lap();
+    }
+    // 3. seeds: the count at both ends of every drawn edge
+    let seeds = Seeds::new::<A>(mesh, &table, &edges.drawn, stopped);
+    seconds.seeds = clock.lap();
+    // 4. crossings and piercings: the jumps between
+    let crossed = crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped);
+    seconds.crossings = clock.lap();
+    let pierced = if steps.piercings {
+        piercings::<A>(mesh, &table, &edges.drawn, stopped)
+    } else {
+        Piercings { events: Vec::new(), tests: 0, parts: 0 }
+    };
+    seconds.piercings = clock.lap();
+    if stopped() {
+        return None;
+    }
+    // 5. count along every drawn edge; check; decide the failed ones polygon by polygon
+    let (offsets, mut events) = by_edge(edges.drawn.len(), &crossed.events, &pierced.events);
+    let walked = walk_all::<A>(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
+    if stopped() {
+        return None;
+    }
+    counters = Counters {
         bands: crossed.bands as u64,
         seeds: seeds.asked as u64,
         crossing_tests: crossed.tests,
@@ -85,11 +146,88 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, stopped: &(dyn Fn() -> bool + S
         piercing_parts: pierced.parts as u64,
         piercing_tests: pierced.tests,
         piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
-        ..Counters::default()
+        ..counters
     };
-    let mut pieces = Vec::with_capacity(edges.hidden.len() + walked.iter().map(|w| w.pieces.len()).sum::<usize>());
-    let mut hidden = edges.hidden.iter().peekable();
-    // Both lists ascend by edge: merge them.
+    // 6. with the edges that culling and the pyramid decided
+    let pieces = gathered(walked, &edges.hidden, &mut counters);
+    seconds.counting = clock.lap();
+    Some(Outcome { pieces, facing: table.facing, counters, seconds })
+}
+
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Clock {
+        Clock(Instant::now())
+    }
+
+    /// Seconds since the last one.
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        let past = now.duration_since(self.0).as_secs_f64();
+        self.0 = now;
+        past
+    }
+}
+
+/// Move drawn edges that surely lie behind something to the hidden ones; returns how many.
+fn discard(mesh: &Mesh, pyramid: &DepthPyramid, edges: &mut EdgeTable) -> usize {
+    let behind: Vec<bool> = edges
+        .drawn
+        .par_iter()
+        .map(|&e| {
+            let (a, b) = mesh.ends(e as usize);
+            pyramid.hides(a, b)
+        })
+        .collect();
+    let chosen = |wanted: bool| {
+        let both = edges.drawn.iter().zip(&behind);
+        both.filter(move |&(_, &b)| b == wanted).map(|(&e, _)| e).collect::<Vec<u32>>()
+    };
+    let (gone, rest) = (chosen(true), chosen(false));
+    edges.drawn = rest;
+    edges.hidden.extend(&gone);
+    edges.hidden.sort_unstable();
+    gone.len()
+}
+
+/// Of polygons that lie side by side none hides another's edge. What belongs to none, or only to such as are turned away
+/// or seen edge-on, is asked for by itself.
+fn alone<A: Arithmetic>(
+    mesh: &Mesh,
+    table: &PolygonTable,
+    drawn: &[u32],
+    exact: &ExactQuery,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Vec<Walked> {
+    drawn
+        .par_chunks(512)
+        .map(|chunk| {
+            let mut out = Walked::default();
+            let mut segments = Vec::new();
+            for &edge in chunk {
+                if stopped() {
+                    return out;
+                }
+                segments.clear();
+                if mesh.incident(edge as usize).iter().any(|&t| table.counted(mesh, t as usize)) {
+                    segments.push(Segment { start: 0.0, end: 1.0, state: State::Visible });
+                } else if !exact.decide::<A>(edge as usize, &mut segments) {
+                    out.contradictions += 1;
+                    segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
+                }
+                out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
+            }
+            out
+        })
+        .collect()
+}
+
+/// All pieces, ascending by edge: those that were walked, and edges (ascending as well) hidden from end to end.
+fn gathered(walked: Vec<Walked>, hidden: &[u32], counters: &mut Counters) -> Vec<Piece> {
+    let whole = Segment { start: 0.0, end: 1.0, state: State::Hidden };
+    let mut pieces = Vec::with_capacity(hidden.len() + walked.iter().map(|w| w.pieces.len()).sum::<usize>());
+    let mut hidden = hidden.iter().peekable();
     for chunk in walked {
         counters.failed_checks += chunk.failed;
         counters.contradictions += chunk.contradictions;
@@ -101,7 +239,7 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, stopped: &(dyn Fn() -> bool + S
         }
     }
     pieces.extend(hidden.map(|&edge| Piece { edge, segment: whole }));
-    Some(Outcome { pieces, facing: table.facing, counters })
+    pieces
 }
 
 /// Counting sort of all events by drawn edge.
