@@ -9,6 +9,7 @@ import click
 
 VERBS = {
     "draw": "Draw a model as SVG, PDF or JSON.",
+    "plan": "Which effects a drawing needs, and why, without drawing it.",
     "preview": "Shaded picture of a model as PNG.",
     "methods": "Time the visible-surface methods side by side.",
     "study": "What accuracy costs, beside others.",

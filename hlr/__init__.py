@@ -16,14 +16,17 @@ if TYPE_CHECKING:
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
     from hlr.inspection import info
     from hlr.picture import Picture
+    from hlr.plan.effect import Decision
     from hlr.plan.effects import PreviewOptions
     from hlr.plan.options import Options, Perspective
+    from hlr.planning import ViewPlan, plan_views
     from hlr.previews import preview, preview_views
     from hlr.scene.report import ModelInfo, PartReport
 
 __version__ = "0.1.0"
 
 _HOME = {
+    "Decision": "hlr.plan.effect",
     "Drawing": "hlr.drawing",
     "HlrError": "hlr.errors",
     "Line": "hlr.drawing",
@@ -37,15 +40,18 @@ _HOME = {
     "SourceError": "hlr.errors",
     "StrictError": "hlr.errors",
     "ViewError": "hlr.errors",
+    "ViewPlan": "hlr.planning",
     "WriteError": "hlr.errors",
     "draw": "hlr.drawings",
     "draw_views": "hlr.drawings",
     "info": "hlr.inspection",
+    "plan_views": "hlr.planning",
     "preview": "hlr.previews",
     "preview_views": "hlr.previews",
 }
 
 __all__ = [
+    "Decision",
     "Drawing",
     "HlrError",
     "Line",
@@ -59,10 +65,12 @@ __all__ = [
     "SourceError",
     "StrictError",
     "ViewError",
+    "ViewPlan",
     "WriteError",
     "draw",
     "draw_views",
     "info",
+    "plan_views",
     "preview",
     "preview_views",
 ]

@@ -14,6 +14,7 @@ from hlr.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
 
 if TYPE_CHECKING:
     from hlr.measure.reached import Reached
+    from hlr.plan.effect import Decision
     from hlr.plan.options import Request
 
 Points = npt.NDArray[np.float64]
@@ -99,6 +100,7 @@ class Drawing:
     timings   seconds: source, tessellate, scene, plan, visibility, linework, write, total
     request   what was asked for; None for drawings that were made otherwise
     reached   the errors that were measured; None unless asked for
+    plan      what was decided of each effect, why, and what it cost
     """
 
     source: str
@@ -116,6 +118,7 @@ class Drawing:
     fill: Fill | None = None
     request: Request | None = None
     reached: Reached | None = None
+    plan: tuple[Decision, ...] = ()
 
     def bounds(self) -> tuple[float, float, float, float]:
         """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""

@@ -7,28 +7,27 @@ from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
-from hlr.drawing import Drawing, DrawnPart, DrawnView
+from hlr.clock import Clock, lap
+from hlr.drawing import Drawing
 from hlr.errors import StrictError
+from hlr.finished import finished
+from hlr.fitting import Staged, staged
 from hlr.linework.exact import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
+from hlr.plan.effect import Planner
 from hlr.plan.options import Options, Request, View
 from hlr.plan.plan import decide
 from hlr.plan.request import checked, checked_views
-from hlr.scene.build import build
+from hlr.plan.table import DRAWING
 from hlr.scene.scene import Scene
 from hlr.source import open_source
 from hlr.source.model import Progress, Source
-from hlr.tolerance import Tolerances
-from hlr.view.camera import Camera, resolve
-from hlr.view.clip import clip, planes
-from hlr.view.scale import Placed, place
+from hlr.view.camera import resolve
+from hlr.view.clip import clipped
+from hlr.view.scale import place
 from hlr.view.silhouettes import with_silhouettes
 from hlr.visibility.ends import at_outlines
 from hlr.visibility.segments import solve
-
-Clock = dict[str, float]
 
 
 def draw_views(
@@ -55,13 +54,12 @@ def draw_views(
 
     tell("tessellate", 0.0)
     placed = [place(c, options, opened, bounds) for c in cameras]
-    scene, curves, placed = meshed_scene(opened, cameras, placed, options, tell, clock)
-    started = perf_counter()
+    scene, curves, seen = staged(opened, cameras, placed, options, tell, clock, Planner(DRAWING, options))
 
     out = []
-    for i, (view, camera, at) in enumerate(zip(views, cameras, placed, strict=True)):
+    for i, (view, at) in enumerate(zip(views, seen, strict=True)):
         tell("visibility", i / len(cameras))
-        drawing = drawing_of(opened, scene, curves, camera, at, options, dict(clock))
+        drawing = drawing_of(opened, scene, curves, at, options, dict(clock))
         out.append(replace(drawing, request=Request(view, options)))
     tell("linework", 1.0)
     for drawing in out:
@@ -70,115 +68,26 @@ def draw_views(
     return out
 
 
-def lap(clock: Clock, stage: str, started: float) -> float:
-    """Add the time since `started` to a stage's; returns now."""
-    now = perf_counter()
-    clock[stage] = clock.get(stage, 0.0) + now - started
-    return now
-
-
-def meshed_scene(
-    opened: Source,
-    cameras: list[Camera],
-    placed: list[Placed],
-    options: Options,
-    tell: Progress,
-    clock: Clock,
-) -> tuple[Scene, EdgeCurveLookup, list[Placed]]:
-    """The scene, meshed finely enough for every view; with --fit the true scale is known only afterwards."""
-    for _ in range(2):
-        started = perf_counter()
-        finest = min(at.tolerances.deflection for at in placed)
-        meshed = opened.mesh(finest, placed[0].tolerances.angle, tell)
-        started = lap(clock, "tessellate", started)
-        tell("scene", 0.0)
-        scene = build(meshed, options.crease, finest)
-        lap(clock, "scene", started)
-        final = [_fitted(scene, c, at, options) for c, at in zip(cameras, placed, strict=True)]
-        if min(at.tolerances.deflection for at in final) > 0.8 * finest:
-            break
-        placed = final
-    return scene, meshed.edge_curves, final
-
-
-def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options) -> Placed:
-    """Outlines of curved faces reach beyond their mesh, by less than the accuracy: they are what has to fit."""
-    if options.fit is None:
-        return at
-    on = scene.true_surfaces
-    curved = on is not None and bool(on.curved.any() or (np.diff(scene.chains.offsets) > 1).any())
-    return at.fitted(camera, options, with_silhouettes(scene, camera, at.tolerances, options.threads).points, curved)
-
-
 def drawing_of(
-    opened: Source,
-    scene: Scene,
-    curves: EdgeCurveLookup,
-    camera: Camera,
-    at: Placed,
-    options: Options,
-    clock: Clock,
+    opened: Source, scene: Scene, curves: EdgeCurveLookup, view: Staged, options: Options, clock: Clock
 ) -> Drawing:
     """The lines of one view."""
+    camera, at, planner, threads = view.camera, view.at, view.planner, options.threads
     started = perf_counter()
-    tolerances: Tolerances = at.tolerances
-    seen, cuts = clip(with_silhouettes(scene, camera, tolerances, options.threads), planes(camera, at.aspect))
-    plan = decide(seen, camera, options, tolerances)
-    projected = camera.project(seen.points)
+    outlined = view.outlined or with_silhouettes(scene, camera, at.tolerances, threads, planner)
+    seen = clipped(outlined, camera, at.aspect, planner)
+    plan = decide(seen, camera, options, at.tolerances, planner)
+    projected = camera.project(seen.points, plan.divide)
     started = lap(clock, "plan", started)
-    lifted = projected if seen.silhouettes is None else camera.project(seen.points + seen.silhouettes.lift)
-    segments = at_outlines(seen, camera, solve(seen, plan, lifted, options.threads))
+    lift = None if seen.silhouettes is None else seen.silhouettes.lift
+    lifted = projected if lift is None else camera.project(seen.points + lift, plan.divide)
+    segments = at_outlines(seen, camera, solve(seen, plan, lifted, threads))
     started = lap(clock, "visibility", started)
-    lines, origin = draw_lines(
-        seen, curves, plan, segments, camera, projected, at.per_model, tolerances, options.hidden, options.threads
+    lines = draw_lines(
+        seen, curves, plan, segments, camera, projected, at.per_model, at.tolerances, options.hidden, threads
     )
-    fill = None
-    if options.fill:
-        from hlr.surfaces.fill import filled
-
-        fill = filled(seen, camera, at.per_model, origin)
-    lap(clock, "linework", started)
-    clock["write"] = 0.0
-    clock["total"] = sum(clock.values())
-    return Drawing(
-        source=opened.name,
-        view=drawn_view(camera),
-        scale=at.scale,
-        origin=origin,
-        accuracy={
-            "asked": options.accuracy,
-            "used": tolerances.accuracy,
-            "deflection": tolerances.deflection,
-            "contact": tolerances.contact,
-        },
-        unit=opened.frame.unit,
-        up_axis=opened.frame.up,
-        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in scene.parts),
-        lines=lines,
-        notes=tuple(dict.fromkeys((*opened.notes, *scene.notes, *at.notes, *_empty(lines)))),
-        counters={**segments.counters, "lines": len(lines), "clipping_planes": cuts},
-        timings=clock,
-        fill=fill,
-    )
+    started = lap(clock, "linework", started)
+    return finished(opened, seen, view, options, plan, segments, lines, clock)
 
 
-def _empty(lines: Sequence[object]) -> tuple[str, ...]:
-    return () if lines else ("nothing of the model lies in this view",)
-
-
-def drawn_view(camera: Camera) -> DrawnView:
-    """The camera as a result states it."""
-    return DrawnView(
-        name=camera.name,
-        projection="orthographic" if camera.eye is None else "perspective",
-        direction=camera.direction,
-        right=camera.right,
-        up=camera.up,
-        eye=camera.eye,
-        target=camera.target,
-        fov=camera.fov,
-        distance=camera.distance,
-    )
-
-
-__all__ = ["draw_views", "drawing_of", "drawn_view", "lap", "meshed_scene"]
+__all__ = ["draw_views", "drawing_of"]

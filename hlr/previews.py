@@ -11,10 +11,14 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.clock import Clock, lap
 from hlr.drawing import DrawnPart
 from hlr.errors import OptionError, StrictError
+from hlr.finished import drawn_view
+from hlr.fitting import Staged, meshed_scene
 from hlr.picture import Picture
-from hlr.pipeline import drawing_of, drawn_view, lap, meshed_scene
+from hlr.pipeline import drawing_of
+from hlr.plan.effect import Planner
 from hlr.plan.effects import (
     AMBIENT,
     DIFFUSE,
@@ -28,6 +32,7 @@ from hlr.plan.effects import (
 )
 from hlr.plan.options import View
 from hlr.plan.request import checked_views
+from hlr.plan.table import DRAWING
 from hlr.scene.scene import Scene
 from hlr.shading.lens import Lens, frame_scale, lens, light_lens, toward_light
 from hlr.shading.lines import pieces
@@ -43,8 +48,6 @@ MARGIN = 0.04
 """Of the picture's smaller side: what is left empty around the model."""
 
 INK = (0, 0, 0, 255)
-
-Clock = dict[str, float]
 
 
 def preview(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Picture:
@@ -99,7 +102,8 @@ def preview_views(
         depth, ids = _maps(scene, shaded, eye, options, opened.frame.unit)
         started = lap(own, "picture", started)
         if effects.lines:
-            drawing = drawing_of(opened, scene, curves, camera, at, line_options(options, None, at.scale), {})
+            lines = line_options(options, None, at.scale)
+            drawing = drawing_of(opened, scene, curves, Staged(camera, at, Planner(DRAWING, lines)), lines, {})
             visible = [line for line in drawing.lines if line.visible]
             for wide in sorted({width(line.kind, True) for line in visible}):
                 these = [line for line in visible if width(line.kind, True) == wide]

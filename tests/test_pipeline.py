@@ -15,7 +15,7 @@ from linework.measures import apart, counts, placed, segments, straight
 from linework.models import box, parts, rotation, solids
 
 import hlr
-from hlr import Options, Perspective, StrictError, pipeline
+from hlr import Options, Perspective, StrictError, fitting, pipeline
 from hlr.writers import render
 
 FORMATS = ("json", "svg", "pdf")
@@ -124,7 +124,7 @@ def test_a_file_in_metres_with_y_up(tmp_path):
 
 def test_several_views_read_and_mesh_once(monkeypatch):
     seen = {"open": 0, "mesh": 0, "build": 0}
-    real_open, real_build = pipeline.open_source, pipeline.build
+    real_open, real_build = pipeline.open_source, fitting.build
 
     def opening(thing):
         seen["open"] += 1
@@ -143,7 +143,7 @@ def test_several_views_read_and_mesh_once(monkeypatch):
         return real_build(*arguments)
 
     monkeypatch.setattr(pipeline, "open_source", opening)
-    monkeypatch.setattr(pipeline, "build", building)
+    monkeypatch.setattr(fitting, "build", building)
     drawings = hlr.draw_views(bracket(), ["front", "top", "right", "iso"])
     assert [d.view.name for d in drawings] == ["front", "top", "right", "iso"]
     assert seen == {"open": 1, "mesh": 1, "build": 1}

@@ -28,6 +28,20 @@ if TYPE_CHECKING:
     from ..meter import Progress
 
 
+LINES = (
+    click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on."),
+    click.option("--smooth", is_flag=True, help="Also tangent edges, thin."),
+    click.option("--seam", is_flag=True, help="Also the seams of closed surfaces."),
+    click.option(
+        "--intersections/--no-intersections",
+        default=True,
+        help="Lines where surfaces pass through each other. Default: on.",
+    ),
+    click.option("--fill", is_flag=True, help="Paint the visible faces under the lines, in SVG and PDF."),
+)
+"""What is drawn."""
+
+
 @click.command()
 @click.argument("source")
 @click.option(
@@ -38,15 +52,7 @@ if TYPE_CHECKING:
     "the view and its number. Default: {stem}.svg in this folder.",
 )
 @VIEW
-@click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on.")
-@click.option("--smooth", is_flag=True, help="Also tangent edges, thin.")
-@click.option("--seam", is_flag=True, help="Also the seams of closed surfaces.")
-@click.option(
-    "--intersections/--no-intersections",
-    default=True,
-    help="Lines where surfaces pass through each other. Default: on.",
-)
-@click.option("--fill", is_flag=True, help="Paint the visible faces under the lines, in SVG and PDF.")
+@options(*LINES)
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
 @click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
 @click.option(
@@ -64,6 +70,7 @@ if TYPE_CHECKING:
 @click.option("--report", is_flag=True, help="Measure what accuracy was reached; takes longer than the drawing.")
 @options(*CAMERA, *RUN)
 @click.option("--format", type=click.Choice(["svg", "pdf", "json"]), help="Format, where the name does not say it.")
+@click.option("--explain", is_flag=True, help="Say what the scene and the request called for, why, and what it cost.")
 @click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
 def draw(
@@ -72,6 +79,7 @@ def draw(
     output: str | None,
     views: tuple[str | Vector3, ...],
     format: str | None,
+    explain: bool,
     as_json: bool,
     quiet: bool,
     **wishes: Any,
@@ -87,7 +95,7 @@ def draw(
     """
     started = time.perf_counter() - time.process_time()  # what loading has taken counts as well
     views = views or ("iso",)
-    request = _options(**wishes)
+    request = request_of(**wishes)
     targets = _targets(output, source, names_of(views), format, as_json)
     if request.fill and any(kind == "json" for _, kind in targets):
         raise OptionError("--fill paints SVG and PDF; JSON holds lines only")
@@ -107,6 +115,8 @@ def draw(
             _write(drawings, targets, out.put)
         if request.report:
             _report(drawings)
+        if explain:
+            _explain(drawings)
         if as_json:
             out.put(_summary(drawings, targets))
     if not quiet and sys.stderr is not None and sys.stderr.isatty():
@@ -114,7 +124,7 @@ def draw(
             _tell(drawing, path)
 
 
-def _options(
+def request_of(
     *,
     scale: float | None,
     fit: tuple[float, float] | None,
@@ -124,6 +134,7 @@ def _options(
     fov: float | None,
     **others: Any,
 ) -> Options:
+    """The options of the command line as a request. Raises OptionError where they contradict one another."""
     from hlr.plan.options import Options
 
     if scale is not None and fit is not None:
@@ -239,13 +250,25 @@ def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) ->
             "accuracy": dict(drawing.accuracy),
             "lines": _counts(drawing),
             "notes": list(drawing.notes),
+            "plan": [decision.as_dict() for decision in drawing.plan],
             "counters": dict(drawing.counters),
-            "timings": dict(drawing.timings),
+            "timings": dict(drawing.timings)
+            | {"effects": {d.name: d.seconds for d in drawing.plan if d.seconds is not None}},
         }
         for drawing, (path, format) in zip(drawings, targets, strict=True)
     ]
     # Counters may be numbers of NumPy.
     return json.dumps({"drawings": entries}, indent=2, default=lambda value: value.tolist()).encode("ascii") + b"\n"
+
+
+def _explain(drawings: list[Drawing]) -> None:
+    """The table of effects, on standard error."""
+    from hlr.plan.effect import explained
+
+    for drawing in drawings:
+        if len(drawings) > 1:
+            click.echo(drawing.view.name, err=True)
+        click.echo(explained(drawing.plan), err=True)
 
 
 def _counts(drawing: Drawing) -> dict[str, int]:

@@ -49,8 +49,9 @@ def draw_lines(
     tolerances: Tolerances,
     hidden: bool,
     threads: int,
-) -> tuple[tuple[Line, ...], tuple[float, float]]:
-    """All lines, sorted by part, kind, edge and face, and the origin: the lower left corner of them all.
+) -> tuple[tuple[Line, ...], tuple[float, float], int]:
+    """All lines, sorted by part, kind, edge and face; the origin: the lower left corner of them all; and of how many a
+    curve was looked for.
 
     projected (n, 3) as Camera.project gives it; per_model millimetres on paper per model unit.
     """
@@ -87,15 +88,22 @@ def draw_lines(
         tolerances.thin_model,
         threads,
     )
+    if not hidden:
+        found = _in_sight(found)
     keep = np.flatnonzero(found["visible"] | hidden)
     if len(keep) == 0:
-        return (), (0.0, 0.0)
+        return (), (0.0, 0.0), 0
     chain = found["chain"]
     space = lifted(found, (chains.noisy & bare)[chain], camera, per_model)
     border = np.array([BORDER.get(EdgeClass(k), 0) for k in range(6)], np.uint8)[chains.kind]
     # The outline of a mesh is an edge of it.
     border[bare & (border == BORDER[EdgeClass.OUTLINE])] = BORDER[EdgeClass.BOUNDARY]
     edge, loose = _guides(scene, plan, chains, camera, per_model, tolerances)
+    sought = (
+        int(((edge >= 0) | (loose.number >= 0))[chain].sum())
+        if edge_curves is not None or len(loose.curves.kind)
+        else 0
+    )
     if edge_curves is None and len(loose.curves.kind) == 0 and len(found["curve"]) == 0:
         drawn = polylines(found["offsets"], found["flat"], space)
     else:
@@ -138,7 +146,28 @@ def draw_lines(
         )
         for i in order.tolist()
     )
-    return lines, (float(low[0]), float(low[1]))
+    return lines, (float(low[0]), float(low[1])), sought
+
+
+def _in_sight(found: dict[str, Any]) -> dict[str, Any]:
+    """The kernel's lines without those of chains of which nothing is visible.
+
+    Hidden lines beside visible ones of the same chain stay: both end where they meet, and that place is sought as one.
+    """
+    seen = np.zeros(int(found["chain"].max(initial=-1)) + 1, bool)
+    seen[found["chain"][found["visible"]]] = True
+    keep = seen[found["chain"]]
+    if keep.all():
+        return found
+    out = dict(found)
+    for offsets, members in (("offsets", ("flat", "space")), ("curve_offsets", ("curve",))):
+        count = np.diff(found[offsets])
+        kept = np.repeat(keep, count)
+        out[offsets] = np.concatenate([[0], np.cumsum(count[keep])]).astype(np.int32)
+        out |= {name: np.ascontiguousarray(found[name][kept]) for name in members}
+    return out | {
+        name: np.ascontiguousarray(found[name][keep]) for name in ("chain", "visible", "length", "curve_bounds")
+    }
 
 
 def _guides(
@@ -153,6 +182,9 @@ def _guides(
         source = np.append(silhouettes.source, np.int32(-1))[number]
         edge = np.where(source >= 0, source, edge).astype(np.int32)
         curves = silhouettes.curves
+    if len(edge):
+        # Where two planes meet, the line between the vertices is all there is to know.
+        edge = np.where(chains.straight, -1, edge).astype(np.int32)
     bulge = np.zeros(len(curves.kind))
     round_ = circles(scene, plan, chains, camera, per_model, tolerances)
     if round_ is not None:
@@ -186,4 +218,5 @@ def _all_chains(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
         face=np.concatenate([source.face[asked], outline.face]),
         other=np.concatenate([source.other[asked], outline.other]),
         noisy=np.concatenate([np.zeros(len(asked), bool), outline.noisy]),
+        straight=np.concatenate([plan.straight[asked], outline.straight]),
     )

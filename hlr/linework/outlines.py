@@ -24,7 +24,7 @@ class LineChains:
 
     offsets (c+1,), edges (k,), reversed (k,) bool; kind (c,) EdgeClass, part (c,), edge (c,) and face (c,) in the
     part's TopExp maps, other (c,) the second part of an intersection line; -1 where there is none. noisy (c,): the
-    contour of a mesh, which may turn to and fro by an edge.
+    contour of a mesh, which may turn to and fro by an edge. straight (c,): known to be, so that no curve is looked for.
     """
 
     offsets: Ints
@@ -36,6 +36,7 @@ class LineChains:
     face: Ints
     other: Ints
     noisy: npt.NDArray[np.bool_]
+    straight: npt.NDArray[np.bool_]
 
 
 def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
@@ -94,4 +95,5 @@ def _chained(scene: Scene, contour: Ints, owner: Ints) -> LineChains:
         face=np.where(has_faces[part[head]], face[head], -1).astype(np.int32),
         other=np.full(len(head), -1, np.int32),
         noisy=np.ones(len(head), bool),
+        straight=np.zeros(len(head), bool),
     )

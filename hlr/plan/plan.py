@@ -8,12 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
+from hlr.plan.effect import Decision, Facts, Planner
 from hlr.plan.options import Options
+from hlr.plan.table import DRAWING
 from hlr.scene.groups import touching
 from hlr.scene.scene import INTERIOR, Scene
 from hlr.source.model import EdgeClass, Floats
 from hlr.tolerance import Tolerances
-from hlr.view.camera import Camera
+from hlr.view.camera import NEAR, Camera
 
 DRAWN = 1
 OUTLINE = 2
@@ -30,6 +33,12 @@ class Plan:
     cap     (g,) float64: the most that is allowed against this group: half its thickness, in view depth
     drawn_kind (6,) bool: per EdgeClass, whether source edges of that class are drawn as such
     step    radians: creases of meshes are circles where neighbouring vertices are less than this apart; 0: never
+    fill    visible faces are painted
+    contact what is hidden by less than delta and cap is told apart
+    divide  points are divided by their distance from the eye
+    crossings, piercings, pyramid: which steps of the visibility pass are gone through
+    straight (c,) bool: per chain of the scene, between two planes: no curve has to be looked for
+    decisions why
     """
 
     role: npt.NDArray[np.uint8]
@@ -39,14 +48,39 @@ class Plan:
     cap: Floats
     drawn_kind: npt.NDArray[np.bool_]
     step: float
+    fill: bool
+    contact: bool
+    divide: bool
+    crossings: bool
+    piercings: bool
+    pyramid: bool
+    straight: npt.NDArray[np.bool_]
+    decisions: tuple[Decision, ...]
 
+
+LIFT = 3.0
+"""In deflections: outlines are moved away from their surface by somewhat less before visibility is decided."""
+
+SPARE = 1.01
+"""Times the contact tolerance: what the visibility pass rounds is far less than the rest."""
 
 MOST_STEP = 45.0
 """Degrees between neighbouring vertices of a circle: an octagon is never one."""
 
 
-def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerances) -> Plan:
-    """Instructions for one view of a scene."""
+def decide(
+    scene: Scene,
+    camera: Camera,
+    options: Options,
+    tolerances: Tolerances,
+    planner: Planner | None = None,
+    force: bool | None = None,
+) -> Plan:
+    """Instructions for one view of a scene.
+
+    planner: knows what was decided before. force: everything that the scene would leave out is on, see `everything_on`.
+    """
+    planner = planner or Planner(DRAWING, options, force)
     kind = scene.edge_kind
     role = np.zeros(len(kind), np.uint8)
     drawn_kind = np.zeros(len(EdgeClass), bool)
@@ -61,16 +95,70 @@ def decide(scene: Scene, camera: Camera, options: Options, tolerances: Tolerance
     if scene.silhouettes is not None:
         role[scene.silhouettes.hidden] = 0
     delta, cap = _contact(scene, camera, tolerances)
+    groups, used = scene.groups, np.isfinite(scene.groups.low[:, 0])
+    faced = np.zeros(len(used), bool)
+    faced[scene.triangle_group] = True
+    with planner.deciding():
+        near = _coming_near(scene, camera, delta, LIFT * tolerances.deflection)
+    facts = Facts(
+        groups=int(faced.sum()),
+        culled=int(groups.cull.sum()),
+        convex=scene.convex,
+        perspective=camera.eye is not None,
+        meeting=near,
+        unsound=int((used & ~groups.sound).sum()),
+        edges=int(np.count_nonzero(role)),
+    )
+    loose = Facts(meeting=near, unsound=int((used & ~groups.sound & ~groups.cull).sum()))
+    straight = scene.chains.straight
+    for name in ("hidden lines", "smooth edges", "seams", "intersection lines", "circles of meshes", "colours"):
+        planner.on(name)
+    planner.on("back-face culling", facts)
+    touch = planner.on("contact tolerance", loose)
+    sought = int((~straight & (scene.chains.index >= 0)).sum())
+    sought += 0 if scene.silhouettes is None else len(scene.silhouettes.curves.kind)
+    every = planner.on("exact curves", Facts(bent=sought))
     return Plan(
         role=role,
         cull=scene.groups.cull,
         sound=scene.groups.sound,
         delta=delta,
         cap=cap,
+        contact=touch,
         drawn_kind=drawn_kind,
         # Where the surface folds by more than the crease angle, an edge is drawn, and the figure has corners.
         step=math.radians(min(options.crease, MOST_STEP)) if options.circles else 0.0,
+        fill=planner.on("fill"),
+        divide=planner.on("perspective divide", facts),
+        crossings=planner.on("crossing search", facts),
+        piercings=planner.on("piercing search", facts),
+        pyramid=planner.on("depth pyramid", facts),
+        straight=straight & (not (every and planner.forced)),
+        decisions=planner.decisions(),
     )
+
+
+def _coming_near(scene: Scene, camera: Camera, delta: Floats, lift: float) -> int:
+    """How many groups come within the contact tolerance of another: their boxes, grown by it, meet.
+
+    Along the model's axes in parallel views, whose depth is a distance; around the images of their corners in
+    perspective, where it is not. lift: how far lines may be off their surfaces.
+    """
+    groups = scene.groups
+    used = np.flatnonzero(np.isfinite(groups.low[:, 0]))
+    low, high = groups.low[used] - lift, groups.high[used] + lift
+    most = SPARE * float(delta[used].max(initial=0.0))
+    if camera.eye is None or camera.distance is None:
+        return int(np.count_nonzero(_kernel.boxes_meet(low - 0.5 * most, high + 0.5 * most)))
+    box = (low, high)
+    corners = [
+        np.stack([box[i][:, 0], box[j][:, 1], box[k][:, 2]], axis=1) for i in (0, 1) for j in (0, 1) for k in (0, 1)
+    ]
+    if min(float(camera.ahead(c).min(initial=np.inf)) for c in corners) <= NEAR * camera.distance:
+        return len(used)
+    seen = np.stack([camera.project(c) for c in corners])
+    step = np.array([0.0, 0.0, 0.5 * most])
+    return int(np.count_nonzero(_kernel.boxes_meet(seen.min(axis=0) - step, seen.max(axis=0) + step)))
 
 
 def _contact(scene: Scene, camera: Camera, tolerances: Tolerances) -> tuple[Floats, Floats]:

@@ -3,18 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from time import perf_counter
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
 from hlr.errors import SourceError
-from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, may_fold_into_itself
+from hlr.plan.effect import Facts, Planner
+from hlr.plan.options import Options
+from hlr.plan.table import DRAWING
+from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, may_fold_into_itself, no_clashes
 from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, with_wires
-from hlr.scene.repair import without_duplicates
+from hlr.scene.repair import anything_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
-from hlr.scene.topology import MeshFacts, crease_walks, creases, folded_back, joined, mesh_facts, source_walks
+from hlr.scene.topology import (
+    MeshFacts,
+    between_planes,
+    crease_walks,
+    creases,
+    folded_back,
+    joined,
+    mesh_facts,
+    source_walks,
+)
 from hlr.source.extent import LARGEST
 from hlr.source.model import EdgeClass, Floats, Ints, Meshed, OnSurfaces, PartMesh
 
@@ -22,17 +36,13 @@ MOST_TRIANGLES = 2**31 // 3 - 1
 """Indices are 32 bits wide; three sides a triangle."""
 
 
-def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
+def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
     """The scene of all parts. crease: degrees, for parts without B-rep; deflection: what they were meshed with.
 
-    Raises SourceError where nothing is left to draw.
+    planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
     """
-    parts: list[PartMesh] = []
-    doubled: list[int] = []
-    for part in meshed.parts:
-        kept, count = without_duplicates(part)
-        parts.append(kept)
-        doubled.append(count)
+    plan = planner or Planner(DRAWING, Options())
+    parts, doubled = _repaired(meshed.parts, plan)
     if sum(len(p.triangles) for p in parts) > MOST_TRIANGLES:
         raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
     firsts = _firsts([len(p.points) for p in parts])
@@ -58,12 +68,20 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
         walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part, bare))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]
+    walks = between_planes(walks, mesh, kind, curved)
 
     whole = brep & (np.bincount(edge_part[balance != 0], minlength=len(parts)) == 0)
     group_of, group_part = grouped(whole, triangles, part_of, len(points))
     groups = checked(points, triangles, group_of, group_part, edges, offsets, incident, balance, brep, curved)
     suspect = may_fold_into_itself(points, triangles, mesh, group_of, groups)
-    met = clashes(points, triangles, mesh, group_of, groups, suspect, curved, deflection)
+    with plan.deciding():
+        meeting = _kernel.boxes_meet(groups.low, groups.high)
+    begin = perf_counter()
+    if plan.on("intersection search", Facts(meeting=int(meeting.sum()), folded=int(suspect.sum()))):
+        met = clashes(points, triangles, mesh, group_of, groups, suspect, curved, deflection)
+    else:
+        met = no_clashes(len(groups.closed))
+    plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
     found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, crossed_parts(met, group_part))
     groups = distrusted(groups, met.through)
 
@@ -114,7 +132,21 @@ def build(meshed: Meshed, crease: float, deflection: float) -> Scene:
         parts=found,
         notes=(*meshed.notes, *notes(found)),
         true_surfaces=_true_surfaces(parts),
+        convex=len(suspect) == 1 and not suspect.any(),
     )
+
+
+def _repaired(parts: list[PartMesh], plan: Planner) -> tuple[list[PartMesh], list[int]]:
+    """The parts without what is there twice, and how many triangles that left out of each."""
+    with plan.deciding():
+        repeated = anything_repeated(parts)
+    begin = perf_counter()
+    found = [(part, 0) for part in parts]
+    if plan.on("repair", Facts(repeated=repeated)):
+        found = [without_duplicates(part) for part in parts]
+    doubled = [count for _, count in found]
+    plan.spent("repair", perf_counter() - begin, doubled_triangles=sum(doubled))
+    return [part for part, _ in found], doubled
 
 
 def _firsts(counts: list[int]) -> Ints:
@@ -150,6 +182,7 @@ def _true_surfaces(parts: list[PartMesh]) -> TrueSurfaces | None:
         place=_composed(transform, place),
         inward=joined(lambda o: o.reversed, False, (), bool),
         curved=~np.concatenate([p.face_planar for p in parts]) & joined(lambda o: o.number >= 0, False, (), bool),
+        planar=np.concatenate([p.face_planar for p in parts]),
         surfaces=known[0].surfaces,
     )
 

@@ -64,6 +64,14 @@ class Clashes:
     edges: Ints
     group: Ints
     through: npt.NDArray[np.bool_]
+    tests: int = 0
+    """Pairs of triangles that were looked at."""
+
+
+def no_clashes(groups: int) -> Clashes:
+    """What is found where there is nothing to find."""
+    none = np.zeros((0, 2), np.int32)
+    return Clashes(np.zeros((0, 3)), none, none, np.zeros(groups, bool))
 
 
 def clashes(
@@ -117,6 +125,7 @@ def clashes(
         edges=np.ascontiguousarray(edges.reshape(-1, 2), np.int32),
         group=np.ascontiguousarray(group[kept], np.int32),
         through=through,
+        tests=int(found["tests"]),
     )
 
 
@@ -268,6 +277,7 @@ def intersection_walks(edges: Ints, group: Ints, part_of_group: Ints, first: int
         index=np.full(len(parts), -1, np.int32),
         other=np.ascontiguousarray(parts[:, 1]),
         face=np.full(len(parts), -1, np.int32),
+        straight=np.zeros(len(parts), bool),
     )
 
 

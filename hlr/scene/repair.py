@@ -14,6 +14,36 @@ from hlr.source.weld import equal_rows
 Indices = npt.NDArray[np.intp]
 
 
+def anything_repeated(parts: list[PartMesh]) -> bool:
+    """Whether a part may hold a triangle on the same corners as another, or two points in one place: yes where it does.
+
+    Sums of what is mixed stand for sets of corners, so that one sort of plain numbers tells; that two different ones
+    have the same is a matter of 2^-64.
+    """
+    mixed = []
+    for number, part in enumerate(parts):
+        if _may_coincide(part.points):
+            return True
+        mixed.append(
+            _mixed(part.triangles.astype(np.uint64)).sum(axis=1, dtype=np.uint64)
+            + _mixed(np.array([number], np.uint64))
+        )
+    key = np.sort(np.concatenate(mixed)) if mixed else np.zeros(0, np.uint64)
+    return bool((key[1:] == key[:-1]).any())
+
+
+_ODD = np.uint64(0x9E3779B97F4A7C15)
+
+
+def _mixed(x: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint64]:
+    """A number that depends on every bit of x: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number
+    generators", OOPSLA 2014."""
+    x = (x + np.uint64(1)) * _ODD
+    x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return np.asarray(x ^ (x >> np.uint64(31)))
+
+
 def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
     """The part without repeated triangles and faces, and how many triangles that left out.
 

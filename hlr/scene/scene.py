@@ -45,6 +45,7 @@ class TrueSurfaces:
     corner (t, 3) into uv (k, 2): parameters at the corners, -1 for parts without B-rep
     first (p,) the number of each part's first face; number (f,) of its surface in `surfaces`
     place (f, 3, 4) from the surface's frame into the model; inward (f,) bool; curved (f,) bool: may show an outline
+    planar (f,) bool
     """
 
     corner: Ints
@@ -54,6 +55,7 @@ class TrueSurfaces:
     place: Floats
     inward: npt.NDArray[np.bool_]
     curved: npt.NDArray[np.bool_]
+    planar: npt.NDArray[np.bool_]
     surfaces: Surfaces
 
 
@@ -87,6 +89,7 @@ class Chains:
     kind (c,) uint8 EdgeClass, part (c,) int32, index (c,) int32 in the part's TopExp edge map, -1 for meshes
     other (c,) int32: of an intersection line the second part, else -1
     face (c,) int32: of an outline the face, in the part's TopExp face map, else -1
+    straight (c,) bool: two planar faces meet there at an angle; two planes have a straight line in common
     """
 
     offsets: Ints
@@ -97,6 +100,7 @@ class Chains:
     index: Ints
     other: Ints
     face: Ints
+    straight: npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +123,8 @@ class Scene:
     """points (n, 3) model coordinates; triangles (t, 3); edges (e, 2), lower vertex first.
 
     incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. edge_kind is an EdgeClass or INTERIOR;
-    edge_curved tells the edges at which a curved surface may show its outline. Edges without triangles are wires, or
+    edge_curved tells the edges at which a curved surface may show its outline; convex: all there is is one convex body,
+    as far as floating point tells. Edges without triangles are wires, or
     intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
     """
 
@@ -141,3 +146,4 @@ class Scene:
     notes: tuple[str, ...]
     true_surfaces: TrueSurfaces | None = None
     silhouettes: Silhouettes | None = None
+    convex: bool = False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -45,7 +45,8 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         part_of.append(np.full(len(part.edge_index), i, np.int32))
     if not nodes:
         none = np.zeros(0, np.int32)
-        empty = Chains(np.zeros(1, np.int32), none, none.astype(bool), none.astype(np.uint8), none, none, none, none)
+        no = none.astype(bool)
+        empty = Chains(np.zeros(1, np.int32), none, no, none.astype(np.uint8), none, none, none, none, no)
         return empty, none.reshape(0, 2)
     node = np.concatenate(nodes)
     count = np.concatenate(counts)
@@ -72,6 +73,7 @@ def source_walks(parts: list[PartMesh], firsts: Ints, edges: Ints, n: int) -> tu
         index=np.concatenate([p.edge_index for p in parts]).astype(np.int32),
         other=np.full(len(count), -1, np.int32),
         face=np.full(len(count), -1, np.int32),
+        straight=np.zeros(len(count), bool),
     )
     return walks, extra
 
@@ -180,7 +182,25 @@ def crease_walks(
         index=np.full(len(head), -1, np.int32),
         other=np.full(len(head), -1, np.int32),
         face=np.full(len(head), -1, np.int32),
+        straight=np.zeros(len(head), bool),
     )
+
+
+def between_planes(
+    walks: Chains, mesh: MeshFacts, kind: npt.NDArray[np.uint8], curved: npt.NDArray[np.bool_]
+) -> Chains:
+    """The walks of B-rep edges, those marked that run between two planar faces at an angle; curved (t,), kind (e,)."""
+    count = len(mesh.offsets) - 1
+    flat = np.zeros(len(kind), bool)
+    if count:
+        flat[:count] = ~np.logical_or.reduceat(curved[mesh.incident], mesh.offsets[:-1])
+    flat[:count] &= (np.diff(mesh.offsets) == 2) & (kind[:count] == EdgeClass.SHARP)
+    steps = np.diff(walks.offsets)
+    straight = (steps > 0) & (walks.index >= 0)
+    straight[straight] = (
+        np.logical_and.reduceat(flat[walks.edges], walks.offsets[:-1][straight]) if straight.any() else ()
+    )
+    return replace(walks, straight=straight)
 
 
 def joined(a: Chains, b: Chains) -> Chains:
@@ -201,4 +221,5 @@ def joined(a: Chains, b: Chains) -> Chains:
         index=np.concatenate([a.index, b.index])[order],
         other=np.concatenate([a.other, b.other])[order],
         face=np.concatenate([a.face, b.face])[order],
+        straight=np.concatenate([a.straight, b.straight])[order],
     )

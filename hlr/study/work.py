@@ -13,8 +13,10 @@ import numpy as np
 
 from hlr.drawing import Drawing, DrawnView
 from hlr.errors import OptionError
+from hlr.finished import drawn_view
+from hlr.fitting import meshed_scene
 from hlr.linework.exact import EdgeCurveLookup
-from hlr.pipeline import draw_views, drawn_view, meshed_scene
+from hlr.pipeline import draw_views
 from hlr.plan.options import Options
 from hlr.plan.plan import decide
 from hlr.scene.scene import Scene

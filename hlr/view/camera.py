@@ -72,10 +72,14 @@ class Camera:
     distance: float | None = None
     framed: bool = False
 
-    def project(self, points: Floats) -> Floats:
-        """(n, 3) model coordinates -> (n, 3) x right, y up, depth; perspective: z maps to -distance^2 / z."""
+    def project(self, points: Floats, divide: bool = False) -> Floats:
+        """(n, 3) model coordinates -> (n, 3) x right, y up, depth; perspective: z maps to -distance^2 / z.
+
+        divide: by the distance from the eye also in a parallel view, where it is 1 everywhere.
+        """
         if self.eye is None or self.distance is None:
-            return np.stack([dot(points, self.right), dot(points, self.up), -dot(points, self.direction)], axis=1)
+            flat = np.stack([dot(points, self.right), dot(points, self.up), -dot(points, self.direction)], axis=1)
+            return flat / np.ones((len(points), 1)) if divide else flat
         z = self.ahead(points)
         away = points - np.asarray(self.eye)
         factor = self.distance / z

@@ -9,10 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from time import perf_counter
 
 import numpy as np
 
 from hlr import _kernel
+from hlr.plan.effect import Facts, Planner
 from hlr.scene.scene import INTERIOR, Chains, Groups, Scene, Silhouettes
 from hlr.scene.topology import keys
 from hlr.source.model import Floats, Ints
@@ -36,8 +38,14 @@ class Plane:
 
 def planes(camera: Camera, aspect: float) -> list[Plane]:
     """The planes that bound what a perspective camera may see; none for parallel views."""
+    near, sides = _volume(camera, aspect)
+    return [*near, *sides]
+
+
+def _volume(camera: Camera, aspect: float) -> tuple[list[Plane], list[Plane]]:
+    """The near plane, and the sides of the frame. There is no far plane: nothing is too far to be drawn."""
     if camera.eye is None or camera.distance is None or camera.fov is None:
-        return []
+        return [], []
     eye = camera.eye
     d = camera.direction
 
@@ -45,28 +53,54 @@ def planes(camera: Camera, aspect: float) -> list[Plane]:
         offset = sum(n * e for n, e in zip(normal, eye, strict=True)) + ahead
         return Plane(normal, offset)
 
-    out = [through((-d[0], -d[1], -d[2]), camera.distance * NEAR)]
+    near = [through((-d[0], -d[1], -d[2]), camera.distance * NEAR)]
+    sides = []
     if camera.framed:
         tangent = math.tan(math.radians(camera.fov) * 0.5)
         for axis, reach in ((camera.right, tangent * aspect), (camera.up, tangent)):
             for sign in (1.0, -1.0):
                 n = [sign * a - reach * c for a, c in zip(axis, d, strict=True)]
-                out.append(through((n[0], n[1], n[2])))
-    return out
+                sides.append(through((n[0], n[1], n[2])))
+    return near, sides
 
 
-def clip(scene: Scene, cuts: list[Plane]) -> tuple[Scene, int]:
-    """The part of the scene that all planes keep, and how many of them cut anything."""
+def clipped(scene: Scene, camera: Camera, aspect: float, planner: Planner) -> Scene:
+    """What the camera may see of the scene, cut only where something crosses the near plane or the frame.
+
+    A plane that nothing crosses would leave the scene as it is: where clipping is forced, all are gone through.
+    """
+    for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, aspect), strict=True):
+        with planner.deciding():
+            facts = Facts(perspective=camera.eye is not None, crossed=sum(_crossed(scene, p) for p in cuts))
+        begin = perf_counter()
+        used = 0
+        if planner.on(name, facts):
+            scene, used = clip(scene, cuts if facts.crossed else cuts or _around(scene, camera), facts.crossed == 0)
+        planner.spent(name, perf_counter() - begin, **{name.replace(" clipping", "_cuts"): used})
+    return scene
+
+
+def _around(scene: Scene, camera: Camera) -> list[Plane]:
+    """Planes across the view that have all of the scene on the side that is kept."""
+    reach = 2.0 * float(np.abs(scene.points).max(initial=0.0)) + 1.0
+    axes = (camera.direction, camera.right, camera.up)
+    return [Plane((s * a[0], s * a[1], s * a[2]), -2.0 * reach) for a in axes for s in (1.0, -1.0)]
+
+
+def _crossed(scene: Scene, plane: Plane) -> bool:
+    """Whether anything lies beyond; only points that something uses count: earlier cuts leave unused ones behind."""
+    beyond = plane.height(scene.points) < 0.0
+    return bool(beyond.any()) and bool(beyond[scene.edges].any())
+
+
+def clip(scene: Scene, cuts: list[Plane], every: bool = False) -> tuple[Scene, int]:
+    """The part of the scene that all planes keep, and how many of them cut anything. every: go through all the same."""
     used = 0
     for plane in cuts:
-        height = plane.height(scene.points)
-        # Only points that something uses count; earlier cuts leave unused ones behind.
-        corner = np.zeros(len(height), bool)
-        corner[scene.edges.ravel()] = True
-        if (height[corner] >= 0.0).all():
-            continue
-        used += 1
-        scene = _cut(scene, height)
+        crossed = _crossed(scene, plane)
+        used += crossed
+        if crossed or every:
+            scene = _cut(scene, plane.height(scene.points))
     return (_compact(scene) if used else scene), used
 
 
@@ -134,6 +168,7 @@ def _cut(scene: Scene, height: Floats) -> Scene:
         scene,
         points=points,
         true_surfaces=None,
+        convex=scene.convex and not crossing.any(),
         silhouettes=_cut_silhouettes(scene, crossing, t, target, moved),
         triangles=triangles,
         triangle_part=scene.triangle_part[parent],
@@ -232,4 +267,5 @@ def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
         index=chains.index[whole],
         other=chains.other[whole],
         face=chains.face[whole],
+        straight=chains.straight[whole],
     )

@@ -21,6 +21,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.plan.effect import Facts, Planner
+from hlr.plan.options import Options
+from hlr.plan.table import DRAWING
 from hlr.scene.scene import INTERIOR, Chains, Scene, Silhouettes, TrueSurfaces
 from hlr.scene.topology import joined
 from hlr.source.model import Curves, EdgeClass, Ints
@@ -34,11 +37,22 @@ LIFT = 2.5
 """In deflections: facets are off by two at most, where they have been refined, the outline's chords by a little."""
 
 
-def with_silhouettes(scene: Scene, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
+def with_silhouettes(
+    scene: Scene, camera: Camera, tolerances: Tolerances, threads: int, planner: Planner | None = None
+) -> Scene:
     """The scene with the outlines of its true surfaces; those faces' mesh contours are outlines no longer."""
+    plan = planner or Planner(DRAWING, Options())
     on = scene.true_surfaces
-    if on is None or not on.curved.any():
+    wanted = plan.on("outlines", Facts(curved=0 if on is None else int(on.curved.sum()), faces=on is not None))
+    if not wanted or on is None:
         return scene
+    with plan.timed("outlines"):
+        seen = _with_outlines(scene, on, camera, tolerances, threads)
+    plan.spent("outlines", outlines=len(seen.chains.kind) - len(scene.chains.kind))
+    return seen
+
+
+def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
     face = on.first[scene.triangle_part] + scene.triangle_face
     smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
     found = _traced(scene, on, face, smooth, camera, CHORD * tolerances.deflection, threads)
@@ -139,6 +153,7 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
         index=np.full(m, -1, np.int32),
         other=np.full(m, -1, np.int32),
         face=(face - on.first[part]).astype(np.int32),
+        straight=np.zeros(m, bool),
     )
     hidden = np.asarray(found["concave"] & scene.groups.cull[group])
     more = len(edges)

@@ -21,7 +21,7 @@ class Segments:
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,) VISIBLE, HIDDEN or
     WITHIN (hidden by less than the contact tolerance) or DIVING (the same, on the way to hidden); facing (t,) int8 of
-    every triangle.
+    every triangle; seconds of the kernel's steps.
     """
 
     edge: Ints
@@ -30,6 +30,7 @@ class Segments:
     state: npt.NDArray[np.uint8]
     facing: npt.NDArray[np.int8]
     counters: dict[str, int]
+    seconds: dict[str, float]
 
 
 def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic: str = "exact") -> Segments:
@@ -51,11 +52,16 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
         plan.cull,
         plan.sound,
         np.ascontiguousarray(plan.delta),
-        np.ascontiguousarray(plan.cap),
+        # Of tolerance and cap the less counts: so the grid, which leaves room for the tolerance, stays the same.
+        np.ascontiguousarray(plan.cap if plan.contact else np.zeros_like(plan.cap)),
         scene.groups.tight,
         threads,
         arithmetic,
+        plan.crossings,
+        plan.piercings,
+        plan.pyramid,
     )
+    found["counters"]["contacts"] = int((found["state"] >= WITHIN).sum())
     # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
     state, edge = found["state"], found["edge"]
     state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
@@ -74,4 +80,5 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
         state=state,
         facing=found["facing"],
         counters=found["counters"],
+        seconds=found["seconds"],
     )

@@ -34,11 +34,22 @@ def document(drawing: Drawing) -> bytes:
         "model": {"unit": drawing.unit, "up_axis": _matrix(np.asarray(drawing.up_axis))},
     }
     parts = [{"name": part.name, "color": part.color, "transform": _matrix(part.transform)} for part in drawing.parts]
-    tail = {"notes": list(drawing.notes), "counters": dict(drawing.counters), "timings": dict(drawing.timings)}
+    tail = {
+        "notes": list(drawing.notes),
+        "plan": [decision.as_dict() for decision in drawing.plan],
+        "counters": dict(drawing.counters),
+        "timings": {**drawing.timings, **_effects(drawing)},
+    }
     listed = ",\n".join(_dump(part) for part in parts)
     drawn = ",\n".join(_lines(drawing))
     text = f'{_dump(head)[:-1]},\n"parts": [\n{listed}\n],\n"lines": [\n{drawn}\n],\n{_dump(tail)[1:]}\n'
     return text.encode("ascii")
+
+
+def _effects(drawing: Drawing) -> dict[str, dict[str, float]]:
+    """What the steps of single effects took; all times are in one place, for they alone differ from run to run."""
+    timed = {d.name: d.seconds for d in drawing.plan if d.seconds is not None}
+    return {"effects": timed} if timed else {}
 
 
 def _view(drawing: Drawing) -> dict[str, Any]:

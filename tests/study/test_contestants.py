@@ -53,7 +53,7 @@ def test_parts_are_drawn_where_they_stand():
 def test_bare_lines_are_written_like_a_drawing():
     import cadquery as cq
 
-    from hlr.pipeline import drawn_view
+    from hlr.finished import drawn_view
     from hlr.writers import render
 
     ink = occt.poly(cq.Workplane().box(10, 10, 10).val().wrapped, camera(), 1.0, 0.1, 0.5, Watch())

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hlr.pipeline import meshed_scene
+from hlr.fitting import meshed_scene
 from hlr.plan.options import Options
 from hlr.plan.plan import decide
 from hlr.source import open_source

@@ -26,7 +26,7 @@ def test_fields_and_their_order():
     made = read(sample())
     assert list(made) == [
         "format", "version", "source", "units", "accuracy", "view", "scale", "origin", "model", "parts", "lines",
-        "notes", "counters", "timings",
+        "notes", "plan", "counters", "timings",
     ]  # fmt: skip
     assert (made["format"], made["version"], made["units"]) == ("hlr-drawing", 1, "mm")
     assert made["model"] == {"unit": 1.0, "up_axis": np.eye(3).tolist()}

@@ -9,8 +9,8 @@ use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::clash::search::Surfaces;
 use crate::clash::weld::weld;
-use crate::scan::box_tree::{Aabb, BoxTree};
 use crate::exact::snap::Grid;
+use crate::scan::box_tree::{Aabb, BoxTree};
 
 #[pyfunction]
 pub fn clashes<'py>(

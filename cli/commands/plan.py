@@ -1,0 +1,52 @@
+"""`hlr plan`: which effects a drawing would need, and why, without drawing it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from ..guard import start
+from ..meter import meter
+from ..parameters import Scale, Size, Vector3
+from ..streams import result_only
+from ..view_options import CAMERA, CARE, RUN, VIEW, options
+from .draw import LINES, request_of
+
+
+@click.command()
+@click.argument("source")
+@VIEW
+@options(*LINES, *CARE, *CAMERA, *RUN)
+@click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
+@click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
+@click.option("--json", "as_json", is_flag=True, help="For machines.")
+@click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
+def plan(*, source: str, views: tuple[str | Vector3, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:
+    """Say which effects a drawing of SOURCE needs, and why.
+
+    \b
+      hlr plan part.step
+      hlr plan part.step --view front --perspective --json
+
+    The model is read and meshed, but nothing is hidden or drawn. `hlr draw --explain` says besides what each has cost.
+    """
+    views = views or ("iso",)
+    request = request_of(**wishes)
+    start(source)
+    with result_only() as out:
+        with meter(quiet) as progress:
+            import hlr
+
+            planned = hlr.plan_views(source, list(views), request, progress=progress)
+        if as_json:
+            import json
+
+            entries = [{"view": p.view, "plan": [d.as_dict() for d in p.decisions]} for p in planned]
+            text = json.dumps({"plans": entries}, indent=2)
+        else:
+            from hlr.plan.effect import explained
+
+            several = len(planned) > 1
+            text = "\n\n".join((f"{p.view}\n" if several else "") + explained(p.decisions) for p in planned)
+        out.put((text + "\n").encode("utf-8"))

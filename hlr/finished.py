@@ -1,0 +1,130 @@
+"""The finished drawing: lines, and all that is known about how they came to be."""
+
+from __future__ import annotations
+
+from collections import Counter
+from time import perf_counter
+
+from hlr.clock import Clock, lap
+from hlr.drawing import Drawing, DrawnPart, DrawnView, Fill, Line
+from hlr.fitting import Staged
+from hlr.plan.options import Options
+from hlr.plan.plan import Plan
+from hlr.scene.scene import Scene
+from hlr.source.model import Source
+from hlr.view.camera import Camera
+from hlr.visibility.segments import Segments
+
+Lines = tuple[tuple[Line, ...], tuple[float, float], int]
+"""Lines, their origin, and how many curves were sought: as `hlr.linework.lines.draw_lines` gives them."""
+
+
+def finished(
+    opened: Source,
+    seen: Scene,
+    view: Staged,
+    options: Options,
+    plan: Plan,
+    segments: Segments,
+    drawn: Lines,
+    clock: Clock,
+) -> Drawing:
+    """The drawing of one view of a scene."""
+    camera, at, planner = view.camera, view.at, view.planner
+    lines, origin, sought = drawn
+    started = perf_counter()
+    fill: Fill | None = None
+    if plan.fill:
+        from hlr.surfaces.fill import filled
+
+        fill = filled(seen, camera, at.per_model, origin)
+        planner.spent("fill", perf_counter() - started)
+    lap(clock, "linework", started)
+    clock["write"] = 0.0
+    clock["total"] = sum(clock.values())
+    counters = _counters(seen, segments, lines, fill, sought, plan)
+    if not plan.crossings and counters["seeds"]:
+        planner.revised("crossing search", True, "one convex body, but rounded its faces overlap in the image")
+    for name, steps in STEPS.items():
+        planner.spent(name, sum(segments.seconds[s] for s in steps))
+    decisions = planner.decisions(counters)
+    cuts = {d.name: sum(d.counts.values()) for d in decisions if d.name.endswith("clipping")}
+    return Drawing(
+        source=opened.name,
+        view=drawn_view(camera),
+        scale=at.scale,
+        origin=origin,
+        accuracy={
+            "asked": options.accuracy,
+            "used": at.tolerances.accuracy,
+            "deflection": at.tolerances.deflection,
+            "contact": at.tolerances.contact,
+        },
+        unit=opened.frame.unit,
+        up_axis=opened.frame.up,
+        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),
+        lines=lines,
+        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *_empty(lines)))),
+        counters={**counters, "clipping_planes": sum(cuts.values())},
+        timings=clock,
+        fill=fill,
+        plan=decisions,
+    )
+
+
+STEPS = {
+    "back-face culling": ("tables",),
+    "crossing search": ("seeds", "crossings", "counting"),
+    "depth pyramid": ("pyramid",),
+    "piercing search": ("piercings",),
+}
+"""The kernel's steps that an effect is timed by."""
+
+
+def _counters(
+    seen: Scene, segments: Segments, lines: tuple[Line, ...], fill: Fill | None, sought: int, plan: Plan
+) -> dict[str, int]:
+    kinds = Counter(line.kind for line in lines)
+    hidden = sum(not line.visible for line in lines)
+    faces = 0 if fill is None else len(fill.faces) - 1
+    return {
+        **segments.counters,
+        "lines": len(lines),
+        "outlines": 0 if seen.silhouettes is None else len(seen.silhouettes.curves.kind),
+        "divided_points": len(seen.points) if plan.divide else 0,
+        "hidden_lines": hidden,
+        "smooth_lines": kinds["smooth"],
+        "seam_lines": kinds["seam"],
+        "intersection_lines": kinds["intersection"],
+        "circles": sum(line.curve is not None and line.edge is None and line.kind in _CREASES for line in lines)
+        if plan.step > 0.0
+        else 0,
+        "curves_sought": sought,
+        "filled_faces": faces,
+        "coloured_faces": faces,
+    }
+
+
+_CREASES = ("sharp", "boundary")
+
+
+def _empty(lines: tuple[Line, ...]) -> tuple[str, ...]:
+    return () if lines else ("nothing of the model lies in this view",)
+
+
+def drawn_view(camera: Camera) -> DrawnView:
+    """The camera as a result states it."""
+    return DrawnView(
+        name=camera.name,
+        projection="orthographic" if camera.eye is None else "perspective",
+        direction=camera.direction,
+        right=camera.right,
+        up=camera.up,
+        eye=camera.eye,
+        target=camera.target,
+        fov=camera.fov,
+        distance=camera.distance,
+    )
+
+
+__all__ = ["drawn_view", "finished"]

@@ -1,0 +1,62 @@
+"""What a drawing would need, without drawing it: source -> tessellate -> scene -> plan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hlr.fitting import staged
+from hlr.plan.effect import Decision, Planner
+from hlr.plan.options import Options, View
+from hlr.plan.plan import decide
+from hlr.plan.request import checked, checked_views
+from hlr.plan.table import DRAWING
+from hlr.source import open_source
+from hlr.source.model import Progress
+from hlr.view.camera import resolve
+from hlr.view.clip import clipped
+from hlr.view.scale import place
+from hlr.view.silhouettes import with_silhouettes
+
+
+@dataclass(frozen=True, slots=True)
+class ViewPlan:
+    """What was decided for one view; costs are those of what had to be done in order to decide."""
+
+    view: str
+    decisions: tuple[Decision, ...]
+
+
+def plan_views(
+    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+) -> list[ViewPlan]:
+    """One plan per view, of the drawing that `hlr.draw_views` would make of the same arguments.
+
+    Raises SourceError, ViewError, OptionError.
+    """
+    options = checked(options or Options())
+    views = checked_views(views)
+    if not views:
+        return []
+    tell = progress or (lambda _stage, _done: None)
+    tell("source", 0.0)
+    opened = open_source(source)
+    bounds = opened.bounds()
+    cameras = [resolve(view, options, opened.frame, bounds) for view in views]
+    tell("tessellate", 0.0)
+    placed = [place(c, options, opened, bounds) for c in cameras]
+    scene, _, seen = staged(opened, cameras, placed, options, tell, {}, Planner(DRAWING, options))
+    out = []
+    for view in seen:
+        outlined = view.outlined or with_silhouettes(
+            scene, view.camera, view.at.tolerances, options.threads, view.planner
+        )
+        cut = clipped(outlined, view.camera, view.at.aspect, view.planner)
+        out.append(
+            ViewPlan(view.camera.name, decide(cut, view.camera, options, view.at.tolerances, view.planner).decisions)
+        )
+    return out
+
+
+__all__ = ["ViewPlan", "plan_views"]
