@@ -7,36 +7,32 @@ from collections.abc import Sequence
 from hlr.study.job import HLR, Point
 from hlr.tolerance import DEFAULT_ACCURACY
 
-CHEAP = 1.5
-"""Times the cost of the coarsest drawing: up to there accuracy is as good as free."""
+DEAR = 2.0
+"""Times the cost of the usual drawing: what may be spent on a finer one without a thought."""
 
 
 def advice(points: Sequence[Point]) -> str:
     """In words, from our own points; empty where there are fewer than two."""
-    ours = sorted((p for p in points if p.who == HLR and p.failure is None), key=lambda p: -p.setting)
+    ours = sorted((p for p in points if p.who == HLR and p.failure is None and p.processor > 0.0), key=_setting)
     if len(ours) < 2:
         return ""
-    base = ours[0].processor or 1e-9
-    free = [p for p in ours if p.processor <= CHEAP * base]
-    finest = ours[-1]
     usual = min(ours, key=lambda p: abs(p.setting - DEFAULT_ACCURACY))
-    said = [
-        f"{usual.setting:g} mm costs {_seconds(usual.processor)} of processor time here, "
-        f"{_times(usual.processor / base)} the coarsest drawing ({ours[0].setting:g} mm)"
-    ]
-    if free[-1].setting < usual.setting:
-        said.append(f"down to {free[-1].setting:g} mm accuracy is almost free")
-    if finest is not usual:
-        ratio = usual.setting / finest.setting
-        said.append(
-            f"{finest.setting:g} mm, {ratio:.3g} times finer, costs {_times(finest.processor / usual.processor)} that"
-        )
-    return "; ".join(said) + "."
+    finest, coarsest = ours[0], ours[-1]
+    default = " (the default)" if usual.setting == DEFAULT_ACCURACY else ""
+    sentences = [f"{usual.setting:g} mm{default} costs {_seconds(usual.processor)} of processor time"]
+    if coarsest is not usual:
+        sentences[0] += f", the coarsest drawing ({coarsest.setting:g} mm) {_seconds(coarsest.processor)}"
+    affordable = min((p for p in ours if p.processor <= DEAR * usual.processor), key=_setting)
+    if affordable.setting < usual.setting:
+        sentences.append(f"for at most twice that there is {affordable.setting:g} mm")
+    if finest is not affordable and finest.setting < usual.setting:
+        sentences.append(f"{finest.setting:g} mm costs {_seconds(finest.processor)}")
+    return "; ".join(sentences) + "."
+
+
+def _setting(point: Point) -> float:
+    return point.setting
 
 
 def _seconds(value: float) -> str:
-    return f"{value * 1e3:.0f} ms" if value < 1.0 else f"{value:.2g} s"
-
-
-def _times(ratio: float) -> str:
-    return f"{ratio:.2g} times" if ratio < 100.0 else f"{ratio:.0f} times"
+    return f"{value * 1e3:.0f} ms" if value < 0.9995 else f"{value:.2g} s" if value < 99.5 else f"{value:.0f} s"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from typing import Any
 
 from hlr.errors import OptionError
@@ -53,35 +54,45 @@ def error_plot(found: Study) -> bytes:
     """A PNG: error over processor seconds, both logarithmic, for the usual distance and for the share of wrong ink."""
     figure = _modules()[0](figsize=(11.0, 5.0), layout="constrained")
     for axes, (name, label) in zip(figure.subplots(1, 2), PANELS, strict=True):
-        points = [p for p in found.points if p.failure is None and name in p.errors and p.processor > 0.0]
-        best = frontier(points, name)
-        if best:
-            # Nothing is below and to the left of the frontier; to the right of its last point nothing is truer.
-            x = [p.processor for p in best]
-            y = [max(p.errors[name], FLOOR) for p in best]
-            end = max(p.processor for p in points) * 1.3
-            axes.step([*x, end], [*y, y[-1]], where="post", color="#888888", linewidth=7, alpha=0.25, label="frontier")
-        for who in WHO:
-            own = [p for p in points if p.who == who]
-            color, mark = STYLES[who]
-            if own:
-                x, y = [p.processor for p in own], [max(p.errors[name], FLOOR) for p in own]
-                axes.plot(x, y, color=color, marker=mark, markersize=5, linewidth=1.2, label=_legend(who))
-                for p, at in zip(own, zip(x, y, strict=True), strict=True):
-                    if _labelled(p, own):
-                        axes.annotate(_mark(p), at, xytext=(5, 4), textcoords="offset points", fontsize=7, color=color)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("processor seconds, from shape to lines")
+        panel(axes, found.points, name)
         axes.set_title(label, fontsize=9)
-        axes.grid(True, which="both", alpha=0.2)
-        if name == "wrong":
-            axes.set_ylim(0.6 * FLOOR, None)
-            axes.set_yticks([FLOOR, 1e-4, 1e-3, 1e-2, 1e-1], ["none", "0.01 %", "0.1 %", "1 %", "10 %"])
-    handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, fontsize=8, loc="outside lower center", ncols=5)
+    legend(figure)
     figure.suptitle(found.look["name"], fontsize=11)
     return _png(figure)
+
+
+def legend(figure: Any) -> None:
+    """One for all panels, below them."""
+    handles, labels = figure.axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, fontsize=8, loc="outside lower center", ncols=5)
+
+
+def panel(axes: Any, every: Sequence[Point], name: str) -> None:
+    """Error of this name over processor seconds, with the frontier, into the axes of a figure."""
+    points = [p for p in every if p.failure is None and name in p.errors and p.processor > 0.0]
+    best = frontier(points, name)
+    if best:
+        # Nothing is below and to the left of the frontier; to the right of its last point nothing is truer.
+        x = [p.processor for p in best]
+        y = [max(p.errors[name], FLOOR) for p in best]
+        end = max(p.processor for p in points) * 1.3
+        axes.step([*x, end], [*y, y[-1]], where="post", color="#888888", linewidth=7, alpha=0.25, label="frontier")
+    for who in WHO:
+        own = [p for p in points if p.who == who]
+        color, mark = STYLES[who]
+        if own:
+            x, y = [p.processor for p in own], [max(p.errors[name], FLOOR) for p in own]
+            axes.plot(x, y, color=color, marker=mark, markersize=5, linewidth=1.2, label=_legend(who))
+            for p, at in zip(own, zip(x, y, strict=True), strict=True):
+                if _labelled(p, own):
+                    axes.annotate(_mark(p), at, xytext=(5, 4), textcoords="offset points", fontsize=7, color=color)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("processor seconds, from shape to lines", fontsize=9)
+    axes.grid(True, which="both", alpha=0.2)
+    if name == "wrong":
+        axes.set_ylim(0.6 * FLOOR, None)
+        axes.set_yticks([FLOOR, 1e-4, 1e-3, 1e-2, 1e-1], ["none", "0.01 %", "0.1 %", "1 %", "10 %"])
 
 
 def _legend(who: str) -> str:

@@ -97,3 +97,17 @@ def test_stages_are_told_apart():
     watch.stop()
     assert set(watch.stages) == {"a", "b"} and kept.sum() > 0
     assert all(cost.wall >= 0.0 and cost.memory > 1.0 for cost in watch.stages.values())
+
+
+def test_what_a_user_needs_in_a_sentence():
+    from hlr.study.advice import advice
+
+    def ours(setting, seconds):
+        return Point(HLR, setting, stages={"tessellate": Cost(seconds, seconds, 1.0)})
+
+    said = advice([ours(2, 0.1), ours(0.05, 0.4), ours(0.02, 0.7), ours(0.001, 12), Point(HLR, 0.0005, failure="late")])
+    assert said == (
+        "0.05 mm (the default) costs 400 ms of processor time, the coarsest drawing (2 mm) 100 ms; "
+        "for at most twice that there is 0.02 mm; 0.001 mm costs 12 s."
+    )
+    assert advice([ours(0.05, 1)]) == ""
