@@ -98,7 +98,7 @@ def draw_lines(
     border = np.array([BORDER.get(EdgeClass(k), 0) for k in range(6)], np.uint8)[chains.kind]
     # The outline of a mesh is an edge of it.
     border[bare & (border == BORDER[EdgeClass.OUTLINE])] = BORDER[EdgeClass.BOUNDARY]
-    edge, loose = _guides(scene, plan, chains, camera, per_model, tolerances)
+    edge, loose = _guides(scene, plan, chains, edge_curves, camera, per_model, tolerances)
     sought = (
         int(((edge >= 0) | (loose.number >= 0))[chain].sum())
         if edge_curves is not None or len(loose.curves.kind)
@@ -171,7 +171,13 @@ def _in_sight(found: dict[str, Any]) -> dict[str, Any]:
 
 
 def _guides(
-    scene: Scene, plan: Plan, chains: LineChains, camera: Camera, per_model: float, tolerances: Tolerances
+    scene: Scene,
+    plan: Plan,
+    chains: LineChains,
+    edge_curves: EdgeCurveLookup,
+    camera: Camera,
+    per_model: float,
+    tolerances: Tolerances,
 ) -> tuple[Ints, Loose]:
     """Per chain the edge of the model along which it runs, -1 for none, and the curves of outlines and circles."""
     edge, number = chains.edge, np.full(len(chains.edge), -1, np.int32)
@@ -182,6 +188,8 @@ def _guides(
         source = np.append(silhouettes.source, np.int32(-1))[number]
         edge = np.where(source >= 0, source, edge).astype(np.int32)
         curves = silhouettes.curves
+    if plan.every_curve and edge_curves is not None:
+        edge_curves(chains.part[chains.straight], chains.edge[chains.straight])
     if len(edge):
         # Where two planes meet, the line between the vertices is all there is to know.
         edge = np.where(chains.straight, -1, edge).astype(np.int32)

@@ -38,6 +38,7 @@ class Plan:
     divide  points are divided by their distance from the eye
     crossings, piercings, pyramid: which steps of the visibility pass are gone through
     straight (c,) bool: per chain of the scene, between two planes: no curve has to be looked for
+    every_curve  but all are read: for measuring what that would cost
     decisions why
     """
 
@@ -55,6 +56,7 @@ class Plan:
     piercings: bool
     pyramid: bool
     straight: npt.NDArray[np.bool_]
+    every_curve: bool
     decisions: tuple[Decision, ...]
 
 
@@ -133,7 +135,8 @@ def decide(
         crossings=planner.on("crossing search", facts),
         piercings=planner.on("piercing search", facts),
         pyramid=planner.on("depth pyramid", facts),
-        straight=straight & (not (every and planner.forced)),
+        straight=straight,
+        every_curve=every and planner.forced,
         decisions=planner.decisions(),
     )
 

@@ -1,0 +1,45 @@
+"""`hlr plan` and `hlr draw --explain`."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+MODEL = Path(__file__).resolve().parents[1] / "fuzz/corpus/seeds/box.off"
+
+
+def test_the_plan_of_a_file(hlr_real):
+    done = hlr_real("plan", MODEL)
+    assert done.code == 0
+    rows = {line[:28].strip(): line for line in done.out.splitlines()}
+    assert " off " in rows["crossing search"] and "convex" in rows["crossing search"]
+    assert " on " in rows["hidden lines"]
+    assert "off" in hlr_real("plan", MODEL, "--no-hidden").out.partition("hidden lines")[2].splitlines()[0]
+
+
+def test_the_plan_for_machines(hlr_real):
+    done = hlr_real("plan", MODEL, "--json", "--view", "front", "--view", "top", "--perspective")
+    first, second = json.loads(done.out)["plans"]
+    assert (first["view"], second["view"]) == ("front", "top")
+    divide = next(d for d in first["plan"] if d["effect"] == "perspective divide")
+    assert divide["on"] and divide["origin"] == "scene" and divide["reason"]
+
+
+def test_several_views_are_named(hlr_real):
+    done = hlr_real("plan", MODEL, "--view", "front", "--view", "top")
+    assert done.out.startswith("front\n") and "\n\ntop\n" in done.out
+
+
+@pytest.mark.parametrize("model", ["nowhere.step", "."])
+def test_refusals(hlr_real, model):
+    done = hlr_real("plan", model)
+    assert done.code == 2 and done.out == "" and done.err.count("\n") == 1
+
+
+def test_explained_after_drawing(hlr_real, tmp_path):
+    done = hlr_real("draw", MODEL, "-o", tmp_path / "a.svg", "--explain")
+    assert done.code == 0 and done.out == ""
+    assert "crossing search" in done.err and "the plan itself" in done.err
+    summary = hlr_real("draw", MODEL, "-o", tmp_path / "a.svg", "--json")
+    (entry,) = json.loads(summary.out)["drawings"]
+    assert {d["effect"] for d in entry["plan"]} >= {"crossing search", "hidden lines"}
