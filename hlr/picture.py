@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.drawing import DrawnPart, DrawnView
+
+if TYPE_CHECKING:
+    from hlr.plan.effect import Decision
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +29,7 @@ class Picture:
                 part i from first_face[i] on; else None
     first_face  (p + 1,) int32
     timings     seconds: source, tessellate, scene, prepare, picture, edges, total
+    plan        what was decided of each effect, and why
     """
 
     source: str
@@ -37,6 +42,7 @@ class Picture:
     ids: npt.NDArray[np.int32] | None = None
     notes: tuple[str, ...] = ()
     timings: Mapping[str, float] = field(default_factory=dict)
+    plan: tuple[Decision, ...] = ()
 
     @property
     def part_ids(self) -> npt.NDArray[np.int32]:

@@ -18,11 +18,12 @@ from hlr.finished import drawn_view
 from hlr.fitting import Staged, meshed_scene
 from hlr.picture import Picture
 from hlr.pipeline import drawing_of
-from hlr.plan.effect import Planner
+from hlr.plan.effect import Facts, Planner
 from hlr.plan.effects import (
     AMBIENT,
     DIFFUSE,
     PIXELS_PER_MM,
+    PREVIEW,
     SHOULDER,
     Effects,
     PreviewOptions,
@@ -95,7 +96,8 @@ def preview_views(
         own = dict(clock)
         started = perf_counter()
         shaded = shaded_scene(scene, looks, _before(scene, camera), options.threads)
-        effects = decide_effects(options, shaded.opacity)
+        planner = Planner(PREVIEW, options)
+        effects = decide_effects(options, shaded.opacity, _facts(scene, camera), planner)
         eye = lens(camera, shaded.points, at.per_model * PIXELS_PER_MM, options.size)
         started = lap(own, "prepare", started)
         pixels = _shaded(shaded, camera, eye, effects, background, options.threads)
@@ -126,9 +128,19 @@ def preview_views(
                 ids=ids,
                 notes=notes,
                 timings=own,
+                plan=planner.decisions(),
             )
         )
     return out
+
+
+def _facts(scene: Scene, camera: Camera) -> Facts:
+    on = scene.true_surfaces
+    return Facts(
+        curved=0 if on is None else int((~on.planar).sum()),
+        faces=on is not None,
+        perspective=camera.eye is not None,
+    )
 
 
 def _sheet(options: PreviewOptions) -> tuple[float, float]:

@@ -47,8 +47,11 @@ if TYPE_CHECKING:
 @click.option("--depth", metavar="FILE", help="Also a depth map: 16-bit grey, 0 nearest, 65535 nothing.")
 @click.option("--ids", metavar="FILE", help="Also a map of the faces: their numbers as colours.")
 @options(*CARE, *CAMERA, *RUN)
+@click.option("--explain", is_flag=True, help="Say what the scene and the request called for, and why.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
-def preview(*, source: str, output: str | None, views: tuple[str | Vector3, ...], quiet: bool, **wishes: Any) -> None:
+def preview(
+    *, source: str, output: str | None, views: tuple[str | Vector3, ...], explain: bool, quiet: bool, **wishes: Any
+) -> None:
     """Show SOURCE shaded, in its own colours.
 
     \b
@@ -72,6 +75,10 @@ def preview(*, source: str, output: str | None, views: tuple[str | Vector3, ...]
 
             pictures = hlr.preview_views(source, list(views), request, progress=progress)
         _warn(pictures, request.strict)
+        if explain:
+            from hlr.plan.effect import explained
+
+            click.echo("\n\n".join(explained(picture.plan) for picture in pictures), err=True)
         made = _encoded(pictures, targets)
         if output == STDOUT:
             out.put(made.pop(Path(STDOUT)))

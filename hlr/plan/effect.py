@@ -38,6 +38,7 @@ class Facts:
     crossed        planes of the view volume that something crosses
     bent           edges and outlines that may be other than straight
     edges          that may be drawn
+    opacity        the least of what is shown
     """
 
     kind: str = ""
@@ -56,6 +57,7 @@ class Facts:
     crossed: int = 0
     bent: int = 0
     edges: int = 0
+    opacity: float = 1.0
 
 
 Needed = Callable[[Facts, Any], tuple[bool, str]]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Integral
 from typing import Any
 
 import numpy as np
 
 from hlr.errors import OptionError
+from hlr.plan.effect import ASKED, SCENE, Effect, Facts, Planner
 from hlr.plan.options import Options, Perspective, Vector
 from hlr.plan.request import checked
 
@@ -94,15 +95,56 @@ class Effects:
     glass: bool
 
 
-def decide_effects(options: PreviewOptions, opacity: float) -> Effects:
-    """What a request and a scene, whose least opacity is given, call for."""
+def _wish(name: str, option: str) -> Effect:
+    def needed(_facts: Facts, options: PreviewOptions) -> tuple[bool, str]:
+        return (True, "asked for") if getattr(options, option) else (False, "not asked for")
+
+    return Effect(name, ASKED, needed)
+
+
+def _smooth(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
+    if not f.faces:
+        return True, "a mesh is smooth where it folds less than the crease angle"
+    return f.curved > 0, f"{f.curved:,} curved faces" if f.curved else "all faces are planar"
+
+
+def _glass(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
+    return f.opacity < 1.0, f"the least opacity is {f.opacity:g}" if f.opacity < 1.0 else "all is opaque"
+
+
+def _eye(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
+    return f.perspective, "the camera has an eye" if f.perspective else "a parallel view: nothing is magnified"
+
+
+PREVIEW: tuple[Effect, ...] = (
+    Effect("smooth normals", SCENE, _smooth),
+    Effect("transparency", SCENE, _glass),
+    Effect("perspective divide", SCENE, _eye),
+    _wish("lines", "edges"),
+    _wish("antialiasing", "antialias"),
+    _wish("shadows", "shadows"),
+    _wish("ambient occlusion", "occlusion"),
+    _wish("specular light", "specular"),
+    _wish("depth map", "depth"),
+    _wish("map of faces", "ids"),
+)
+"""The effects of a preview, in the scheme of those of a drawing."""
+
+
+def decide_effects(
+    options: PreviewOptions, opacity: float, facts: Facts | None = None, planner: Planner | None = None
+) -> Effects:
+    """What a request and a scene, whose least opacity is given, call for; planner: remembers it."""
+    planner = planner or Planner(PREVIEW, options)
+    facts = replace(facts or Facts(), opacity=opacity)
+    on = {effect.name: planner.on(effect.name, facts) for effect in PREVIEW}
     return Effects(
-        lines=options.edges,
-        antialias=options.antialias,
-        shadows=min(MOST_TEXELS, max(LEAST_TEXELS, *options.size)) if options.shadows else 0,
-        occlusion=max(4.0, OCCLUSION * min(options.size)) if options.occlusion else 0.0,
-        specular=SPECULAR if options.specular else 0.0,
-        glass=opacity < 1.0,
+        lines=on["lines"],
+        antialias=on["antialiasing"],
+        shadows=min(MOST_TEXELS, max(LEAST_TEXELS, *options.size)) if on["shadows"] else 0,
+        occlusion=max(4.0, OCCLUSION * min(options.size)) if on["ambient occlusion"] else 0.0,
+        specular=SPECULAR if on["specular light"] else 0.0,
+        glass=on["transparency"],
     )
 
 

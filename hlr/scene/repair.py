@@ -20,16 +20,23 @@ def anything_repeated(parts: list[PartMesh]) -> bool:
     Sums of what is mixed stand for sets of corners, so that one sort of plain numbers tells; that two different ones
     have the same is a matter of 2^-64.
     """
-    mixed = []
-    for number, part in enumerate(parts):
-        if _may_coincide(part.points):
-            return True
-        mixed.append(
-            _mixed(part.triangles.astype(np.uint64)).sum(axis=1, dtype=np.uint64)
-            + _mixed(np.array([number], np.uint64))
-        )
-    key = np.sort(np.concatenate(mixed)) if mixed else np.zeros(0, np.uint64)
-    return bool((key[1:] == key[:-1]).any())
+    if not parts:
+        return False
+    counts = np.array([len(p.points) for p in parts])
+    number = np.repeat(np.arange(len(parts), dtype=np.uint64), counts)
+    x, y, z = np.concatenate([p.points for p in parts]).T
+    place = _mixed((x + 0.7548776662466927 * y + 0.5698402909980532 * z + 0.0).view(np.uint64)) + number * _ODD
+    if _twice(place):
+        return True
+    first = np.cumsum(counts) - counts
+    corners = np.concatenate([p.triangles for p in parts])
+    corners = corners + np.repeat(first, [len(p.triangles) for p in parts])[:, None]
+    return _twice(_mixed(corners.astype(np.uint64)).sum(axis=1, dtype=np.uint64))
+
+
+def _twice(numbers: npt.NDArray[np.uint64]) -> bool:
+    ordered = np.sort(numbers)
+    return bool((ordered[1:] == ordered[:-1]).any())
 
 
 _ODD = np.uint64(0x9E3779B97F4A7C15)

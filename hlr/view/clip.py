@@ -75,16 +75,18 @@ def clipped(scene: Scene, camera: Camera, aspect: float, planner: Planner) -> Sc
         begin = perf_counter()
         used = 0
         if planner.on(name, facts):
-            scene, used = clip(scene, cuts if facts.crossed else cuts or _around(scene, camera), facts.crossed == 0)
+            scene, used = clip(scene, cuts if facts.crossed else cuts or _around(scene, camera, name), facts.crossed == 0)
         planner.spent(name, perf_counter() - begin, **{name.replace(" clipping", "_cuts"): used})
     return scene
 
 
-def _around(scene: Scene, camera: Camera) -> list[Plane]:
-    """Planes across the view that have all of the scene on the side that is kept."""
+def _around(scene: Scene, camera: Camera, name: str) -> list[Plane]:
+    """A near plane, or four sides, that have all of the scene on the side that is kept."""
     reach = 2.0 * float(np.abs(scene.points).max(initial=0.0)) + 1.0
-    axes = (camera.direction, camera.right, camera.up)
-    return [Plane((s * a[0], s * a[1], s * a[2]), -2.0 * reach) for a in axes for s in (1.0, -1.0)]
+    d = camera.direction
+    near = [(-d[0], -d[1], -d[2])]
+    sides = [(s * a[0], s * a[1], s * a[2]) for a in (camera.right, camera.up) for s in (1.0, -1.0)]
+    return [Plane(normal, -2.0 * reach) for normal in (near if name == "near clipping" else sides)]
 
 
 def _crossed(scene: Scene, plane: Plane) -> bool:

@@ -334,3 +334,12 @@ def test_json_carries_the_plan():
         "counts": {"hidden_lines": 3},
     }
     assert "tables" not in document["timings"] and document["timings"]["effects"][PLAN] > 0
+
+
+def test_effects_of_a_preview():
+    plain = {d.name: d for d in hlr.preview(cq.Workplane().box(9, 8, 7), size=(60, 40)).plan}
+    assert not plain["smooth normals"].on and not plain["transparency"].on and not plain["shadows"].on
+    glass = cq.Assembly().add(ball(), color=cq.Color(1, 0, 0, 0.5))
+    asked = {d.name: d for d in hlr.preview(glass, size=(60, 40), shadows=True, perspective=Perspective()).plan}
+    assert all(asked[name].on for name in ("smooth normals", "transparency", "shadows", "perspective divide"))
+    assert (asked["shadows"].origin, asked["transparency"].origin) == ("asked", SCENE)
