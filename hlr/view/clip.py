@@ -75,7 +75,7 @@ def clipped(scene: Scene, camera: Camera, aspect: float, planner: Planner) -> Sc
         begin = perf_counter()
         used = 0
         if planner.on(name, facts):
-            scene, used = clip(scene, cuts if facts.crossed else cuts or _around(scene, camera, name), facts.crossed == 0)
+            scene, used = clip(scene, cuts or _around(scene, camera, name), every=facts.crossed == 0)
         planner.spent(name, perf_counter() - begin, **{name.replace(" clipping", "_cuts"): used})
     return scene
 
