@@ -115,7 +115,7 @@ def study(
 
 def _write(folder: Path, found: Study) -> None:
     """All files; none where nothing was measured."""
-    from hlr.study import plot, report
+    from hlr.study import plot, report, table
     from hlr.writers import files
 
     if not any(point.failure is None for point in found.points):
@@ -123,13 +123,13 @@ def _write(folder: Path, found: Study) -> None:
             return
         raise SourceError(f"{found.source} cannot be studied: no point was finished")
     made = {
-        folder / "study.csv": report.comma_separated(found).encode("utf-8"),
+        folder / "study.csv": table.comma_separated(found).encode("utf-8"),
         folder / "study.md": report.markdown(found, ("error.png", "stages.png")).encode("utf-8"),
-        folder / "error.png": plot.error_plot(found),
-        folder / "stages.png": plot.stage_plot(found),
+        folder / "error.png": plot.error_plot(found.points, found.look["name"]),
+        folder / "stages.png": plot.stage_plot(found.points, found.look["name"]),
     }
     if found.arithmetic:
-        made[folder / "arithmetic.csv"] = report.arithmetic_csv(found).encode("utf-8")
+        made[folder / "arithmetic.csv"] = table.arithmetic_csv(found).encode("utf-8")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -1,10 +1,9 @@
 """Study six models of different kind anew: python examples/study/run.py FOLDER [NAME...]
 
 FOLDER holds the models (README.md beside this file says where they are from); names are those of the folders here. At
-the end all of them go into one picture, overview.png; `run.py` alone makes only that.
+the end all plots are drawn from the tables, and one of them all, overview.png; `run.py` alone does only that.
 """
 
-import csv
 import subprocess
 import sys
 from pathlib import Path
@@ -31,28 +30,28 @@ TITLES = {
 }
 
 
-def points(path):
-    """The points of a study, as far as the picture needs them."""
-    from hlr.study.job import Cost, Point
+def tables():
+    """Name and points of each study that there is."""
+    from hlr.study.table import points_of
 
-    with path.open() as file:
-        for row in csv.DictReader(file):
-            if not row["failure"]:
-                cost = Cost(float(row["wall_s"]), float(row["cpu_s"]), float(row["mb"]))
-                errors = {"ink_usual": float(row["ink_usual"])} if row["ink_usual"] else {}
-                yield Point(row["who"], float(row["setting"]), stages={"visibility": cost}, errors=errors)
+    for name in MODELS:
+        path = HERE / name / "study.csv"
+        if path.exists():
+            yield name, points_of(path.read_text())
 
 
-def overview():
+def plots():
     from matplotlib.figure import Figure
 
-    from hlr.study.plot import legend, panel
+    from hlr.study.plot import error_plot, legend, panel, stage_plot
 
     figure = Figure(figsize=(12.0, 7.6), layout="constrained")
-    for axes, (name, title) in zip(figure.subplots(2, 3).flat, TITLES.items(), strict=True):
-        if (HERE / name / "study.csv").exists():
-            panel(axes, list(points(HERE / name / "study.csv")), "ink_usual")
-        axes.set_title(title, fontsize=10)
+    panels = dict(zip(MODELS, figure.subplots(2, 3).flat, strict=True))
+    for name, points in tables():
+        panel(panels[name], points, "ink_usual")
+        panels[name].set_title(TITLES[name], fontsize=10)
+        (HERE / name / "error.png").write_bytes(error_plot(points, MODELS[name]))
+        (HERE / name / "stages.png").write_bytes(stage_plot(points, MODELS[name]))
     for k in (0, 3):
         figure.axes[k].set_ylabel("99 % of visible ink is nearer than, mm", fontsize=9)
     legend(figure)
@@ -64,7 +63,7 @@ def main(arguments):
     for name in names:
         print(name, flush=True)
         subprocess.run(["hlr", "study", str(Path(arguments[0]) / MODELS[name]), "-o", str(HERE / name)], check=True)
-    overview()
+    plots()
 
 
 if __name__ == "__main__":

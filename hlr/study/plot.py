@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,7 +11,6 @@ from hlr.errors import OptionError
 from hlr.study.frontier import frontier
 from hlr.study.job import EXACT, HLR, POLY, TIMED, WHO, ZBUFFER, Point
 from hlr.study.judge import NOTICED
-from hlr.study.sweep import Study
 
 STYLES = {HLR: ("#0b5fa5", "o"), POLY: ("#c8501e", "^"), EXACT: ("#b8860b", "D"), ZBUFFER: ("#5a8f3c", "s")}
 STAGE_COLORS = {
@@ -50,14 +50,14 @@ def _png(figure: Any) -> bytes:
     return out.getvalue()
 
 
-def error_plot(found: Study) -> bytes:
+def error_plot(points: Sequence[Point], title: str) -> bytes:
     """A PNG: error over processor seconds, both logarithmic, for the usual distance and for the share of wrong ink."""
     figure = _modules()[0](figsize=(11.0, 5.0), layout="constrained")
     for axes, (name, label) in zip(figure.subplots(1, 2), PANELS, strict=True):
-        panel(axes, found.points, name)
+        panel(axes, points, name)
         axes.set_title(label, fontsize=9)
     legend(figure)
-    figure.suptitle(found.look["name"], fontsize=11)
+    figure.suptitle(title, fontsize=11)
     return _png(figure)
 
 
@@ -83,9 +83,9 @@ def panel(axes: Any, every: Sequence[Point], name: str) -> None:
         if own:
             x, y = [p.processor for p in own], [max(p.errors[name], FLOOR) for p in own]
             axes.plot(x, y, color=color, marker=mark, markersize=5, linewidth=1.2, label=_legend(who))
-            for p, at in zip(own, zip(x, y, strict=True), strict=True):
-                if _labelled(p, own):
-                    axes.annotate(_mark(p), at, xytext=(5, 4), textcoords="offset points", fontsize=7, color=color)
+            for k in _labelled(x, y):
+                place = {"xytext": (5, 4), "textcoords": "offset points", "fontsize": 7, "color": color}
+                axes.annotate(_mark(own[k]), (x[k], y[k]), **place)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("processor seconds, from shape to lines", fontsize=9)
@@ -105,20 +105,27 @@ def _mark(point: Point) -> str:
     return "" if point.who == EXACT else f"{point.setting:g}"
 
 
-def _labelled(point: Point, own: list[Point]) -> bool:
-    """Every other point and the ends, so that the numbers do not cover one another."""
-    number = own.index(point)
-    return number in (0, len(own) - 1) or number % 2 == 1
+CLOSE = 0.25
+"""Decades, of both axes together, within which a second number would cover the first."""
 
 
-def stage_plot(found: Study) -> bytes:
+def _labelled(x: list[float], y: list[float]) -> list[int]:
+    """Points that get their number: the first, and each that is far enough from the last one that did."""
+    out: list[int] = []
+    for k in range(len(x)):
+        if not out or math.hypot(math.log10(x[k] / x[out[-1]]), math.log10(y[k] / y[out[-1]])) > CLOSE:
+            out.append(k)
+    return out
+
+
+def stage_plot(points: Sequence[Point], title: str) -> bytes:
     """A PNG: clock seconds by stage, stacked, our own by accuracy and the rivals beside."""
     figure = _modules()[0](figsize=(11.0, 4.5), layout="constrained")
-    shown = [who for who in WHO if any(p.who == who and p.failure is None for p in found.points)]
-    widths = [max(sum(p.who == who and p.failure is None for p in found.points), 1.5) for who in shown]
+    shown = [who for who in WHO if any(p.who == who and p.failure is None for p in points)]
+    widths = [max(sum(p.who == who and p.failure is None for p in points), 1.5) for who in shown]
     panels = figure.subplots(1, len(shown), width_ratios=widths, squeeze=False)[0]
     for axes, who in zip(panels, shown, strict=True):
-        own = [p for p in found.points if p.who == who and p.failure is None]
+        own = [p for p in points if p.who == who and p.failure is None]
         base = [0.0] * len(own)
         for stage in TIMED:
             values = [p.stages[stage].cpu if stage in p.stages else 0.0 for p in own]
@@ -129,6 +136,7 @@ def stage_plot(found: Study) -> bytes:
         axes.tick_params(axis="y", labelsize=7)
         axes.grid(True, axis="y", alpha=0.2)
     panels[0].set_ylabel("processor seconds")
-    panels[0].legend(fontsize=7)
-    figure.suptitle(f"{found.look['name']}: where the time goes (each panel has its own scale)", fontsize=10)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, fontsize=8, loc="outside lower center", ncols=len(TIMED))
+    figure.suptitle(f"{title}: where the time goes (each panel has its own scale)", fontsize=10)
     return _png(figure)

@@ -1,9 +1,7 @@
-"""What was measured, as CSV and as a Markdown report that explains itself."""
+"""What was measured, as a Markdown report that explains itself."""
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from statistics import median
 from typing import Any
@@ -13,68 +11,7 @@ from hlr.study.frontier import frontier
 from hlr.study.job import EXACT, STAGES, WHO, ZBUFFER, Point
 from hlr.study.judge import NOTICED
 from hlr.study.sweep import Study
-
-ERRORS = (
-    "off_mean",
-    "off_usual",
-    "off_worst",
-    "ink_mean",
-    "ink_usual",
-    "ink_worst",
-    "too_much",
-    "missing",
-    "mislabelled",
-    "wrong",
-)
-COUNTS = ("lines", "segments", "bytes", "triangles", "failed_checks", "contradictions")
-CLASSES = ("edges", "outlines", "meshes", "intersections", "changes", "lost", "short")
-"""Of `hlr.measure`, with their worst; labels are told apart."""
-
-
-def comma_separated(found: Study) -> str:
-    """One row for each point; empty cells where a contestant has no such figure."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    stages = [f"{stage}_{what}" for stage in STAGES for what in ("wall_s", "cpu_s", "mb")]
-    writer.writerow(
-        ["who", "setting", "accuracy_mm", "failure", "runs", "wall_s", "cpu_s", "mb", *COUNTS, *ERRORS]
-        + [f"reached_{name}" for name in (*CLASSES, "labels_share", "labels_longest")]
-        + stages
-    )
-    for p in found.points:
-        row: list[Any] = [p.who, f"{p.setting:g}", "" if p.accuracy is None else f"{p.accuracy:.6g}", p.failure or ""]
-        if p.failure is None:
-            row += [p.runs, f"{p.seconds:.6f}", f"{p.processor:.6f}", f"{p.memory:.1f}"]
-            row += [p.counts.get(name, "") for name in COUNTS]
-            row += [f"{p.errors[name]:.6g}" if name in p.errors else "" for name in ERRORS]
-            row += [_plain(_worst(p, name)) for name in CLASSES]
-            labels = p.reached.get("labels") or {}
-            row += [_plain(labels.get("share")), _plain(labels.get("longest"))]
-            for stage in STAGES:
-                cost = p.stages.get(stage)
-                row += ["", "", ""] if cost is None else [f"{cost.wall:.6f}", f"{cost.cpu:.6f}", f"{cost.memory:.1f}"]
-        writer.writerow(row)
-    return out.getvalue()
-
-
-def arithmetic_csv(found: Study) -> str:
-    """One row for each kind of arithmetic and accuracy."""
-    out = io.StringIO()
-    if found.arithmetic:
-        writer = csv.DictWriter(out, list(found.arithmetic[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(found.arithmetic)
-    return out.getvalue()
-
-
-def _plain(value: Any) -> str:
-    return "" if value is None else f"{float(value):.6g}"
-
-
-def _worst(point: Point, name: str) -> float | None:
-    errors = point.reached.get(name) or {}
-    value = errors.get("worst")
-    return None if value is None else float(value)
+from hlr.study.table import CLASSES, worst
 
 
 def markdown(found: Study, plots: Sequence[str] = ()) -> str:
@@ -101,7 +38,7 @@ def markdown(found: Study, plots: Sequence[str] = ()) -> str:
         parts += ["## Measured by class", _BY_CLASS, _classes(measured)]
     if found.arithmetic:
         parts += ["## Exact integers, f64 and f32", _ARITHMETIC, _kinds(found.arithmetic)]
-    left = [*found.notes, *(f"{_name(p)}: {p.failure}." for p in found.points if p.failure is not None)]
+    left = [*found.notes, *_failures(found.points)]
     if left:
         parts += ["## What there is not", "\n".join(f"- {sentence}" for sentence in left)]
     if look["notes"]:
@@ -149,6 +86,19 @@ def _name(point: Point) -> str:
     return f"{point.who}, {point.setting:.0f} pixels" if point.who == ZBUFFER else f"{point.who}, {point.setting:g} mm"
 
 
+def _failures(points: Sequence[Point]) -> list[str]:
+    """What could not be had, one sentence for all of a contestant's settings with the same reason."""
+    said: dict[tuple[str, str], list[Point]] = {}
+    for p in points:
+        if p.failure is not None:
+            said.setdefault((p.who, p.failure.rstrip(".")), []).append(p)
+    return [
+        f"{who}{'' if who == EXACT else ' at ' + ', '.join(f'{p.setting:g}' for p in own)}"
+        f"{' pixels' if who == ZBUFFER else '' if who == EXACT else ' mm'}: {why}."
+        for (who, why), own in said.items()
+    ]
+
+
 def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = ["| " + " | ".join(head) + " |", "| --- |" + " ---: |" * (len(head) - 1)]
     return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in rows)])
@@ -192,7 +142,7 @@ def _classes(points: Sequence[Point]) -> str:
     for p in points:
         labels = p.reached.get("labels") or {}
         why = p.reached.get("why")
-        cells = [_length(_worst(p, name)) for name in CLASSES] if why is None else [why, *[""] * (len(CLASSES) - 1)]
+        cells = [_length(worst(p, name)) for name in CLASSES] if why is None else [why, *[""] * (len(CLASSES) - 1)]
         rows.append([_name(p), *cells, _share(labels.get("share")), _length(labels.get("longest"))])
     return _table(["", *CLASSES, "labels wrong", "longest"], rows)
 
@@ -233,7 +183,11 @@ def _seconds(value: float) -> str:
 def _length(value: float | None) -> str:
     if value is None:
         return "-"
-    return "0" if value == 0.0 else f"{value:.2g}" if value < 100.0 else f"{value:.0f}"
+    return "0" if abs(value) < NOTHING else f"{value:.2g}" if value < 100.0 else f"{value:.0f}"
+
+
+NOTHING = 1e-9
+"""Millimetres: what rounding makes of nothing."""
 
 
 def _share(value: float | None) -> str:

@@ -10,7 +10,7 @@ import time
 import pytest
 
 from hlr.errors import OptionError
-from hlr.study import plot, report
+from hlr.study import plot, report, table
 from hlr.study.job import HLR, Cost, Job, Point
 from hlr.study.process import answer
 from hlr.study.sweep import Study, Wish, study
@@ -177,4 +177,9 @@ def test_the_frontier_is_marked():
     found = Study("box.stl", "iso", 60.0, 1, look=LOOK, truth=0.01, points=points, finished=True)
     text = report.markdown(found)
     assert "hlr, 0.5 mm * |" in text and "hlr, 0.05 mm * |" in text and "hlr, 0.02 mm |" in text
-    assert plot.error_plot(found).startswith(b"\x89PNG") and plot.stage_plot(found).startswith(b"\x89PNG")
+    again = table.points_of(table.comma_separated(found))
+    assert [(p.who, p.setting, p.processor, p.errors) for p in again] == [
+        (p.who, p.setting, p.processor, p.errors) for p in points
+    ]
+    for picture in (plot.error_plot(again, "box"), plot.stage_plot(again, "box")):
+        assert picture.startswith(b"\x89PNG")
