@@ -161,7 +161,7 @@ class _Face:
                 out[i] = [p.Coord(), *[w.Coord() for w in d]]
         moved: Floats = np.einsum("ij,nkj->nki", self._turn, out)
         moved[:, 0] += self._shift
-        return moved
+        return np.asarray(moved)
 
 
 def dot(a: Floats, b: Floats) -> Floats:

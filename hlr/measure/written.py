@@ -18,8 +18,12 @@ Index = npt.NDArray[np.int64]
 EXTRA, ROTATION = 2, 6
 """Decimals that radii have beyond those of points, and decimals of a rotation in degrees: `kernel/src/ink/arcs.rs`."""
 
-STEPS = {LINE: 4, QUADRATIC: 8, CUBIC: 8, ARC: 32, WHOLE: 64}
-"""Pieces that a straight line, a curve, an arc, a full circle are looked at in."""
+FEWEST = {LINE: 4, QUADRATIC: 8, CUBIC: 8, ARC: 16, WHOLE: 32}
+"""Pieces that a straight line, a curve, an arc, a full circle are looked at in, at least."""
+DEGREE = {LINE: 1, QUADRATIC: 2, CUBIC: 3}
+
+CHORD = 0.02
+"""Of the accuracy: how far the chords between two points looked at are off the curve, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,36 +68,35 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
         return Written(np.zeros((0, 2)), np.zeros(0, np.int64))
     places = places_of(drawing, drawing.bounds())
     rows = rows_of(drawing.lines, places, float(drawing.accuracy["used"]), cubic)
-    unit = 10.0**-places
-    at = np.asarray(rows.points * unit, np.float64)
+    accuracy = float(drawing.accuracy["used"])
+    at = np.asarray(rows.points * 10.0**-places, np.float64)
     owner = np.repeat(np.arange(len(rows.counts)), rows.counts)
-    points, row, place, line = [], [], [], []
     first = np.cumsum(rows.counts) - rows.counts
-    points.append(at[first])
-    row.append(first)
-    place.append(np.zeros(len(first)))
-    line.append(owner[first])
-    for op, steps in STEPS.items():
+    # A full circle has no start: its row is its centre.
+    first = first[rows.op[first] != WHOLE]
+    points, row = [at[first]], [first]
+    for op, fewest in FEWEST.items():
         which = np.flatnonzero(rows.op == op)
         if len(which) == 0:
             continue
-        t = np.linspace(0.0, 1.0, steps + 1)[(0 if op == WHOLE else 1) :]
         if op in (ARC, WHOLE):
-            made = _arcs(rows, which, at, unit, t, op == WHOLE)
+            shape = _Shapes.of(rows, which, at, 10.0**-places, whole=op == WHOLE)
+            bend = shape.turn * shape.turn * shape.radii.max(axis=1)
         else:
-            degree = {LINE: 1, QUADRATIC: 2, CUBIC: 3}[op]
-            made = _bezier(np.stack([at[which - k] for k in range(degree, -1, -1)]), t)
-        points.append(made.reshape(-1, 2))
-        row.append(np.repeat(which, len(t)))
-        place.append(np.tile(t, len(which)))
-        line.append(np.repeat(owner[which], len(t)))
-    order = np.lexsort((np.concatenate(place), np.concatenate(row)))
-    line_of = np.concatenate(line)[order]
-    # A full circle has no start: its row is its centre.
-    whole = np.zeros(len(rows.counts), bool)
-    whole[owner[rows.op == WHOLE]] = True
-    keep = ~((order < len(first)) & whole[line_of])
-    return Written(np.concatenate(points)[order][keep], line_of[keep])
+            control = np.stack([at[which - k] for k in range(DEGREE[op], -1, -1)])
+            second = control[:-2] - 2.0 * control[1:-1] + control[2:]
+            bend = np.hypot(second[..., 0], second[..., 1]).max(axis=0, initial=0.0) * DEGREE[op] * (DEGREE[op] - 1)
+        # A chord over 1 / n of a curve is off by at most a eighth of its second derivative over n squared.
+        pieces = np.maximum(np.ceil(np.sqrt(bend / (8.0 * CHORD * accuracy))), fewest).astype(np.int64)
+        which_of = np.repeat(np.arange(len(which)), pieces + (op == WHOLE))
+        begin = np.flatnonzero(np.append(True, np.diff(which_of) > 0))
+        number = np.arange(len(which_of)) - begin[which_of] + (op != WHOLE)
+        t = number / pieces[which_of]
+        points.append(shape.at(which_of, t) if op in (ARC, WHOLE) else _bezier(control[:, which_of], t))
+        row.append(which[which_of])
+    every = np.concatenate(row)
+    order = np.argsort(every, kind="stable")
+    return Written(np.concatenate(points)[order], owner[every[order]])
 
 
 def in_model(drawing: Drawing, points: Floats, line: Index, threads: int) -> Floats:
@@ -119,31 +122,42 @@ def in_model(drawing: Drawing, points: Floats, line: Index, threads: int) -> Flo
 
 
 def _bezier(control: Floats, t: Floats) -> Floats:
-    """(m, k, 2) points of m curves at (k,) parameters; control (degree + 1, m, 2)."""
-    p = list(control[:, :, None, :])
-    s = t[None, :, None]
+    """(n, 2) points of n curves at parameters (n,); control (degree + 1, n, 2)."""
+    p = list(control)
     while len(p) > 1:
-        p = [a + (b - a) * s for a, b in pairwise(p)]
-    return np.asarray(np.broadcast_to(p[0], (control.shape[1], len(t), 2)))
+        p = [a + (b - a) * t[:, None] for a, b in pairwise(p)]
+    return np.asarray(p[0])
 
 
-def _arcs(rows: Rows, which: Index, at: Floats, unit: float, t: Floats, whole: bool) -> Floats:
-    """(m, k, 2) points of arcs at (k,) shares of their way, as SVG 2, appendix B.2.4 says they are drawn."""
-    shape = rows.shapes[rows.arc[which]]
-    radii = shape[:, :2] * (unit * 10.0**-EXTRA)
-    angle = np.radians(shape[:, 2] * 10.0**-ROTATION)
-    cos, sin = np.cos(angle), np.sin(angle)
-    if whole:
-        centre, begin, turn = at[which], np.zeros(len(which)), np.full(len(which), 2.0 * np.pi)
-        rx, ry = radii.T
-    else:
+@dataclass(frozen=True, slots=True)
+class _Shapes:
+    """Arcs as SVG 2, appendix B.2.4, says they are drawn. centre, radii (n, 2); begin, turn, cos, sin (n,)."""
+
+    centre: Floats
+    radii: Floats
+    begin: Floats
+    turn: Floats
+    cos: Floats
+    sin: Floats
+
+    @classmethod
+    def of(cls, rows: Rows, which: Index, at: Floats, unit: float, *, whole: bool) -> _Shapes:
+        """Those of some rows whose points are at (.., 2)."""
+        shape = rows.shapes[rows.arc[which]]
+        radii = np.asarray(shape[:, :2] * (unit * 10.0**-EXTRA), np.float64)
+        angle = np.radians(shape[:, 2] * 10.0**-ROTATION)
+        cos, sin = np.cos(angle), np.sin(angle)
+        if whole:
+            none = np.zeros(len(which))
+            return cls(at[which], radii, none, none + 2.0 * np.pi, cos, sin)
         a, b = at[which - 1], at[which]
         large, rising = shape[:, 3] != 0, shape[:, 4] != 0
         half = 0.5 * (a - b)
         x, y = cos * half[:, 0] + sin * half[:, 1], cos * half[:, 1] - sin * half[:, 0]
         reach = (x / radii[:, 0]) ** 2 + (y / radii[:, 1]) ** 2
         # Radii too small for their ends are stretched.
-        rx, ry = (radii * np.sqrt(np.maximum(reach, 1.0))[:, None]).T
+        radii = radii * np.sqrt(np.maximum(reach, 1.0))[:, None]
+        rx, ry = radii.T
         with np.errstate(divide="ignore"):
             root = np.sqrt(np.maximum(1.0 / np.minimum(reach, 1.0) - 1.0, 0.0)) * np.where(large == rising, -1.0, 1.0)
         root = np.where(reach > 0.0, root, 0.0)
@@ -153,7 +167,12 @@ def _arcs(rows: Rows, which: Index, at: Floats, unit: float, t: Floats, whole: b
         turn = np.arctan2((-y - cy) / ry, (-x - cx) / rx) - begin
         turn = np.where(rising & (turn < 0.0), turn + 2.0 * np.pi, turn)
         turn = np.where(~rising & (turn > 0.0), turn - 2.0 * np.pi, turn)
-    angle = begin[:, None] + turn[:, None] * t
-    u, v = np.cos(angle) * rx[:, None], np.sin(angle) * ry[:, None]
-    turned = np.stack([cos[:, None] * u - sin[:, None] * v, sin[:, None] * u + cos[:, None] * v], axis=2)
-    return np.asarray(centre[:, None] + turned, np.float64)
+        return cls(centre, radii, begin, turn, cos, sin)
+
+    def at(self, which: Index, t: Floats) -> Floats:
+        """(n, 2) points of arcs (n,) at shares (n,) of their way."""
+        angle = self.begin[which] + self.turn[which] * t
+        u, v = np.cos(angle) * self.radii[which, 0], np.sin(angle) * self.radii[which, 1]
+        cos, sin = self.cos[which], self.sin[which]
+        away: Floats = np.stack([cos * u - sin * v, sin * u + cos * v], axis=1)
+        return np.asarray(self.centre[which] + away)
