@@ -283,8 +283,9 @@ def _tell(drawing: Drawing, path: Path | None) -> None:
     counts = _counts(drawing)
     seconds = drawing.timings.get("total", 0.0)
     where = "standard output" if path is None else str(path)
+    reached = f", accuracy {float(drawing.accuracy['used']):.3g} mm" if "within" in drawing.accuracy else ""
     click.echo(
         f"{where}: {drawing.view.name}, {ratio(drawing.scale)}, {counts['visible']} visible and "
-        f"{counts['hidden']} hidden lines, accuracy {float(drawing.accuracy['used']):.3g} mm, {seconds:.1f} s",
+        f"{counts['hidden']} hidden lines{reached}, {seconds:.1f} s",
         err=True,
     )

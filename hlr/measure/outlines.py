@@ -159,9 +159,9 @@ class _Face:
             for i, (u, v) in enumerate(at.tolist()):
                 self._surface.D2(u, v, p, *d)
                 out[i] = [p.Coord(), *[w.Coord() for w in d]]
-        moved: Floats = np.einsum("ij,nkj->nki", self._turn, out)
+        moved = np.asarray(np.einsum("ij,nkj->nki", self._turn, out))
         moved[:, 0] += self._shift
-        return np.asarray(moved)
+        return np.asarray(moved, np.float64)
 
 
 def dot(a: Floats, b: Floats) -> Floats:
@@ -180,7 +180,7 @@ def _least(rows: Floats, values: Floats, both: bool) -> Floats:
     a, b, c, d = rows[:, 0, 0], rows[:, 0, 1], rows[:, 1, 0], rows[:, 1, 1]
     g, h = values.T
     if not both:
-        return np.stack([a, b], axis=1) * (g / (a * a + b * b))[:, None]
+        return np.asarray(np.stack([a, b], axis=1) * (g / (a * a + b * b))[:, None])
     return np.asarray(np.stack([d * g - b * h, a * h - c * g], axis=1) / (a * d - b * c)[:, None])
 
 
