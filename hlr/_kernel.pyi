@@ -98,6 +98,7 @@ def linework(
     chain_bare: Bools,
     accuracy: float,
     short: float,
+    flip: float,
     stub: float,
     width: float,
     under: float,

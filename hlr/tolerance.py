@@ -34,8 +34,14 @@ edge is still seen there from all but the most oblique directions."""
 ROUNDING = 0.04
 """In deflections: what lies in a plane is off by what its file rounds."""
 
+FLIP = 0.75
+"""Of the accuracy: a piece that is left out between two others moves a change by its length, and its own two ends are
+displaced by a little already."""
+
 UNDER = 3.0
-"""In accuracies: a hidden line this close to a visible one lies under its ink, which is at least as wide again."""
+INK = 0.25
+"""A hidden line this many accuracies from a visible one lies under its ink, if that is as wide: half a wide ISO 128 line,
+in millimetres."""
 
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9
@@ -52,7 +58,8 @@ class Tolerances:
     contact        depth within which two curved things count as touching, in the model
     contact_planar the same for planar parts
     rounding       the same for lines that lie on surfaces, and for open sheets
-    short          no piece shorter than this is drawn on its own, on paper
+    short          no figure shorter than this is drawn on its own, on paper
+    flip           a visible or hidden piece shorter than this takes the state of what its line does beside it, on paper
     stub           a doubtful piece shorter than this beside a hidden one is the contact tolerance's own, on paper
     width          lines of one visibility this close coincide, on paper
     under          a hidden line this close to a visible one lies under its ink, on paper
@@ -67,6 +74,7 @@ class Tolerances:
     contact_planar: float
     rounding: float
     short: float
+    flip: float
     stub: float
     width: float
     under: float
@@ -79,6 +87,11 @@ def choose(asked: float | None, diagonal: float) -> float:
     if asked is not None:
         return asked
     return min(DEFAULT_ACCURACY, diagonal / SMALL_DRAWING) if diagonal > 0.0 else DEFAULT_ACCURACY
+
+
+def under(accuracy: float) -> float:
+    """How close to a visible line a hidden one is not drawn, millimetres on paper."""
+    return max(accuracy, min(UNDER * accuracy, INK))
 
 
 def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) -> Tolerances:
@@ -110,9 +123,10 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         contact_planar=CONTACT_PLANAR * deflection,
         rounding=ROUNDING * deflection,
         short=accuracy,
+        flip=FLIP * accuracy,
         stub=10.0 * accuracy,
         width=0.5 * accuracy,
-        under=UNDER * accuracy,
+        under=under(accuracy),
         thin_paper=0.25 * accuracy,
         thin_model=0.25 * model,
     )

@@ -42,8 +42,8 @@ FINEST = 0.04
 LADDER = (1.0, 0.4, 0.2, 0.1, 0.04, 0.02, 0.01, 0.004)
 """Of the first accuracy: 0.5, 0.2, 0.1, ... Few rungs, so that chance seldom decides between two drawings."""
 
-FIRST_GROWTH = 1.2
-"""Power of the growth before two passes have shown it."""
+FIRST_GROWTH = 2.5
+"""Power of the growth before two passes have shown it: the steepest that was met, a screw with its thread."""
 LEAST_GROWTH, CAUTION = 0.4, 0.3
 """To the growth that two passes have shown: the first loaded libraries, and meshing grows faster as it gets fine."""
 BOLDEST = 6.0

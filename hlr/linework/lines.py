@@ -81,6 +81,7 @@ def draw_lines(
         bare,
         tolerances.accuracy,
         tolerances.short,
+        tolerances.flip,
         tolerances.stub,
         tolerances.width,
         tolerances.under,

@@ -17,7 +17,7 @@ from hlr.measure.rays import Caster, labels
 from hlr.measure.reached import Errors, Reached, errors
 from hlr.measure.written import written
 from hlr.source import open_source
-from hlr.tolerance import UNDER
+from hlr.tolerance import under
 
 SAMPLES = 20_000
 """Points judged by rays, and points of outlines, where the caller does not say how many."""
@@ -68,7 +68,7 @@ def measured(
     else:
         beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
         changes, grazing, bound = beside.changes(caster)
-        lost, intersections = beside.lost(UNDER * float(drawing.accuracy["used"])), beside.kind("intersection")
+        lost, intersections = beside.lost(under(float(drawing.accuracy["used"]))), beside.kind("intersection")
     return Reached(
         accuracy=float(drawing.accuracy["used"]),
         edges=edges,

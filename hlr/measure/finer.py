@@ -33,6 +33,8 @@ Mask = npt.NDArray[np.bool_]
 
 LATERAL = 0.25
 """Of the accuracy: lines of the two drawings this close are the same line."""
+BETWEEN = 5
+"""How much denser rays look at a stretch that is longer than the accuracy."""
 MOST_SAMPLES = 2_000_000
 """Along all lines; beyond, samples are farther apart than they should be, and what they find is not finer than that."""
 
@@ -125,13 +127,14 @@ class Comparison:
         found = [*self._ends().tolist(), *length[length <= accuracy].tolist()]
         doubtful, bound = [], 0.0
         for first, size in zip(start[length > accuracy].tolist(), length[length > accuracy].tolist(), strict=True):
-            own = np.arange(first, first + int(np.ceil(size / step)) + 1)
-            own = own[(own < len(points))]
+            own = np.arange(first, min(first + int(np.ceil(size / step)) + 1, len(points)))
             own = own[(line[own] == line[first]) & differ[own]]
-            wrong = contradicted(self._drawing, points[own], line[own], caster, self._threads)
-            found.append(longest_run(points[own], line[own], wrong, step)[1])
+            here = _between(points[own])
+            of = np.full(len(here), line[first])
+            wrong = contradicted(self._drawing, here, of, caster, self._threads)
+            found.append(longest_run(here, of, wrong, step / BETWEEN)[1])
             doubtful.append(size)
-            bound = max(bound, longest_run(points[own], line[own], ~wrong, step)[1])
+            bound = max(bound, longest_run(here, of, ~wrong, step / BETWEEN)[1])
         grazing = errors(np.array(doubtful)) if doubtful else Errors(None, why="none is ill-conditioned")
         return errors(np.array(found)), grazing, bound if doubtful else None
 
@@ -148,7 +151,7 @@ class Comparison:
     def lost(self, under: float) -> Errors:
         """Stretches of the finer drawing's lines that are not drawn.
 
-        under: a hidden line this close to a visible one lies under its ink
+        under: a hidden line this close to a visible one lies under its ink, as far as the accuracy tells
         """
         accuracy, step = self._accuracy, self._step(self._finer.drawn)
         points, line = self._finer.drawn.middles(step)
@@ -164,7 +167,7 @@ class Comparison:
 
         missing = far(np.ones(len(of), bool), (1.0 + LATERAL) * accuracy)
         if missing.any():
-            missing &= wanted | far(visible, under + LATERAL * accuracy)
+            missing &= wanted | far(visible, under + accuracy)
         start, length = runs(points, line, missing, step)
         if len(points) == 0:
             return Errors(None, why="the drawing has none")
@@ -193,6 +196,12 @@ class Comparison:
         names = [self._drawing.parts[self._drawing.lines[i].part].name for i in self._drawn.line[mine].tolist()]
         good = np.isfinite(off)
         return errors(off[good], [n for n, g in zip(names, good.tolist(), strict=True) if g])
+
+
+def _between(points: Floats) -> Floats:
+    """The points (n, 2) of a stretch, and others between them."""
+    t = np.arange(0, (len(points) - 1) * BETWEEN + 1) / BETWEEN
+    return np.stack([np.interp(t, np.arange(len(points)), points[:, k]) for k in (0, 1)], axis=1)
 
 
 def _ends_of(drawing: Drawing, key: Ints) -> tuple[Floats, Ints]:

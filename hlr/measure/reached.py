@@ -104,7 +104,7 @@ class Reached:
     def kept(self, promise: float | None = None) -> bool:
         """Whether nothing that was measured exceeds a promise in millimetres; None: the drawing's own accuracy."""
         promise = self.accuracy if promise is None else promise
-        return self.worst <= promise and (self.short.worst is None or self.short.worst >= promise)
+        return self.worst <= promise and (self.short.worst is None or self.short.worst >= self.accuracy)
 
     def figures(self) -> dict[str, float]:
         """The worst of each class that was measured, the longest mislabelled stretch, the shortest figure."""

@@ -72,6 +72,7 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         chain_bare=np.zeros(1, bool),
         accuracy=0.1,
         short=0.1,
+        flip=0.1,
         stub=1.0,
         width=0.05,
         under=0.3,

@@ -43,7 +43,7 @@ pub fn chain<'py>(
 
 #[pyfunction]
 #[pyo3(signature = (flat_points, space_points, perspective, eye, away, edges, piece_edge, piece_t0, piece_t1, piece_state,
-    chain_offsets, chain_edges, chain_reversed, chain_rank, chain_noisy, chain_bare, accuracy, short, stub, width, under, flat_tolerance, space_tolerance,
+    chain_offsets, chain_edges, chain_reversed, chain_rank, chain_noisy, chain_bare, accuracy, short, flip, stub, width, under, flat_tolerance, space_tolerance,
     threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
 pub fn linework<'py>(
@@ -66,6 +66,7 @@ pub fn linework<'py>(
     chain_bare: PyReadonlyArray1<'py, bool>,
     accuracy: f64,
     short: f64,
+    flip: f64,
     stub: f64,
     width: f64,
     under: f64,
@@ -130,7 +131,7 @@ pub fn linework<'py>(
             piece_offsets: &piece_offsets,
         };
 
-        let limits = Limits { short, stub, noise: short };
+        let limits = Limits { short: flip, stub, noise: flip };
         let lines: Vec<Polyline> = (0..rank.len())
             .into_par_iter()
             .flat_map_iter(|c| {

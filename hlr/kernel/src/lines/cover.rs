@@ -1,15 +1,17 @@
 //! Of lines that coincide on paper one is kept: the front view of a box is four lines, not eight.
 //!
 //! A line yields where a better one (lower rank: visible first, then kind, then nearer) runs close to it in nearly its
-//! direction. Ranks are a strict order, so of two lines exactly one yields and nothing is lost. Close means two things:
-//! lines of one visibility must coincide; a hidden line yields already where it would lie under a visible line's ink.
+//! direction. Ranks are a strict order, so of two lines exactly one yields; and it yields only to what is drawn: the best
+//! lines are settled first, and of a whole stack of close lines not all follow one another into nothing. Close means two
+//! things: lines of one visibility must coincide; a hidden line yields already where it would lie under a visible line's
+//! ink.
 //!
 //! ```text
 //!   better  ===================
 //!   worse        - - - - - - - - - - - -      yields on the left, stays on the right
 //! ```
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use rayon::prelude::*;
 
@@ -47,7 +49,12 @@ struct Hit {
     from: f64,
     to: f64,
     own: bool,
+    better: u32,
 }
+
+/// A side that so many others cover whole need not be covered again: in a tangle of thousands of short lines, where each
+/// covers each, the list would have no end.
+const ENOUGH: u32 = 16;
 
 /// A stretch of a line, in arc length.
 #[derive(Clone, Copy)]
@@ -55,6 +62,8 @@ struct Covered {
     from: f64,
     to: f64,
     own: bool,
+    /// The sides that cover its two ends.
+    by: [u32; 2],
 }
 
 struct Entry {
@@ -85,24 +94,80 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
             })
         })
         .collect();
+    let mut of_line: Vec<Vec<Hit>> = vec![Vec::new(); lines.len()];
     for hit in hits {
-        let s = &sides[hit.side as usize];
-        let length = distance(&s.from, &s.to);
-        let start = starts[hit.side as usize];
-        by_line[s.line as usize].push(Covered {
-            from: start + hit.from * length,
-            to: start + hit.to * length,
-            own: hit.own,
-        });
+        of_line[sides[hit.side as usize].line as usize].push(hit);
+    }
+    let mut order: Vec<usize> = (0..lines.len()).collect();
+    order.sort_unstable_by_key(|&i| rank[i]);
+    for i in order {
+        if of_line[i].is_empty() {
+            continue;
+        }
+        let mut covered = Vec::new();
+        for hit in &of_line[i] {
+            let (s, t) = (&sides[hit.side as usize], &sides[hit.better as usize]);
+            let (start, length) = (starts[hit.side as usize], distance(&s.from, &s.to));
+            let mut put = |from: f64, to: f64| {
+                covered.push(Covered {
+                    from: start + from * length,
+                    to: start + to * length,
+                    own: hit.own,
+                    by: [hit.better; 2],
+                });
+            };
+            let gone: &[Covered] = if hit.own { &[] } else { &by_line[t.line as usize] };
+            if gone.is_empty() {
+                put(hit.from, hit.to);
+                continue;
+            }
+            // Where the better line is itself left out, it covers nothing.
+            let place =
+                |u: f64| starts[hit.better as usize] + along(t, &at(s, u)).clamp(0.0, 1.0) * distance(&t.from, &t.to);
+            still_there(hit.from, hit.to, [place(hit.from), place(hit.to)], gone, put);
+        }
+        by_line[i] = gaps(covered, &lines[i], &sides, widths, view);
     }
     lines
         .into_par_iter()
         .zip(by_line.into_par_iter())
-        .flat_map_iter(|(line, covered)| {
-            let width = if line.visible { widths.same } else { widths.under };
-            if covered.is_empty() { vec![line] } else { keep_rest(&line, covered, width, view) }
-        })
+        .flat_map_iter(|(line, gaps)| if gaps.is_empty() { vec![line] } else { rest(&line, &gaps, widths, view) })
         .collect()
+}
+
+/// The point of a side at a parameter.
+fn at(s: &Side, u: f64) -> [f64; 2] {
+    [0, 1].map(|k| s.from[k] + u * (s.to[k] - s.from[k]))
+}
+
+/// The parameter on a side beside a point.
+fn along(s: &Side, p: &[f64; 2]) -> f64 {
+    let (x, y) = (s.to[0] - s.from[0], s.to[1] - s.from[1]);
+    let size = x * x + y * y;
+    if size > 0.0 { (x * (p[0] - s.from[0]) + y * (p[1] - s.from[1])) / size } else { 0.0 }
+}
+
+/// The parts of from..to that do not fall on `gone` (ascending), where they are at `places` of the line that has gone.
+fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered], mut put: impl FnMut(f64, f64)) {
+    let (low, high) = (places[0].min(places[1]), places[0].max(places[1]));
+    let back = |v: f64| {
+        let share = if places[1] == places[0] { 0.0 } else { (v - places[0]) / (places[1] - places[0]) };
+        from + share.clamp(0.0, 1.0) * (to - from)
+    };
+    let mut here = low;
+    let mut keep = |a: f64, b: f64| {
+        let (u, v) = (back(a), back(b));
+        put(u.min(v), u.max(v));
+    };
+    for g in gone.iter().filter(|g| g.to >= low && g.from <= high) {
+        if g.from > here {
+            keep(here, g.from);
+        }
+        here = here.max(g.to);
+    }
+    if here < high {
+        keep(here, high);
+    }
 }
 
 /// Stretches of sides covered by sides of better lines.
@@ -135,7 +200,7 @@ fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<Hit> {
         .collect();
     found.par_sort_by(|a, b| {
         let places = a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to));
-        a.side.cmp(&b.side).then(places).then(a.own.cmp(&b.own))
+        a.side.cmp(&b.side).then(places).then(a.own.cmp(&b.own)).then(a.better.cmp(&b.better))
     });
     found.dedup();
     found
@@ -144,9 +209,7 @@ fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<Hit> {
 fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32], widths: Widths) -> Vec<Hit> {
     let mut active: Vec<&Entry> = Vec::new();
     let mut found = Vec::new();
-    // A side that is covered whole need not be covered again: in a tangle of thousands of short lines, where each covers
-    // each, the list would have no end.
-    let mut whole = HashSet::new();
+    let mut whole: HashMap<u32, u32> = HashMap::new();
     for e in entries {
         let (s, range) = (&sides[e.side as usize], ranges[e.side as usize]);
         let mut i = 0;
@@ -171,15 +234,15 @@ fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32],
             } else {
                 rank[s.line as usize] > rank[t.line as usize]
             };
-            let (worse, better, id) = if yields { (s, t, e.side) } else { (t, s, other.side) };
-            if whole.contains(&id) {
+            let (worse, better, id, by) = if yields { (s, t, e.side, other.side) } else { (t, s, other.side, e.side) };
+            if whole.get(&id).is_some_and(|&n| n >= ENOUGH) {
                 continue;
             }
             let width = if worse.visible == better.visible { widths.same } else { widths.under };
             if let Some((u0, u1)) = covered(worse, better, width, widths.same) {
-                found.push(Hit { side: id, from: u0, to: u1, own: s.line == t.line });
+                found.push(Hit { side: id, from: u0, to: u1, own: s.line == t.line, better: by });
                 if (u0, u1) == (0.0, 1.0) {
-                    whole.insert(id);
+                    *whole.entry(id).or_default() += 1;
                 }
             }
         }
@@ -226,49 +289,71 @@ fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f
     (u1 > u0).then_some((u0, u1))
 }
 
-/// What is left of a line without the covered stretches (in arc length); rests of less than two widths go with them: a
-/// line that slants off under another one's ink would leave dots beside it.
-fn keep_rest(line: &Polyline, mut covered: Vec<Covered>, width: f64, view: &View) -> Vec<Polyline> {
+/// The stretches (in arc length) that are left out, ascending. Rests of less than two widths of coincidence, which are the
+/// accuracy, go with them: a line that slants off would leave dots. Longer ones, up to two widths of ink, go only where
+/// they lie under the ink themselves.
+fn gaps(mut covered: Vec<Covered>, line: &Polyline, sides: &[Side], widths: Widths, view: &View) -> Vec<Covered> {
     covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
-    let total = line.length();
+    let (total, width) = (line.length(), if line.visible { widths.same } else { widths.under });
+    let goes = |from: f64, to: f64, beside: [u32; 2]| {
+        to - from <= 2.0 * widths.same
+            || (!line.visible && to - from <= 2.0 * width && {
+                let ink: Vec<&Side> = beside.iter().map(|&s| &sides[s as usize]).filter(|s| s.visible).collect();
+                let under = |p: &[f64; 2]| ink.iter().any(|s| away(s, p) <= width);
+                stretch(line, from, to, view).flat.iter().all(under)
+            })
+    };
     let mut merged: Vec<Covered> = Vec::new();
     for one in covered {
         match merged.last_mut() {
-            Some(last) if one.from <= last.to + 2.0 * width => {
-                last.to = last.to.max(one.to);
+            Some(last) if goes(last.to, one.from, [last.by[1], one.by[0]]) => {
+                if one.to > last.to {
+                    (last.to, last.by[1]) = (one.to, one.by[1]);
+                }
                 last.own &= one.own;
             }
             _ => merged.push(one),
         }
     }
     if let Some(first) = merged.first_mut()
-        && first.from <= 2.0 * width
+        && goes(0.0, first.from, [first.by[0]; 2])
     {
         first.from = 0.0;
     }
     if let Some(last) = merged.last_mut()
-        && last.to >= total - 2.0 * width
+        && goes(last.to, total, [last.by[1]; 2])
     {
         last.to = total;
     }
     merged.retain(|c| c.to - c.from >= CROSSING * width || c.to - c.from >= total);
-    if merged.is_empty() {
-        return vec![line.clone()];
-    }
+    merged
+}
+
+/// Distance of a point from a side.
+fn away(s: &Side, p: &[f64; 2]) -> f64 {
+    distance(p, &at(s, along(s, p).clamp(0.0, 1.0)))
+}
+
+/// What is left of a line without its gaps.
+fn rest(line: &Polyline, gaps: &[Covered], widths: Widths, view: &View) -> Vec<Polyline> {
+    let total = line.length();
+    let width = if line.visible { widths.same } else { widths.under };
     let mut out: Vec<Polyline> = Vec::new();
-    let mut before = Covered { from: 0.0, to: 0.0, own: false };
-    for next in merged.into_iter().chain([Covered { from: total, to: total, own: false }]) {
-        if next.from > before.to {
-            let piece = stretch(line, before.to, next.from, view);
+    let mut before = 0.0;
+    let mut before_own = false;
+    let ends = gaps.iter().map(|g| (g.from, g.to, g.own)).chain([(total, total, false)]);
+    for (from, to, own) in ends {
+        if from > before {
+            let piece = stretch(line, before, from, view);
             match out.last_mut() {
-                Some(last) if before.own && goes_on(last, &piece, 4.0 * width) => {
+                Some(last) if before_own && goes_on(last, &piece, 4.0 * width) => {
                     last.flat.extend(&piece.flat);
                     last.space.extend(&piece.space);
                 }
                 _ => out.push(piece),
             }
         }
-        before = next;
+        (before, before_own) = (to, own);
     }
     out.retain(|l| l.flat.len() > 1);
     out

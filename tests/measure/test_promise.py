@@ -1,0 +1,43 @@
+"""The promise at other scales, views and accuracies: small stand-ins for `tests/bench/promise.py`."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+import hlr
+from hlr.measure import measured
+from hlr.source import open_source
+
+sys.path.append(str(Path(__file__).parent))
+
+from models import frame, pierced
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+def test_an_assembly_of_a_metre_at_1_to_10_keeps_it():
+    model = open_source(frame())
+    drawing = hlr.draw(model, "iso", scale=0.1)
+    reached = measured(model, drawing)
+    assert reached.accuracy == 0.05
+    assert reached.kept(), reached.as_dict()
+    assert reached.edges.count > 50 and reached.outlines.count > 20
+
+
+def test_a_screw_at_5_to_1_keeps_it():
+    model = open_source(DATA / "M6-1x12-countersunk-screw.step")
+    drawing = hlr.draw(model, "front", scale=5.0)
+    reached = measured(model, drawing)
+    assert reached.accuracy == pytest.approx(0.05, abs=0.02)
+    assert max(reached.edges.worst, reached.outlines.worst) <= reached.accuracy
+    assert reached.changes.worst <= reached.accuracy, reached.as_dict()
+
+
+@pytest.mark.parametrize("accuracy", [0.5, 0.1, 0.01])
+@pytest.mark.parametrize("perspective", [None, hlr.Perspective()])
+def test_every_accuracy_is_kept(accuracy, perspective):
+    model = open_source(pierced())
+    drawing = hlr.draw(model, (3, -2, 1.5), accuracy=accuracy, perspective=perspective)
+    reached = measured(model, drawing, samples=5000)
+    assert reached.kept(), reached.as_dict()

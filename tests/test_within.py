@@ -1,0 +1,166 @@
+"""The finest drawing that fits into a time. What decides is tested on a clock of its own, without waiting."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import hlr
+from hlr import Options, within
+from hlr.errors import OptionError
+from hlr.source import open_source
+
+DATA = Path(__file__).parent / "data"
+AS1 = DATA / "as1-oc-214.stp"
+
+
+class World:
+    """A pipeline whose passes take a known time."""
+
+    def __init__(self, monkeypatch, cost, stop_at=None):
+        self.now, self.asked = 0.0, []
+        cheap = hlr.draw(box(), "iso", accuracy=0.5)
+
+        def drawn(opened, views, options, progress):
+            accuracy = options.accuracy
+            self.asked.append(accuracy)
+            if accuracy == stop_at:
+                raise KeyboardInterrupt
+            took = cost(accuracy)
+            timings = {"tessellate": 0.5 * took, "scene": 0.2 * took, "total": took}
+            for stage, share in (("tessellate", 0.0), ("scene", 0.5), ("visibility", 0.2), (None, 0.3)):
+                self.now += share * took
+                if progress is not None and stage is not None:
+                    progress(stage, 0.0)
+            used = {**cheap.accuracy, "used": accuracy, "asked": accuracy}
+            return [replace(cheap, accuracy=used, timings=timings) for _ in views]
+
+        monkeypatch.setattr(within, "draw_views", drawn)
+        monkeypatch.setattr(within, "perf_counter", lambda: self.now)
+
+    def draw(self, seconds, **options):
+        finished = []
+        (drawing,) = within.draw_within(box(), ["iso"], Options(within=seconds, **options), None, finished.append)
+        assert finished[-1] == [drawing]
+        return drawing
+
+
+def box():
+    import cadquery as cq
+
+    return cq.Workplane("XY").box(100, 80, 60)
+
+
+def linear(seconds):
+    """Time of a pass that grows as fast as the drawing gets finer; so long at 0.5 mm."""
+    return lambda accuracy: seconds * 0.5 / accuracy
+
+
+def test_it_refines_while_time_lasts(monkeypatch):
+    world = World(monkeypatch, linear(0.1))
+    drawing = world.draw(10.0)
+    assert world.asked[0] == 0.5
+    assert world.asked == sorted(world.asked, reverse=True)
+    assert drawing.accuracy["used"] == world.asked[-1] <= 0.02
+    assert drawing.accuracy["asked"] is None and drawing.accuracy["within"] == 10.0
+    assert world.now <= 10.0
+    assert not drawing.notes
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0, 1.5, 2.5])
+@pytest.mark.parametrize("budget", [0.3, 1.0, 3.0, 30.0])
+def test_the_time_is_kept_whatever_the_growth(monkeypatch, power, budget):
+    world = World(monkeypatch, lambda accuracy: 0.1 * (0.5 / accuracy) ** power)
+    world.draw(budget)
+    assert world.now <= 1.1 * budget
+
+
+def test_a_pass_that_takes_longer_than_foreseen_is_given_up(monkeypatch):
+    world = World(monkeypatch, lambda accuracy: 0.1 if accuracy > 0.3 else 100.0)
+    drawing = world.draw(2.0)
+    assert len(world.asked) == 2
+    assert drawing.accuracy["used"] == 0.5
+
+
+def test_it_is_not_refined_beyond_the_accuracy(monkeypatch):
+    world = World(monkeypatch, linear(0.001))
+    assert world.draw(1000.0, accuracy=0.03).accuracy["used"] == 0.03
+    assert world.asked[-1] == 0.03
+    assert world.now < 1.0
+
+
+def test_the_excess_is_stated(monkeypatch):
+    world = World(monkeypatch, linear(5.0))
+    drawing = world.draw(2.0)
+    assert world.asked == [0.5]
+    assert len(drawing.notes) == 1 and drawing.notes[0].startswith("3.0 s over the 2 s")
+
+
+def test_what_is_finished_survives_an_interruption(monkeypatch):
+    drawing = World(monkeypatch, linear(0.01), stop_at=0.1).draw(100.0)
+    assert drawing.accuracy["used"] == 0.5
+    with pytest.raises(KeyboardInterrupt):
+        World(monkeypatch, linear(0.01), stop_at=0.5).draw(100.0)
+
+
+def test_the_result_is_that_of_its_accuracy():
+    drawing = hlr.draw(box(), "iso", within=60.0, accuracy=0.1)
+    plain = hlr.draw(box(), "iso", accuracy=0.1)
+    assert [x.points.tolist() for x in drawing.lines] == [x.points.tolist() for x in plain.lines]
+
+
+def test_the_model_is_read_once(monkeypatch):
+    from hlr import drawings
+
+    opened = []
+    monkeypatch.setattr(drawings, "open_source", lambda s: opened.append(s) or open_source(s))
+    hlr.draw(box(), within=30.0, accuracy=0.2)
+    assert len(opened) == 1
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), "soon"])
+def test_no_time_is_refused(seconds):
+    with pytest.raises(OptionError, match="seconds"):
+        hlr.draw(box(), within=seconds)
+
+
+def command(*arguments):
+    code = "from hlr.cli import main; main()"
+    return [sys.executable, "-P", "-c", code, "draw", str(AS1), "--fit", "5000x4000", *arguments]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_after_ctrl_c_the_finished_drawing_is_there(tmp_path):
+    target = tmp_path / "a.svg"
+    running = subprocess.Popen(command("-o", str(target), "--within", "10min"), start_new_session=True)
+    end = time.monotonic() + 120.0
+    while not target.exists() and time.monotonic() < end:
+        assert running.poll() is None
+        time.sleep(0.02)
+    os.killpg(running.pid, signal.SIGINT)
+    assert running.wait(30.0) in (-signal.SIGINT, 130)
+    assert target.read_text().endswith("</svg>\n")
+    assert [p.name for p in tmp_path.iterdir()] == ["a.svg"]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+def test_before_the_first_drawing_ctrl_c_writes_nothing(tmp_path):
+    target = tmp_path / "a.svg"
+    running = subprocess.Popen(command("-o", str(target), "--within", "10min"), start_new_session=True)
+    time.sleep(0.3)
+    os.killpg(running.pid, signal.SIGINT)
+    running.wait(30.0)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_standard_output_gets_one_drawing():
+    done = subprocess.run(
+        command("-o", "-", "--within", "60s", "--accuracy", "0.2"), capture_output=True, text=True, check=True
+    )
+    assert done.stdout.count("<svg") == 1 and done.stdout.endswith("</svg>\n")
+    assert 'accuracy="0.2"' in done.stdout
