@@ -40,8 +40,8 @@ displaced by a little already."""
 
 UNDER = 3.0
 INK = 0.25
-"""A hidden line this many accuracies from a visible one lies under its ink, if that is as wide: half a wide ISO 128 line,
-in millimetres."""
+"""A hidden line this many accuracies from a visible one lies under its ink, if that is as wide: half a wide ISO 128
+line, in millimetres."""
 
 FINEST_BREP = 1e-7
 FINEST_MESH = 4e-9

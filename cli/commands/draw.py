@@ -181,8 +181,8 @@ def _within(
 
     with ExitStack() as stack:
         # What is measured afterwards is written again, with what was reached; standard output takes only one.
-        put = out.put if targets[0][0] is not None else None
-        if put is None:
+        put = out.put
+        if targets[0][0] is None:
             from ..keeper import kept
 
             put = stack.enter_context(kept(out))
