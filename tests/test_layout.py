@@ -75,7 +75,8 @@ COMMAND = "from hlr.cli import main; main()"
 
 
 @pytest.mark.parametrize(
-    "arguments", [["--help"], ["--version"], ["draw", "--help"], ["preview", "--help"], ["info", "--help"], ["study", "--help"]]
+    "arguments",
+    [["--help"], ["--version"], ["draw", "--help"], ["preview", "--help"], ["info", "--help"], ["study", "--help"]],
 )
 def test_help_loads_nothing_heavy(arguments):
     loaded = loaded_by(COMMAND, *arguments)
