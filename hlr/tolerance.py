@@ -1,7 +1,18 @@
 """Every tolerance, derived from one accuracy: millimetres on paper.
 
-The accuracy is shared out so that the parts of an emitted line's error add up to less than it:
-half for tessellation, a quarter for leaving out vertices, a tenth for printed digits.
+The accuracy is shared out so that the parts of an emitted line's error add up to less than it.
+
+    line                         what it is off by, in accuracies
+    polyline                     0.5 tessellation + 0.25 vertices left out + 0.1 digits
+    edge or outline of a B-rep   0.1 curve fitting (kernel, paper::FIT) + 0.2 arcs in SVG (ink::arcs) + 0.1 digits
+    contour of a mesh            0.5 smoothing (kernel, paper::smooth) + 0.1 digits
+    change of visibility         0.5 tessellation, across the line; along it that over the sine of the angle at which
+                                 what covers it crosses; and pieces that are too short to be drawn: 0.75
+
+The kernel's grid adds nothing to them: a drawing is at least 2^30 of its steps wide; a step is a quarter of the finest
+accuracy that is accepted for meshes, a hundredth of that for B-reps. In perspective the tessellation is finer as much
+as its nearest point is magnified, up to fifty times (`hlr.view.scale`); nearer to the eye than a fiftieth of the
+target's distance the accuracy is not kept: errors grow there as the distance shrinks.
 """
 
 from __future__ import annotations
@@ -37,6 +48,25 @@ ROUNDING = 0.04
 FLIP = 0.75
 """Of the accuracy: a piece that is left out between two others moves a change by its length, and its own two ends are
 displaced by a little already."""
+
+DIGITS, DIGITS_IN_JSON = 0.1, 0.001
+"""Of the accuracy: what rounding may move a point by. In JSON points are compared with one another and with the model:
+a thousandth is below any such check."""
+
+CURVE_BULGE = 0.2
+"""Of the accuracy: how far a curve may be fitted off the true one, and so reach beyond what is to fit on the sheet."""
+
+CURVE_CHORD = 0.2
+"""Of the accuracy: how far the points along a circle may be off it between them."""
+
+CLOSED = 0.01
+"""Of the accuracy, in the model: a curve whose ends are this close is closed."""
+
+OUTLINE_CHORD = 0.2
+"""In deflections: how far the polyline of an outline may stay off the curve."""
+
+OUTLINE_LIFT = 2.5
+"""In deflections: facets are off by two at most, where they have been refined, the outline's chords by a little."""
 
 UNDER = 3.0
 INK = 0.25

@@ -128,6 +128,29 @@ def test_a_stage_imports_only_the_stages_before_it(stage):
     assert not wrong, "\n".join(wrong)
 
 
+def test_only_what_stands_above_the_pipeline_measures():
+    allowed = {"measure", "study", "drawings.py"}
+    paths = [path for path in (ROOT / "hlr").rglob("*.py") if path.relative_to(ROOT / "hlr").parts[0] not in allowed]
+    names = [(path.name, name) for path in paths for _, name in imports(path, f"hlr.{path.parent.name}")]
+    # What a drawing has reached is a record, which its type names.
+    found = {name for _, name in names if name.startswith("hlr.measure") and name != "hlr.measure.reached.Reached"}
+    assert not found
+
+
+def test_measuring_knows_nothing_above_it():
+    paths = sorted((ROOT / "hlr" / "measure").glob("*.py"))
+    names = {name for path in paths for _, name in imports(path, "hlr.measure")}
+    assert paths
+    assert not [name for name in names if name.startswith(("hlr.study", "hlr.drawings", "hlr.within", "hlr.cli"))]
+
+
+def test_a_plain_drawing_loads_no_measure():
+    code = "import hlr, sys; hlr.draw(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))"
+    program = f"{code}; print([name for name in sys.modules if name.startswith(('hlr.measure', 'hlr.within'))])"
+    done = subprocess.run([sys.executable, "-P", "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
 def test_only_the_command_line_knows_the_study():
     # It stands above everything else; what it imports itself may be anything below.
     paths = [path for path in (ROOT / "hlr").rglob("*.py") if path.relative_to(ROOT / "hlr").parts[0] != "study"]

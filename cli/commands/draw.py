@@ -181,7 +181,7 @@ def _within(
 
     with ExitStack() as stack:
         # What is measured afterwards is written again, with what was reached; standard output takes only one.
-        put = out.put
+        put: Callable[[bytes], None] = out.put
         if targets[0][0] is None:
             from ..keeper import kept
 

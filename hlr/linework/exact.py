@@ -17,22 +17,16 @@ from hlr import _kernel
 from hlr.curve import Arc, Bezier, Curve
 from hlr.source.geometry import evaluated, packed, together
 from hlr.source.model import Curves, EdgeCurves, Floats, Ints
-from hlr.tolerance import Tolerances
+from hlr.tolerance import CLOSED, CURVE_CHORD, Tolerances
 from hlr.view.camera import Camera, Vector
 
 EdgeCurveLookup = Callable[[Ints, Ints], EdgeCurves] | None
 """The curves of edges, given their parts and indices; None where the source has none."""
 
-CHORD = 0.2
-"""Of the accuracy: how far the points along a circle may be off it between them."""
-
 POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
 """Forms of lines, as the kernel names them."""
 
 NO_CURVES = packed([])
-
-SAME_PLACE = 0.01
-"""Of the accuracy, in the model: a curve whose ends are this close is closed."""
 
 Row = tuple[float, float, float, float]
 
@@ -136,7 +130,7 @@ def on_curves(
         camera.eye or (0.0, 0.0, 0.0),
         (-camera.direction[0], -camera.direction[1], -camera.direction[2]),
         tolerances.accuracy,
-        SAME_PLACE * tolerances.accuracy / per_model,
+        CLOSED * tolerances.accuracy / per_model,
         tolerances.contact,
         threads,
     )
@@ -201,7 +195,7 @@ def _along(
     bounds = np.stack([f(flat, offsets[:-1])[lines] for f in (np.maximum.reduceat, np.minimum.reduceat)])
     reach = (bounds[0] - bounds[1]).max(axis=1)
     # The chord of a step s rises by r s^2 / 8; perspective may stretch a step to twice its share.
-    step = np.sqrt(8.0 * CHORD * accuracy / reach) * (1.0 if camera.eye is None else 0.5)
+    step = np.sqrt(8.0 * CURVE_CHORD * accuracy / reach) * (1.0 if camera.eye is None else 0.5)
     begin, end = interval[lines].T
     inner = np.ceil(np.abs(end - begin) / step).astype(np.int64)
     place = np.arange(inner.sum()) - np.repeat(np.cumsum(inner) - inner, inner) + 1

@@ -10,15 +10,12 @@ import numpy as np
 from hlr.errors import SourceError
 from hlr.plan.options import Options
 from hlr.source.model import Floats, Source
-from hlr.tolerance import Tolerances, choose, derive
+from hlr.tolerance import CURVE_BULGE, Tolerances, choose, derive
 from hlr.view.camera import NEAR, Camera
 from hlr.view.clip import ASPECT
 
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
-
-BULGE = 0.2
-"""Of the accuracy: how far a curve may be fitted off the true one."""
 
 MOST_MAGNIFIED = 50.0
 """Nearer to the eye than this share of the target's distance the accuracy is no longer kept: a tessellation that fine
@@ -50,7 +47,9 @@ class Placed:
             return self
         width, height = _extent(camera, points, self.aspect)
         if curved and not camera.framed:
-            bulge = max(self.tolerances.deflection * self.magnified, BULGE * self.tolerances.accuracy / self.per_model)
+            bulge = max(
+                self.tolerances.deflection * self.magnified, CURVE_BULGE * self.tolerances.accuracy / self.per_model
+            )
             width, height = width + 2.0 * bulge, height + 2.0 * bulge
         return replace(_sized(width, height, options, self), notes=self.notes)
 

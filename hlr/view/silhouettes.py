@@ -27,14 +27,8 @@ from hlr.plan.table import DRAWING
 from hlr.scene.scene import INTERIOR, Chains, Scene, Silhouettes, TrueSurfaces
 from hlr.scene.topology import joined
 from hlr.source.model import Curves, EdgeClass, Ints
-from hlr.tolerance import Tolerances
+from hlr.tolerance import OUTLINE_CHORD, OUTLINE_LIFT, Tolerances
 from hlr.view.camera import Camera
-
-CHORD = 0.2
-"""In deflections: how far the polyline of an outline may stay off the curve."""
-
-LIFT = 2.5
-"""In deflections: facets are off by two at most, where they have been refined, the outline's chords by a little."""
 
 
 def with_silhouettes(
@@ -55,9 +49,9 @@ def with_silhouettes(
 def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
     face = on.first[scene.triangle_part] + scene.triangle_face
     smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
-    found = _traced(scene, on, face, smooth, camera, CHORD * tolerances.deflection, threads)
+    found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
     scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
-    return _with_lines(scene, on, found, LIFT * tolerances.deflection)
+    return _with_lines(scene, on, found, OUTLINE_LIFT * tolerances.deflection)
 
 
 def _traced(

@@ -11,13 +11,11 @@ import numpy.typing as npt
 
 from hlr.curve import Arc
 from hlr.drawing import Drawing, Line
+from hlr.tolerance import DIGITS_IN_JSON
 from hlr.writers.number import decimals, encode, grid
 
 FORMAT = "hlr-drawing"
 VERSION = 1
-
-# Points are compared with one another and with the model: a thousandth of the accuracy is below any such check.
-_SHARE = 0.001
 
 
 def document(drawing: Drawing) -> bytes:
@@ -103,7 +101,7 @@ def _curves(lines: Sequence[Line], accuracy: float) -> dict[int, str]:
         if isinstance(curve, Arc):
             centre, axes = points.split("],", 1)
             # An angle moves a point by so much more as the radius is larger.
-            places = decimals(accuracy / max(1.0, curve.radii[0]), share=_SHARE)
+            places = decimals(accuracy / max(1.0, curve.radii[0]), share=DIGITS_IN_JSON)
             angles = ", ".join(f"{angle + 0.0:.{places}f}" for angle in curve.angles.tolist())
             out[i] = f', "curve": {{"type": "arc", "centre": {centre}], "axes": [{axes}]], "angles": [{angles}]}}'
         else:
@@ -114,7 +112,7 @@ def _curves(lines: Sequence[Line], accuracy: float) -> dict[int, str]:
 def _nested(points: npt.NDArray[np.float64], counts: npt.NDArray[np.int64], accuracy: float) -> tuple[str, list[int]]:
     """Points (n, k) of many lines as "[x,y],[x,y", and where each line starts in that text (lines + 1 offsets)."""
     n, k = points.shape
-    places = decimals(accuracy, float(np.abs(points).max(initial=0.0)), _SHARE)
+    places = decimals(accuracy, float(np.abs(points).max(initial=0.0)), DIGITS_IN_JSON)
     first = np.cumsum(counts) - counts
     before = np.zeros((n, k, 3), np.uint8)
     before[:, 0] = np.frombuffer(b"],[", np.uint8)

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.errors import WriteError
+from hlr.tolerance import DIGITS
 
 Ints = npt.NDArray[np.int64]
 Bytes = npt.NDArray[np.uint8]
@@ -26,7 +27,7 @@ NOT_FINITE = "the drawing has a point that is not finite; it cannot be written"
 _CHUNK = 1 << 15
 
 
-def decimals(accuracy: float, extent: float = 0.0, share: float = 0.1) -> int:
+def decimals(accuracy: float, extent: float = 0.0, share: float = DIGITS) -> int:
     """Fewest decimals whose rounding moves a plane point by less than `share` of `accuracy`.
 
     accuracy and extent (largest absolute coordinate) are in the unit of the numbers; at least 0, and never so many
