@@ -12,7 +12,7 @@ from typing import Any
 
 from hlr.study.job import Job
 
-WAIT = 6.0
+WAIT = 20.0
 """Limits by the clock, where others keep the processors busy; and where there is no limit but the clock's."""
 
 
