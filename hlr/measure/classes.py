@@ -68,7 +68,7 @@ def measured(
     else:
         beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
         changes, grazing, bound = beside.changes(caster)
-        lost, intersections = beside.lost(under(float(drawing.accuracy["used"]))), beside.kind("intersection")
+        lost, intersections = beside.lost(under(float(drawing.accuracy["used"]))), beside.intersections()
     return Reached(
         accuracy=float(drawing.accuracy["used"]),
         edges=edges,

@@ -3,7 +3,7 @@
 A sample of a drawn line has nine rays toward the viewer: its own, and eight on a ring as wide as the accuracy. It is
 wrong only where they agree: drawn visible and all are blocked, or drawn hidden and none is. Where they do not agree,
 less than the accuracy decides, and either answer is right. Rays start nearer to the viewer than the sample by the depth
-within which two surfaces count as touching.
+within which two surfaces count as touching: what covers a line by less than that may hide it or not.
 
 ::
 
@@ -30,6 +30,8 @@ from hlr.tolerance import ANGLE
 from hlr.view.camera import NEAR
 
 RING = 8
+CLOSE = 0.1
+"""Of the depth of a contact: nearer than this a sample's own surface may be."""
 DENSE = 0.25
 """Of the accuracy: how far apart samples are where a stretch is measured."""
 DISAGREE, BLOCKED, FREE = 0, 1, 2
@@ -68,16 +70,24 @@ class Caster:
 
     def verdict(self, points: Floats, threads: int) -> npt.NDArray[np.int8]:
         """(n,) what nine rays say of points (n, 3) of the model."""
-        n = len(points)
         angle = np.arange(RING) * (2.0 * np.pi / RING)
         ring = np.concatenate(
             [np.zeros((1, 3)), np.outer(np.cos(angle), self.right) + np.outer(np.sin(angle), self.up)]
         )
         radius = self.radius / self.paper.magnified(points)
         starts = points[:, None, :] + ring[None] * radius[:, None, None]
+        count = self._blocked(points, starts, self.depth, threads).sum(axis=1)
+        return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
+
+    def touched(self, points: Floats, threads: int) -> npt.NDArray[np.bool_]:
+        """(n,) whether anything covers points (n, 3), be it no deeper than a contact."""
+        return self._blocked(points, points[:, None, :], CLOSE * self.depth, threads)[:, 0]
+
+    def _blocked(self, points: Floats, starts: Floats, depth: float, threads: int) -> npt.NDArray[np.bool_]:
+        """(n, k) whether rays from starts (n, k, 3), so much nearer to the viewer, meet anything."""
         sight = self.paper.sight(points)
         unit = sight / np.linalg.norm(sight, axis=1)[:, None]
-        starts = starts + (unit * self.depth)[:, None, :]
+        starts = starts + (unit * depth)[:, None, :]
         if self.paper.eye is None:
             reach = np.ptp(self.points, axis=0).sum() * 2.0
             ways = np.broadcast_to(unit[:, None, :] * reach, starts.shape)
@@ -92,9 +102,8 @@ class Caster:
             np.ascontiguousarray(starts.reshape(-1, 3)),
             np.ascontiguousarray(ways.reshape(-1, 3)),
             threads,
-        ).reshape(n, RING + 1)
-        count = hit.sum(axis=1)
-        return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
+        )
+        return np.asarray(hit.reshape(starts.shape[:2]))
 
 
 def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threads: int) -> Labels:
@@ -128,9 +137,14 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
 
 def contradicted(drawing: Drawing, points: Floats, line: Index, caster: Caster, threads: int) -> npt.NDArray[np.bool_]:
     """(n,) whether nine rays agree that points (n, 2) of lines are not what they are drawn as."""
-    said = caster.verdict(in_model(drawing, points, line, threads), threads)
+    at = in_model(drawing, points, line, threads)
+    said = caster.verdict(at, threads)
     visible = np.array([x.visible for x in drawing.lines], bool)[line]
-    return np.asarray(np.where(visible, said == BLOCKED, said == FREE))
+    wrong = np.asarray(np.where(visible, said == BLOCKED, said == FREE))
+    # What is covered by less than a contact may be drawn either way.
+    doubtful = np.flatnonzero(wrong & ~visible)
+    wrong[doubtful] &= ~caster.touched(at[doubtful], threads)
+    return wrong
 
 
 def longest_run(points: Floats, line: Index, chosen: npt.NDArray[np.bool_], step: float) -> tuple[int | None, float]:
