@@ -44,7 +44,8 @@ def finished(
     clock["total"] = sum(clock.values())
     counters = _counters(seen, segments, lines, fill, sought, plan)
     if not plan.crossings and counters["seeds"]:
-        planner.revised("crossing search", True, "one convex body, but rounded its faces overlap in the image")
+        for name in ("crossing search", "piercing search"):
+            planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
     for name, steps in STEPS.items():
         planner.spent(name, sum(segments.seconds[s] for s in steps))
     decisions = planner.decisions(counters)

@@ -268,8 +268,11 @@ def test_a_pentagram_on_end_is_searched_though_all_its_edges_bend_outward():
         for j in [(i + 1) % 5]
         for f in ([i, j, j + 5], [i, j + 5, i + 5], [10, j, i], [11, i + 5, j + 5])
     ]
-    found = decided(hlr.draw((np.array(vertices, float), np.array(faces)), "iso"))["crossing search"]
-    assert found.on and found.counts["seeds"] > 0
+    (drawing,) = expect_neutral(lambda: (np.array(vertices, float), np.array(faces)))
+    found = decided(drawing)
+    assert found["crossing search"].on and found["crossing search"].counts["seeds"] > 0
+    # Its walls pass through one another, though no other surface is near.
+    assert found["intersection search"].on and found["intersection lines"].counts["intersection_lines"] > 0
 
 
 def test_views_drawn_together_trace_outlines_once(monkeypatch):
@@ -343,3 +346,16 @@ def test_effects_of_a_preview():
     asked = {d.name: d for d in hlr.preview(glass, size=(60, 40), shadows=True, perspective=Perspective()).plan}
     assert all(asked[name].on for name in ("smooth normals", "transparency", "shadows", "perspective divide"))
     assert (asked["shadows"].origin, asked["transparency"].origin) == ("asked", SCENE)
+
+
+@pytest.mark.parametrize("name", ["as1-oc-214.stp", "nist_ctc_01_asme1_ap242-e1.stp", "cube_gears.3mf"])
+def test_visible_lines_are_the_same_without_the_hidden_ones(name):
+    with_, without = (hlr.draw(DATA / name, (1, -2, 1.5), hidden=hidden) for hidden in (True, False))
+    visible = [line for line in with_.lines if line.visible]
+    assert len(visible) == len(without.lines)
+    for one, other in zip(visible, without.lines, strict=True):
+        assert (one.kind, one.part, one.edge, one.face) == (other.kind, other.part, other.edge, other.face)
+        assert type(one.curve) is type(other.curve)
+        assert one.points3.tolist() == other.points3.tolist()
+        # Both are measured from the lower left corner of what is drawn.
+        assert one.points + with_.origin == pytest.approx(other.points + without.origin, abs=1e-9)

@@ -67,8 +67,8 @@ pub struct Outcome {
 /// Which steps this scene calls for. Whatever is chosen within the conditions, the pieces are the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps {
-    /// Seeds and crossings; may be left out for a scene of one convex body, and is not, where that turns out to overlap
-    /// itself in the image.
+    /// Seeds and crossings; may be left out for a scene of one convex body. Where that turns out to overlap itself in the
+    /// image, nothing is left out.
     pub crossings: bool,
     /// May be left out where no edge comes within the contact tolerance of a polygon of another part, and all are sound.
     pub piercings: bool,
@@ -110,6 +110,8 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, steps: Steps, stopped: &(dyn Fn
         let pieces = gathered(walked, &edges.hidden, &mut counters);
         return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
     }
+    // What was taken for a convex body may pass through itself as well.
+    let piercing = steps.piercings || !steps.crossings;
     // 2. edges that surely lie behind something need no search
     if steps.pyramid {
         let pyramid = DepthPyramid::new(mesh, &table, &edges.contours);
@@ -123,7 +125,7 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, steps: Steps, stopped: &(dyn Fn
     // 4. crossings and piercings: the jumps between
     let crossed = crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped);
     seconds.crossings = clock.lap();
-    let pierced = if steps.piercings {
+    let pierced = if piercing {
         piercings::<A>(mesh, &table, &edges.drawn, stopped)
     } else {
         Piercings { events: Vec::new(), tests: 0, parts: 0 }
