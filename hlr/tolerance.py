@@ -68,6 +68,9 @@ OUTLINE_CHORD = 0.2
 OUTLINE_LIFT = 2.5
 """In deflections: facets are off by two at most, where they have been refined, the outline's chords by a little."""
 
+OUTLINE_SPARE = 0.3
+"""In deflections: what an outline is moved by where no facet stands out beyond it. Its own chords may be off by 0.2."""
+
 UNDER = 3.0
 INK = 0.25
 """A hidden line this many accuracies from a visible one lies under its ink, if that is as wide: half a wide ISO 128

@@ -69,12 +69,14 @@ class Silhouettes:
     number (e,): of the outline to which an edge belongs, -1 for none
     curves of the outlines; NONE where one is straight, or runs along an edge of the model: source (o,) int32, else -1
     meeting_edge (m,), meeting_at (m,): edges of the model that an outline reaches, and where, from the first vertex
+    meeting_probe (m,): the same edges once more, without triangles, moved like the outlines; they are never drawn
     """
 
     lift: Floats
     hidden: npt.NDArray[np.bool_]
     meeting_edge: Ints
     meeting_at: Floats
+    meeting_probe: Ints
     dents: Ints
     number: Ints
     curves: Curves

@@ -196,7 +196,8 @@ def _cut_silhouettes(
     if old is None:
         return None
     a, b = old.lift[scene.edges[crossing, 0]], old.lift[scene.edges[crossing, 1]]
-    whole = (target[old.meeting_edge] >= 0) & ~crossing[old.meeting_edge]
+    probe = old.meeting_probe
+    whole = (target[old.meeting_edge] >= 0) & ~crossing[old.meeting_edge] & (target[probe] >= 0) & ~crossing[probe]
     return Silhouettes(
         lift=np.concatenate([old.lift, a + (b - a) * t]),
         hidden=moved(old.hidden, 0),
@@ -205,6 +206,7 @@ def _cut_silhouettes(
         source=old.source,
         meeting_edge=target[old.meeting_edge[whole]],
         meeting_at=old.meeting_at[whole],
+        meeting_probe=target[probe[whole]],
         dents=target[old.dents][target[old.dents] >= 0],
     )
 

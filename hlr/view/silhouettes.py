@@ -2,7 +2,9 @@
 
 The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets,
 by up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
-compared with them: its own facets are then beside it and cannot hide it, while everything else still does.
+compared with them: its own facets are then beside it and cannot hide it, while everything else still does. By how much
+is told by the corners of the triangles that it runs over, which are points of the surface: where that is convex, none
+of them stands out beyond the outline, and hardly any lift is needed; where it is a saddle, the facets' bulge is.
 
 ::
 
@@ -10,6 +12,10 @@ compared with them: its own facets are then beside it and cannot hide it, while 
          o   x
         /|                      what bends the other way (concave along the sight) lies within its own body: hidden
        / |
+
+The chord of an edge of the model at which an outline ends is asked about twice: as a part of the mesh, which turns
+behind its own face at a node instead of at the outline's end, and moved like the outline, where that face does not hide
+it (`hlr.visibility.ends`).
 """
 
 from __future__ import annotations
@@ -26,8 +32,8 @@ from hlr.plan.options import Options
 from hlr.plan.table import DRAWING
 from hlr.scene.scene import INTERIOR, Chains, Scene, Silhouettes, TrueSurfaces
 from hlr.scene.topology import joined
-from hlr.source.model import Curves, EdgeClass, Ints
-from hlr.tolerance import OUTLINE_CHORD, OUTLINE_LIFT, Tolerances
+from hlr.source.model import Curves, EdgeClass, Floats, Ints
+from hlr.tolerance import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, Tolerances
 from hlr.view.camera import Camera
 
 
@@ -51,7 +57,7 @@ def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: T
     smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
     found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
     scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
-    return _with_lines(scene, on, found, OUTLINE_LIFT * tolerances.deflection)
+    return _with_lines(scene, on, found, tolerances.deflection)
 
 
 def _traced(
@@ -121,7 +127,7 @@ def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.ND
     return scene.edge_curved & ~known
 
 
-def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: float) -> Scene:
+def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], deflection: float) -> Scene:
     offsets, face, source = found["offsets"], found["face"], found["source"]
     n, m = len(scene.points), len(offsets) - 1
     count = np.diff(offsets)
@@ -130,18 +136,23 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
     inner[offsets[1:] - 1] = False
     start = np.flatnonzero(inner).astype(np.int32)
     line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
-    edges = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
+    met = found["meeting_edge"]
+    k = n + len(found["points"]) + 2 * np.arange(len(met), dtype=np.int32)
+    lines = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
+    edges = np.concatenate([lines, np.stack([k, k + 1], axis=1).astype(np.int32)])
     part = (np.searchsorted(on.first, face, side="right") - 1).astype(np.int32)
     # Groups follow faces: a face's triangles hang together.
     group_of_face = np.zeros(len(on.number), np.int32)
     group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
     group = group_of_face[face]
-    inside_out = found["concave"] & ~scene.groups.cull[group]
-    sign = np.where(np.repeat(inside_out, count), -lift, lift)[:, None]
+    inside_out = np.repeat(found["concave"] & ~scene.groups.cull[group], count)
+    # Seen from inside, what stands out is not what was measured.
+    lift = np.where(inside_out, -OUTLINE_LIFT * deflection, _lift(found["rise"], deflection))
+    own = np.repeat(found["meeting_normal"] * _lift(found["meeting_rise"], deflection)[:, None], 2, axis=0)
     walks = Chains(
         offsets=(offsets - np.arange(m + 1)).astype(np.int32),
-        edges=np.arange(len(edges), dtype=np.int32) + np.int32(len(scene.edges)),
-        reversed=np.zeros(len(edges), bool),
+        edges=np.arange(len(lines), dtype=np.int32) + np.int32(len(scene.edges)),
+        reversed=np.zeros(len(lines), bool),
         kind=np.full(m, EdgeClass.OUTLINE, np.uint8),
         part=part,
         index=np.full(m, -1, np.int32),
@@ -150,25 +161,34 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], lift: flo
         straight=np.zeros(m, bool),
     )
     hidden = np.asarray(found["concave"] & scene.groups.cull[group])
-    more = len(edges)
+    more, probes = len(edges), len(met)
+    none = np.zeros(probes, bool)
     return replace(
         scene,
-        points=np.concatenate([scene.points, found["points"]]),
+        points=np.concatenate([scene.points, found["points"], scene.points[scene.edges[met].ravel()]]),
         edges=np.ascontiguousarray(np.concatenate([scene.edges, edges])),
         offsets=np.concatenate([scene.offsets, np.full(more, scene.offsets[-1], np.int32)]),
-        edge_part=np.concatenate([scene.edge_part, part[line]]),
-        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line]])),
-        edge_kind=np.concatenate([scene.edge_kind, np.full(more, EdgeClass.OUTLINE, np.uint8)]),
+        edge_part=np.concatenate([scene.edge_part, part[line], scene.edge_part[met]]),
+        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line], scene.edge_group[met]])),
+        edge_kind=np.concatenate(
+            [scene.edge_kind, np.full(len(lines), EdgeClass.OUTLINE, np.uint8), np.full(probes, INTERIOR, np.uint8)]
+        ),
         edge_curved=np.concatenate([scene.edge_curved, np.zeros(more, bool)]),
         silhouettes=Silhouettes(
-            lift=np.concatenate([np.zeros((n, 3)), found["normals"] * sign]),
-            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
-            meeting_edge=found["meeting_edge"],
+            lift=np.concatenate([np.zeros((n, 3)), found["normals"] * lift[:, None], own]),
+            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line], none]),
+            meeting_edge=met,
             meeting_at=found["meeting_at"],
+            meeting_probe=np.arange(probes, dtype=np.int32) + np.int32(len(scene.edges) + len(lines)),
             dents=found["dents"],
-            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line]),
+            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line, np.full(probes, -1, np.int32)]),
             curves=Curves(*(found[f"curve_{name}"] for name in ("kind", "range", "offsets", "values"))),
             source=np.where(source >= 0, scene.chains.index[source], -1).astype(np.int32),
         ),
         chains=joined(scene.chains, walks),
     )
+
+
+def _lift(rise: Floats, deflection: float) -> Floats:
+    """How far points are moved of which triangles stand out by `rise`."""
+    return np.asarray(np.minimum(rise + OUTLINE_SPARE * deflection, OUTLINE_LIFT * deflection))

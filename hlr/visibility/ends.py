@@ -1,8 +1,9 @@
 """Where an edge of the model turns behind its own curved face: at the end of that face's outline, not at a mesh node.
 
 The kernel counts on the mesh, whose contour leaves an edge at a node; the true outline leaves it on a chord beside
-that node. A change of visibility at the end of that very chord is the contour's: it moves to the outline, or a gap as
-long as half a chord would be left between the two lines.
+that node. A change of visibility at an end of that very chord is the contour's: it moves to the outline, or a gap as
+long as half a chord would be left between the two lines. What else hides the chord before the outline's end is told by
+its probe: the same chord, moved so that its own face does not hide it.
 
 ::
 
@@ -21,14 +22,18 @@ import numpy.typing as npt
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
 from hlr.view.camera import Camera
-from hlr.visibility.segments import VISIBLE, WITHIN, Segments
+from hlr.visibility.segments import DIVING, HIDDEN, VISIBLE, WITHIN, Segments
 
 NONE = 255
 """No state: the edge is not drawn."""
 
+SEEN = np.empty(4, np.int8)
+SEEN[[VISIBLE, WITHIN, DIVING, HIDDEN]] = [0, 1, 2, 3]
+"""How much hides what has a state."""
+
 
 def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
-    """The segments with the changes next to an outline's end moved there."""
+    """The segments with the changes next to an outline's end moved there; those of probes are taken out."""
     found = scene.silhouettes
     if found is None:
         return segments
@@ -39,10 +44,11 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     met, first = np.unique(found.meeting_edge, return_index=True)
     at = np.full(len(scene.edges), np.nan)
     at[met] = _on_paper(scene, camera, met, found.meeting_at[first])
-    chains = scene.chains
+    probe = np.zeros(len(scene.edges), np.int32)
+    probe[met] = found.meeting_probe[first]
+    chains, cull = scene.chains, scene.groups.cull[scene.edge_group]
     place = np.flatnonzero(~np.isnan(at[chains.edges])).astype(np.int32)
-    begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1))
-    pieces = np.diff(begin)[chains.edges[place]]
+    begin = np.searchsorted(segments.edge, np.arange(len(scene.edges) + 1)).astype(np.int64)
 
     def beyond(step: int) -> npt.NDArray[np.uint8]:
         """The state of the chord before or after, at its end toward this one."""
@@ -55,32 +61,52 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     left, right = beyond(-1), beyond(1)
     own, backward = chains.edges[place], chains.reversed[place]
     low, high = np.where(backward, right, left), np.where(backward, left, right)
-    piece = begin[own]
-    # Without culling the chord dives under its own face's triangles a little before the node.
-    one, two = segments.state[piece], segments.state[np.minimum(piece + 1, len(segments.state) - 1)]
-    within = (at[own] > 0.0) & (at[own] < 1.0)
-    dives = (pieces == 2) & within & ((one == low) | (one >= WITHIN)) & ((two == high) | (two >= WITHIN))
-    whole = ((pieces == 1) | dives) & (left != NONE) & (right != NONE) & (left != right)
-    own, low, high, piece, within, dives = (x[whole] for x in (own, low, high, piece, within, dives))
-    states, t0, t1 = segments.state.copy(), segments.t0.copy(), segments.t1.copy()
-    states[piece] = np.where(at[own] > 0.0, low, high)
-    t1[piece[dives]] = at[own[dives]]
-    t0[piece[dives] + 1] = at[own[dives]]
-    states[piece[dives] + 1] = high[dives]
+    pieces = begin[own + 1] - begin[own]
+    one, last = (segments.state[np.clip(begin[own + k] - k, 0, len(segments.state) - 1)] for k in (0, 1))
+    # The mesh's contour hides from a node on; only without culling the chord dives under its own face's triangles a
+    # little before that. What else changes on the chord itself is the doing of something else.
+    turns = (one != low) | (last != high) | (~cull[own] & (pieces == 2))
+    turns &= (pieces > 0) & (left != NONE) & (right != NONE) & (left != right)
     # An edge that stands in several chains is parted once.
-    parted = np.zeros(len(own), bool)
-    parted[np.unique(own, return_index=True)[1]] = True
-    parted &= within & ~dives
-    own, high, piece = own[parted], high[parted], piece[parted]
-    t1[piece] = at[own]
-    order = np.argsort(np.concatenate([segments.edge, own]), kind="stable")
-    return replace(
-        segments,
-        edge=np.concatenate([segments.edge, own.astype(segments.edge.dtype)])[order],
-        t0=np.concatenate([t0, at[own]])[order],
-        t1=np.concatenate([t1, np.ones(len(own))])[order],
-        state=np.concatenate([states, high])[order],
-    )
+    own, first = np.unique(own[turns], return_index=True)
+    low, high = low[turns][first], high[turns][first]
+    return _parted(segments, begin, own, at[own], low, high, probe[own], found.meeting_probe)
+
+
+def _parted(
+    segments: Segments,
+    begin: npt.NDArray[np.int64],
+    own: Ints,
+    at: Floats,
+    low: npt.NDArray[np.uint8],
+    high: npt.NDArray[np.uint8],
+    probe: Ints,
+    probes: Ints,
+) -> Segments:
+    """Chords `own` (k,) as their probes are seen, up to `at`; beyond that, as what follows them there.
+
+    low, high (k,): the states beyond both ends
+    """
+    front_low = SEEN[low] < SEEN[high]
+    begins, ends = np.where(front_low, 0.0, at), np.where(front_low, at, 1.0)
+    count = begin[probe + 1] - begin[probe]
+    which = np.repeat(np.arange(len(own)), count)
+    piece = np.arange(len(which)) + np.repeat(begin[probe] - np.cumsum(count) + count, count)
+    blind = np.flatnonzero(count == 0)
+    edge = np.concatenate([own[which], own[blind], own])
+    t0 = np.concatenate([np.maximum(segments.t0[piece], begins[which]), begins[blind], np.where(front_low, at, 0.0)])
+    t1 = np.concatenate([np.minimum(segments.t1[piece], ends[which]), ends[blind], np.where(front_low, 1.0, at)])
+    front, back = np.where(front_low, low, high), np.where(front_low, high, low)
+    state = np.concatenate([segments.state[piece], front[blind], back])
+    gone = np.zeros(len(begin) - 1, bool)
+    gone[own] = True
+    gone[probes] = True
+    old, new = ~gone[segments.edge], t1 > t0
+    edge = np.concatenate([segments.edge[old], edge[new].astype(segments.edge.dtype)])
+    t0, t1 = np.concatenate([segments.t0[old], t0[new]]), np.concatenate([segments.t1[old], t1[new]])
+    order = np.lexsort((t0, edge))
+    state = np.concatenate([segments.state[old], state[new]])[order]
+    return replace(segments, edge=edge[order], t0=t0[order], t1=t1[order], state=state)
 
 
 def _undented(scene: Scene, dents: Ints, segments: Segments) -> Segments:

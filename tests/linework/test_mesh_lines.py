@@ -59,7 +59,7 @@ def test_a_contour_stays_within_the_accuracy_of_the_mesh(smooth: tuple[trimesh.T
     for line in drawn:
         assert distances(samples(pieces(placed(drawing, line)), 0.1), raw).max() < 0.9 * ACCURACY
         if isinstance(line.curve, Bezier):
-            along = line.curve.at(np.linspace(0, (len(line.curve.points) - 1) // 3, 2000))
+            along = line.curve.at(np.linspace(0, (len(line.curve.points) - 1) // 3, 20000))
             assert distances(along + drawing.origin, raw).max() < 0.9 * ACCURACY
             assert distances(line.points, pieces(along)).max() < 0.01 * ACCURACY
             assert distances(along, pieces(line.points)).max() < 0.2 * ACCURACY

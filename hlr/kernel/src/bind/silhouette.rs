@@ -118,10 +118,11 @@ pub fn silhouettes<'py>(
     let Traced { silhouettes: found, meetings, dents } =
         run(py, threads, |stopped| trace(&model, stopped))?.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     let mut starts = vec![0i32];
-    let (mut flat_points, mut normals): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
+    let (mut flat_points, mut normals, mut rise) = (Vec::<f64>::new(), Vec::<f64>::new(), Vec::<f64>::new());
     for s in &found {
         flat_points.extend(s.points.iter().flatten());
         normals.extend(s.normals.iter().flatten());
+        rise.extend(&s.rise);
         starts.push((flat_points.len() / 3) as i32);
     }
     let (mut curve_kind, mut curve_range, mut curve_starts, mut curve_values) = (vec![], vec![], vec![0i32], vec![]);
@@ -144,8 +145,13 @@ pub fn silhouettes<'py>(
     out.set_item("curve_offsets", curve_starts.into_pyarray(py))?;
     out.set_item("curve_values", curve_values.into_pyarray(py))?;
     out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("meeting_edge", meetings.iter().map(|m| m.0).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("meeting_at", meetings.iter().map(|m| m.1).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("rise", rise.into_pyarray(py))?;
+    let k = meetings.len();
+    let meeting_normal: Vec<f64> = meetings.iter().flat_map(|m| m.normal).collect();
+    out.set_item("meeting_edge", meetings.iter().map(|m| m.edge).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("meeting_at", meetings.iter().map(|m| m.at).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("meeting_normal", meeting_normal.into_pyarray(py).reshape([k, 3])?)?;
+    out.set_item("meeting_rise", meetings.iter().map(|m| m.rise).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("dents", dents.iter().map(|&e| e as i32).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("traced", traced.into_pyarray(py))?;
     Ok(out)

@@ -23,8 +23,10 @@ use crate::scan::bands::{Bands, clipped_x, y_range};
 /// Sine of the angle beyond which two lines cross rather than coincide. Generous: chords of one circle, cut
 /// differently, differ in direction; a mere crossing is told apart by the length it covers.
 const PARALLEL: f64 = 0.5;
-/// Covered stretches shorter than this many widths are crossings.
+/// Covered stretches shorter than this many widths are crossings. A hidden line's are counted in accuracies, as if the ink
+/// were as wide as UNDER of them: the finer the ink, the more would be cut out beside cusps, where contours end.
 const CROSSING: f64 = 6.0;
+const UNDER: f64 = 6.0;
 
 /// How close is close, on paper.
 #[derive(Clone, Copy, Debug)]
@@ -52,9 +54,9 @@ struct Hit {
     better: u32,
 }
 
-/// A side that so many others cover whole need not be covered again: in a tangle of thousands of short lines, where each
-/// covers each, the list would have no end.
-const ENOUGH: u32 = 16;
+/// A side that so many others cover whole need not be covered by worse ones: in a tangle of thousands of short lines, where
+/// each covers each, the list would have no end. The best of a stack are those that are drawn.
+const ENOUGH: usize = 16;
 
 /// A stretch of a line, in arc length.
 #[derive(Clone, Copy)]
@@ -209,7 +211,7 @@ fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<Hit> {
 fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32], widths: Widths) -> Vec<Hit> {
     let mut active: Vec<&Entry> = Vec::new();
     let mut found = Vec::new();
-    let mut whole: HashMap<u32, u32> = HashMap::new();
+    let mut whole: HashMap<u32, Vec<u32>> = HashMap::new();
     for e in entries {
         let (s, range) = (&sides[e.side as usize], ranges[e.side as usize]);
         let mut i = 0;
@@ -235,14 +237,20 @@ fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32],
                 rank[s.line as usize] > rank[t.line as usize]
             };
             let (worse, better, id, by) = if yields { (s, t, e.side, other.side) } else { (t, s, other.side, e.side) };
-            if whole.get(&id).is_some_and(|&n| n >= ENOUGH) {
+            let own = s.line == t.line;
+            // What covers its own line covers it for sure.
+            let place = if own { 0 } else { rank[better.line as usize] };
+            let known = whole.get(&id);
+            if known.is_some_and(|best| best.len() == ENOUGH && best[ENOUGH - 1] <= place) {
                 continue;
             }
             let width = if worse.visible == better.visible { widths.same } else { widths.under };
             if let Some((u0, u1)) = covered(worse, better, width, widths.same) {
-                found.push(Hit { side: id, from: u0, to: u1, own: s.line == t.line, better: by });
+                found.push(Hit { side: id, from: u0, to: u1, own, better: by });
                 if (u0, u1) == (0.0, 1.0) {
-                    *whole.entry(id).or_default() += 1;
+                    let best = whole.entry(id).or_default();
+                    best.insert(best.partition_point(|&r| r <= place), place);
+                    best.truncate(ENOUGH);
                 }
             }
         }
@@ -325,7 +333,8 @@ fn gaps(mut covered: Vec<Covered>, line: &Polyline, sides: &[Side], widths: Widt
     {
         last.to = total;
     }
-    merged.retain(|c| c.to - c.from >= CROSSING * width || c.to - c.from >= total);
+    let crossing = CROSSING * if line.visible { width } else { width.max(UNDER * widths.same) };
+    merged.retain(|c| c.to - c.from >= crossing || c.to - c.from >= total);
     merged
 }
 

@@ -11,6 +11,7 @@
 use rayon::prelude::*;
 
 use super::face::{Face, Place, mean, root};
+use super::refine::rise;
 use super::{Model, TIE};
 use crate::geometry::vector::{Vector, cross, dot, length, sub, unit};
 
@@ -46,6 +47,8 @@ pub struct Fold {
     /// The edge of the B-rep, -1 for none.
     pub source: i32,
     pub concave: bool,
+    /// As in a `Stretch`.
+    pub rise: [f64; 2],
 }
 
 pub struct Contour {
@@ -267,10 +270,12 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
         // The front side over this stretch.
         let f = [0, 1].map(|k| sides[k].f[0] + (sides[k].f[1] - sides[k].f[0]) * t);
         let front = usize::from(f[1] < f[0]);
+        let normal = mean(&sides[0].normal, &sides[1].normal);
         out.push(Fold {
             ends: [pair[0].1, pair[1].1],
             points: [pair[0].2, pair[1].2],
-            normal: mean(&sides[0].normal, &sides[1].normal),
+            normal,
+            rise: [pair[0].2, pair[1].2].map(|p| rise(model, &[sides[0].triangle, sides[1].triangle], &p, &normal)),
             face: sides[front].number,
             // A seam is no edge of the surface: the outline goes on beside it.
             source: if sides[0].number == sides[1].number { -1 } else { model.source[e] },

@@ -1,8 +1,9 @@
 //! Between two crossings of one triangle: more points on the surface, and cusps.
 
+use super::Model;
 use super::exact::tangent;
 use super::face::{Face, Place, between};
-use crate::geometry::vector::{Vector, from_line, length, sub};
+use crate::geometry::vector::{Vector, dot, from_line, length, sub};
 
 /// A stretch of a silhouette over one face between two points of it.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,8 @@ pub struct Stretch {
     pub source: i32,
     /// The surface bends toward its normal along the line of sight: a body hides this by itself.
     pub concave: bool,
+    /// How far triangles here stand out beyond the surface's tangent plane at both ends.
+    pub rise: [f64; 2],
 }
 
 impl Stretch {
@@ -23,7 +26,15 @@ impl Stretch {
         (self.from, self.to) = (self.to, self.from);
         self.normals.reverse();
         self.tangents.reverse();
+        self.rise.reverse();
     }
+}
+
+/// How far the corners of triangles stand out beyond the plane through a point, square to a unit normal. Corners lie on
+/// the surface: nothing does where it is convex, and by a chord's bulge where it is a saddle.
+pub fn rise(model: &Model, triangles: &[i32], point: &Vector, normal: &Vector) -> f64 {
+    let corners = triangles.iter().filter(|&&t| t >= 0).flat_map(|&t| model.triangles[t as usize]);
+    corners.map(|v| dot(&sub(&model.points[v as usize], point), normal)).fold(0.0, f64::max)
 }
 
 const DEEPEST: u32 = 6;
@@ -34,7 +45,8 @@ const STRAIGHT: f64 = 1e-9;
 const ASTRAY: f64 = 0.3;
 
 /// The stretch between two crossings; none where a triangle is so large that two curves which leave the face cross it.
-pub fn stretches(face: &Face, from: Place, to: Place, chord: f64) -> Vec<Stretch> {
+pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Place) -> Vec<Stretch> {
+    let chord = model.chord;
     let mut places = vec![from];
     divide(face, &from, &to, chord, 0, &mut places);
     places.push(to);
@@ -42,6 +54,11 @@ pub fn stretches(face: &Face, from: Place, to: Place, chord: f64) -> Vec<Stretch
         return Vec::new();
     }
     let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
+    let piece = |a: &Place, b: &Place, concave: bool| {
+        let rise = [a, b].map(|at| rise(model, &[triangle], &at.point, &at.normal));
+        let tangents = [a, b].map(|at| tangent(face, at, chord));
+        Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], tangents, source: -1, concave, rise }
+    };
     let mut out = Vec::with_capacity(places.len());
     for k in 1..places.len() {
         let (a, b) = (&places[k - 1], &places[k]);
@@ -49,18 +66,13 @@ pub fn stretches(face: &Face, from: Place, to: Place, chord: f64) -> Vec<Stretch
         let clear = x.abs() > STRAIGHT && y.abs() > STRAIGHT;
         if clear && (x < 0.0) != (y < 0.0) {
             let c = cusp(face, a, b, x < 0.0);
-            out.push(piece(face, a, &c, chord, x < 0.0));
-            out.push(piece(face, &c, b, chord, y < 0.0));
+            out.push(piece(a, &c, x < 0.0));
+            out.push(piece(&c, b, y < 0.0));
         } else {
-            out.push(piece(face, a, b, chord, x.min(y) < -STRAIGHT));
+            out.push(piece(a, b, x.min(y) < -STRAIGHT));
         }
     }
     out
-}
-
-fn piece(face: &Face, a: &Place, b: &Place, chord: f64, concave: bool) -> Stretch {
-    let tangents = [a, b].map(|place| tangent(face, place, chord));
-    Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], tangents, source: -1, concave }
 }
 
 fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut Vec<Place>) {

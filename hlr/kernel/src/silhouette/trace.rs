@@ -9,7 +9,7 @@ use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::cut::{canonical, in_order, turns_back, unwound};
 use super::exact::{circle, through};
 use super::face::Face;
-use super::refine::{Stretch, stretches};
+use super::refine::{Stretch, rise, stretches};
 use super::wrinkle::flatten;
 use crate::geometry::curve::Curve;
 use crate::geometry::vector::{Vector, dot, length, sub};
@@ -21,16 +21,27 @@ pub struct Silhouette {
     pub concave: bool,
     pub points: Vec<Vector>,
     pub normals: Vec<Vector>,
+    /// Of every point, as in a `Stretch`.
+    pub rise: Vec<f64>,
     /// None where it is straight, or runs along an edge of the B-rep: `source`, else -1.
     pub curve: Option<Curve>,
     pub source: i32,
 }
 
+/// Where a silhouette reaches an edge of the model: the parameter from that edge's first to its second vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Meeting {
+    pub edge: i32,
+    pub at: f64,
+    pub normal: Vector,
+    /// As in a `Stretch`.
+    pub rise: f64,
+}
+
 /// All that is found: the curves, and where they meet edges of the model.
 pub struct Traced {
     pub silhouettes: Vec<Silhouette>,
-    /// (edge, parameter from its first to its second vertex)
-    pub meetings: Vec<(i32, f64)>,
+    pub meetings: Vec<Meeting>,
     /// As `Contour` says.
     pub dents: Vec<u32>,
 }
@@ -68,7 +79,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
             let face = Face::new(model, number)?;
             let [from, to] = ends.map(|c| crossings[c as usize].place);
             let ends = ends.map(Node::Crossing);
-            let stretches = stretches(&face, from, to, model.chord);
+            let stretches = stretches(model, t, &face, from, to);
             (!stretches.is_empty()).then_some(Link { ends, face: number, stretches })
         })
         .collect();
@@ -85,6 +96,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
             tangents: [None; 2],
             source: fold.source,
             concave: fold.concave,
+            rise: fold.rise,
         }],
     }));
     for link in &mut links {
@@ -100,7 +112,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     Some(Traced { silhouettes: out, meetings: meetings(model, &crossings), dents })
 }
 
-fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<(i32, f64)> {
+fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<Meeting> {
     crossings
         .iter()
         .filter_map(|c| {
@@ -108,7 +120,10 @@ fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<(i32, f64)> {
             let [a, b] = model.edges[e as usize].map(|v| model.points[v as usize]);
             let (way, to) = (sub(&b, &a), sub(&c.place.point, &a));
             let square = dot(&way, &way);
-            (square > 0.0).then(|| (e as i32, (dot(&way, &to) / square).clamp(0.0, 1.0)))
+            let at = (dot(&way, &to) / square).clamp(0.0, 1.0);
+            let (point, normal) = (c.place.point, c.place.normal);
+            let rise = rise(model, &c.triangles, &point, &normal);
+            (square > 0.0).then_some(Meeting { edge: e as i32, at, normal, rise })
         })
         .collect()
 }
@@ -151,6 +166,8 @@ fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing)
         face: number,
         source: -1,
         concave: face.radial(crossing.place.uv) * model.chord < -1e-9,
+        rise: [crossing.place.point, model.points[vertex as usize]]
+            .map(|p| rise(model, &[t], &p, &crossing.place.normal)),
     })
 }
 
@@ -309,14 +326,19 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
         let mut points = vec![run[0].1.from];
         let mut normals = vec![run[0].1.normals[0]];
         let mut tangents = vec![run[0].1.tangents[0]];
+        let mut rise = vec![run[0].1.rise[0]];
         for (_, s) in &run {
+            if let Some(last) = rise.last_mut() {
+                *last = last.max(s.rise[0]);
+            }
+            rise.push(s.rise[1]);
             points.push(s.to);
             normals.push(s.normals[1]);
             tangents.push(s.tangents[1]);
         }
         let (face, Stretch { concave, source, .. }) = (run[0].0, run[0].1);
         let curve = if source >= 0 { None } else { along_points(model, face, &points, &tangents) };
-        out.push(Silhouette { face, concave, points, normals, curve, source });
+        out.push(Silhouette { face, concave, points, normals, rise, curve, source });
     }
 }
 
