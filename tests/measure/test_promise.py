@@ -37,7 +37,6 @@ def test_a_screw_at_5_to_1_keeps_it(screw):
     assert screw.short.worst >= screw.accuracy
 
 
-@pytest.mark.xfail(strict=True, reason="the edge of a thread that turns behind its crest is seen for 1.1 accuracies")
 def test_the_changes_of_a_screw_keep_it(screw):
     assert screw.changes.worst <= screw.accuracy
 
