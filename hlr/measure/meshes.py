@@ -15,6 +15,9 @@ from hlr.scene.scene import INTERIOR
 from hlr.source.model import Floats
 from hlr.tolerance import ANGLE
 
+EDGE_ON = 0.01
+"""In deflections: a triangle whose image is no higher than this is seen edge-on."""
+
 
 def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, threads: int) -> tuple[Floats, list[str]]:
     """(n,) the largest distance of each line of a mesh without B-rep, but for intersections; and names for them."""
@@ -28,12 +31,17 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, thr
         return np.zeros(0), []
     corner = scene.points[scene.triangles]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    ahead = (normal * paper.sight(corner[:, 0])).sum(axis=1) > 0.0
+    sight = paper.sight(corner[:, 0])
+    ahead = (normal * sight).sum(axis=1) / np.linalg.norm(sight, axis=1)
+    side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
+    # Twice the area of its image over a side: its height. Where that is next to none, rounding says how it is turned.
+    edge_on = np.abs(ahead) <= EDGE_ON * deflection * side
     first, count = scene.offsets[:-1], np.diff(scene.offsets)
     faced = np.flatnonzero(count > 0)
     some = np.zeros(len(scene.edges), np.int64)
-    some[faced] = np.add.reduceat(ahead[scene.incident].astype(np.int64), first[faced])
+    some[faced] = np.add.reduceat((ahead > 0.0)[scene.incident].astype(np.int64), first[faced])
     folds = (some > 0) & (some < count)
+    folds[faced] |= np.logical_or.reduceat(edge_on[scene.incident], first[faced])
     edge = np.flatnonzero(folds | (scene.edge_kind != INTERIOR))
     ends = paper(scene.points[scene.edges[edge].ravel()]).reshape(-1, 4)
     good = np.isfinite(ends).all(axis=1)
