@@ -10,6 +10,7 @@ from hlr.errors import OptionError
 from hlr.measure.edges import TrueEdges, edge_errors
 from hlr.measure.figures import shortest
 from hlr.measure.finer import Comparison, finer_drawing, on_the_same_paper
+from hlr.measure.intersections import intersection_errors
 from hlr.measure.meshes import mesh_errors
 from hlr.measure.outlines import outline_errors
 from hlr.measure.paper import Paper
@@ -63,18 +64,18 @@ def measured(
         deflection = min(deflection, float(found.accuracy["deflection"]))
     caster = Caster.of(opened, drawing, paper, deflection)
     if isinstance(found, str):
-        intersections = changes = grazing = lost = Errors(None, why=found)
+        changes = grazing = lost = Errors(None, why=found)
         bound = None
     else:
         beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
         changes, grazing, bound = beside.changes(caster)
-        lost, intersections = beside.lost(under(float(drawing.accuracy["used"]))), beside.intersections()
+        lost = beside.lost(under(float(drawing.accuracy["used"])))
     return Reached(
         accuracy=float(drawing.accuracy["used"]),
         edges=edges,
         outlines=outlines,
         meshes=meshes,
-        intersections=intersections,
+        intersections=intersection_errors(drawing, forms[0], caster, paper, threads),
         changes=changes,
         grazing=grazing,
         bound=bound,

@@ -33,8 +33,6 @@ Mask = npt.NDArray[np.bool_]
 
 LATERAL = 0.25
 """Of the accuracy: lines of the two drawings this close are the same line."""
-NEAR = 10.0
-"""In accuracies: intersection lines farther apart than this are not the same."""
 BETWEEN = 5
 """How much denser rays look at a stretch that is longer than the accuracy."""
 MOST_SAMPLES = 2_000_000
@@ -188,25 +186,6 @@ class Comparison:
         name = self._finer.drawing.parts[of.part].name
         tie = f"edge {of.edge}" if of.edge is not None else f"face {of.face}"
         return f"{name}, {of.kind} {'visible' if of.visible else 'hidden'} {tie} at {at[0]:.2f},{at[1]:.2f}"
-
-    def intersections(self) -> Errors:
-        """Distance of intersection lines to those of the finer drawing.
-
-        What that has no line for near by is left out: whether parts touch there or clash is a matter of depth.
-        """
-        kind = "intersection"
-        wanted = np.array([x.kind == kind for x in self._drawing.lines], bool)
-        mine = wanted[self._drawn.line]
-        if not mine.any():
-            return Errors(None, why="the drawing has none")
-        theirs = np.array([x.kind == kind for x in self._finer.drawing.lines], bool)[self._finer.line]
-        points, chosen = np.ascontiguousarray(self._drawn.points[mine]), self._finer.segments[theirs]
-        zero, none = np.zeros(len(points), np.int32), np.zeros(len(chosen), np.int32)
-        most = NEAR * self._accuracy
-        off, _ = _kernel.nearest(points, zero, np.ascontiguousarray(chosen), none, most, self._threads)
-        names = [self._drawing.parts[self._drawing.lines[i].part].name for i in self._drawn.line[mine].tolist()]
-        good = np.isfinite(off)
-        return errors(off[good], [n for n, g in zip(names, good.tolist(), strict=True) if g])
 
 
 def _between(points: Floats) -> Floats:

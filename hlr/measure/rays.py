@@ -40,10 +40,11 @@ DISAGREE, BLOCKED, FREE = 0, 1, 2
 
 @dataclass(frozen=True, slots=True)
 class Caster:
-    """All triangles of a model, and how wide and deep nine rays of one drawing are."""
+    """All triangles of a model, the part (t,) of each, and how wide and deep nine rays of one drawing are."""
 
     points: Floats
     triangles: Ints
+    part: Ints
     paper: Paper
     radius: float
     depth: float
@@ -60,6 +61,7 @@ class Caster:
         return cls(
             points=np.concatenate([p.points for p in parts]),
             triangles=np.concatenate([p.triangles + np.int32(f) for p, f in zip(parts, first, strict=True)]),
+            part=np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts]),
             paper=paper,
             radius=float(drawing.accuracy["used"]),
             depth=float(drawing.accuracy["contact"]),

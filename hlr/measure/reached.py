@@ -71,7 +71,7 @@ class Reached:
     edges          written curves of model edges, to the edges' true curves
     outlines       written outlines, to where the true surface is seen edge-on
     meshes         written lines of meshes, to the mesh's own edges
-    intersections  written lines in which surfaces meet, to those of the finer drawing
+    intersections  written lines in which surfaces meet, to where finer tessellations of both cross
     changes        visibility changes, along their line, to those of the finer drawing
     grazing        those of them that the geometry makes ill-conditioned: nothing is promised but `bound`
     bound          the longest stretch over which less than the accuracy decides what is seen
