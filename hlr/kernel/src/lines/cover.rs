@@ -308,7 +308,9 @@ fn gaps(mut covered: Vec<Covered>, line: &Polyline, sides: &[Side], widths: Widt
             || (!line.visible && to - from <= 2.0 * width && {
                 let ink: Vec<&Side> = beside.iter().map(|&s| &sides[s as usize]).filter(|s| s.visible).collect();
                 let under = |p: &[f64; 2]| ink.iter().any(|s| away(s, p) <= width);
-                stretch(line, from, to, view).flat.iter().all(under)
+                let way = stretch(line, from, to, view).flat;
+                // Between two ends of visible ink the middle is the farthest from it.
+                way.iter().all(under) && way.windows(2).all(|w| under(&[0, 1].map(|k| 0.5 * (w[0][k] + w[1][k]))))
             })
     };
     let mut merged: Vec<Covered> = Vec::new();
