@@ -91,6 +91,13 @@ class Camera:
             return -dot(points, self.direction)
         return -dot(points - np.asarray(self.eye), self.direction)
 
+    def toward(self, points: Floats) -> Floats:
+        """(n, 3) unit vectors from points toward the viewer."""
+        if self.eye is None:
+            return np.broadcast_to(np.asarray(self.direction), points.shape)
+        away = np.asarray(self.eye) - points
+        return np.asarray(away / np.maximum(np.linalg.norm(away, axis=1), np.finfo(float).tiny)[:, None])
+
 
 def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camera:
     """The camera for a named view or a direction; `bounds` (2, 3) in model coordinates.

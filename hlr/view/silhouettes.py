@@ -57,7 +57,7 @@ def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: T
     smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
     found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
     scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
-    return _with_lines(scene, on, found, tolerances.deflection)
+    return _with_lines(scene, on, found, camera, tolerances.deflection)
 
 
 def _traced(
@@ -127,7 +127,7 @@ def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.ND
     return scene.edge_curved & ~known
 
 
-def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], deflection: float) -> Scene:
+def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: Camera, deflection: float) -> Scene:
     offsets, face, source = found["offsets"], found["face"], found["source"]
     n, m = len(scene.points), len(offsets) - 1
     count = np.diff(offsets)
@@ -149,6 +149,9 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], deflectio
     # Seen from inside, what stands out is not what was measured.
     lift = np.where(inside_out, -OUTLINE_LIFT * deflection, _lift(found["rise"], deflection))
     own = np.repeat(found["meeting_normal"] * _lift(found["meeting_rise"], deflection)[:, None], 2, axis=0)
+    probed = scene.points[scene.edges[met].ravel()]
+    # Toward the viewer as well: moved off its curved face it may lie in the plane of the other one.
+    own += OUTLINE_SPARE * deflection * camera.toward(probed)
     walks = Chains(
         offsets=(offsets - np.arange(m + 1)).astype(np.int32),
         edges=np.arange(len(lines), dtype=np.int32) + np.int32(len(scene.edges)),
@@ -165,7 +168,7 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], deflectio
     none = np.zeros(probes, bool)
     return replace(
         scene,
-        points=np.concatenate([scene.points, found["points"], scene.points[scene.edges[met].ravel()]]),
+        points=np.concatenate([scene.points, found["points"], probed]),
         edges=np.ascontiguousarray(np.concatenate([scene.edges, edges])),
         offsets=np.concatenate([scene.offsets, np.full(more, scene.offsets[-1], np.int32)]),
         edge_part=np.concatenate([scene.edge_part, part[line], scene.edge_part[met]]),
