@@ -16,6 +16,11 @@ from hlr.source.tables import Bools, Bytes, Tables, ranges, starts
 TANGENT = 0.01
 """Radians: surfaces that meet at less are tangent; what STEP and IGES readers assume as well."""
 
+WAVERING, MOSTLY_TANGENT = 0.02, 0.008
+"""Radians: surfaces that were fitted to one another waver about TANGENT along an edge; the worst of a few places there
+would say now this, now that, as the tessellation falls. They are tangent where no place is worse than the one, and the
+root of the mean square is less than the other."""
+
 NEARLY_TANGENT = 0.1
 """Radians: an edge recorded as tangent is believed where its sides come as close as this somewhere.
 
@@ -117,10 +122,11 @@ def classify(laid: Laid) -> Bytes:
     result[(faces == 1) & ~inner] = EdgeClass.BOUNDARY
     seam = (faces == 1) & twice
     result[seam] = EdgeClass.SEAM
-    worst, least = _bends(laid)
+    worst, least, mean = _bends(laid)
     result[seam & (worst > _squared_sine(NEARLY_TANGENT))] = EdgeClass.SHARP
     recorded = tables.smooth[topo.edge_shape] >= t.G1
     tangent = (worst <= _squared_sine(TANGENT)) | (recorded & (least <= _squared_sine(NEARLY_TANGENT)))
+    tangent |= (worst <= _squared_sine(WAVERING)) & (mean <= _squared_sine(MOSTLY_TANGENT))
     result[(faces == 2) & tangent] = EdgeClass.SMOOTH
     return result
 
@@ -129,8 +135,8 @@ def _squared_sine(angle: float) -> float:
     return float(np.sin(angle) ** 2)
 
 
-def _bends(laid: Laid) -> tuple[Floats, Floats]:
-    """(edges,) largest and least squared sine between the normals of the two sides; 4 beyond a right angle.
+def _bends(laid: Laid) -> tuple[Floats, Floats, Floats]:
+    """(edges,) largest, least and mean squared sine between the normals of the two sides; 4 beyond a right angle.
 
     Edges without exactly two polygons of equal length, and edges without any usable normal, get 0 where they are
     recorded as tangent and 4 otherwise.
@@ -145,7 +151,7 @@ def _bends(laid: Laid) -> tuple[Floats, Floats]:
     even = sizes[one] == sizes[two]
     pair, one, two = pair[even], one[even], two[even]
     if not len(pair):
-        return bend, bend
+        return bend, bend, bend
     lengths = sizes[one]
     normals = _normals(laid)
     left_node = polygons.nodes[ranges(polygons.start[one], lengths)]
@@ -171,7 +177,10 @@ def _bends(laid: Laid) -> tuple[Floats, Floats]:
         extreme = reduce.reduceat(ratio, first)
         known = extreme != unknown
         result[pair[known]] = extreme[known]
-    return worst, least
+    mean, some = worst.copy(), np.add.reduceat(usable.astype(float), first)
+    known = some > 0.0
+    mean[pair[known]] = np.add.reduceat(np.where(usable, ratio, 0.0), first)[known] / some[known]
+    return worst, least, mean
 
 
 def _dot(a: Floats, b: Floats) -> Floats:
