@@ -146,8 +146,7 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
     group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
     group = group_of_face[face]
     inside_out = np.repeat(found["concave"] & ~scene.groups.cull[group], count)
-    # Seen from inside, what stands out is not what was measured.
-    lift = np.where(inside_out, -OUTLINE_LIFT * deflection, _lift(found["rise"], deflection))
+    lift = np.where(inside_out, -1.0, 1.0) * _lift(found["rise"], deflection)
     own = np.repeat(found["meeting_normal"] * _lift(found["meeting_rise"], deflection)[:, None], 2, axis=0)
     probed = scene.points[scene.edges[met].ravel()]
     # Toward the viewer as well: moved off its curved face it may lie in the plane of the other one.

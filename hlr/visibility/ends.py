@@ -70,7 +70,8 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     # An edge that stands in several chains is parted once.
     own, first = np.unique(own[turns], return_index=True)
     low, high = low[turns][first], high[turns][first]
-    return _parted(segments, begin, own, at[own], low, high, probe[own], found.meeting_probe)
+    # Where nothing is culled a face may be seen from inside, and the probe has been moved into its body.
+    return _parted(segments, begin, own, at[own], low, high, probe[own], cull[own], found.meeting_probe)
 
 
 def _parted(
@@ -81,15 +82,17 @@ def _parted(
     low: npt.NDArray[np.uint8],
     high: npt.NDArray[np.uint8],
     probe: Ints,
+    asked: npt.NDArray[np.bool_],
     probes: Ints,
 ) -> Segments:
     """Chords `own` (k,) as their probes are seen, up to `at`; beyond that, as what follows them there.
 
-    low, high (k,): the states beyond both ends
+    low, high (k,): the states beyond both ends. asked (k,): whether the probe is: else the chord goes on as what is
+    before it. probes: all of them
     """
     front_low = SEEN[low] < SEEN[high]
     begins, ends = np.where(front_low, 0.0, at), np.where(front_low, at, 1.0)
-    count = begin[probe + 1] - begin[probe]
+    count = np.where(asked, begin[probe + 1] - begin[probe], 0)
     which = np.repeat(np.arange(len(own)), count)
     piece = np.arange(len(which)) + np.repeat(begin[probe] - np.cumsum(count) + count, count)
     blind = np.flatnonzero(count == 0)

@@ -11,7 +11,7 @@
 use rayon::prelude::*;
 
 use super::face::{Face, Place, mean, root};
-use super::refine::rise;
+use super::refine::{outward, rise};
 use super::{Model, TIE};
 use crate::geometry::vector::{Vector, cross, dot, length, sub, unit};
 
@@ -271,15 +271,16 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
         let f = [0, 1].map(|k| sides[k].f[0] + (sides[k].f[1] - sides[k].f[0]) * t);
         let front = usize::from(f[1] < f[0]);
         let normal = mean(&sides[0].normal, &sides[1].normal);
+        let (concave, triangles) = (concave(model, e, sides, t), [sides[0].triangle, sides[1].triangle]);
         out.push(Fold {
             ends: [pair[0].1, pair[1].1],
             points: [pair[0].2, pair[1].2],
             normal,
-            rise: [pair[0].2, pair[1].2].map(|p| rise(model, &[sides[0].triangle, sides[1].triangle], &p, &normal)),
+            rise: [pair[0].2, pair[1].2].map(|p| rise(model, &triangles, &p, &outward(&normal, concave))),
             face: sides[front].number,
             // A seam is no edge of the surface: the outline goes on beside it.
             source: if sides[0].number == sides[1].number { -1 } else { model.source[e] },
-            concave: concave(model, e, sides, t),
+            concave,
         });
     }
 }

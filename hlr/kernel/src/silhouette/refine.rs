@@ -30,6 +30,11 @@ impl Stretch {
     }
 }
 
+/// Away from the facets at a silhouette of this kind; seen from inside, against the normal.
+pub fn outward(normal: &Vector, concave: bool) -> Vector {
+    if concave { normal.map(|x| -x) } else { *normal }
+}
+
 /// How far the corners of triangles stand out beyond the plane through a point, square to a unit normal. Corners lie on
 /// the surface: nothing does where it is convex, and by a chord's bulge where it is a saddle.
 pub fn rise(model: &Model, triangles: &[i32], point: &Vector, normal: &Vector) -> f64 {
@@ -55,7 +60,7 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
     }
     let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
     let piece = |a: &Place, b: &Place, concave: bool| {
-        let rise = [a, b].map(|at| rise(model, &[triangle], &at.point, &at.normal));
+        let rise = [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
         let tangents = [a, b].map(|at| tangent(face, at, chord));
         Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], tangents, source: -1, concave, rise }
     };

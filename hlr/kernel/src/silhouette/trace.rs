@@ -9,7 +9,7 @@ use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::cut::{canonical, in_order, turns_back, unwound};
 use super::exact::{circle, through};
 use super::face::Face;
-use super::refine::{Stretch, rise, stretches};
+use super::refine::{Stretch, outward, rise, stretches};
 use super::wrinkle::flatten;
 use crate::geometry::curve::Curve;
 use crate::geometry::vector::{Vector, dot, length, sub};
@@ -159,15 +159,16 @@ fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing)
     let vertex = model.triangles[t as usize][k];
     let number = model.triangle_face[t as usize];
     let face = Face::new(model, number)?;
+    let concave = face.radial(crossing.place.uv) * model.chord < -1e-9;
+    let away = outward(&crossing.place.normal, concave);
     Some(Fold {
         ends: [Node::Crossing(c), Node::Apex(vertex as u32, c)],
         points: [crossing.place.point, model.points[vertex as usize]],
         normal: crossing.place.normal,
         face: number,
         source: -1,
-        concave: face.radial(crossing.place.uv) * model.chord < -1e-9,
-        rise: [crossing.place.point, model.points[vertex as usize]]
-            .map(|p| rise(model, &[t], &p, &crossing.place.normal)),
+        concave,
+        rise: [crossing.place.point, model.points[vertex as usize]].map(|p| rise(model, &[t], &p, &away)),
     })
 }
 
