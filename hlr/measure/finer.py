@@ -131,7 +131,7 @@ class Comparison:
             own = own[(line[own] == line[first]) & differ[own]]
             here = _between(points[own])
             of = np.full(len(here), line[first])
-            wrong = contradicted(self._drawing, here, of, caster, self._threads)
+            wrong = contradicted(self._drawing, self._drawn, here, of, caster, self._threads)
             found.append(longest_run(here, of, wrong, step / BETWEEN)[1])
             doubtful.append(size)
             bound = max(bound, longest_run(here, of, ~wrong, step / BETWEEN)[1])

@@ -26,7 +26,7 @@ from hlr.measure.paper import Paper
 from hlr.measure.reached import Labels
 from hlr.measure.written import Index, Written, in_model
 from hlr.source.model import Floats, Ints
-from hlr.tolerance import ANGLE
+from hlr.tolerance import ANGLE, under
 from hlr.view.camera import NEAR
 
 RING = 8
@@ -117,7 +117,7 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
         return Labels(None, why="the drawing has no lines")
     step = max(accuracy, length / samples)
     points, line = drawn.middles(step)
-    wrong = contradicted(drawing, points, line, caster, threads)
+    wrong = contradicted(drawing, drawn, points, line, caster, threads)
     if not wrong.any():
         return Labels(0.0, 0.0, length)
     # How long each stretch is: its line's samples all lie close together now.
@@ -127,7 +127,7 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
     points, line = near.middles(dense)
     close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step, threads)
     points, line = points[close], line[close]
-    again = contradicted(drawing, points, line, caster, threads)
+    again = contradicted(drawing, drawn, points, line, caster, threads)
     where, longest = longest_run(points, line, again, dense)
     name = None
     if where is not None:
@@ -137,8 +137,13 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
     return Labels(float(wrong.mean()), longest, length, where=name)
 
 
-def contradicted(drawing: Drawing, points: Floats, line: Index, caster: Caster, threads: int) -> npt.NDArray[np.bool_]:
-    """(n,) whether nine rays agree that points (n, 2) of lines are not what they are drawn as."""
+def contradicted(
+    drawing: Drawing, drawn: Written, points: Floats, line: Index, caster: Caster, threads: int
+) -> npt.NDArray[np.bool_]:
+    """(n,) whether nine rays agree that points (n, 2) of lines are not what they are drawn as.
+
+    A hidden line under the ink of a visible one, drawn as `drawn` says, is not seen, and never wrong.
+    """
     at = in_model(drawing, points, line, threads)
     said = caster.verdict(at, threads)
     visible = np.array([x.visible for x in drawing.lines], bool)[line]
@@ -146,6 +151,15 @@ def contradicted(drawing: Drawing, points: Floats, line: Index, caster: Caster, 
     # What is covered by less than a contact may be drawn either way.
     doubtful = np.flatnonzero(wrong & ~visible)
     wrong[doubtful] &= ~caster.touched(at[doubtful], threads)
+    hidden = np.flatnonzero(wrong & ~visible)
+    if len(hidden):
+        segments, owner = drawn.steps()
+        ink = segments[np.array([x.visible for x in drawing.lines], bool)[owner]]
+        of, none = np.zeros(len(hidden), np.int32), np.zeros(len(ink), np.int32)
+        most = under(float(drawing.accuracy["used"]))
+        near = np.ascontiguousarray(points[hidden])
+        off, _ = _kernel.nearest(near, of, np.ascontiguousarray(ink), none, most, threads)
+        wrong[hidden] &= ~np.isfinite(off)
     return wrong
 
 
