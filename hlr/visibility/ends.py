@@ -37,7 +37,7 @@ def at_outlines(scene: Scene, camera: Camera, segments: Segments) -> Segments:
     found = scene.silhouettes
     if found is None:
         return segments
-    segments = _undented(scene, found.dents, segments)
+    segments = _undented(scene, found.dents, found.meeting_edge, segments)
     if len(found.meeting_edge) == 0:
         return segments
     # One meeting per edge: where both faces of an edge fold, the two ends are one.
@@ -112,10 +112,11 @@ def _parted(
     return replace(segments, edge=edge[order], t0=t0[order], t1=t1[order], state=state)
 
 
-def _undented(scene: Scene, dents: Ints, segments: Segments) -> Segments:
+def _undented(scene: Scene, dents: Ints, met: Ints, segments: Segments) -> Segments:
     """A face turned toward the viewer does not hide its own border, though its triangles there may be turned away.
 
-    Runs of such chords between visible ends become visible; what something else hides goes on beyond them.
+    Runs of such chords between visible ends become visible; what something else hides goes on beyond them. One end may
+    be a chord at which an outline ends, `met`: beyond that the face is turned away.
     """
     chains = scene.chains
     doubtful = np.zeros(len(scene.edges), bool)
@@ -132,13 +133,18 @@ def _undented(scene: Scene, dents: Ints, segments: Segments) -> Segments:
     head[1:] = (np.diff(place) > 1) | (np.diff(owner) > 0)
     run = np.cumsum(head) - 1
     first, last = place[head], place[np.append(head[1:], True)]
-    seen = np.ones(len(first), bool)
+    ends = []
+    meets = np.zeros(len(scene.edges), bool)
+    meets[met] = True
     for at, step in ((first, -1), (last, 1)):
         beyond = _neighbours(scene, at, step)
         edge = chains.edges[beyond]
         final = chains.reversed[beyond] ^ (step < 0)
         piece = np.minimum(np.where(final, begin[edge + 1] - 1, begin[edge]), len(segments.state) - 1)
-        seen &= (begin[edge + 1] > begin[edge]) & (segments.state[piece] == VISIBLE) & (beyond != at)
+        there = (begin[edge + 1] > begin[edge]) & (beyond != at)
+        visible = there & (segments.state[piece] == VISIBLE)
+        ends.append((visible, visible | (there & meets[edge])))
+    seen = (ends[0][0] & ends[1][1]) | (ends[0][1] & ends[1][0])
     mended = np.zeros(len(scene.edges), bool)
     mended[chains.edges[place[seen[run]]]] = True
     return replace(segments, state=np.where(mended[segments.edge], np.uint8(VISIBLE), segments.state))
