@@ -26,7 +26,7 @@ from hlr.measure.paper import Paper
 from hlr.measure.reached import Labels
 from hlr.measure.written import Index, Written, in_model
 from hlr.source.model import Floats, Ints
-from hlr.tolerance import ANGLE, under
+from hlr.tolerance import ANGLE, MESH_CONTACT, under
 from hlr.view.camera import NEAR
 
 RING = 8
@@ -57,14 +57,18 @@ class Caster:
         """From a mesh of its own, as fine as `deflection` (model units)."""
         parts = opened.mesh(deflection, ANGLE).parts
         first = np.cumsum([0, *(len(p.points) for p in parts[:-1])])
-        view = drawing.view
+        view, points = drawing.view, np.concatenate([p.points for p in parts])
+        depth = float(drawing.accuracy["contact"])
+        if not all(p.brep for p in parts):
+            # What a mesh was made with it does not tell.
+            depth = max(depth, MESH_CONTACT * float(np.linalg.norm(np.ptp(points, axis=0))))
         return cls(
-            points=np.concatenate([p.points for p in parts]),
+            points=points,
             triangles=np.concatenate([p.triangles + np.int32(f) for p, f in zip(parts, first, strict=True)]),
             part=np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts]),
             paper=paper,
             radius=float(drawing.accuracy["used"]),
-            depth=float(drawing.accuracy["contact"]),
+            depth=depth,
             nearest=NEAR * (view.distance or 0.0),
             right=np.array(view.right),
             up=np.array(view.up),
