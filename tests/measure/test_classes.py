@@ -153,3 +153,29 @@ def test_what_is_written_is_what_is_drawn(drawing, cubic):
             assert np.abs(np.hypot(u, v) - 1.0).max() * line.curve.radii[0] < 0.5 * ACCURACY
         if line.curve is None or not line.curve.whole if isinstance(line.curve, Arc) else True:
             assert np.abs(points[[0, -1]] - line.points[[0, -1]]).max() < 0.2 * ACCURACY
+
+
+def test_a_triangle_seen_edge_on_may_fold_at_any_of_its_edges():
+    """Rounding says how it is turned, and the drawing's rounding is not that of the measure."""
+    import trimesh
+
+    slab = trimesh.creation.box((30.0, 20.0, 10.0)).subdivide().subdivide()
+    slab.apply_transform(trimesh.transformations.rotation_matrix(0.7, (1, 2, 3)))
+    view = tuple(np.cross(slab.face_normals[0], (0.3, 0.5, -0.8)))
+    assert measured(slab, hlr.draw(slab, view, accuracy=ACCURACY)).meshes.worst <= ACCURACY
+
+
+def test_intersections_are_measured_where_the_surfaces_cross():
+    import cadquery as cq
+
+    ball = cq.Workplane("XY").sphere(15.0)
+    drum = cq.Workplane("XY").circle(9.0).extrude(40.0).translate((4, 3, -20))
+    model = open_source(cq.Assembly().add(ball, name="ball").add(drum, name="drum"))
+    drawing = hlr.draw(model, "iso", accuracy=ACCURACY)
+    reached = measured(model, drawing, samples=500).intersections
+    assert reached.count >= 2 and reached.worst <= ACCURACY and "ball" in reached.where
+    off = replace(
+        drawing,
+        lines=tuple(moved(x, (3.0 * ACCURACY, 0.0)) if x.kind == "intersection" else x for x in drawing.lines),
+    )
+    assert measured(model, off, samples=500).intersections.worst > ACCURACY

@@ -238,3 +238,20 @@ def test_progress_runs_from_nothing_to_done():
     open_source(box()).mesh(0.1, 0.3, lambda stage, done: seen.append((stage, done)))
     assert seen[0] == ("tessellate", 0.0)
     assert seen[-1] == ("tessellate", 1.0)
+
+
+@pytest.mark.parametrize(
+    ("worst", "mean", "expected"),
+    [(0.009, 0.009, "SMOOTH"), (0.0108, 0.0065, "SMOOTH"), (0.0108, 0.009, "SHARP"), (0.03, 0.0065, "SHARP")],
+)
+def test_edges_that_waver_about_tangency_are_tangent(monkeypatch, worst, mean, expected):
+    """The worst of a few places is now more, now less, as nodes fall; the mean stays."""
+    from hlr.source import edges
+
+    def bends(laid):
+        ones = np.ones(len(laid.topo.edge_shape))
+        return ones * np.sin(worst) ** 2, ones * 0.0, ones * np.sin(mean) ** 2
+
+    monkeypatch.setattr(edges, "_bends", bends)
+    (part,) = open_source(cq.Workplane().box(1, 2, 3)).mesh(0.1, 0.5).parts
+    assert set(part.edge_class.tolist()) == {EdgeClass[expected]}
