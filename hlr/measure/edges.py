@@ -25,6 +25,8 @@ Edge = tuple[int, int]
 
 CHORDS = 96
 """Per edge, and per span of a spline a twelfth of them."""
+CLOSE, MOST_FINER = 0.1, 64
+"""Of the accuracy: how far chords may be off; and how many times more than `CHORDS` there are at most for that."""
 CHECKS = 9
 """Places where a record is compared with OpenCASCADE."""
 FREE = 2000
@@ -57,6 +59,10 @@ class TrueEdges:
                 here = evaluated(curve, np.zeros(CHECKS, np.int32), np.linspace(*record[1:3], CHECKS))[:, 0]
                 self._off[i] = float((np.linalg.norm(here - truth, axis=1) * paper.magnified(here)).max(initial=0.0))
                 flat = paper(evaluated(curve, np.zeros(len(places), np.int32), places)[:, 0])
+                finer = _finer(flat, CLOSE * float(drawing.accuracy["used"]))
+                if finer > 1:
+                    places = np.linspace(places[0], places[-1], (len(places) - 1) * finer + 1)
+                    flat = paper(evaluated(curve, np.zeros(len(places), np.int32), places)[:, 0])
                 ends = np.stack([places[:-1], places[1:]], axis=1)
             segments = np.concatenate([flat[:-1], flat[1:]], axis=1)
             # What lies behind the eye has no place on paper.
@@ -112,6 +118,14 @@ def _places(record: Record) -> Floats:
     kind, first, last, values = record
     spans = int(values[1]) - int(values[0]) if kind == SPLINE else 1
     return np.linspace(first, last, max(CHORDS, CHORDS // 12 * spans) + 1)
+
+
+def _finer(flat: Floats, close: float) -> int:
+    """How many times more points (n, 2) keep their chords this close to the curve: where it crosses itself on paper, a
+    search that begins on a chord farther off than the other branch would end there."""
+    bulge = np.hypot(*(flat[:-2] - 2.0 * flat[1:-1] + flat[2:]).T) / 8.0
+    worst = float(bulge[np.isfinite(bulge)].max(initial=0.0))
+    return int(min(np.ceil(np.sqrt(worst / close)), MOST_FINER))
 
 
 def _evaluated(shape: Any, transform: Floats, record: Record) -> Floats:
