@@ -15,6 +15,8 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
+pub use super::gaps::Widths;
+use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
 use super::{Polyline, View, distance};
 use crate::exact::Point;
 use crate::exact::snap::Grid;
@@ -23,27 +25,6 @@ use crate::scan::bands::{Bands, clipped_x, y_range};
 /// Sine of the angle beyond which two lines cross rather than coincide. Generous: chords of one circle, cut
 /// differently, differ in direction; a mere crossing is told apart by the length it covers.
 const PARALLEL: f64 = 0.5;
-/// Covered stretches shorter than this many widths are crossings. A hidden line's are counted in accuracies, as if the ink
-/// were as wide as UNDER of them: the finer the ink, the more would be cut out beside cusps, where contours end.
-const CROSSING: f64 = 6.0;
-const UNDER: f64 = 6.0;
-
-/// How close is close, on paper.
-#[derive(Clone, Copy, Debug)]
-pub struct Widths {
-    /// Lines of one visibility.
-    pub same: f64,
-    /// A hidden line beside a visible one.
-    pub under: f64,
-}
-
-struct Side {
-    visible: bool,
-    line: u32,
-    from: [f64; 2],
-    to: [f64; 2],
-}
-
 /// A stretch of one side, in parameters, that another side covers: one of its own line or not.
 #[derive(Clone, Copy, PartialEq)]
 struct Hit {
@@ -57,16 +38,6 @@ struct Hit {
 /// A side that so many others cover whole need not be covered by worse ones: in a tangle of thousands of short lines, where
 /// each covers each, the list would have no end. The best of a stack are those that are drawn.
 const ENOUGH: usize = 16;
-
-/// A stretch of a line, in arc length.
-#[derive(Clone, Copy)]
-struct Covered {
-    from: f64,
-    to: f64,
-    own: bool,
-    /// The sides that cover its two ends.
-    by: [u32; 2],
-}
 
 struct Entry {
     xmin: i32,
@@ -135,41 +106,6 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
         .zip(by_line.into_par_iter())
         .flat_map_iter(|(line, gaps)| if gaps.is_empty() { vec![line] } else { rest(&line, &gaps, widths, view) })
         .collect()
-}
-
-/// The point of a side at a parameter.
-fn at(s: &Side, u: f64) -> [f64; 2] {
-    [0, 1].map(|k| s.from[k] + u * (s.to[k] - s.from[k]))
-}
-
-/// The parameter on a side beside a point.
-fn along(s: &Side, p: &[f64; 2]) -> f64 {
-    let (x, y) = (s.to[0] - s.from[0], s.to[1] - s.from[1]);
-    let size = x * x + y * y;
-    if size > 0.0 { (x * (p[0] - s.from[0]) + y * (p[1] - s.from[1])) / size } else { 0.0 }
-}
-
-/// The parts of from..to that do not fall on `gone` (ascending), where they are at `places` of the line that has gone.
-fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered], mut put: impl FnMut(f64, f64)) {
-    let (low, high) = (places[0].min(places[1]), places[0].max(places[1]));
-    let back = |v: f64| {
-        let share = if places[1] == places[0] { 0.0 } else { (v - places[0]) / (places[1] - places[0]) };
-        from + share.clamp(0.0, 1.0) * (to - from)
-    };
-    let mut here = low;
-    let mut keep = |a: f64, b: f64| {
-        let (u, v) = (back(a), back(b));
-        put(u.min(v), u.max(v));
-    };
-    for g in gone.iter().filter(|g| g.to >= low && g.from <= high) {
-        if g.from > here {
-            keep(here, g.from);
-        }
-        here = here.max(g.to);
-    }
-    if here < high {
-        keep(here, high);
-    }
 }
 
 /// Stretches of sides covered by sides of better lines.
@@ -295,116 +231,6 @@ fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f
         u1 = u1.min(s.max(t));
     }
     (u1 > u0).then_some((u0, u1))
-}
-
-/// The stretches (in arc length) that are left out, ascending. Rests of less than two widths of coincidence, which are the
-/// accuracy, go with them: a line that slants off would leave dots. Longer ones, up to two widths of ink, go only where
-/// they lie under the ink themselves.
-fn gaps(mut covered: Vec<Covered>, line: &Polyline, sides: &[Side], widths: Widths, view: &View) -> Vec<Covered> {
-    covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
-    let (total, width) = (line.length(), if line.visible { widths.same } else { widths.under });
-    let goes = |from: f64, to: f64, beside: [u32; 2]| {
-        to - from <= 2.0 * widths.same
-            || (!line.visible && to - from <= 2.0 * width && {
-                let ink: Vec<&Side> = beside.iter().map(|&s| &sides[s as usize]).filter(|s| s.visible).collect();
-                let under = |p: &[f64; 2]| ink.iter().any(|s| away(s, p) <= width);
-                let way = stretch(line, from, to, view).flat;
-                // Between two ends of visible ink the middle is the farthest from it.
-                way.iter().all(under) && way.windows(2).all(|w| under(&[0, 1].map(|k| 0.5 * (w[0][k] + w[1][k]))))
-            })
-    };
-    let mut merged: Vec<Covered> = Vec::new();
-    for one in covered {
-        match merged.last_mut() {
-            Some(last) if goes(last.to, one.from, [last.by[1], one.by[0]]) => {
-                if one.to > last.to {
-                    (last.to, last.by[1]) = (one.to, one.by[1]);
-                }
-                last.own &= one.own;
-            }
-            _ => merged.push(one),
-        }
-    }
-    if let Some(first) = merged.first_mut()
-        && goes(0.0, first.from, [first.by[0]; 2])
-    {
-        first.from = 0.0;
-    }
-    if let Some(last) = merged.last_mut()
-        && goes(last.to, total, [last.by[1]; 2])
-    {
-        last.to = total;
-    }
-    let crossing = CROSSING * if line.visible { width } else { width.max(UNDER * widths.same) };
-    merged.retain(|c| c.to - c.from >= crossing || c.to - c.from >= total);
-    merged
-}
-
-/// Distance of a point from a side.
-fn away(s: &Side, p: &[f64; 2]) -> f64 {
-    distance(p, &at(s, along(s, p).clamp(0.0, 1.0)))
-}
-
-/// What is left of a line without its gaps.
-fn rest(line: &Polyline, gaps: &[Covered], widths: Widths, view: &View) -> Vec<Polyline> {
-    let total = line.length();
-    let width = if line.visible { widths.same } else { widths.under };
-    let mut out: Vec<Polyline> = Vec::new();
-    let mut before = 0.0;
-    let mut before_own = false;
-    let ends = gaps.iter().map(|g| (g.from, g.to, g.own)).chain([(total, total, false)]);
-    for (from, to, own) in ends {
-        if from > before {
-            let piece = stretch(line, before, from, view);
-            match out.last_mut() {
-                Some(last) if before_own && goes_on(last, &piece, 4.0 * width) => {
-                    last.flat.extend(&piece.flat);
-                    last.space.extend(&piece.space);
-                }
-                _ => out.push(piece),
-            }
-        }
-        (before, before_own) = (to, own);
-    }
-    out.retain(|l| l.flat.len() > 1);
-    out
-}
-
-/// Whether a piece goes on where the one before ended: what was left out between them ran back over the line itself.
-fn goes_on(before: &Polyline, piece: &Polyline, gap: f64) -> bool {
-    match (before.flat.last(), piece.flat.first()) {
-        (Some(end), Some(start)) => distance(end, start) <= gap,
-        _ => false,
-    }
-}
-
-/// The part of a line between two arc lengths.
-fn stretch(line: &Polyline, from: f64, to: f64, view: &View) -> Polyline {
-    let mut out = Polyline { chain: line.chain, visible: line.visible, ..Polyline::default() };
-    let mut at = 0.0;
-    for i in 1..line.flat.len() {
-        let (a, b) = (&line.flat[i - 1], &line.flat[i]);
-        let length = distance(a, b);
-        let (start, end) = (at, at + length);
-        at = end;
-        let is_last = i + 1 == line.flat.len();
-        if length == 0.0 || end < from || start > to {
-            continue;
-        }
-        let mut put = |u: f64| {
-            let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
-            let flat = [mix(a[0], b[0], u), mix(a[1], b[1], u)];
-            let (p, q) = (&line.space[i - 1], &line.space[i]);
-            let s = view.in_space(u, view.depth(p), view.depth(q));
-            if out.flat.last() != Some(&flat) {
-                out.flat.push(flat);
-                out.space.push([mix(p[0], q[0], s), mix(p[1], q[1], s), mix(p[2], q[2], s)]);
-            }
-        };
-        put(((from - start) / length).clamp(0.0, 1.0));
-        put(if is_last && to >= end { 1.0 } else { ((to - start) / length).clamp(0.0, 1.0) });
-    }
-    out
 }
 
 #[cfg(test)]

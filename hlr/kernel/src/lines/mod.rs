@@ -2,7 +2,7 @@
 //!
 //! 1. `chain`     mesh edges that continue one another become chains (source edges come as chains already)
 //! 2. `runs`      along a chain: equal states join, doubtful and short ones are settled, lines are cut out
-//! 3. `cover`     of lines that coincide on paper one is kept; visible beats hidden
+//! 3. `cover`     of lines that coincide on paper one is kept; visible beats hidden; `gaps` are what is left out
 //! 4. `specks`    what is shorter than the accuracy, even with all it connects to, is dropped
 //! 5. `simplify`  vertices that the accuracy does not need are left out
 //!
@@ -12,6 +12,7 @@
 pub mod chain;
 pub mod cover;
 pub mod ends;
+mod gaps;
 pub mod runs;
 pub mod simplify;
 pub mod specks;

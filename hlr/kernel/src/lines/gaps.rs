@@ -1,0 +1,185 @@
+//! What is left out of a line that others cover, and what is left of it.
+
+use super::{Polyline, View, distance};
+
+/// Covered stretches shorter than this many widths are crossings. A hidden line's are counted in accuracies, as if the ink
+/// were as wide as UNDER of them: the finer the ink, the more would be cut out beside cusps, where contours end.
+const CROSSING: f64 = 6.0;
+const UNDER: f64 = 6.0;
+
+/// How close is close, on paper.
+#[derive(Clone, Copy, Debug)]
+pub struct Widths {
+    /// Lines of one visibility.
+    pub same: f64,
+    /// A hidden line beside a visible one.
+    pub under: f64,
+}
+
+pub(super) struct Side {
+    pub(super) visible: bool,
+    pub(super) line: u32,
+    pub(super) from: [f64; 2],
+    pub(super) to: [f64; 2],
+}
+
+/// A stretch of a line, in arc length.
+#[derive(Clone, Copy)]
+pub(super) struct Covered {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) own: bool,
+    /// The sides that cover its two ends.
+    pub(super) by: [u32; 2],
+}
+
+/// The point of a side at a parameter.
+pub(super) fn at(s: &Side, u: f64) -> [f64; 2] {
+    [0, 1].map(|k| s.from[k] + u * (s.to[k] - s.from[k]))
+}
+
+/// The parameter on a side beside a point.
+pub(super) fn along(s: &Side, p: &[f64; 2]) -> f64 {
+    let (x, y) = (s.to[0] - s.from[0], s.to[1] - s.from[1]);
+    let size = x * x + y * y;
+    if size > 0.0 { (x * (p[0] - s.from[0]) + y * (p[1] - s.from[1])) / size } else { 0.0 }
+}
+
+/// The parts of from..to that do not fall on `gone` (ascending), where they are at `places` of the line that has gone.
+pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered], mut put: impl FnMut(f64, f64)) {
+    let (low, high) = (places[0].min(places[1]), places[0].max(places[1]));
+    let back = |v: f64| {
+        let share = if places[1] == places[0] { 0.0 } else { (v - places[0]) / (places[1] - places[0]) };
+        from + share.clamp(0.0, 1.0) * (to - from)
+    };
+    let mut here = low;
+    let mut keep = |a: f64, b: f64| {
+        let (u, v) = (back(a), back(b));
+        put(u.min(v), u.max(v));
+    };
+    for g in gone.iter().filter(|g| g.to >= low && g.from <= high) {
+        if g.from > here {
+            keep(here, g.from);
+        }
+        here = here.max(g.to);
+    }
+    if here < high {
+        keep(here, high);
+    }
+}
+
+/// The stretches (in arc length) that are left out, ascending. Rests of less than two widths of coincidence, which are the
+/// accuracy, go with them: a line that slants off would leave dots. Longer ones, up to two widths of ink, go only where
+/// they lie under the ink themselves.
+pub(super) fn gaps(
+    mut covered: Vec<Covered>,
+    line: &Polyline,
+    sides: &[Side],
+    widths: Widths,
+    view: &View,
+) -> Vec<Covered> {
+    covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
+    let (total, width) = (line.length(), if line.visible { widths.same } else { widths.under });
+    let goes = |from: f64, to: f64, beside: [u32; 2]| {
+        to - from <= 2.0 * widths.same
+            || (!line.visible && to - from <= 2.0 * width && {
+                let ink: Vec<&Side> = beside.iter().map(|&s| &sides[s as usize]).filter(|s| s.visible).collect();
+                let under = |p: &[f64; 2]| ink.iter().any(|s| away(s, p) <= width);
+                let way = stretch(line, from, to, view).flat;
+                // Between two ends of visible ink the middle is the farthest from it.
+                way.iter().all(under) && way.windows(2).all(|w| under(&[0, 1].map(|k| 0.5 * (w[0][k] + w[1][k]))))
+            })
+    };
+    let mut merged: Vec<Covered> = Vec::new();
+    for one in covered {
+        match merged.last_mut() {
+            Some(last) if goes(last.to, one.from, [last.by[1], one.by[0]]) => {
+                if one.to > last.to {
+                    (last.to, last.by[1]) = (one.to, one.by[1]);
+                }
+                last.own &= one.own;
+            }
+            _ => merged.push(one),
+        }
+    }
+    if let Some(first) = merged.first_mut()
+        && goes(0.0, first.from, [first.by[0]; 2])
+    {
+        first.from = 0.0;
+    }
+    if let Some(last) = merged.last_mut()
+        && goes(last.to, total, [last.by[1]; 2])
+    {
+        last.to = total;
+    }
+    let crossing = CROSSING * if line.visible { width } else { width.max(UNDER * widths.same) };
+    merged.retain(|c| c.to - c.from >= crossing || c.to - c.from >= total);
+    merged
+}
+
+/// Distance of a point from a side.
+fn away(s: &Side, p: &[f64; 2]) -> f64 {
+    distance(p, &at(s, along(s, p).clamp(0.0, 1.0)))
+}
+
+/// What is left of a line without its gaps.
+pub(super) fn rest(line: &Polyline, gaps: &[Covered], widths: Widths, view: &View) -> Vec<Polyline> {
+    let total = line.length();
+    let width = if line.visible { widths.same } else { widths.under };
+    let mut out: Vec<Polyline> = Vec::new();
+    let mut before = 0.0;
+    let mut before_own = false;
+    let ends = gaps.iter().map(|g| (g.from, g.to, g.own)).chain([(total, total, false)]);
+    for (from, to, own) in ends {
+        if from > before {
+            let piece = stretch(line, before, from, view);
+            match out.last_mut() {
+                Some(last) if before_own && goes_on(last, &piece, 4.0 * width) => {
+                    last.flat.extend(&piece.flat);
+                    last.space.extend(&piece.space);
+                }
+                _ => out.push(piece),
+            }
+        }
+        (before, before_own) = (to, own);
+    }
+    out.retain(|l| l.flat.len() > 1);
+    out
+}
+
+/// Whether a piece goes on where the one before ended: what was left out between them ran back over the line itself.
+fn goes_on(before: &Polyline, piece: &Polyline, gap: f64) -> bool {
+    match (before.flat.last(), piece.flat.first()) {
+        (Some(end), Some(start)) => distance(end, start) <= gap,
+        _ => false,
+    }
+}
+
+/// The part of a line between two arc lengths.
+fn stretch(line: &Polyline, from: f64, to: f64, view: &View) -> Polyline {
+    let mut out = Polyline { chain: line.chain, visible: line.visible, ..Polyline::default() };
+    let mut at = 0.0;
+    for i in 1..line.flat.len() {
+        let (a, b) = (&line.flat[i - 1], &line.flat[i]);
+        let length = distance(a, b);
+        let (start, end) = (at, at + length);
+        at = end;
+        let is_last = i + 1 == line.flat.len();
+        if length == 0.0 || end < from || start > to {
+            continue;
+        }
+        let mut put = |u: f64| {
+            let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
+            let flat = [mix(a[0], b[0], u), mix(a[1], b[1], u)];
+            let (p, q) = (&line.space[i - 1], &line.space[i]);
+            let s = view.in_space(u, view.depth(p), view.depth(q));
+            if out.flat.last() != Some(&flat) {
+                out.flat.push(flat);
+                out.space.push([mix(p[0], q[0], s), mix(p[1], q[1], s), mix(p[2], q[2], s)]);
+            }
+        };
+        put(((from - start) / length).clamp(0.0, 1.0));
+        put(if is_last && to >= end { 1.0 } else { ((to - start) / length).clamp(0.0, 1.0) });
+    }
+    out
+}
