@@ -88,6 +88,12 @@ def panel(axes: Any, every: Sequence[Point], name: str) -> None:
                 axes.annotate(_mark(own[k]), (x[k], y[k]), **place)
     axes.set_xscale("log")
     axes.set_yscale("log")
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    # Also where all of it is within one decade.
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlabel("processor seconds, from shape to lines", fontsize=9)
     axes.grid(True, which="both", alpha=0.2)
     if name == "wrong":
