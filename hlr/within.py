@@ -42,12 +42,17 @@ FINEST = 0.04
 LADDER = (1.0, 0.4, 0.2, 0.1, 0.04, 0.02, 0.01, 0.004)
 """Of the first accuracy: 0.5, 0.2, 0.1, ... Few rungs, so that chance seldom decides between two drawings."""
 
-FIRST_GROWTH = 2.5
-"""Power of the growth before two passes have shown it: the steepest that was met, a screw with its thread."""
+FIRST_GROWTH = 1.8
+"""Power of the growth before two passes have shown it: the steepest that was met, a screw with its thread, from 0.05 mm
+on. Where it is steeper still, the pass is given up after meshing, before the time is over."""
+MESH_GROWTH = 0.8
+"""The same for a mesh, which has its triangles: only lines become more."""
 LEAST_GROWTH, CAUTION = 0.4, 0.3
 """To the growth that two passes have shown: the first loaded libraries, and meshing grows faster as it gets fine."""
 BOLDEST = 6.0
 """How much finer one pass may be than the last."""
+TELLING = 0.2
+"""Share of a pass that must be over before it tells how long the rest takes: of a mesh, meshing is next to nothing."""
 SPARE = 0.9
 """Share of the remaining time that a pass may be expected to take."""
 
@@ -84,6 +89,7 @@ def draw_within(
         return []
     opened = open_source(source)
     first, goal = _range(opened, views, options)
+    guess = FIRST_GROWTH if hasattr(opened, "edge_shape") else MESH_GROWTH
     request = replace(options, within=None, report=False)
     best: list[Drawing] = []
     passes: list[tuple[float, float, dict[str, float]]] = []
@@ -109,7 +115,7 @@ def draw_within(
             finished(best)
         now = perf_counter()
         passes.append((accuracy, now - begun, dict(best[-1].timings)))
-        accuracy = _next(passes, first, goal, budget - (now - started))
+        accuracy = _next(passes, first, goal, budget - (now - started), guess)
     return best
 
 
@@ -122,22 +128,22 @@ def _range(opened: Source, views: list[View], options: Options) -> tuple[float, 
     return max(goal, COARSE * usual), goal
 
 
-def _growth(passes: Sequence[tuple[float, float, dict[str, float]]]) -> float:
-    """The power by which the time of a pass grows with its fineness."""
+def _growth(passes: Sequence[tuple[float, float, dict[str, float]]], guess: float) -> float:
+    """The power by which the time of a pass grows with its fineness; a guess before two have shown it."""
     if len(passes) < 2:
-        return FIRST_GROWTH
+        return guess
     (a, time_a, _), (b, time_b, _) = passes[-2:]
     return max(LEAST_GROWTH, log(max(time_b / time_a, 1.0)) / log(a / b) + CAUTION)
 
 
 def _next(
-    passes: Sequence[tuple[float, float, dict[str, float]]], first: float, goal: float, left: float
+    passes: Sequence[tuple[float, float, dict[str, float]]], first: float, goal: float, left: float, guess: float
 ) -> float | None:
     """The finest accuracy that will be there in `left` seconds; None: none is."""
     accuracy, took, _ = passes[-1]
     if accuracy <= goal or left <= 0.0:
         return None
-    finer = float((left * SPARE / took) ** (1.0 / _growth(passes)))
+    finer = float((left * SPARE / took) ** (1.0 / _growth(passes, guess)))
     rungs = sorted({goal, *(rung * first for rung in LADDER if goal < rung * first < accuracy)})
     finest = accuracy / min(finer, BOLDEST)
     return next((rung for rung in rungs if finest <= rung < accuracy), None)
@@ -166,6 +172,6 @@ class _Watch:
         now = perf_counter()
         share = min(self._before.get(stage, 0.0) / self._whole, 1.0) if done == 0.0 else 0.0
         # The later stages grow no faster than meshing, which comes first.
-        ends = self._begun + (now - self._begun) / share if share > 0.0 else now
+        ends = self._begun + (now - self._begun) / share if share > TELLING else now
         if ends > self._deadline + 0.05 * (self._deadline - self._begun):
             raise _TooLong

@@ -22,7 +22,7 @@ AS1 = DATA / "as1-oc-214.stp"
 class World:
     """A pipeline whose passes take a known time."""
 
-    def __init__(self, monkeypatch, cost, stop_at=None):
+    def __init__(self, monkeypatch, cost, stop_at=None, meshing=0.5):
         self.now, self.asked = 0.0, []
         cheap = hlr.draw(box(), "iso", accuracy=0.5)
 
@@ -32,8 +32,8 @@ class World:
             if accuracy == stop_at:
                 raise KeyboardInterrupt
             took = cost(accuracy)
-            timings = {"tessellate": 0.5 * took, "scene": 0.2 * took, "total": took}
-            for stage, share in (("tessellate", 0.0), ("scene", 0.5), ("visibility", 0.2), (None, 0.3)):
+            timings = {"tessellate": meshing * took, "scene": 0.2 * took, "total": took}
+            for stage, share in (("tessellate", 0.0), ("scene", meshing), ("visibility", 0.2), (None, 0.8 - meshing)):
                 self.now += share * took
                 if progress is not None and stage is not None:
                     progress(stage, 0.0)
@@ -85,6 +85,22 @@ def test_a_pass_that_takes_longer_than_foreseen_is_given_up(monkeypatch):
     drawing = world.draw(2.0)
     assert len(world.asked) == 2
     assert drawing.accuracy["used"] == 0.5
+
+
+def test_a_first_stage_of_next_to_nothing_tells_nothing(monkeypatch):
+    """That of a mesh takes a moment, now a shorter, now a longer one."""
+    world = World(monkeypatch, linear(0.1), meshing=1e-4)
+    tick = within.draw_views
+
+    def slow_to_begin(opened, views, options, progress):
+        def late(stage, done):
+            world.now += 0.01 if stage == "scene" else 0.0
+            progress(stage, done)
+
+        return tick(opened, views, options, late if progress is not None else None)
+
+    monkeypatch.setattr(within, "draw_views", slow_to_begin)
+    assert world.draw(10.0).accuracy["used"] <= 0.02
 
 
 def test_it_is_not_refined_beyond_the_accuracy(monkeypatch):
