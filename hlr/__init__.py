@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from hlr.drawings import draw, draw_views
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
     from hlr.inspection import info
+    from hlr.notes import Note
     from hlr.picture import Picture
     from hlr.plan.effect import Decision
     from hlr.plan.effects import PreviewOptions
@@ -31,6 +32,7 @@ _HOME = {
     "HlrError": "hlr.errors",
     "Line": "hlr.drawing",
     "ModelInfo": "hlr.scene.report",
+    "Note": "hlr.notes",
     "OptionError": "hlr.errors",
     "Options": "hlr.plan.options",
     "PartReport": "hlr.scene.report",
@@ -56,6 +58,7 @@ __all__ = [
     "HlrError",
     "Line",
     "ModelInfo",
+    "Note",
     "OptionError",
     "Options",
     "PartReport",

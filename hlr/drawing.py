@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
+from hlr.notes import Note
 
 if TYPE_CHECKING:
     from hlr.measure.reached import Reached
@@ -112,7 +113,7 @@ class Drawing:
     up_axis: tuple[tuple[float, float, float], ...]
     parts: tuple[DrawnPart, ...]
     lines: tuple[Line, ...]
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     counters: Mapping[str, int] = field(default_factory=dict)
     timings: dict[str, float] = field(default_factory=dict)
     fill: Fill | None = None

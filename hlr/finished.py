@@ -8,6 +8,7 @@ from time import perf_counter
 from hlr.clock import Clock, lap
 from hlr.drawing import Drawing, DrawnPart, DrawnView, Fill, Line
 from hlr.fitting import Staged
+from hlr.notes import Note
 from hlr.plan.options import Options
 from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
@@ -109,8 +110,8 @@ def _counters(
 _CREASES = ("sharp", "boundary")
 
 
-def _empty(lines: tuple[Line, ...]) -> tuple[str, ...]:
-    return () if lines else ("nothing of the model lies in this view",)
+def _empty(lines: tuple[Line, ...]) -> tuple[Note, ...]:
+    return () if lines else (Note("nothing-in-view", "nothing of the model lies in this view"),)
 
 
 def drawn_view(camera: Camera) -> DrawnView:

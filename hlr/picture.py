@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.drawing import DrawnPart, DrawnView
+from hlr.notes import Note
 
 if TYPE_CHECKING:
     from hlr.plan.effect import Decision
@@ -40,7 +41,7 @@ class Picture:
     first_face: npt.NDArray[np.int32]
     depth: npt.NDArray[np.float64] | None = None
     ids: npt.NDArray[np.int32] | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     timings: Mapping[str, float] = field(default_factory=dict)
     plan: tuple[Decision, ...] = ()
 

@@ -64,7 +64,7 @@ def draw_views(
     tell("linework", 1.0)
     for drawing in out:
         if options.strict and drawing.notes:
-            raise StrictError(drawing.notes[0])
+            raise StrictError(str(drawing.notes[0]))
     return out
 
 

@@ -115,7 +115,7 @@ def preview_views(
         own["total"] = sum(own.values())
         notes = tuple(dict.fromkeys((*opened.notes, *scene.notes)))
         if options.strict and notes:
-            raise StrictError(notes[0])
+            raise StrictError(str(notes[0]))
         out.append(
             Picture(
                 source=opened.name,

@@ -27,6 +27,7 @@ from typing import Any
 
 from hlr.drawing import Drawing
 from hlr.errors import HlrError
+from hlr.notes import Note
 from hlr.pipeline import draw_views
 from hlr.plan.options import Options, View
 from hlr.plan.request import checked, checked_views
@@ -106,11 +107,11 @@ def draw_within(
         best = [replace(x, accuracy={**x.accuracy, "asked": options.accuracy, "within": budget}) for x in best]
         took = perf_counter() - started
         if not passes and took > budget:
-            note = (
+            text = (
                 f"{took - budget:.1f} s over the {budget:g} s asked for: reading the model and the coarsest drawing, "
                 f"of {accuracy:g} mm, took {took:.1f} s"
             )
-            best = [replace(x, notes=(*x.notes, note)) for x in best]
+            best = [replace(x, notes=(*x.notes, Note("over-time", text))) for x in best]
         if finished is not None:
             finished(best)
         now = perf_counter()

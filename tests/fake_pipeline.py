@@ -15,6 +15,7 @@ from writers.fakes import ISO, drawing, line, sample
 
 import hlr
 from hlr import errors
+from hlr.notes import Note
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,8 @@ def draw_views(source, views, options, progress=None):
             if progress is not None:
                 progress("visibility", i / 30)
             time.sleep(0.1)
-    notes = ("part 3 could not be read", "part 4 is open") if stem == "notes" else ()
+    texts = ("part 3 could not be read", "part 4 is open") if stem == "notes" else ()
+    notes = tuple(Note("defects", text) for text in texts)
     made = sample() if stem != "large" else drawing([line([[0, 0], [1, 1]], edge=i) for i in range(20_000)])
     made = replace(made, source=Path(source).name, notes=notes)
     return [replace(made, view=replace(ISO, name=v if isinstance(v, str) else "free")) for v in views]
@@ -85,7 +87,14 @@ def info(source, *, crease=30.0, progress=None):
                    ("4 open edges", "1 duplicated face")),
         PartReport("tw\x1bisted", None, 1, 6, 12, 12, True, False, ()),
     )  # fmt: skip
-    return ModelInfo(Path(source).name, "step", 25.4, ((0, 0, 0), (1, 2, 3.5)), parts, ("part 9 could not be read",))
+    return ModelInfo(
+        Path(source).name,
+        "step",
+        25.4,
+        ((0, 0, 0), (1, 2, 3.5)),
+        parts,
+        (Note("not-meshed", "part 9 could not be read"),),
+    )
 
 
 def _crash(stem, progress):

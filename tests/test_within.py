@@ -114,7 +114,7 @@ def test_the_excess_is_stated(monkeypatch):
     world = World(monkeypatch, linear(5.0))
     drawing = world.draw(2.0)
     assert world.asked == [0.5]
-    assert len(drawing.notes) == 1 and drawing.notes[0].startswith("3.0 s over the 2 s")
+    assert len(drawing.notes) == 1 and drawing.notes[0].text.startswith("3.0 s over the 2 s")
 
 
 def test_what_is_finished_survives_an_interruption(monkeypatch):

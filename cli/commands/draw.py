@@ -208,7 +208,7 @@ def _warn(drawings: list[Drawing], strict: bool) -> None:
         more = f" (and {len(notes) - 1} more)" if len(notes) > 1 else ""
         raise StrictError(f"{notes[0]}{more}; nothing is written, because of --strict")
     for note in notes:
-        warn(note)
+        warn(str(note))
 
 
 def _write(drawings: list[Drawing], targets: list[tuple[Path | None, str]], put: Callable[[bytes], None]) -> None:
@@ -249,7 +249,7 @@ def _summary(drawings: list[Drawing], targets: list[tuple[Path | None, str]]) ->
             "scale": drawing.scale,
             "accuracy": dict(drawing.accuracy),
             "lines": _counts(drawing),
-            "notes": list(drawing.notes),
+            "notes": [note.as_dict() for note in drawing.notes],
             "plan": [decision.as_dict() for decision in drawing.plan],
             "counters": dict(drawing.counters),
             "timings": dict(drawing.timings)

@@ -49,7 +49,7 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
         else:
             text = _table(model)
             for note in model.notes:
-                warn(note)
+                warn(str(note))
         out.put((text + "\n").encode(encoding, "replace"))
 
 
@@ -73,7 +73,7 @@ def _document(model: ModelInfo) -> dict[str, Any]:
             }
             for part in model.parts
         ],
-        "notes": list(model.notes),
+        "notes": [note.as_dict() for note in model.notes],
     }
 
 

@@ -134,7 +134,7 @@ def _warn(pictures: list[Picture], strict: bool) -> None:
         more = f" (and {len(notes) - 1} more)" if len(notes) > 1 else ""
         raise StrictError(f"{notes[0]}{more}; nothing is written, because of --strict")
     for note in notes:
-        warn(note)
+        warn(str(note))
 
 
 def _encoded(pictures: list[Picture], targets: list[dict[str, Path]]) -> dict[Path, bytes]:

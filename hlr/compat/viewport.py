@@ -29,9 +29,6 @@ from hlr.view.camera import Vector, normalized
 FINE = 2.5e-4
 """Of the model's diagonal: the accuracy of lines that go on as geometry, where 0.05 mm are not finer."""
 
-SIZE_NOTE = "the drawing is "
-"""How the note about a drawing too small or too large for paper begins: here lines are in model units."""
-
 
 @dataclass(frozen=True, slots=True)
 class Viewport:
@@ -95,8 +92,8 @@ def draw(
     )
     (drawing,) = draw_views(opened, [viewport.direction], options)
     for note in drawing.notes:
-        if not note.startswith(SIZE_NOTE):
-            warnings.warn(note, stacklevel=_caller())
+        if note.code != "paper-size":  # here lines are in model units
+            warnings.warn(str(note), stacklevel=_caller())
     drawing = replace(drawing, lines=_sewn(drawing, opened, seam))
     shift = np.array(drawing.origin)
     if perspective is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from hlr.notes import Note
 from hlr.scene.scene import INTERIOR, Groups, ScenePart
 from hlr.scene.topology import MeshFacts
 from hlr.source.model import Ints, PartMesh
@@ -80,13 +81,14 @@ def reports(
     return tuple(out)
 
 
-def notes(parts: tuple[ScenePart, ...]) -> list[str]:
+def notes(parts: tuple[ScenePart, ...]) -> list[Note]:
     """One sentence per defective part, for the first few."""
     bad = [p for p in parts if p.defects]
-    out = [f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.' for p in bad[:MOST_NOTES]]
+    out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MOST_NOTES]]
     if len(bad) > MOST_NOTES:
         more = len(bad) - MOST_NOTES
-        out.append(f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info.")
+        text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
+        out.append(Note("more-defects", text))
     return out
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hlr.notes import Note
+
 Corner = tuple[float, float, float]
 
 
@@ -31,4 +33,4 @@ class ModelInfo:
     unit: float
     bounds: tuple[Corner, Corner]
     parts: tuple[PartReport, ...]
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]

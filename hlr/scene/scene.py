@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from hlr.notes import Note
 from hlr.source.model import Color, Curves, Floats, Ints, Surfaces
 
 INTERIOR = 255
@@ -145,7 +146,7 @@ class Scene:
     groups: Groups
     chains: Chains
     parts: tuple[ScenePart, ...]
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
     true_surfaces: TrueSurfaces | None = None
     silhouettes: Silhouettes | None = None
     convex: bool = False

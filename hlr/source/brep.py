@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from hlr.errors import SourceError
+from hlr.notes import Note
 from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
@@ -38,7 +39,7 @@ class BrepSource:
     triangulation is replaced by ours.
     """
 
-    def __init__(self, name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[str] = ()) -> None:
+    def __init__(self, name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note] = ()) -> None:
         """Split the leaves into parts.
 
         Raises:
@@ -68,7 +69,8 @@ class BrepSource:
         wires = [part for part in wires if part.product not in drawn]
         if wires:
             edges = sum(self._counts[part.root][1] for part in wires)
-            self._notes.append(f"{_some(wires)} without faces ({edges} edges) left out.")
+            text = f"{_some(wires)} without faces ({edges} edges) left out."
+            self._notes.append(Note("wires-left-out", text))
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._curves = EdgeCurveReader(self._roots)
@@ -91,7 +93,7 @@ class BrepSource:
         return Frame()
 
     @property
-    def notes(self) -> list[str]:
+    def notes(self) -> list[Note]:
         """Warnings met while reading."""
         return list(self._notes)
 
@@ -180,14 +182,14 @@ class BrepSource:
         for part, points in zip(self._parts, places, strict=True):
             mesh = shared[part.root]
             if mesh.missing:
-                meshed.notes.append(
-                    f'Part "{part.name}": {mesh.missing} of {self._counts[part.root][0]} faces could not be meshed.'
-                )
+                count = f"{mesh.missing} of {self._counts[part.root][0]} faces"
+                meshed.notes.append(Note("not-meshed", f'Part "{part.name}": {count} could not be meshed.'))
             if len(mesh.triangles):
                 meshed.parts.append(mesh.placed(part, points))
                 kept.append(part)
             else:
-                meshed.notes.append(f'Part "{part.name}" has no triangles and was left out.')
+                text = f'Part "{part.name}" has no triangles and was left out.'
+                meshed.notes.append(Note("part-left-out", text))
         if not any(len(part.triangles) for part in meshed.parts):
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
         roots = np.array([part.root for part in kept], np.int32)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.errors import SourceError
+from hlr.notes import Note
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved
 from hlr.source.model import Color, Floats, Frame, Ints, Look, Meshed, PartInfo, PartMesh, Progress
@@ -73,7 +74,7 @@ class MeshSource:
         """
         self._name, self._kind = name, kind
         self._frame = frame if frame is not None else Frame()
-        self._notes: list[str] = []
+        self._notes: list[Note] = []
         cleaned = [clean(points, triangles) for points, triangles in geometries]
         self._report(cleaned)
         self._parts: list[PartMesh] = []
@@ -84,7 +85,7 @@ class MeshSource:
                 self._parts.append(_part(label, mesh, instance))
                 self._drawn.append((self._parts[-1], instance, mesh))
             else:
-                self._notes.append(f'Part "{label}" has no triangles and was left out.')
+                self._notes.append(Note("part-left-out", f'Part "{label}" has no triangles and was left out.'))
         if not self._parts:
             raise SourceError(self._refusal(cleaned))
         checked(name, self.bounds())
@@ -96,7 +97,7 @@ class MeshSource:
             (sum(mesh.degenerate for mesh in cleaned), "degenerate triangles (two corners in one place)"),
         ):
             if count:
-                self._notes.append(f"{count} {what} were left out.")
+                self._notes.append(Note("triangles-left-out", f"{count} {what} were left out."))
 
     def _refusal(self, cleaned: list[Clean]) -> str:
         if any(mesh.not_finite for mesh in cleaned):
@@ -121,7 +122,7 @@ class MeshSource:
         return self._frame
 
     @property
-    def notes(self) -> list[str]:
+    def notes(self) -> list[Note]:
         """What was left out while reading."""
         return list(self._notes)
 

@@ -10,6 +10,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
+from hlr.notes import Note
+
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
 Color = tuple[float, float, float]
@@ -175,7 +177,7 @@ class Meshed:
     """
 
     parts: list[PartMesh]
-    notes: list[str] = field(default_factory=list)
+    notes: list[Note] = field(default_factory=list)
     edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
 
 
@@ -195,7 +197,7 @@ class Source(Protocol):
         """Unit and up axis of the model's coordinates: world = unit * up * model."""
 
     @property
-    def notes(self) -> list[str]:
+    def notes(self) -> list[Note]:
         """Warnings met while reading; parts that could not be read are named here."""
 
     def bounds(self) -> Floats:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.notes import Note
 from hlr.source.locations import chained
 from hlr.source.model import Color, Floats, Look, Rgba, rgba
 
@@ -56,7 +57,7 @@ class Parts:
     def __init__(self) -> None:
         self.parts: list[Part] = []
         self.roots: list[Any] = []
-        self.notes: list[str] = []
+        self.notes: list[Note] = []
         self.has_edges = False
         self._numbers: dict[Any, int] = {}
         self._pieces: dict[Any, list[_Piece]] = {}
@@ -70,7 +71,7 @@ class Parts:
         such products only carry annotation, often under the name of the part that they annotate.
         """
         if leaf.shape is None or leaf.shape.IsNull():
-            self.notes.append(f'Part "{leaf.name}" is empty and was left out.')
+            self.notes.append(Note("part-left-out", f'Part "{leaf.name}" is empty and was left out.'))
             return
         key = (leaf.shape.TShape(), leaf.shape.Orientation(), id(leaf.colors) if leaf.colors else 0)
         pieces = self._pieces.get(key)

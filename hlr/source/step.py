@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from hlr.errors import SourceError
+from hlr.notes import Note
 from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
 from hlr.source.model import Color, Rgba
@@ -81,7 +82,7 @@ class _Tree:
     def __init__(self, shapes: Any, colors: Any) -> None:
         self.shapes, self.colors = shapes, colors
         self.leaves: list[Leaf] = []
-        self.notes: list[str] = []
+        self.notes: list[Note] = []
         self._details: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
 
     def walk(self, fallback: str) -> None:
@@ -112,7 +113,7 @@ class _Tree:
             return
         shape = self.shapes.GetShape_s(product)
         if shape is None or shape.IsNull():
-            self.notes.append(f'Part "{name}" is empty and was left out.')
+            self.notes.append(Note("part-left-out", f'Part "{name}" is empty and was left out.'))
             return
         # A free shape carries its own placement; a product's stands in the reference.
         colors, opacities = self._detail(product)

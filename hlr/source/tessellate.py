@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.notes import Note
 from hlr.source.delabella import treacherous, without
 from hlr.source.dump import DumpError, read_dump
 from hlr.source.model import Progress
@@ -56,11 +57,11 @@ class Tessellator:
         kept = zip(self._faces, self._flat, strict=True)
         self._kept_back = {face.TShape() for face, flat in kept if flat and treacherous(face)}
 
-    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> tuple[Meshes, list[str]]:
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> tuple[Meshes, list[Note]]:
         """All roots at this chord error and turning angle (radians), and notes on what failed."""
         from OCP.BRepTools import BRepTools
 
-        notes: list[str] = []
+        notes: list[Note] = []
         # A triangulation from earlier, ours or the caller's, would be kept where it is finer: the result would depend
         # on history. Faces that are nothing but a triangulation keep it.
         everything = compound(self._roots)
@@ -84,12 +85,13 @@ class Tessellator:
             progress("tessellate", 1.0)
         return result, notes
 
-    def _mesh_batch(self, batch: list[int], deflection: float, angle: float) -> Iterator[str]:
+    def _mesh_batch(self, batch: list[int], deflection: float, angle: float) -> Iterator[Note]:
         try:
             _run_mesher(compound([self._for_delabella(self._roots[i]) for i in batch]), deflection, angle)
         except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
             if len(batch) == 1:
-                yield f"Part {batch[0]} could not be meshed completely ({type(error).__name__})."
+                text = f"Part {batch[0]} could not be meshed completely ({type(error).__name__})."
+                yield Note("not-meshed", text)
                 return
             for number in batch:
                 yield from self._mesh_batch([number], deflection, angle)

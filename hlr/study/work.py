@@ -101,7 +101,7 @@ def _look(job: Job) -> dict[str, Any]:
         "lines": len(drawing.lines),
         "triangles": int(drawing.counters.get("triangles", 0)),
         "accuracy": float(drawing.accuracy["used"]),
-        "notes": list(drawing.notes),
+        "notes": [str(note) for note in drawing.notes],
     }
 
 

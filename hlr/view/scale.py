@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hlr.errors import SourceError
+from hlr.notes import Note
 from hlr.plan.options import Options
 from hlr.source.model import Floats, Source
 from hlr.tolerance import CURVE_BULGE, Tolerances, choose, derive
@@ -16,6 +17,8 @@ from hlr.view.clip import ASPECT
 
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
+
+_CURE = "give a scale, or a size to fit it into"
 
 MOST_MAGNIFIED = 50.0
 """Nearer to the eye than this share of the target's distance the accuracy is no longer kept: a tessellation that fine
@@ -36,7 +39,7 @@ class Placed:
     brep: bool
     aspect: float
     magnified: float
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placed:
         """The same with the size taken from the mesh itself; (n, 3) model coordinates.
@@ -107,10 +110,10 @@ def _sized(width: float, height: float, options: Options, draft: Placed) -> Plac
     diagonal = math.hypot(width, height) * per_model
     accuracy = choose(options.accuracy, diagonal)
     tolerances = derive(accuracy, per_model * draft.magnified, diagonal, brep=draft.brep)
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     if options.fit is None and options.scale == 1.0 and diagonal > 0.0:
         if diagonal < SMALLEST_PAPER:
-            notes = (f"the drawing is only {diagonal:.2g} mm large at 1:1: give a scale, or a size to fit it into",)
+            notes = (Note("paper-size", f"the drawing is only {diagonal:.2g} mm large at 1:1: {_CURE}"),)
         elif diagonal > LARGEST_PAPER:
-            notes = (f"the drawing is {diagonal / 1000.0:.3g} m large at 1:1: give a scale, or a size to fit it into",)
+            notes = (Note("paper-size", f"the drawing is {diagonal / 1000.0:.3g} m large at 1:1: {_CURE}"),)
     return replace(draft, scale=scale, per_model=per_model, tolerances=tolerances, notes=notes)

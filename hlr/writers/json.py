@@ -15,7 +15,7 @@ from hlr.tolerance import DIGITS_IN_JSON
 from hlr.writers.number import decimals, encode, grid
 
 FORMAT = "hlr-drawing"
-VERSION = 1
+VERSION = 2
 
 
 def document(drawing: Drawing) -> bytes:
@@ -33,7 +33,7 @@ def document(drawing: Drawing) -> bytes:
     }
     parts = [{"name": part.name, "color": part.color, "transform": _matrix(part.transform)} for part in drawing.parts]
     tail = {
-        "notes": list(drawing.notes),
+        "notes": [note.as_dict() for note in drawing.notes],
         "plan": [decision.as_dict() for decision in drawing.plan],
         "counters": dict(drawing.counters),
         "timings": {**drawing.timings, **_effects(drawing)},

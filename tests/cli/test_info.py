@@ -35,7 +35,7 @@ def test_json(hlr_command):
         "oriented": True,
         "defects": ["4 open edges", "1 duplicated face"],
     }
-    assert model["notes"] == ["part 9 could not be read"]
+    assert model["notes"] == [{"code": "not-meshed", "text": "part 9 could not be read"}]
 
 
 def test_a_source_that_cannot_be_read(hlr_command):

@@ -88,7 +88,7 @@ def test_a_triangle_without_area_changes_nothing(middle):
 def test_a_triangle_with_two_corners_in_one_place_is_left_out_and_noted(corner):
     triangles = np.concatenate([TRIANGLES, [[corner, corner, 1], [2, 5, 5]]])
     drawing = hlr.draw((POINTS, triangles), "iso")
-    assert "2 degenerate triangles (two corners in one place) were left out." in drawing.notes
+    assert "2 degenerate triangles (two corners in one place) were left out." in map(str, drawing.notes)
     agrees(drawing, by_oracle(drawing, POINTS, TRIANGLES, BOX_EDGES))
 
 

@@ -61,5 +61,5 @@ def test_one_of_them_by_the_oracle():
 def test_they_are_counted(tmp_path):
     found = hlr.info(engine(tmp_path, cells))
     # Two for each of the twelve and ten triangles, both used twice.
-    assert any("88 degenerate triangles" in text for text in found.notes)
+    assert any("88 degenerate triangles" in note.text for note in found.notes)
     assert [part.closed for part in found.parts] == [False, False, True, True]

@@ -81,7 +81,7 @@ def test_within_one_part_it_is_said(model):
     assert found.triangles == one.triangles and found.closed
     assert found.defects == (f"{one.triangles} duplicated triangles",)
     (note,) = hlr.draw(model()).notes
-    assert note.endswith("duplicated triangles.")
+    assert note.text.endswith("duplicated triangles.")
 
 
 def test_one_face_too_many():

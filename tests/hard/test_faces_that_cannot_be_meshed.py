@@ -13,8 +13,9 @@ from hard.brep import box_edges, like
 from hard.expected import expect
 
 import hlr
+from hlr.notes import Note
 
-NOTE = 'Part "part": 1 of 7 faces could not be meshed.'
+NOTE = Note("not-meshed", 'Part "part": 1 of 7 faces could not be meshed.')
 
 
 def sliver():

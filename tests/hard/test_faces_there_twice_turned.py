@@ -47,4 +47,4 @@ def test_its_outlines_too():
 def test_the_defects_are_named():
     found = hlr.info(spoilt(tub()))
     assert found.parts[0].defects == ("10 duplicated triangles", "open: 4 border edges")
-    assert "2 degenerate triangles" in found.notes[0]
+    assert "2 degenerate triangles" in found.notes[0].text

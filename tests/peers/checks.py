@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         drawn, failed, torn = (
             sum(d.counters[k] for d in drawings) for k in ("drawn", "failed_checks", "contradictions")
         )
-        defects = [note for note in drawings[0].notes if "is drawn as it is" in note or "defects" in note]
+        defects = [note.text for note in drawings[0].notes if note.code in ("defects", "more-defects")]
         bad += failed > 0 and not defects
         print(f"| {path.name} | {len(drawings)} | {drawn} | {failed} | {torn} | {' '.join(defects)} |", flush=True)
     return int(bad > 0)

@@ -98,8 +98,8 @@ def _line(number: int, entry: Mapping[str, Any], parts: int) -> DrawnLine:
 def parse(document: Mapping[str, Any] | str | bytes) -> Exchange:
     """Check what the judge relies on and hand it over as arrays."""
     data: Mapping[str, Any] = json.loads(document) if isinstance(document, str | bytes) else document
-    if data.get("format") != "hlr-drawing" or data.get("version") != 1:
-        raise FormatError(f"format {data.get('format')!r} version {data.get('version')!r}: hlr-drawing 1 expected")
+    if data.get("format") != "hlr-drawing" or data.get("version") != 2:
+        raise FormatError(f"format {data.get('format')!r} version {data.get('version')!r}: hlr-drawing 2 expected")
     try:
         parts = [str(part["name"]) for part in data["parts"]]
         return Exchange(

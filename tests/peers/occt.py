@@ -167,7 +167,7 @@ def draw(
     axes = np.stack([camera.right, camera.up], axis=1)
     return {
         "format": "hlr-drawing",
-        "version": 1,
+        "version": 2,
         "source": source,
         "units": "mm",
         "accuracy": {},

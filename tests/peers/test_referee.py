@@ -22,7 +22,7 @@ def wall_document(lines: list[dict[str, Any]], eye: list[float] | None = None) -
         view |= {"projection": "perspective", "eye": eye, "distance": 1.0}
     return {
         "format": "hlr-drawing",
-        "version": 1,
+        "version": 2,
         "view": view,
         "scale": 1.0,
         "origin": [0.0, 0.0],

@@ -242,7 +242,7 @@ def test_a_spindle_torus_passes_through_itself(deflection):
     assert defects(scene) == [(THROUGH,)]
     assert not scene.groups.cull.any() and not scene.groups.sound.any()
     assert not walks(scene), "the tangle of triangles about the axis"
-    assert scene.notes == (f'Part "part" is drawn as it is: {THROUGH}.',)
+    assert [str(note) for note in scene.notes] == [f'Part "part" is drawn as it is: {THROUGH}.']
 
 
 def test_a_spindle_torus_passes_through_itself_however_it_is_meshed():
@@ -304,7 +304,9 @@ DEFECTS = {
 def test_each_defect_has_its_note(said):
     scene = scene_of(DEFECTS[said]())
     assert said in scene.parts[0].defects, scene.parts[0].defects
-    assert scene.notes == (f'Part "part" is drawn as it is: {"; ".join(scene.parts[0].defects)}.',)
+    assert [str(note) for note in scene.notes] == [
+        f'Part "part" is drawn as it is: {"; ".join(scene.parts[0].defects)}.'
+    ]
 
 
 def test_a_solid_turned_inside_out_is_called_so():
@@ -320,4 +322,4 @@ def test_no_more_than_a_few_parts_are_named(count, more):
     assert [bool(d) for d in defects(scene)] == [False, *[True] * count]
     named = [f'Part "part{k + 1}" is drawn as it is: open: 4 border edges.' for k in range(min(count, MOST_NOTES))]
     rest = {0: [], 1: ["1 more part has defects: see hlr info."], 3: ["3 more parts have defects: see hlr info."]}
-    assert list(scene.notes) == named + rest[more]
+    assert list(map(str, scene.notes)) == named + rest[more]

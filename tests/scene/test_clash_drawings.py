@@ -17,6 +17,7 @@ from linework.models import box, parts, solids
 from scene.crossings import CROSSING, THROUGH, TOUCHING, bent, bore, eight, overlapping_boxes, tube
 
 import hlr
+from hlr.notes import Note
 from hlr.writers import render
 
 VIEW = (2, -3, 1)
@@ -147,7 +148,7 @@ def test_svg_names_both_parts():
 def test_a_part_that_meets_itself_is_named_twice():
     drawing = hlr.draw(eight(), VIEW)
     assert {(line.part, line.other) for line in met(drawing)} == {(0, 0)}
-    assert drawing.notes == (f'Part "part" is drawn as it is: {THROUGH}.',)
+    assert drawing.notes == (Note("defects", f'Part "part" is drawn as it is: {THROUGH}.'),)
 
 
 # Perspective.
@@ -196,8 +197,8 @@ def test_notes_reach_the_drawing():
     many = parts(box((9, 9, 9)), *(bent(0).apply_translation((20 * k, 0, 0)) for k in range(1, 8)))
     drawing = hlr.draw(many, "iso")
     assert len(drawing.notes) == 6
-    assert drawing.notes[0] == 'Part "part1" is drawn as it is: open: 3 border edges.'
-    assert drawing.notes[-1] == "2 more parts have defects: see hlr info."
+    assert drawing.notes[0] == Note("defects", 'Part "part1" is drawn as it is: open: 3 border edges.')
+    assert drawing.notes[-1] == Note("more-defects", "2 more parts have defects: see hlr info.")
     with pytest.raises(hlr.StrictError, match="part1"):
         hlr.draw(many, "iso", strict=True)
 

@@ -70,7 +70,7 @@ def test_one_bad_part_does_not_stop_the_others():
     BRep_Builder().MakeSolid(hollow)
     source = open_source([cq.Workplane().box(1, 1, 1), hollow])
     assert len(source.mesh(0.1, 0.3).parts) == 1
-    assert any("left out" in note for note in source.notes)
+    assert any("left out" in note.text for note in source.notes)
 
 
 def test_a_mesher_that_fails_on_one_part(monkeypatch):
@@ -88,4 +88,4 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
     monkeypatch.setattr(tessellate, "_run_mesher", failing)
     meshed = open_source([cq.Workplane().box(1, 1, 1), cq.Workplane().sphere(1)]).mesh(0.1, 0.3)
     assert len(meshed.parts) == 1
-    assert any('"part:2"' in note and "1 of 1 faces could not be meshed" in note for note in meshed.notes)
+    assert any('"part:2"' in note.text and "1 of 1 faces could not be meshed" in note.text for note in meshed.notes)

@@ -8,6 +8,7 @@ from linework.models import box, parts
 
 import hlr
 from hlr import OptionError, Perspective
+from hlr.notes import Note
 
 
 @pytest.mark.parametrize("view", ["front", "iso", (3, 1, -2)])
@@ -87,10 +88,10 @@ def test_units_of_a_mesh_count(unit):
 
 def test_a_tiny_and_a_huge_drawing_say_so():
     assert hlr.draw(box((1, 1, 1)), "front").notes == (
-        "the drawing is only 1.4 mm large at 1:1: give a scale, or a size to fit it into",
+        Note("paper-size", "the drawing is only 1.4 mm large at 1:1: give a scale, or a size to fit it into"),
     )
     assert hlr.draw(box((3e3, 4e3, 3e3)), "front").notes == (
-        "the drawing is 4.24 m large at 1:1: give a scale, or a size to fit it into",
+        Note("paper-size", "the drawing is 4.24 m large at 1:1: give a scale, or a size to fit it into"),
     )
     for options in ({"scale": 2.0}, {"fit": (1.0, 1.0)}):
         assert hlr.draw(box((1, 1, 1)), "front", **options).notes == ()

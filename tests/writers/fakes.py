@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from hlr.drawing import Drawing, DrawnPart, DrawnView, Line
+from hlr.notes import Note
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "writers"
 
@@ -61,7 +62,7 @@ def sample():
     return drawing(
         lines,
         parts=[part(), part('M6 <bolt> & "nut" ü\x07', (1.0, 0.5, 0.0))],
-        notes=("part 3 could not be read",),
+        notes=(Note("not-meshed", "part 3 could not be read"),),
         counters={"segments": np.int64(10)},
         timings={"source": 0.5, "total": 0.75},
     )

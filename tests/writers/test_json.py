@@ -28,7 +28,7 @@ def test_fields_and_their_order():
         "format", "version", "source", "units", "accuracy", "view", "scale", "origin", "model", "parts", "lines",
         "notes", "plan", "counters", "timings",
     ]  # fmt: skip
-    assert (made["format"], made["version"], made["units"]) == ("hlr-drawing", 1, "mm")
+    assert (made["format"], made["version"], made["units"]) == ("hlr-drawing", 2, "mm")
     assert made["model"] == {"unit": 1.0, "up_axis": np.eye(3).tolist()}
     assert list(made["view"]) == ["name", "projection", "direction", "right", "up"]
     assert list(made["lines"][0]) == ["class", "visible", "part", "edge", "face", "points", "points3"]

@@ -1,0 +1,47 @@
+"""Notes: what a drawing warns of. Each has a code for programs and a sentence for people."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+NoteCode = Literal[
+    "part-left-out",
+    "triangles-left-out",
+    "wires-left-out",
+    "not-meshed",
+    "defects",
+    "more-defects",
+    "paper-size",
+    "nothing-in-view",
+    "over-time",
+]
+"""All codes there are; `CODES` says what each means."""
+
+CODES: dict[NoteCode, str] = {
+    "part-left-out": "a part holds nothing that could be drawn",
+    "triangles-left-out": "triangles of a mesh are degenerate, or their corners are no numbers or do not exist",
+    "wires-left-out": "edges without faces were given, which a hidden-line drawing has no use of",
+    "not-meshed": "faces or a whole part could not be triangulated",
+    "defects": "a part is drawn as it is, though it is open, doubled, turned inside out or the like",
+    "more-defects": "more parts have defects than are named",
+    "paper-size": "at 1:1, which nobody asked for, the drawing is very small or very large",
+    "nothing-in-view": "there is not a line in the drawing",
+    "over-time": "reading and the coarsest drawing took longer than the time that was given",
+}
+"""What each code means. A code keeps its meaning; new ones may be added."""
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A warning: its code, one of `CODES`, and one sentence that says what happened. `str(note)` is the sentence."""
+
+    code: NoteCode
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    def as_dict(self) -> dict[str, str]:
+        """For JSON."""
+        return {"code": self.code, "text": self.text}

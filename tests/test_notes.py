@@ -1,0 +1,39 @@
+"""Notes: a code for programs, a sentence for people, one table of codes."""
+
+import json
+from pathlib import Path
+from typing import get_args
+
+import pytest
+import trimesh
+
+import hlr
+from hlr.notes import CODES, Note, NoteCode
+
+
+def test_there_is_one_table_of_codes_and_the_format_describes_it():
+    assert get_args(NoteCode) == tuple(CODES)
+    described = (Path(hlr.__file__).parent / "writers" / "JSON.md").read_text()
+    assert all(f"| `{code}` | {meaning} |" in described for code, meaning in CODES.items())
+
+
+def test_a_note_is_a_frozen_value():
+    note = Note("defects", "open")
+    assert str(note) == f"{note}" == "open" and note == Note("defects", "open") != Note("more-defects", "open")
+    assert len({note, Note("defects", "open")}) == 1
+    with pytest.raises(AttributeError):
+        note.text = "other"
+
+
+def test_a_drawing_writes_code_and_text():
+    drawing = hlr.draw(trimesh.creation.box((1, 1, 1)), "front")
+    (note,) = drawing.notes
+    assert note.code == "paper-size" and note.text.startswith("the drawing is only")
+    from hlr.writers import render
+
+    assert json.loads(render(drawing, "json"))["notes"] == [{"code": note.code, "text": note.text}]
+
+
+def test_strict_says_the_sentence():
+    with pytest.raises(hlr.StrictError, match=r"^the drawing is only"):
+        hlr.draw(trimesh.creation.box((1, 1, 1)), "front", strict=True)
