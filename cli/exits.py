@@ -23,7 +23,7 @@ FAULT = 1
 
 def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoReturn:
     """Run a command and leave the process."""
-    signals.at_once()
+    signals.at_once(own=arguments is None)
     # Absurd coordinates overflow on their way to an error or a drawing: arithmetic's own remarks help nobody.
     warnings.filterwarnings("ignore", category=RuntimeWarning, module=r"(hlr|numpy|trimesh)\b")
     try:

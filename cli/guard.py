@@ -3,7 +3,9 @@
 OpenCASCADE is C++ that takes broken files on trust: some make it use memory that is not there, recurse until the stack
 is full, or abort. No Python can catch that in its own process. So the process that was started forks a worker, waits
 for it, and puts into a sentence what a signal said about its end. Signals sent to the one are passed to the other, the
-exit code is the worker's, and so are standard input and output: from outside there is one program.
+exit code is the worker's, and so are standard input and output: from outside there is one program. A worker says how it
+ended: one that is gone without a word was ended by a script that it ran. And whoever started the command and is gone no
+longer wants its result: the work ends then, unless `nohup` asked for the contrary.
 
 Each drawing has a worker, whatever the source: forking a process that has imported nothing but click costs about a
 millisecond, and memory can run out on a mesh too. Help, versions and refused options come before it. There is no
@@ -25,7 +27,7 @@ from typing import NoReturn
 
 from hlr.errors import SourceError
 
-from .signals import STOPPING, Stopped
+from .signals import STOPPING, Stopped, hang_up_ignored
 
 CRASHES = {
     getattr(signal, name): words
@@ -48,7 +50,10 @@ _READING = ("", "source", "tessellate")
 _CAD = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 
 _PATIENCE = 2.0
-"""Seconds for the progress bar of a worker that crashed to clear its line."""
+"""Seconds for the progress bar of a worker that crashed to clear its line, and for a stopped one to tidy up."""
+
+_GLANCE = 0.25
+"""Seconds between two looks at whether the process that started the command is still there."""
 
 
 class CrashError(Exception):
@@ -60,11 +65,13 @@ class _Worker:
 
     allowed = False
     notes: int | None = None
+    parent: int | None = None
 
 
 def allow() -> None:
     """From now on this process may be split: it is the command and nothing else."""
     _Worker.allowed = hasattr(os, "fork")
+    _Worker.parent = os.getppid() if _Worker.allowed else None
 
 
 def start(source: str) -> None:
@@ -118,19 +125,30 @@ def _forward(worker: int) -> None:
 
 
 def _wait(worker: int, reading: int, source: Path) -> NoReturn:
-    _, status = os.waitpid(worker, 0)
-    code = os.waitstatus_to_exitcode(status)
-    if code >= 0:
-        os._exit(code)
-    stage, _, done = _last_note(reading).partition(" ")
-    if stage == "done":  # it only failed to take itself down
+    notes = _Notes(reading)
+    while not (ended := os.waitpid(worker, os.WNOHANG))[0]:
+        notes.listen(_GLANCE)
+        if orphaned():
+            _end(worker)
+            raise Stopped(signal.SIGTERM)
+    code = os.waitstatus_to_exitcode(ended[1])
+    notes.rest(_PATIENCE if code < 0 else 0.0)
+    stage, _, done = notes.last().partition(" ")
+    if stage == "done":  # whatever became of it after that
         os._exit(int(done))
+    kind = source.suffix.lower()
+    if code >= 0:
+        if kind == ".py":
+            raise SourceError(
+                f"{source.name} ended the program (exit code {code}) before anything was drawn; nothing was written; "
+                "take os._exit out of it"
+            )
+        raise CrashError(f"exit code {code} while drawing {source.name}; nothing was written")
     if -code == signal.SIGKILL:
         raise SourceError(f"{source.name}: the work was killed, most likely for want of memory; nothing was written")
     if -code not in CRASHES:
         raise Stopped(-code)
     reason = CRASHES[signal.Signals(-code)]
-    kind = source.suffix.lower()
     if stage in _READING and kind == ".py":
         raise SourceError(f"{source.name} crashed ({reason}) in compiled code that it uses; nothing was written")
     if stage in _READING and kind in _CAD:
@@ -142,16 +160,60 @@ def _wait(worker: int, reading: int, source: Path) -> NoReturn:
     raise CrashError(f"{reason} while drawing {source.name}; nothing was written")
 
 
-def _last_note(reading: int) -> str:
-    """What the worker did last; its progress bar has been cleared after this."""
-    text = b""
-    while select.select([reading], [], [], _PATIENCE)[0]:
-        piece = os.read(reading, 4096)
-        if not piece:
-            break
-        text = (text + piece)[-4096:]
-    lines = text.decode("utf-8", "replace").splitlines()
-    return lines[-1] if lines else ""
+def orphaned() -> bool:
+    """Whether the process that started the command is gone, and the command is to go with it."""
+    return _Worker.parent is not None and os.getppid() != _Worker.parent and not hang_up_ignored()
+
+
+def end_when_orphaned() -> None:
+    """For a command without a worker: a thread that ends it, tidily where it is writing, when it is orphaned."""
+    if _Worker.parent is None:
+        return
+
+    def watch() -> None:
+        while not orphaned():
+            time.sleep(_GLANCE)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _end(worker: int) -> None:
+    """By a signal that lets it tidy up; it ends with this process in any case."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(worker, signal.SIGTERM)
+    end = time.monotonic() + _PATIENCE
+    while time.monotonic() < end and not os.waitpid(worker, os.WNOHANG)[0]:
+        time.sleep(0.01)
+
+
+class _Notes:
+    """What the worker says that it does."""
+
+    def __init__(self, reading: int) -> None:
+        self._reading, self._open, self._text = reading, True, b""
+
+    def listen(self, seconds: float) -> bool:
+        """Until there is something new, or for so long; whether there may be more."""
+        if not self._open:
+            time.sleep(min(seconds, 0.01))  # the worker is about to end
+        elif select.select([self._reading], [], [], seconds)[0]:
+            piece = os.read(self._reading, 4096)
+            self._open = bool(piece)
+            self._text = (self._text + piece)[-4096:]
+            return self._open
+        return False
+
+    def rest(self, seconds: float) -> None:
+        """Until nobody is left to say anything, or for so long: the progress bar has been cleared after this."""
+        end = time.monotonic() + seconds
+        while self.listen(max(end - time.monotonic(), 0.0)):
+            pass
+
+    def last(self) -> str:
+        """What it said last."""
+        lines = self._text.decode("utf-8", "replace").splitlines()
+        return lines[-1] if lines else ""
 
 
 def _tie_to(parent: int) -> None:

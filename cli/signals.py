@@ -3,6 +3,9 @@
 OpenCASCADE keeps the interpreter for seconds, and a Python signal handler would wait for it. So while computing, the
 system's own handling ends the process: nothing has been written yet. Only while files are written do the signals
 become an exception, so that half-written files are removed.
+
+What a shell or a CI runner hands down does not matter: one that starts a job in the background ignores Ctrl-C, and all
+that runs in it would inherit that. Only `nohup` is a wish, so an ignored hang-up stays ignored.
 """
 
 from __future__ import annotations
@@ -17,6 +20,9 @@ from typing import NoReturn
 
 STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
 
+ENDING = tuple(number for number in STOPPING if number != getattr(signal, "SIGHUP", None))
+"""Those that end the command whatever it inherited."""
+
 
 class Stopped(BaseException):
     """A signal asked the process to end while it was writing."""
@@ -26,11 +32,24 @@ class Stopped(BaseException):
         self.number = number
 
 
-def at_once() -> None:
-    """Let Ctrl-C end the process without Python's help."""
-    # An ignored signal stays ignored: that is how a shell protects its background jobs.
-    if _in_main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+def at_once(own: bool) -> None:
+    """Let Ctrl-C end the process without Python's help.
+
+    own: the process is the command and nothing else, so what it has inherited is set right as well.
+    """
+    if not _in_main_thread():
+        return
+    if own and hasattr(signal, "pthread_sigmask"):
+        for number in (*ENDING, signal.SIGCHLD):  # who ignores SIGCHLD cannot wait for a worker
+            signal.signal(number, signal.SIG_DFL)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, STOPPING)
+    elif signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def hang_up_ignored() -> bool:
+    """Whether `nohup` started this process: it is to go on whatever becomes of those who started it."""
+    return hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """The finest drawing that fits into a time. What decides is tested on a clock of its own, without waiting."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -150,10 +151,26 @@ def command(*arguments):
     return [sys.executable, "-P", "-c", code, "draw", str(AS1), "--fit", "5000x4000", *arguments]
 
 
+@pytest.fixture
+def started():
+    """Start the command in a group of its own; what still runs of it after the test is killed."""
+    processes = []
+
+    def start(*arguments):
+        processes.append(subprocess.Popen(command(*arguments), start_new_session=True))
+        return processes[-1]
+
+    yield start
+    for process in processes:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
 @pytest.mark.skipif(os.name != "posix", reason="signals")
-def test_after_ctrl_c_the_finished_drawing_is_there(tmp_path):
+def test_after_ctrl_c_the_finished_drawing_is_there(started, tmp_path):
     target = tmp_path / "a.svg"
-    running = subprocess.Popen(command("-o", str(target), "--within", "10min"), start_new_session=True)
+    running = started("-o", str(target), "--within", "10min")
     end = time.monotonic() + 120.0
     while not target.exists() and time.monotonic() < end:
         assert running.poll() is None
@@ -165,9 +182,9 @@ def test_after_ctrl_c_the_finished_drawing_is_there(tmp_path):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
-def test_before_the_first_drawing_ctrl_c_writes_nothing(tmp_path):
+def test_before_the_first_drawing_ctrl_c_writes_nothing(started, tmp_path):
     target = tmp_path / "a.svg"
-    running = subprocess.Popen(command("-o", str(target), "--within", "10min"), start_new_session=True)
+    running = started("-o", str(target), "--within", "10min")
     time.sleep(0.3)
     os.killpg(running.pid, signal.SIGINT)
     running.wait(30.0)

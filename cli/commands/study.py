@@ -10,6 +10,7 @@ import click
 
 from hlr.errors import OptionError, SourceError, WriteError
 
+from ..guard import end_when_orphaned
 from ..meter import meter
 from ..parameters import Scale, Size, Vector3, ViewName
 from ..signals import Stopped, tidily
@@ -99,6 +100,7 @@ def study(
     )
     found = Study(source, view, limit, runs)
     # No worker process as for a drawing: the work is done in processes of its own, and this one has to outlive Ctrl-C.
+    end_when_orphaned()
     with tidily():
         try:
             with meter(quiet) as progress:

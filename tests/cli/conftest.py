@@ -1,3 +1,4 @@
+import contextlib
 import os
 import select
 import signal
@@ -72,17 +73,18 @@ def hlr_command(hlr_real, monkeypatch):
 
 @pytest.fixture
 def started(tmp_path):
-    """Start a program with arguments in an empty folder; what still runs after the test is killed."""
+    """Start a program with arguments in an empty folder; what still runs of its group after the test is killed."""
     processes = []
 
     def start(program, *arguments, **options):
-        process = subprocess.Popen([*program, *arguments], cwd=tmp_path, **options)
+        process = subprocess.Popen([*program, *arguments], cwd=tmp_path, **options | {"start_new_session": True})
         processes.append(process)
         return process
 
     yield start
     for process in processes:
-        process.kill()
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 
 
@@ -121,7 +123,7 @@ def on_terminal(child):
     def run(*arguments, columns=80, seconds=20.0, interrupt=None):
         control, terminal = pty.openpty()
         environment = os.environ | {"TERM": "xterm", "COLUMNS": str(columns)}
-        process = child(*arguments, stderr=terminal, start_new_session=True, env=environment)
+        process = child(*arguments, stderr=terminal, env=environment)
         os.close(terminal)
         shown, end = b"", time.monotonic() + seconds
         while time.monotonic() < end:

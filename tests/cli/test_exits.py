@@ -92,14 +92,37 @@ def test_a_signal_while_writing_leaves_no_partial_file(slow_writer, tmp_path, nu
     assert (tmp_path / "a.svg").read_text() == "old"
 
 
-@posix
-def test_an_ignored_ctrl_c_stays_ignored(child):
-    def ignore():
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
+def _deaf():
+    """As a shell starts a job in the background, and worse."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGCHLD):
+        signal.signal(number, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGTERM])
 
-    process = child("draw", "forever.step", stderr=subprocess.PIPE, preexec_fn=ignore)
-    process.stderr.readline()
-    process.send_signal(signal.SIGINT)
+
+@posix
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_inherited_deafness_does_not_matter(child, number):
+    process = child("draw", "forever.step", stderr=subprocess.PIPE, preexec_fn=_deaf)
+    assert process.stderr.readline() == b"computing\n"
+    process.send_signal(number)
+    assert process.wait(timeout=3) == -number
+    assert process.stderr.read() == b""
+
+
+@posix
+def test_who_ignores_his_children_gets_his_drawing(child, tmp_path):
+    assert child("draw", "a.step", "-o", "a.svg", preexec_fn=_deaf).wait(timeout=20) == 0
+    assert (tmp_path / "a.svg").exists()
+
+
+@posix
+def test_a_hang_up_that_nohup_ignores_stays_ignored(child):
+    def nohup():
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+    process = child("draw", "forever.step", stderr=subprocess.PIPE, preexec_fn=nohup)
+    assert process.stderr.readline() == b"computing\n"
+    process.send_signal(signal.SIGHUP)
     with pytest.raises(subprocess.TimeoutExpired):
         process.wait(timeout=0.5)
 

@@ -9,6 +9,7 @@ import sys
 import time
 from pathlib import Path
 
+import fake_pipeline as fake
 import pytest
 
 if not hasattr(os, "fork"):
@@ -147,6 +148,59 @@ def test_whatever_ends_the_command_ends_the_worker(child, number):
     # The worker held standard error open: it has ended when this returns.
     assert select.select([process.stderr], [], [], 3)[0]
     assert process.stderr.read() == b""
+
+
+# A program that starts the command, says so, and waits to be killed.
+PARENT = """
+import signal, subprocess, sys, time
+if sys.argv[1] == "nohup":
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+subprocess.Popen(sys.argv[2:])
+time.sleep(60)
+"""
+
+
+@pytest.mark.parametrize("how", ["plain", "nohup"])
+def test_the_command_ends_with_its_parent_but_for_nohup(started, how):
+    parent = started(
+        [sys.executable, "-c", PARENT, how],
+        sys.executable,
+        fake.__file__,
+        "draw",
+        "forever.step",
+        stderr=subprocess.PIPE,
+    )
+    assert parent.stderr.readline() == b"computing\n"
+    parent.kill()
+    # Both processes of the command hold standard error open: it is at its end when they have ended.
+    over = select.select([parent.stderr], [], [], 5.0 if how == "plain" else 1.0)[0]
+    assert bool(over) == (how == "plain")
+    if over:
+        assert parent.stderr.read() == b""
+
+
+@pytest.mark.parametrize("code", [0, 7])
+def test_a_script_that_leaves_is_refused(started, tmp_path, code):
+    (tmp_path / "part.py").write_text(f"import os\nos._exit({code})\n")
+    process = started(
+        [sys.executable, "-m", "hlr"], "draw", "part.py", "-o", "a.svg", stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    assert finished(process) == (
+        2,
+        b"",
+        f"hlr: part.py ended the program (exit code {code}) before anything was drawn; nothing was written; "
+        "take os._exit out of it\n",
+    )
+    assert [path.name for path in tmp_path.iterdir()] == ["part.py"]
+
+
+def test_a_script_may_do_at_exit_what_it_likes(started, tmp_path):
+    (tmp_path / "part.py").write_text(
+        "import atexit, os\nimport cadquery as cq\nresult = cq.Workplane().box(1, 1, 1)\natexit.register(os._exit, 7)\n"
+    )
+    process = started([sys.executable, "-m", "hlr"], "draw", "part.py", "-o", "a.svg", "-q")
+    assert process.wait(60) == 0
+    assert (tmp_path / "a.svg").exists()
 
 
 def test_no_core_file_is_left(patched, tmp_path):

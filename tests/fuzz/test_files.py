@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import random
 import signal
@@ -95,7 +96,7 @@ def test_a_wrong_outcome_would_be_noticed() -> None:
 
 def hlr(folder: Path, *arguments: str) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-P", "-m", "hlr", *arguments]
-    return subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return subprocess.Popen(command, cwd=folder, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
 @pytest.mark.parametrize("name", ["reference-to-nothing.step", "line-broken.igs", "shape-out-of-range.brep"])
@@ -116,6 +117,10 @@ def test_ctrl_c_ends_a_file_that_opencascade_never_finishes(tmp_path: Path) -> N
     process = hlr(tmp_path, "draw", str(CORPUS / "endless" / "curve-without-end.brep"), "-o", "out.svg")
     time.sleep(2.0)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=10)
+    try:
+        _, err = process.communicate(timeout=10)
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
     assert (process.returncode, err) in [(-signal.SIGINT, b""), (2, err)]
     assert not list(tmp_path.iterdir())

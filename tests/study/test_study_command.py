@@ -1,5 +1,6 @@
 """`hlr study`: files, failures in sentences, refusals, and what Ctrl-C leaves."""
 
+import contextlib
 import csv
 import os
 import signal
@@ -117,13 +118,16 @@ def test_a_stopped_study_keeps_what_is_finished(box, tmp_path, monkeypatch):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="signals end processes differently here")
 def test_ctrl_c_ends_it_at_once_and_its_processes_with_it(box, tmp_path):
-    child = subprocess.Popen(command(box, "-o", tmp_path / "figures", "--runs", "999"), stderr=subprocess.DEVNULL)
+    child = subprocess.Popen(
+        command(box, "-o", tmp_path / "figures", "--runs", "999"), stderr=subprocess.DEVNULL, start_new_session=True
+    )
     try:
         time.sleep(2.0)
         child.send_signal(signal.SIGINT)
         assert child.wait(timeout=30) == -signal.SIGINT
     finally:
-        child.kill()
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(child.pid, signal.SIGKILL)
 
 
 def test_a_point_that_takes_too_long_says_so(box):
