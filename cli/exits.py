@@ -61,6 +61,11 @@ def warn(message: str) -> None:
     _say(f"hlr: warning: {_one_line(message)}")
 
 
+def remark(message: str) -> None:
+    """Something worth knowing that is nothing to warn of, on standard error."""
+    _say(f"hlr: note: {_one_line(message)}")
+
+
 def _refuse(message: str) -> NoReturn:
     _say(f"hlr: {_one_line(message)}")
     _leave(REFUSED)

@@ -2,24 +2,53 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
-from hlr.errors import OptionError
+from hlr.errors import OptionError, SourceError
 
 FIELDS = ("stem", "view", "n")
 STDOUT = "-"
 
 
-def plan(pattern: str | None, source: str, views: Sequence[str], format: str | None) -> list[Path]:
+@dataclass(frozen=True, slots=True)
+class Target:
+    """Where a drawing goes, and as what. path: None for standard output; folder: is made if it is not there."""
+
+    path: Path | None
+    format: str
+    folder: Path | None = None
+
+    @property
+    def name(self) -> str:
+        """The last part of the path."""
+        return "" if self.path is None else self.path.name
+
+    def __str__(self) -> str:
+        return "standard output" if self.path is None else str(self.path)
+
+
+def is_folder(pattern: str) -> bool:
+    """Whether an output names a folder: by a slash at its end, or because it is one."""
+    return pattern.endswith(("/", os.sep)) or os.path.isdir(pattern)
+
+
+def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) -> list[Path]:
     """One path per view.
 
-    pattern None: the source's name with the ending of the format, in the current folder. Raises OptionError where
-    two views would have the same file, or a field is unknown.
+    pattern None: the source's name, in the current folder; a folder: the source's name and the view's, in it. Both get
+    the ending. Raises OptionError where two views would have the same file, or a field is unknown; SourceError for a
+    source that is a folder.
     """
+    if Path(source).is_dir():  # "." has no stem to name an output after
+        raise SourceError(f"{source} is a folder: name a model file in it")
     if pattern is None:
-        pattern = ("{stem}-{view}." if len(views) > 1 else "{stem}.") + (format or "svg")
+        pattern = ("{stem}-{view}." if len(views) > 1 else "{stem}.") + ending
+    elif is_folder(pattern):
+        pattern = os.path.join(pattern, "{stem}-{view}." + ending)
     unknown = [field for field in re.findall(r"\{(\w*)\}", pattern) if field not in FIELDS]
     if unknown:
         raise OptionError(f"the output name has the unknown field {{{unknown[0]}}}; use {{stem}}, {{view}} or {{n}}")
@@ -33,6 +62,50 @@ def plan(pattern: str | None, source: str, views: Sequence[str], format: str | N
         twice = next(path for i, path in enumerate(paths) if path in paths[:i])
         raise OptionError(f"two views would be written to {twice}; name each view once, or put {{n}} into the name")
     return paths
+
+
+def check(targets: Sequence[Target], source: str | None) -> None:
+    """Refuse what cannot be written before any work is done for it.
+
+    Raises OptionError where two things would be written to one file, however it is spelled; WriteError for a missing
+    folder, a lack of permission, the source itself or another model.
+    """
+    from hlr.writers import files, originals
+
+    paths = [(target.path, target.folder is not None) for target in targets if target.path is not None]
+    found: dict[str, Path] = {}
+    for path, _ in paths:
+        same = found.setdefault(os.path.realpath(path), path)
+        if same is not path:
+            also = "" if same == path else f", which is {same}"
+            raise OptionError(f"two things would be written to {path}{also}; give each a name of its own")
+    if source is not None:
+        originals.check_source([path for path, _ in paths], source)
+    for path, make_folder in paths:
+        files.check(path, make_folder)
+
+
+def in_folder(folder: str, names: Sequence[str], source: str | None) -> list[Target]:
+    """Files of these names in a folder, which is made if it is not there.
+
+    Raises WriteError where they cannot be written there.
+    """
+    found = [Target(Path(folder, name), name.rpartition(".")[2], Path(folder)) for name in names]
+    check(found, source)
+    return found
+
+
+def place(made: Sequence[tuple[Target, bytes]]) -> None:
+    """Write all files or none."""
+    from hlr.writers import files
+
+    from .signals import tidily
+
+    with tidily():
+        files.place(
+            {target.path: data for target, data in made if target.path is not None},
+            dict.fromkeys(target.folder for target, _ in made if target.folder is not None),
+        )
 
 
 def _fill(pattern: str, stem: str, view: str, n: int) -> Path:

@@ -34,9 +34,9 @@ class ViewName(click.ParamType[str | Vector3]):
 
         text = str(value).strip()
         if "," not in text:
-            if text not in NAMED:
+            if text.lower() not in NAMED:
                 self.fail(f"{text!r} is none of {', '.join(NAMED)}, nor three numbers such as 1,-1,1", param, ctx)
-            return text
+            return text.lower()
         vector = vector_of(text)
         if vector is None:
             self.fail(f"{text!r} is neither a name such as iso nor three numbers such as 1,-1,1", param, ctx)
@@ -57,18 +57,40 @@ class Scale(click.ParamType[float]):
         return above / below
 
 
-class Size(click.ParamType[tuple[float, float]]):
-    """Width and height in millimetres: 200x150."""
+PAPER = {
+    "a0": (841.0, 1189.0),
+    "a1": (594.0, 841.0),
+    "a2": (420.0, 594.0),
+    "a3": (297.0, 420.0),
+    "a4": (210.0, 297.0),
+    "a5": (148.0, 210.0),
+    "a6": (105.0, 148.0),
+    "letter": (215.9, 279.4),
+    "legal": (215.9, 355.6),
+    "tabloid": (279.4, 431.8),
+}
+"""Millimetres, upright."""
 
-    name = "WxH"
+MARGIN = 10.0
+"""Millimetres that stay empty on each side of a sheet of paper."""
+
+
+class Size(click.ParamType[tuple[float, float]]):
+    """Width and height in millimetres: 200x150, or a sheet of paper less its margins: A4, A4-landscape."""
+
+    name = "WxH|A4"
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
         """Two positive numbers."""
+        words = re.split(r"[\s_-]+", str(value).strip().lower())
+        if words[0] in PAPER and words[1:] in ([], ["portrait"], ["landscape"]):
+            narrow, wide = (side - 2.0 * MARGIN for side in PAPER[words[0]])
+            return (wide, narrow) if words[1:] == ["landscape"] else (narrow, wide)
         sides = [number_of(side) for side in re.split("[xX×]", str(value))]
         match sides:
             case [float(width), float(height)] if width > 0.0 and height > 0.0:
                 return (width, height)
-        self.fail(f"{value!r} is not a size in millimetres such as 200x150", param, ctx)
+        self.fail(f"{value!r} is not a size in millimetres such as 200x150, A4 or A4-landscape", param, ctx)
 
 
 class Duration(click.ParamType[float]):

@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .parameters import Vector, Vector3, ViewName
+from hlr.errors import OptionError
+from hlr.view.names import EYE
+
+from .parameters import Scale, Size, Vector, Vector3, ViewName
 
 if TYPE_CHECKING:
     from hlr.plan.options import Perspective
@@ -22,6 +25,16 @@ VIEW = click.option(
     multiple=True,
     help="front, back, left, right, top, bottom, iso, iso-sw, iso-ne, iso-nw, or a direction toward the viewer. "
     "May be repeated. Default: iso.",
+)
+
+SIZE = (
+    click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1."),
+    click.option(
+        "--fit",
+        type=Size(),
+        metavar="WxH|A4",
+        help="Instead of a scale: fit into so many millimetres, or a sheet less margins of 10 mm: A4, A4-landscape.",
+    ),
 )
 
 CAMERA = (
@@ -70,9 +83,13 @@ def options(*chosen: Callable[[Command], Command]) -> Callable[[Command], Comman
     return decorate
 
 
-def names_of(views: tuple[str | Vector3, ...]) -> list[str]:
-    """Views as they are called in file names."""
-    return [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views]
+def names_of(views: tuple[str | Vector3, ...], eye: Vector3 | None) -> list[str]:
+    """Views as they are called in file names. Raises OptionError where the eye says already what the view says."""
+    if eye is not None:
+        if views:
+            raise OptionError("--eye and --view contradict one another: both say where to look from; leave out one")
+        return [EYE]
+    return [view if isinstance(view, str) else ",".join(f"{x:g}" for x in view) for view in views or ("iso",)]
 
 
 def perspective_of(

@@ -71,7 +71,7 @@ def _of_model(source: Any, view: View, size: tuple[int, int], progress: Progress
     from hlr.tolerance import ANGLE, SMALL_DRAWING
     from hlr.view.camera import resolve
 
-    view = checked_views([view])[0]
+    view = checked_views([view], Options())[0]
     tell = progress or (lambda _stage, _done: None)
     tell("source", 0.0)
     opened = open_source(source)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from hlr.errors import OptionError
 from hlr.pipeline import draw_views as drawn_once
 from hlr.plan.options import Options, View
-from hlr.plan.request import checked
+from hlr.plan.request import checked, checked_views
 from hlr.source import open_source
 
 if TYPE_CHECKING:
@@ -26,6 +26,7 @@ def draw_views(
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
     """
     options = checked(options or Options())
+    views = checked_views(views, options)
     if not options.report and options.within is None:
         return drawn_once(source, views, options, progress)
     opened = open_source(source)

@@ -31,13 +31,21 @@ CODES: dict[NoteCode, str] = {
 }
 """What each code means. A code keeps its meaning; new ones may be added."""
 
+REMARKS: frozenset[NoteCode] = frozenset({"paper-size"})
+"""Codes of what is worth knowing, though the drawing is what was asked for: `strict` makes no errors of them."""
+
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A warning: its code, one of `CODES`, and one sentence that says what happened. `str(note)` is the sentence."""
+    """A warning or a remark: its code, one of `CODES`, and one sentence that says what happened, `str(note)`."""
 
     code: NoteCode
     text: str
+
+    @property
+    def is_warning(self) -> bool:
+        """Whether the drawing may not be what was meant: an error where `strict` asks for it."""
+        return self.code not in REMARKS
 
     def __str__(self) -> str:
         return self.text

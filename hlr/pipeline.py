@@ -14,6 +14,7 @@ from hlr.finished import finished
 from hlr.fitting import Staged, staged
 from hlr.linework.exact import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
+from hlr.notes import Note
 from hlr.plan.effect import Planner
 from hlr.plan.options import Options, Request, View
 from hlr.plan.plan import decide
@@ -39,7 +40,7 @@ def draw_views(
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
     """
     options = checked(options or Options())
-    views = checked_views(views)
+    views = checked_views(views, options)
     if not views:
         return []
     tell = progress or (lambda _stage, _done: None)
@@ -63,8 +64,8 @@ def draw_views(
         out.append(replace(drawing, request=Request(view, options)))
     tell("linework", 1.0)
     for drawing in out:
-        if options.strict and drawing.notes:
-            raise StrictError(str(drawing.notes[0]))
+        if options.strict:
+            refuse_warnings(drawing.notes)
     return out
 
 
@@ -90,4 +91,11 @@ def drawing_of(
     return finished(opened, seen, view, options, plan, segments, lines, clock)
 
 
-__all__ = ["draw_views", "drawing_of"]
+def refuse_warnings(notes: Sequence[Note]) -> None:
+    """Raise StrictError for the first warning among the notes."""
+    for note in notes:
+        if note.is_warning:
+            raise StrictError(note.text)
+
+
+__all__ = ["draw_views", "drawing_of", "refuse_warnings"]

@@ -36,7 +36,7 @@ def plan_views(
     Raises SourceError, ViewError, OptionError.
     """
     options = checked(options or Options())
-    views = checked_views(views)
+    views = checked_views(views, options)
     if not views:
         return []
     tell = progress or (lambda _stage, _done: None)

@@ -13,11 +13,11 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.clock import Clock, lap
 from hlr.drawing import DrawnPart
-from hlr.errors import OptionError, StrictError
+from hlr.errors import OptionError
 from hlr.finished import drawn_view
 from hlr.fitting import Staged, meshed_scene
 from hlr.picture import Picture
-from hlr.pipeline import drawing_of
+from hlr.pipeline import drawing_of, refuse_warnings
 from hlr.plan.effect import Facts, Planner
 from hlr.plan.effects import (
     AMBIENT,
@@ -68,7 +68,7 @@ def preview_views(
 ) -> list[Picture]:
     """One picture per view; the source is read and meshed once."""
     options = checked_preview(options or PreviewOptions())
-    views = checked_views(views)
+    views = checked_views(views, options)
     background = parse_color(options.background)
     if not views:
         return []
@@ -114,8 +114,8 @@ def preview_views(
             lap(own, "edges", started)
         own["total"] = sum(own.values())
         notes = tuple(dict.fromkeys((*opened.notes, *scene.notes)))
-        if options.strict and notes:
-            raise StrictError(str(notes[0]))
+        if options.strict:
+            refuse_warnings(notes)
         out.append(
             Picture(
                 source=opened.name,

@@ -85,7 +85,7 @@ def draw_within(
     options = checked(options)
     assert options.within is not None
     budget = options.within
-    views = checked_views(views)
+    views = checked_views(views, options)
     if not views:
         return []
     opened = open_source(source)

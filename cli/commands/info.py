@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..exits import warn
 from ..guard import start
 from ..meter import meter
 from ..streams import result_only
+from ..telling import tell_notes
+from ..verb import Verb
 
 if TYPE_CHECKING:
     from hlr.scene.report import ModelInfo, PartReport
@@ -19,7 +20,7 @@ _HEADINGS = ("part", "solids", "faces", "edges", "triangles", "closed", "defects
 _LONGEST_NAME = 40
 
 
-@click.command()
+@click.command(cls=Verb)
 @click.argument("source")
 @click.option(
     "--crease",
@@ -48,8 +49,7 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
             text = json.dumps(_document(model), indent=2)
         else:
             text = _table(model)
-            for note in model.notes:
-                warn(str(note))
+            tell_notes(model.notes)
         out.put((text + "\n").encode(encoding, "replace"))
 
 

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
-
-from hlr.errors import WriteError
 
 from ..guard import start
 from ..meter import meter
+from ..outputs import in_folder, place
 from ..parameters import Pixels, Vector3, ViewName
-from ..signals import tidily
 from ..streams import result_only
+from ..telling import tell_written
+from ..verb import Verb
 
 
-@click.command()
+@click.command(cls=Verb)
 @click.argument("source", required=False)
 @click.option("-o", "--output", metavar="DIR", help="A folder for methods.csv, methods.md and the plot methods.png.")
 @click.option("--size", type=Pixels(), metavar="WxH", default="1024x1024", help="Pixels. Default: 1024x1024.")
@@ -62,9 +60,7 @@ def methods(
       hlr methods
       hlr methods part.step --polygons 100 --limit 2 -o figures
     """
-    folder = None if output is None else Path(output)
-    if folder is not None and folder.exists() and not folder.is_dir():
-        raise WriteError(f"cannot write into {folder}: it is not a folder")
+    targets = [] if output is None else in_folder(output, ("methods.csv", "methods.md", "methods.png"), source)
     start(source or "methods")
     with result_only() as out:
         with meter(quiet) as progress:
@@ -85,18 +81,16 @@ def methods(
                 progress=progress,
             )
         out.put(report.text(found).encode("utf-8"))
-        if folder is not None:
+        if targets:
             from hlr.surfaces.plot import png
-            from hlr.writers import files
 
-            made = {
-                folder / "methods.csv": report.comma_separated(found).encode("utf-8"),
-                folder / "methods.md": report.markdown(found).encode("utf-8"),
-                folder / "methods.png": png(found, size),
-            }
-            with tidily():
-                try:
-                    folder.mkdir(parents=True, exist_ok=True)
-                except OSError as error:
-                    raise WriteError(f"cannot make the folder {folder}: {error.strerror}") from None
-                files.place(made)
+            csv, md, plot = targets
+            place(
+                [
+                    (csv, report.comma_separated(found).encode("utf-8")),
+                    (md, report.markdown(found).encode("utf-8")),
+                    (plot, png(found, size)),
+                ]
+            )
+    if targets:
+        tell_written(", ".join(str(target) for target in targets), quiet)

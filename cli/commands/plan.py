@@ -8,18 +8,17 @@ import click
 
 from ..guard import start
 from ..meter import meter
-from ..parameters import Scale, Size, Vector3
+from ..parameters import Vector3
 from ..streams import result_only
-from ..view_options import CAMERA, CARE, RUN, VIEW, options
+from ..verb import Verb
+from ..view_options import CAMERA, CARE, RUN, SIZE, VIEW, names_of, options
 from .draw import LINES, request_of
 
 
-@click.command()
+@click.command(cls=Verb)
 @click.argument("source")
 @VIEW
-@options(*LINES, *CARE, *CAMERA, *RUN)
-@click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1.")
-@click.option("--fit", type=Size(), metavar="WxH", help="Instead of a scale: fit into so many millimetres.")
+@options(*LINES, *SIZE, *CARE, *CAMERA, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def plan(*, source: str, views: tuple[str | Vector3, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:
@@ -31,6 +30,7 @@ def plan(*, source: str, views: tuple[str | Vector3, ...], as_json: bool, quiet:
 
     The model is read and meshed, but nothing is hidden or drawn. `hlr draw --explain` says besides what each has cost.
     """
+    names_of(views, wishes["eye"])
     views = views or ("iso",)
     request = request_of(**wishes)
     start(source)

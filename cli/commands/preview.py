@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from hlr.errors import OptionError, SourceError, StrictError
+from hlr.errors import OptionError
 
-from ..exits import warn
 from ..guard import start
 from ..meter import meter
-from ..outputs import STDOUT, plan
+from ..outputs import STDOUT, Target, check, is_folder, place, plan
 from ..parameters import Pixels, Vector3
-from ..signals import tidily
 from ..streams import result_only
+from ..telling import tell_notes, tell_written
+from ..verb import Verb
 from ..view_options import CAMERA, CARE, RUN, VIEW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
@@ -24,14 +23,14 @@ if TYPE_CHECKING:
     from hlr.plan.effects import PreviewOptions
 
 
-@click.command()
+@click.command(cls=Verb)
 @click.argument("source")
 @click.option(
     "-o",
     "--output",
     metavar="FILE",
-    help="Where to write: .png, or - for standard output. {stem}, {view} and {n} stand for the source, the view and "
-    "its number. Default: {stem}.png in this folder.",
+    help="Where to write: .png; a folder/; - for standard output. {stem}, {view} and {n} stand for the source, the "
+    "view and its number. Default: {stem}.png in this folder.",
 )
 @VIEW
 @click.option("--size", type=Pixels(), metavar="WxH", default="1920x1080", help="In pixels. Default: 1920x1080.")
@@ -61,8 +60,8 @@ def preview(
 
     Where the file says that a part is transparent, it is.
     """
+    names = names_of(views, wishes["eye"])
     views = views or ("iso",)
-    names = names_of(views)
     maps = {name: wishes.pop(name) for name in ("depth", "ids")}
     request = _options(**wishes, depth=maps["depth"] is not None, ids=maps["ids"] is not None)
     targets = _targets(output, maps, source, names)
@@ -74,22 +73,15 @@ def preview(
             import hlr
 
             pictures = hlr.preview_views(source, list(views), request, progress=progress)
-        _warn(pictures, request.strict)
+        tell_notes((note for picture in pictures for note in picture.notes), request.strict, quiet)
         if explain:
             from hlr.plan.effect import explained
 
             click.echo("\n\n".join(explained(picture.plan) for picture in pictures), err=True)
-        made = _encoded(pictures, targets)
-        if output == STDOUT:
-            out.put(made.pop(Path(STDOUT)))
-        with tidily():
-            from hlr.writers import files
-
-            files.place(made)
-    if not quiet and sys.stderr is not None and sys.stderr.isatty():
-        for picture, target in zip(pictures, targets, strict=True):
-            seconds = picture.timings.get("total", 0.0)
-            click.echo(f"{target['picture']}: {picture.view.name}, {seconds:.1f} s", err=True)
+        place(_encoded(pictures, targets, out.put))
+    for picture, row in zip(pictures, targets, strict=True):
+        where = ", ".join(str(target) for target in row.values())
+        tell_written(f"{where}: {picture.view.name}, {picture.timings.get('total', 0.0):.1f} s", quiet)
 
 
 def _options(
@@ -103,46 +95,45 @@ def _options(
     return PreviewOptions(perspective=perspective_of(perspective, eye, target, fov), **others)
 
 
-def _targets(output: str | None, maps: dict[str, str | None], source: str, names: list[str]) -> list[dict[str, Path]]:
-    """Per view the paths of what is written. What cannot be written is refused before any work."""
+def _targets(output: str | None, maps: dict[str, str | None], source: str, names: list[str]) -> list[dict[str, Target]]:
+    """Per view what is written where. What cannot be written is refused before any work."""
     from hlr.writers.png import check_png
 
     if output == STDOUT and len(names) > 1:
         raise OptionError("standard output takes one view; write several views to files with {view} in the name")
     if STDOUT in maps.values():
         raise OptionError("only the picture can be written to standard output; give depth and ids a file name each")
-    if Path(source).is_dir():  # "." has no stem to name an output after
-        raise SourceError(f"{source} is a folder: name a model file in it.")
-    found: list[dict[str, Path]] = [{} for _ in names]
+    found: list[dict[str, Target]] = [{} for _ in names]
     for what, pattern in {"picture": output, **maps}.items():
-        if what != "picture" and pattern is None:
+        if what != "picture":
+            if pattern is None:
+                continue
+            if is_folder(pattern):
+                raise OptionError(f"--{what} needs a file name, and {pattern} is a folder")
+        if pattern == STDOUT:
+            found[0][what] = Target(None, "png")
             continue
-        paths = [Path(STDOUT)] if pattern == STDOUT else plan(pattern, source, names, "png")
-        for target, path in zip(found, paths, strict=True):
-            if pattern != STDOUT:
-                check_png(path)
-            if path in target.values():
-                raise OptionError(f"two things would be written to {path}; give each a name of its own")
-            target[what] = path
+        made = pattern is not None and is_folder(pattern)
+        for target, path in zip(found, plan(pattern, source, names, "png"), strict=True):
+            check_png(path)
+            target[what] = Target(path, "png", path.parent if made else None)
+    check([target for row in found for target in row.values()], source)
     return found
 
 
-def _warn(pictures: list[Picture], strict: bool) -> None:
-    """Each warning once, though every view has met it."""
-    notes = list(dict.fromkeys(note for picture in pictures for note in picture.notes))
-    if strict and notes:
-        more = f" (and {len(notes) - 1} more)" if len(notes) > 1 else ""
-        raise StrictError(f"{notes[0]}{more}; nothing is written, because of --strict")
-    for note in notes:
-        warn(str(note))
-
-
-def _encoded(pictures: list[Picture], targets: list[dict[str, Path]]) -> dict[Path, bytes]:
+def _encoded(
+    pictures: list[Picture], targets: list[dict[str, Target]], put: Callable[[bytes], None]
+) -> list[tuple[Target, bytes]]:
+    """What goes into files, after what goes to standard output."""
     from hlr.writers.png import depth_png, ids_png, picture_png
 
     make = {"picture": picture_png, "depth": depth_png, "ids": ids_png}
-    return {
-        path: make[what](picture)
-        for picture, target in zip(pictures, targets, strict=True)
-        for what, path in target.items()
-    }
+    files = []
+    for picture, row in zip(pictures, targets, strict=True):
+        for what, target in row.items():
+            data = make[what](picture)
+            if target.path is None:
+                put(data)
+            else:
+                files.append((target, data))
+    return files

@@ -2,31 +2,35 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from hlr.errors import OptionError, SourceError, WriteError
+from hlr.errors import OptionError, SourceError
 
 from ..guard import end_when_orphaned
 from ..meter import meter
+from ..outputs import Target, in_folder, place
 from ..parameters import Scale, Size, Vector3, ViewName
 from ..signals import Stopped, tidily
+from ..telling import tell_written
+from ..verb import Verb
 
 if TYPE_CHECKING:
     from hlr.study.sweep import Study
 
+FILES = ("study.csv", "study.md", "error.png", "stages.png", "arithmetic.csv")
+
 _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
 
 
-@click.command()
+@click.command(cls=Verb)
 @click.argument("source")
 @click.option("-o", "--output", metavar="DIR", required=True, help="A folder for study.md, its tables and its plots.")
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="Default: iso.")
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model.")
-@click.option("--fit", type=Size(), metavar="WxH", help="Fit into so many millimetres. Default: 277x190, an A4 sheet.")
+@click.option("--fit", type=Size(), metavar="WxH|A4", help="Fit into so many millimetres. Default: A4-landscape.")
 @click.option(
     "--accuracy",
     "accuracies",
@@ -78,9 +82,7 @@ def study(
 
     Ctrl-C leaves what is finished.
     """
-    folder = Path(output)
-    if folder.exists() and not folder.is_dir():
-        raise WriteError(f"cannot write into {folder}: it is not a folder")
+    targets = {target.name: target for target in in_folder(output, FILES, source)}
     if scale is not None and fit is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
     from hlr.source.files import check_readable
@@ -108,32 +110,26 @@ def study(
                     source, view, scale=scale, fit=fit, wish=wish, limit=limit, runs=runs, into=found, progress=progress
                 )
         except Stopped:
-            _write(folder, found)
+            _write(targets, found)
             raise
-        _write(folder, found)
-    if not quiet and sys.stderr is not None and sys.stderr.isatty():
-        click.echo(f"{folder / 'study.md'}: {len(found.points)} points", err=True)
+        _write(targets, found)
+    tell_written(f"{targets['study.md']}: {len(found.points)} points", quiet)
 
 
-def _write(folder: Path, found: Study) -> None:
+def _write(targets: dict[str, Target], found: Study) -> None:
     """All files; none where nothing was measured."""
     from hlr.study import plot, report, table
-    from hlr.writers import files
 
     if not any(point.failure is None for point in found.points):
         if not found.points:
             return
         raise SourceError(f"{found.source} cannot be studied: no point was finished")
     made = {
-        folder / "study.csv": table.comma_separated(found).encode("utf-8"),
-        folder / "study.md": report.markdown(found, ("error.png", "stages.png")).encode("utf-8"),
-        folder / "error.png": plot.error_plot(found.points, found.look["name"]),
-        folder / "stages.png": plot.stage_plot(found.points, found.look["name"]),
+        "study.csv": table.comma_separated(found).encode("utf-8"),
+        "study.md": report.markdown(found, ("error.png", "stages.png")).encode("utf-8"),
+        "error.png": plot.error_plot(found.points, found.look["name"]),
+        "stages.png": plot.stage_plot(found.points, found.look["name"]),
     }
     if found.arithmetic:
-        made[folder / "arithmetic.csv"] = table.arithmetic_csv(found).encode("utf-8")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise WriteError(f"cannot make the folder {folder}: {error.strerror}") from None
-    files.place(made)
+        made["arithmetic.csv"] = table.arithmetic_csv(found).encode("utf-8")
+    place([(targets[name], data) for name, data in made.items()])

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from numbers import Integral, Real
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 
 from hlr.errors import OptionError, ViewError
-from hlr.plan.options import Options, Perspective, View
+from hlr.plan.options import Options, Perspective, Vector, View
+from hlr.view.camera import check_directions
 
 MOST_THREADS = 1024
 MOST_SCALE = 1e9
@@ -38,6 +39,8 @@ def checked(options: Options) -> Options:
         not _is_vector(options.fit, 2) or min(options.fit) < SMALLEST_FIT or max(options.fit) > LARGEST_FIT
     ):
         raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
+    if options.fit is not None and options.scale != 1.0:
+        raise OptionError("scale and fit contradict one another: give one of them")
     check_crease(options.crease)
     if options.up is not None and not _is_vector(options.up, 3):
         raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
@@ -55,23 +58,37 @@ def check_crease(crease: float) -> None:
         raise OptionError(f"crease {_shown(crease)} is no fold: give 0 to 180 degrees")
 
 
-def checked_views(views: Sequence[View]) -> list[View]:
-    """The views as a list; a single name or direction is understood as one view.
+def checked_views(views: Sequence[View], options: Looking) -> list[View]:
+    """The views as a list, names in small letters; a single name or direction is understood as one view.
 
-    Raises ViewError where one is neither a name nor three numbers.
+    Raises ViewError where one is neither a name nor three numbers, or is no view together with the options, which are
+    checked already: whatever is wrong with it is known before the model is read.
     """
     if isinstance(views, str):
-        return [views]
-    if _is_vector(views, 3):
-        return [cast(Sequence[float], views)]
+        views = [views]
+    elif _is_vector(views, 3):
+        views = [cast(Sequence[float], views)]
     try:
-        found = list(views)
+        found = [view.strip().lower() if isinstance(view, str) else view for view in views]
     except TypeError:
         raise ViewError(f"{views!r} is no list of views: give names such as 'iso', or directions") from None
     for view in found:
         if not isinstance(view, str) and not _is_vector(view, 3, finite=False):
             raise ViewError(f"{view!r} is no view: give a name such as 'iso', or a direction such as (1, -1, 1)")
+    check_directions(found, options.up, options.perspective)
     return found
+
+
+class Looking(Protocol):
+    """The options that say how a view is seen."""
+
+    @property
+    def up(self) -> Vector | None:
+        """What points up on paper."""
+
+    @property
+    def perspective(self) -> Perspective | None:
+        """None: orthographic."""
 
 
 def _perspective(camera: Any) -> None:

@@ -6,27 +6,11 @@ import os
 from pathlib import Path
 from typing import Any
 
+from hlr.endings import ENDINGS
 from hlr.errors import SourceError
 from hlr.source.model import Source
 
 __all__ = ["ENDINGS", "open_source"]
-
-ENDINGS = {
-    ".step": "step",
-    ".stp": "step",
-    ".iges": "iges",
-    ".igs": "iges",
-    ".brep": "brep",
-    ".brp": "brep",
-    ".py": "script",
-    ".stl": "stl",
-    ".obj": "obj",
-    ".ply": "ply",
-    ".off": "off",
-    ".3mf": "3mf",
-    ".glb": "glb",
-}
-"""What is read, by file ending."""
 
 
 def open_source(thing: Any) -> Source:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from hlr.errors import ViewError
 from hlr.plan.options import Options, Perspective, View
 from hlr.source.model import Frame
-from hlr.view.names import NAMED
+from hlr.view.names import EYE, NAMED
 
 Floats = npt.NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -105,37 +105,65 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
     Raises ViewError for an unknown name, a zero direction, or up parallel to the direction.
     """
     perspective = options.perspective
-    up_hint: Vector | None = options.up
-    if isinstance(view, str):
-        if view not in NAMED:
-            raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
-        world, named_up = NAMED[view]
-        # With an eye of its own the camera looks elsewhere than the name says: the name's up has no meaning then.
-        if perspective is None or perspective.eye is None:
-            up_hint = up_hint or named_up
-        name = view
-        direction = normalized(world, "the view direction")
-    else:
-        direction = normalized(tuple(view), "the view direction")
-        name = ",".join(f"{float(c):g}" for c in view)
     eye = target = None
-    if perspective is not None:
-        eye, target, direction = _eye(perspective, direction, frame, bounds)
-    if up_hint is None:
-        # Looking along z, y points up: the top view turned by nothing.
-        along_z = abs(direction[2]) > 1.0 - 1e-12
-        up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
-    up_hint = normalized(up_hint, "up")
-    side = cross(up_hint, direction)
-    if max(abs(c) for c in side) < 1e-9:
-        raise ViewError("up is parallel to the view direction: give an --up that crosses it")
-    right = normalized(side, "right")
-    # The cross product of unit vectors is a unit vector up to rounding.
-    up = normalized(cross(direction, right), "up")
+    if perspective is not None and perspective.eye is not None:
+        # The camera looks elsewhere than the view says: neither its name nor its up has a meaning.
+        name, named_up = EYE, None
+        eye, target, direction = _eye(perspective, (0.0, 0.0, 1.0), frame, bounds)
+    else:
+        name, direction, named_up = _directed(view)
+        if perspective is not None:
+            eye, target, direction = _eye(perspective, direction, frame, bounds)
+    right, up = _axes(direction, options.up or named_up)
     camera = Camera(
         name, _to_model(frame, direction), _to_model(frame, right), _to_model(frame, up), eye=eye, target=target
     )
     return camera if eye is None else _framed(camera, perspective, bounds)
+
+
+def check_directions(views: Sequence[View], up: Vector | None, perspective: Perspective | None) -> None:
+    """What is known of cameras before there is a model.
+
+    Raises ViewError for an unknown name, a zero direction, up parallel to a direction, and several views from one eye.
+    """
+    if perspective is None or perspective.eye is None:
+        for view in views:
+            _, direction, named_up = _directed(view)
+            _axes(direction, up or named_up)
+        return
+    if len(views) > 1:
+        raise ViewError(f"{len(views)} views from one eye would be the same: give one view, or no eye")
+    if perspective.target is None:
+        if up is not None:
+            normalized(up, "up")
+        return
+    way = [e - t for e, t in zip(perspective.eye, perspective.target, strict=True)]
+    _axes(normalized(way, "the way from target to eye"), up)
+
+
+def _directed(view: View) -> tuple[str, Vector, Vector | None]:
+    """A view's name, its direction, and the up that its name stands for; world axes."""
+    if isinstance(view, str):
+        if view not in NAMED:
+            raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
+        direction, up = NAMED[view]
+        return view, normalized(direction, "the view direction"), up
+    name = ",".join(f"{float(c):g}" for c in view)
+    return name, normalized(tuple(view), "the view direction"), None
+
+
+def _axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
+    """What points right and up on paper, world axes."""
+    if up_hint is None:
+        # Looking along z, y points up: the top view turned by nothing.
+        along_z = abs(direction[2]) > 1.0 - 1e-12
+        up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
+    side = cross(normalized(up_hint, "up"), direction)
+    if max(abs(c) for c in side) < 1e-9:
+        raise ViewError("up is parallel to the view direction: give an --up that crosses it")
+    right = normalized(side, "right")
+    # The cross product of unit vectors is a unit vector up to rounding.
+    return right, normalized(cross(direction, right), "up")
 
 
 def _to_model(frame: Frame, v: Vector) -> Vector:

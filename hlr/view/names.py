@@ -21,3 +21,6 @@ NAMED: dict[str, tuple[Vector, Vector]] = {
     "iso-ne": ((1.0, 1.0, 1.0), (0.0, 0.0, 1.0)),
     "iso-nw": ((-1.0, 1.0, 1.0), (0.0, 0.0, 1.0)),
 }
+
+EYE = "eye"
+"""What a view is called whose eye was given: it looks from there, whatever other view was named."""

@@ -6,15 +6,21 @@ import contextlib
 import os
 import secrets
 import stat
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from hlr.errors import WriteError
+from hlr.writers.originals import check_model
 
 
-def check(path: Path) -> None:
-    """Raise WriteError where `path` clearly cannot be written: no folder, a folder in its place, no permission."""
+def check(path: Path, make_folder: bool = False) -> None:
+    """Raise WriteError where `path` cannot be written: no folder, no permission, or a folder or a model in its place.
+
+    make_folder: `place` will make the folder, so that it need not be there.
+    """
     folder = path.parent
+    if make_folder:
+        folder = next((above for above in (folder, *folder.parents) if above.exists()), folder)
     if not folder.exists():
         raise WriteError(f"cannot write {path}: the folder {folder} does not exist; create it first")
     if not folder.is_dir():
@@ -25,18 +31,21 @@ def check(path: Path) -> None:
         # Renaming would replace even a file that is write-protected.
         if not os.access(path, os.W_OK):
             raise WriteError(f"cannot write {path}: the file is write-protected")
+        check_model(path)
     elif not os.access(folder, os.W_OK | os.X_OK):
         raise WriteError(f"cannot write {path}: no permission to write into the folder {folder}")
 
 
-def place(files: Mapping[Path, bytes]) -> None:
+def place(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
     """Write all files, or none: earlier content stays until every new file is complete on disk.
 
-    Raises WriteError, in one sentence, where the system refuses.
+    folders: are made first where they do not exist. Raises WriteError, in one sentence, where the system refuses.
     """
     staged: list[tuple[Path, Path, Path]] = []
     path = Path()
     try:
+        for path in folders:
+            path.mkdir(parents=True, exist_ok=True)
         for path, data in files.items():
             check(path)
             if path.exists() and not path.is_file():  # a pipe or a device has no content to protect

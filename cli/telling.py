@@ -1,0 +1,101 @@
+"""What the commands say beside their result: warnings and notes, summaries and reports."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+import click
+
+from hlr.errors import StrictError
+
+from .drawn_files import Targets
+from .exits import remark, warn
+
+if TYPE_CHECKING:
+    from hlr.drawing import Drawing
+    from hlr.notes import Note
+
+
+def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
+    """Each note once, though every view has met it. strict: a warning raises StrictError; quiet: warnings only."""
+    notes = list(dict.fromkeys(notes))
+    warnings = [note for note in notes if note.is_warning]
+    if strict and warnings:
+        more = f" (and {len(warnings) - 1} more)" if len(warnings) > 1 else ""
+        raise StrictError(f"{str(warnings[0]).rstrip('.')}{more}; nothing is written, because of --strict")
+    for note in notes:
+        if note.is_warning:
+            warn(str(note))
+        elif not quiet:
+            remark(str(note))
+
+
+def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
+    """What was drawn, as JSON: one entry for each file."""
+    import json
+
+    entries = [
+        {
+            "file": str(target.path),
+            "format": target.format,
+            "source": drawing.source,
+            "view": drawing.view.name,
+            "scale": drawing.scale,
+            "accuracy": dict(drawing.accuracy),
+            "lines": _counts(drawing),
+            "notes": [note.as_dict() for note in drawing.notes],
+            "plan": [decision.as_dict() for decision in drawing.plan],
+            "counters": dict(drawing.counters),
+            "timings": dict(drawing.timings)
+            | {"effects": {d.name: d.seconds for d in drawing.plan if d.seconds is not None}},
+        }
+        for drawing, row in zip(drawings, targets, strict=True)
+        for target in row
+    ]
+    # Counters may be numbers of NumPy.
+    return json.dumps({"drawings": entries}, indent=2, default=lambda value: value.tolist()).encode("ascii") + b"\n"
+
+
+def tell_report(drawings: Sequence[Drawing]) -> None:
+    """What accuracy was asked for and what was reached, for people."""
+    from hlr.measure.table import table
+
+    for drawing in drawings:
+        click.echo(table(drawing), err=True)
+
+
+def tell_plan(drawings: Sequence[Drawing]) -> None:
+    """The table of effects, on standard error."""
+    from hlr.plan.effect import explained
+
+    for drawing in drawings:
+        if len(drawings) > 1:
+            click.echo(drawing.view.name, err=True)
+        click.echo(explained(drawing.plan), err=True)
+
+
+def tell_written(text: str, quiet: bool) -> None:
+    """A line about what was written, to people only: in a pipe success is silent."""
+    if not quiet and sys.stderr is not None and sys.stderr.isatty():
+        click.echo(text, err=True)
+
+
+def written(drawing: Drawing, targets: Sequence[object]) -> str:
+    """One line about a drawing."""
+    from hlr.writers.style import ratio
+
+    counts = _counts(drawing)
+    seconds = drawing.timings.get("total", 0.0)
+    where = ", ".join(str(target) for target in targets)
+    reached = f", accuracy {float(drawing.accuracy['used']):.3g} mm" if "within" in drawing.accuracy else ""
+    return (
+        f"{where}: {drawing.view.name}, {ratio(drawing.scale)}, {counts['visible']} visible and "
+        f"{counts['hidden']} hidden lines{reached}, {seconds:.1f} s"
+    )
+
+
+def _counts(drawing: Drawing) -> dict[str, int]:
+    visible = sum(line.visible for line in drawing.lines)
+    return {"visible": visible, "hidden": len(drawing.lines) - visible}
