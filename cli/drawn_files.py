@@ -37,11 +37,11 @@ def targets_of(outputs: Sequence[str], source: str, names: Sequence[str], format
     return [list(row) for row in zip(*columns, strict=True)]
 
 
-def write(drawings: Sequence[Drawing], targets: Targets, put: Callable[[bytes], None]) -> None:
-    """All files or none."""
-    from hlr.writers import note_time, render
+def write(drawings: Sequence[Drawing], targets: Targets, put: Callable[[bytes], None]) -> list[Drawing]:
+    """All files or none; the drawings, with what writing took among their timings."""
+    from hlr.writers import render, timed
 
-    made = []
+    made, done = [], []
     for drawing, row in zip(drawings, targets, strict=True):
         begin = time.perf_counter()
         for target in row:
@@ -50,8 +50,9 @@ def write(drawings: Sequence[Drawing], targets: Targets, put: Callable[[bytes], 
                 put(data)
             else:
                 made.append((target, data))
-        note_time(drawing, time.perf_counter() - begin)
+        done.append(timed(drawing, time.perf_counter() - begin))
     place(made)
+    return done
 
 
 def to_stdout(targets: Targets) -> bool:

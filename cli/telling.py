@@ -36,6 +36,8 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
     """What was drawn, as JSON: one entry for each file."""
     import json
 
+    from hlr.writers.json import accuracies
+
     entries = [
         {
             "file": str(target.path),
@@ -43,7 +45,7 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
             "source": drawing.source,
             "view": drawing.view.name,
             "scale": drawing.scale,
-            "accuracy": dict(drawing.accuracy),
+            "accuracy": accuracies(drawing),
             "lines": _counts(drawing),
             "notes": [note.as_dict() for note in drawing.notes],
             "plan": [decision.as_dict() for decision in drawing.plan],
@@ -89,7 +91,7 @@ def written(drawing: Drawing, targets: Sequence[object]) -> str:
     counts = _counts(drawing)
     seconds = drawing.timings.get("total", 0.0)
     where = ", ".join(str(target) for target in targets)
-    reached = f", accuracy {float(drawing.accuracy['used']):.3g} mm" if "within" in drawing.accuracy else ""
+    reached = f", accuracy {drawing.accuracy.used:.3g} mm" if drawing.accuracy.within is not None else ""
     return (
         f"{where}: {drawing.view.name}, {ratio(drawing.scale)}, {counts['visible']} visible and "
         f"{counts['hidden']} hidden lines{reached}, {seconds:.1f} s"

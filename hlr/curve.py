@@ -10,14 +10,16 @@ from math import hypot, tau
 import numpy as np
 import numpy.typing as npt
 
+from hlr.values import ByValue
+
 Points = npt.NDArray[np.float64]
 
 WHOLE = 1e-9
 """Of a turn: an arc that lacks no more than this is a full circle or ellipse."""
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Arc(ByValue):
     """A piece of a circle or an ellipse, or all of it: centre + cos t axes[0] + sin t axes[1].
 
     centre   (2,) millimetres on paper, y up
@@ -28,6 +30,13 @@ class Arc:
     centre: Points
     axes: Points
     angles: Points
+
+    def __repr__(self) -> str:
+        long, short = self.radii
+        radii = f"{long:.6g}" if abs(long - short) <= WHOLE * long else f"{long:.6g} and {short:.6g}"
+        x, y = self.centre.tolist()
+        turn = np.degrees(self.angles[1] - self.angles[0])
+        return f"<Arc about ({x:.6g}, {y:.6g}), radius {radii}, {turn:.6g} degrees>"
 
     def at(self, t: npt.ArrayLike) -> Points:
         """Points (..., 2) at angles (...)."""
@@ -44,13 +53,14 @@ class Arc:
         """Whether it closes."""
         return bool(abs(self.angles[1] - self.angles[0]) >= (1.0 - WHOLE) * tau)
 
+    @property
     def bounds(self) -> Points:
         """(2, 2) lower and upper corner."""
         return arc_bounds([self])
 
 
-@dataclass(frozen=True, slots=True)
-class Bezier:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Bezier(ByValue):
     """A chain of Bezier curves: points[degree * i : degree * (i + 1) + 1] are those of piece i.
 
     degree   2 or 3
@@ -59,6 +69,9 @@ class Bezier:
 
     degree: int
     points: Points
+
+    def __repr__(self) -> str:
+        return f"<Bezier of degree {self.degree}, {(len(self.points) - 1) // self.degree} pieces>"
 
     def at(self, t: npt.ArrayLike) -> Points:
         """Points (..., 2) at parameters (...) from 0 to the number of pieces."""
@@ -71,6 +84,7 @@ class Bezier:
             p = [a + (b - a) * s for a, b in pairwise(p)]
         return np.asarray(p[0])
 
+    @property
     def bounds(self) -> Points:
         """(2, 2) lower and upper corner, exact."""
         return bezier_bounds([self])

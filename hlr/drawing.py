@@ -2,28 +2,73 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
 from hlr.notes import Note
+from hlr.values import ByValue
 
 if TYPE_CHECKING:
     from hlr.measure.reached import Reached
     from hlr.plan.effect import Decision
     from hlr.plan.options import Request
+    from hlr.writers import Format
 
 Points = npt.NDArray[np.float64]
 
+Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection"]
+"""What a line is of: `Line.kind`."""
+
+Projection = Literal["orthographic", "perspective"]
+
+
+class Bounds(NamedTuple):
+    """A rectangle on paper, millimetres, y up."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+    @property
+    def width(self) -> float:
+        """Millimetres."""
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> float:
+        """Millimetres."""
+        return self.y1 - self.y0
+
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """One visible or hidden piece of one edge.
+class Accuracy:
+    """How exact a drawing is.
+
+    asked       millimetres on paper; None: the default
+    used        millimetres on paper: what the drawing promises
+    deflection  chord error of the triangulation, model units
+    contact     depth within which two curved things count as touching, model units
+    within      seconds, where a time was given; else None
+    """
+
+    asked: float | None
+    used: float
+    deflection: float = 0.0
+    contact: float = 0.0
+    within: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Line(ByValue):
+    """One visible or hidden piece of one edge. Lines are equal where all they hold is, number by number.
 
     kind     sharp, smooth, seam, outline, boundary or intersection
     part     index into Drawing.parts
@@ -35,7 +80,7 @@ class Line:
     other    of an intersection line: index of the second part (the same one where a part meets itself); else None
     """
 
-    kind: str
+    kind: Kind
     visible: bool
     part: int
     edge: int | None
@@ -45,9 +90,19 @@ class Line:
     other: int | None = None
     curve: Curve | None = None
 
+    def __repr__(self) -> str:
+        seen = "visible" if self.visible else "hidden"
+        whose = "".join(
+            f", {name} {n}"
+            for name, n in (("part", self.part), ("edge", self.edge), ("face", self.face), ("other", self.other))
+            if n is not None
+        )
+        shape = "" if self.curve is None else f", {self.curve!r}"
+        return f"<Line {self.kind}, {seen}{whose}, {len(self.points)} points{shape}>"
 
-@dataclass(frozen=True, slots=True)
-class Fill:
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Fill(ByValue):
     """Faces under the lines, in the order of drawing: far to near.
 
     points (n, 2) millimetres on paper, y up; loops (l + 1,) int32 into points, faces (f + 1,) int32 into loops, filled
@@ -60,14 +115,20 @@ class Fill:
     colors: npt.NDArray[np.uint8]
     part: npt.NDArray[np.int32]
 
+    def __repr__(self) -> str:
+        return f"<Fill {len(self.part)} faces>"
 
-@dataclass(frozen=True, slots=True)
-class DrawnPart:
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class DrawnPart(ByValue):
     """A part as the drawing names it. color: sRGB 0..1; transform: (4, 4) placement, row major."""
 
     name: str
     color: tuple[float, float, float] | None
     transform: Points
+
+    def __repr__(self) -> str:
+        return f"<DrawnPart {self.name!r}>"
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +140,7 @@ class DrawnView:
     """
 
     name: str
-    projection: str
+    projection: Projection
     direction: tuple[float, float, float]
     right: tuple[float, float, float]
     up: tuple[float, float, float]
@@ -89,16 +150,18 @@ class DrawnView:
     distance: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Drawing:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Drawing(ByValue):
     """Visible and hidden lines of one view. points = (P.right, P.up) * unit * scale - origin.
 
+    Drawings are equal that show and state the same; what was asked for (`request`) and `timings` do not count.
+
     source    base name of what was drawn
-    accuracy  {"asked": mm or None, "used": mm, "deflection": model units, ...}
+    accuracy  what was asked for and what was used
     unit      millimetres per model unit
     up_axis   (3, 3) model frame -> z-up world
     fill      faces under the lines, in SVG and PDF; None unless asked for
-    timings   seconds: source, tessellate, scene, plan, visibility, linework, write, total
+    timings   seconds: source, tessellate, scene, plan, visibility, linework, total
     request   what was asked for; None for drawings that were made otherwise
     reached   the errors that were measured; None unless asked for
     plan      what was decided of each effect, why, and what it cost
@@ -108,23 +171,44 @@ class Drawing:
     view: DrawnView
     scale: float
     origin: tuple[float, float]
-    accuracy: Mapping[str, Any]
+    accuracy: Accuracy
     unit: float
     up_axis: tuple[tuple[float, float, float], ...]
     parts: tuple[DrawnPart, ...]
-    lines: tuple[Line, ...]
+    lines: tuple[Line, ...] = field(hash=False)
     notes: tuple[Note, ...] = ()
-    counters: Mapping[str, int] = field(default_factory=dict)
-    timings: dict[str, float] = field(default_factory=dict)
+    counters: Mapping[str, int] = field(default_factory=dict, hash=False)
+    timings: Mapping[str, float] = field(default_factory=dict, compare=False)
     fill: Fill | None = None
-    request: Request | None = None
+    request: Request | None = field(default=None, compare=False)
     reached: Reached | None = None
     plan: tuple[Decision, ...] = ()
 
-    def bounds(self) -> tuple[float, float, float, float]:
-        """(x0, y0, x1, y1) on paper in millimetres; all zero for an empty drawing."""
+    def __repr__(self) -> str:
+        from hlr.writers.style import ratio
+
+        notes = f", {len(self.notes)} note{'s' if len(self.notes) > 1 else ''}" if self.notes else ""
+        visible = sum(line.visible for line in self.lines)
+        return (
+            f"<Drawing {self.source}, {self.view.name}, {ratio(self.scale)}, "
+            f"{visible} visible and {len(self.lines) - visible} hidden lines{notes}>"
+        )
+
+    @property
+    def visible(self) -> tuple[Line, ...]:
+        """The visible lines, in their order."""
+        return tuple(line for line in self.lines if line.visible)
+
+    @property
+    def hidden(self) -> tuple[Line, ...]:
+        """The hidden lines, in their order."""
+        return tuple(line for line in self.lines if not line.visible)
+
+    @property
+    def bounds(self) -> Bounds:
+        """Around all lines; all zero for an empty drawing."""
         if not self.lines:
-            return (0.0, 0.0, 0.0, 0.0)
+            return Bounds(0.0, 0.0, 0.0, 0.0)
         boxes = [line.points for line in self.lines if line.curve is None]
         arcs = [line.curve for line in self.lines if isinstance(line.curve, Arc)]
         chains = [line.curve for line in self.lines if isinstance(line.curve, Bezier)]
@@ -132,13 +216,43 @@ class Drawing:
         boxes += [bezier_bounds(chains)] if chains else []
         points = np.concatenate(boxes)
         low, high = points.min(axis=0), points.max(axis=0)
-        return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+        return Bounds(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
-    def save(self, path: str | Path) -> Path:
-        """Write SVG, PDF or JSON, by the ending of `path`.
+    @overload
+    def save(self, file: str | os.PathLike[str], format: Format | None = None) -> Path: ...
+    @overload
+    def save(self, file: IO[bytes], format: Format) -> None: ...
+    def save(self, file: Any, format: Any = None) -> Path | None:
+        """Write SVG, PDF or JSON into a file or a binary file object.
 
-        Raises WriteError where the ending is unknown or the file cannot be written.
+        file    a path, whose ending names the format, or a file object that is open for bytes
+        format  svg, pdf or json: needed for a file object; of a path it overrides the ending
+
+        Returns the path, or None for a file object. Raises WriteError, in one sentence, where the format is unknown or
+        the file cannot be written.
         """
         from hlr.writers import write
 
-        return write(self, path)
+        return write(self, file, format)
+
+    def to_svg(self) -> str:
+        """The text of the SVG file. Raises WriteError where a point is not finite."""
+        from hlr.writers import render
+
+        return render(self, "svg").decode("utf-8")
+
+    def to_pdf(self) -> bytes:
+        """The content of the PDF file. Raises WriteError where a point is not finite."""
+        from hlr.writers import render
+
+        return render(self, "pdf")
+
+    def to_json(self) -> str:
+        """The text of the exchange format, which `hlr.load` reads. Raises WriteError where a point is not finite."""
+        from hlr.writers import render
+
+        return render(self, "json").decode("utf-8")
+
+    def _repr_svg_(self) -> str:
+        """What a notebook shows."""
+        return self.to_svg().partition("?>\n")[2]

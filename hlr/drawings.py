@@ -56,4 +56,4 @@ def with_report(source: Any, drawing: Drawing, progress: Progress | None = None)
         progress("measure", 0.0)
     threads = drawing.request.options.threads if drawing.request is not None else 0
     reached = measured(source, drawing, threads=threads)
-    return replace(drawing, reached=reached, accuracy={**drawing.accuracy, "reached": reached.as_dict()})
+    return replace(drawing, reached=reached)

@@ -6,7 +6,7 @@ from collections import Counter
 from time import perf_counter
 
 from hlr.clock import Clock, lap
-from hlr.drawing import Drawing, DrawnPart, DrawnView, Fill, Line
+from hlr.drawing import Accuracy, Drawing, DrawnPart, DrawnView, Fill, Line
 from hlr.fitting import Staged
 from hlr.notes import Note
 from hlr.plan.options import Options
@@ -41,7 +41,6 @@ def finished(
         fill = filled(seen, camera, at.per_model, origin)
         planner.spent("fill", perf_counter() - started)
     lap(clock, "linework", started)
-    clock["write"] = 0.0
     clock["total"] = sum(clock.values())
     counters = _counters(seen, segments, lines, fill, sought, plan)
     if not plan.crossings and counters["seeds"]:
@@ -56,12 +55,12 @@ def finished(
         view=drawn_view(camera),
         scale=at.scale,
         origin=origin,
-        accuracy={
-            "asked": options.accuracy,
-            "used": at.tolerances.accuracy,
-            "deflection": at.tolerances.deflection,
-            "contact": at.tolerances.contact,
-        },
+        accuracy=Accuracy(
+            asked=options.accuracy,
+            used=at.tolerances.accuracy,
+            deflection=at.tolerances.deflection,
+            contact=at.tolerances.contact,
+        ),
         unit=opened.frame.unit,
         up_axis=opened.frame.up,
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),

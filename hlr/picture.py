@@ -12,14 +12,15 @@ import numpy.typing as npt
 
 from hlr.drawing import DrawnPart, DrawnView
 from hlr.notes import Note
+from hlr.values import ByValue
 
 if TYPE_CHECKING:
     from hlr.plan.effect import Decision
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """One view, shaded.
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Picture(ByValue):
+    """One view, shaded. Pictures are equal that show the same, whatever they took.
 
     source      base name of what is shown
     scale       pixels per millimetre of the model, in the image plane
@@ -42,8 +43,13 @@ class Picture:
     depth: npt.NDArray[np.float64] | None = None
     ids: npt.NDArray[np.int32] | None = None
     notes: tuple[Note, ...] = ()
-    timings: Mapping[str, float] = field(default_factory=dict)
+    timings: Mapping[str, float] = field(default_factory=dict, compare=False)
     plan: tuple[Decision, ...] = ()
+
+    def __repr__(self) -> str:
+        height, width = self.pixels.shape[:2]
+        maps = "".join(f", {name}" for name, made in (("depth", self.depth), ("ids", self.ids)) if made is not None)
+        return f"<Picture {self.source}, {self.view.name}, {width}x{height} pixels{maps}>"
 
     @property
     def part_ids(self) -> npt.NDArray[np.int32]:

@@ -49,9 +49,8 @@ FLIP = 0.75
 """Of the accuracy: a piece that is left out between two others moves a change by its length, and its own two ends are
 displaced by a little already."""
 
-DIGITS, DIGITS_IN_JSON = 0.1, 0.001
-"""Of the accuracy: what rounding may move a point by. In JSON points are compared with one another and with the model:
-a thousandth is below any such check."""
+DIGITS = 0.1
+"""Of the accuracy: what rounding may move a point by in SVG and PDF. JSON holds the numbers as they are."""
 
 CURVE_BULGE = 0.2
 """Of the accuracy: how far a curve may be fitted off the true one, and so reach beyond what is to fit on the sheet."""

@@ -104,7 +104,7 @@ def draw_within(
             if not best:
                 raise
             break
-        best = [replace(x, accuracy={**x.accuracy, "asked": options.accuracy, "within": budget}) for x in best]
+        best = [replace(x, accuracy=replace(x.accuracy, asked=options.accuracy, within=budget)) for x in best]
         took = perf_counter() - started
         if not passes and took > budget:
             text = (

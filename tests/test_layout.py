@@ -18,7 +18,7 @@ STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework
 COMMON = ("endings", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
-RECORDS = ("hlr.notes", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")
+RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")
 
 
 def folders():

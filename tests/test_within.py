@@ -38,7 +38,7 @@ class World:
                 self.now += share * took
                 if progress is not None and stage is not None:
                     progress(stage, 0.0)
-            used = {**cheap.accuracy, "used": accuracy, "asked": accuracy}
+            used = replace(cheap.accuracy, used=accuracy, asked=accuracy)
             return [replace(cheap, accuracy=used, timings=timings) for _ in views]
 
         monkeypatch.setattr(within, "draw_views", drawn)
@@ -67,8 +67,8 @@ def test_it_refines_while_time_lasts(monkeypatch):
     drawing = world.draw(10.0)
     assert world.asked[0] == 0.5
     assert world.asked == sorted(world.asked, reverse=True)
-    assert drawing.accuracy["used"] == world.asked[-1] <= 0.02
-    assert drawing.accuracy["asked"] is None and drawing.accuracy["within"] == 10.0
+    assert drawing.accuracy.used == world.asked[-1] <= 0.02
+    assert drawing.accuracy.asked is None and drawing.accuracy.within == 10.0
     assert world.now <= 10.0
     assert not drawing.notes
 
@@ -85,7 +85,7 @@ def test_a_pass_that_takes_longer_than_foreseen_is_given_up(monkeypatch):
     world = World(monkeypatch, lambda accuracy: 0.1 if accuracy > 0.3 else 100.0)
     drawing = world.draw(2.0)
     assert len(world.asked) == 2
-    assert drawing.accuracy["used"] == 0.5
+    assert drawing.accuracy.used == 0.5
 
 
 def test_a_first_stage_of_next_to_nothing_tells_nothing(monkeypatch):
@@ -101,12 +101,12 @@ def test_a_first_stage_of_next_to_nothing_tells_nothing(monkeypatch):
         return tick(opened, views, options, late if progress is not None else None)
 
     monkeypatch.setattr(within, "draw_views", slow_to_begin)
-    assert world.draw(10.0).accuracy["used"] <= 0.02
+    assert world.draw(10.0).accuracy.used <= 0.02
 
 
 def test_it_is_not_refined_beyond_the_accuracy(monkeypatch):
     world = World(monkeypatch, linear(0.001))
-    assert world.draw(1000.0, accuracy=0.03).accuracy["used"] == 0.03
+    assert world.draw(1000.0, accuracy=0.03).accuracy.used == 0.03
     assert world.asked[-1] == 0.03
     assert world.now < 1.0
 
@@ -120,7 +120,7 @@ def test_the_excess_is_stated(monkeypatch):
 
 def test_what_is_finished_survives_an_interruption(monkeypatch):
     drawing = World(monkeypatch, linear(0.01), stop_at=0.1).draw(100.0)
-    assert drawing.accuracy["used"] == 0.5
+    assert drawing.accuracy.used == 0.5
     with pytest.raises(KeyboardInterrupt):
         World(monkeypatch, linear(0.01), stop_at=0.5).draw(100.0)
 

@@ -112,7 +112,7 @@ def draw(
                 drawings = _within(source, list(views), request, progress, targets, out, started)
         tell_notes((note for drawing in drawings for note in drawing.notes), request.strict, quiet)
         if request.within is None or (request.report and not to_stdout(targets)):
-            write(drawings, targets, out.put)
+            drawings = write(drawings, targets, out.put)
         if request.report:
             tell_report(drawings)
         if explain:
@@ -167,14 +167,17 @@ def _within(
 
             put = stack.enter_context(kept(out))
 
+        done: list[Drawing] = []
+
         def finished(drawings: list[Drawing]) -> None:
             if request.strict and any(note.is_warning for drawing in drawings for note in drawing.notes):
                 return
-            write(drawings, targets, put)
+            done[:] = write(drawings, targets, put)
 
         asked = checked_views(views, checked(request))
         opened = open_source(source)
         drawings = draw_within(opened, asked, request, progress, finished, started)
+        drawings = done or drawings
         if request.report:
             drawings = [with_report(opened, drawing, progress) for drawing in drawings]
             if to_stdout(targets):

@@ -72,7 +72,7 @@ def lay_out(picture: Picture, options: PictureOptions) -> Page:
     drawing = picture.drawing
     lines = tuple(line for line in drawing.lines if line.visible or line.kind != "smooth")
     drawing = replace(drawing, lines=lines)
-    x0, y0, x1, y1 = drawing.bounds()
+    x0, y0, x1, y1 = drawing.bounds
     scale = options.unit_scale(x1 - x0, y1 - y0)
     width, height = options.size(x1 - x0, y1 - y0)
     left, top = x0 + float(picture.shift[0]), y1 + float(picture.shift[1])

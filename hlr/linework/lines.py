@@ -128,6 +128,7 @@ def draw_lines(
     low = drawn.low(keep)
     flat, offsets, curves = drawn.flat - low, drawn.offsets, drawn.curves(low)
     space = drawn.space
+    flat.flags.writeable = space.flags.writeable = False
     order = keep[np.lexsort((keep, *_identity(chains, chain[keep])))]
     names = [k.name.lower() for k in EdgeClass]
     kinds = chains.kind[chain].tolist()

@@ -59,9 +59,9 @@ def measured(
     else:
         meshes = errors(*mesh_errors(opened, drawing, forms[0], paper, threads))
     found = finer_drawing(opened, drawing, FINENESS) if finer is None else finer
-    deflection = float(drawing.accuracy["deflection"]) / FINENESS
+    deflection = drawing.accuracy.deflection / FINENESS
     if not isinstance(found, str):
-        deflection = min(deflection, float(found.accuracy["deflection"]))
+        deflection = min(deflection, found.accuracy.deflection)
     caster = Caster.of(opened, drawing, paper, deflection)
     if isinstance(found, str):
         changes = grazing = lost = Errors(None, why=found)
@@ -69,9 +69,9 @@ def measured(
     else:
         beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
         changes, grazing, bound = beside.changes(caster)
-        lost = beside.lost(under(float(drawing.accuracy["used"])))
+        lost = beside.lost(under(drawing.accuracy.used))
     return Reached(
-        accuracy=float(drawing.accuracy["used"]),
+        accuracy=drawing.accuracy.used,
         edges=edges,
         outlines=outlines,
         meshes=meshes,

@@ -59,7 +59,7 @@ class TrueEdges:
                 here = evaluated(curve, np.zeros(CHECKS, np.int32), np.linspace(*record[1:3], CHECKS))[:, 0]
                 self._off[i] = float((np.linalg.norm(here - truth, axis=1) * paper.magnified(here)).max(initial=0.0))
                 flat = paper(evaluated(curve, np.zeros(len(places), np.int32), places)[:, 0])
-                finer = _finer(flat, CLOSE * float(drawing.accuracy["used"]))
+                finer = _finer(flat, CLOSE * drawing.accuracy.used)
                 if finer > 1:
                     places = np.linspace(places[0], places[-1], (len(places) - 1) * finer + 1)
                     flat = paper(evaluated(curve, np.zeros(len(places), np.int32), places)[:, 0])

@@ -13,7 +13,7 @@ from hlr.source.model import Floats, Ints
 
 def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:
     """Length of the shortest figure. Lines hang together where their ends meet or one ends on another."""
-    accuracy = float(drawing.accuracy["used"])
+    accuracy = drawing.accuracy.used
     if not drawing.lines:
         return Errors(None, why="the drawing has none")
     segments, line = drawn.steps()

@@ -58,7 +58,7 @@ def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | s
     assert request is not None
     from hlr.pipeline import draw_views
 
-    accuracy = float(drawing.accuracy["used"]) / fineness
+    accuracy = drawing.accuracy.used / fineness
     options = replace(request.options, accuracy=accuracy, fill=False, strict=False, report=False)
     try:
         (found,) = draw_views(opened, [request.view], options)
@@ -90,7 +90,7 @@ class Comparison:
 
     def __init__(self, drawing: Drawing, drawn: Written, finer: Finer, threads: int) -> None:
         self._drawing, self._drawn, self._finer, self._threads = drawing, drawn, finer, threads
-        self._accuracy = float(drawing.accuracy["used"])
+        self._accuracy = drawing.accuracy.used
         keys = sorted({_key(x) for x in (*drawing.lines, *finer.drawing.lines)})
         self._number = {key: i for i, key in enumerate(keys)}
         self._own = self._keys(drawing)

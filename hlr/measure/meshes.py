@@ -22,7 +22,7 @@ EDGE_ON = 0.01
 def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, threads: int) -> tuple[Floats, list[str]]:
     """(n,) the largest distance of each line of a mesh without B-rep, but for intersections; and names for them."""
     assert drawing.request is not None
-    deflection = float(drawing.accuracy["deflection"])
+    deflection = drawing.accuracy.deflection
     scene = build(opened.mesh(deflection, ANGLE), drawing.request.options.crease, deflection)
     bare = np.array([p.faces == 0 for p in scene.parts], bool)
     wanted = np.array([bare[x.part] and x.kind != "intersection" for x in drawing.lines], bool)

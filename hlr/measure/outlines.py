@@ -53,7 +53,7 @@ def outline_errors(
     q, line = drawn.points[mine], drawn.line[mine]
     way = _directions(drawn, mine)
     near = in_model(drawing, q, line, threads)
-    accuracy = float(drawing.accuracy["used"])
+    accuracy = drawing.accuracy.used
     faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, number in enumerate(line.tolist()):
         of = drawing.lines[number]

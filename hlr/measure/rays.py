@@ -58,7 +58,7 @@ class Caster:
         parts = opened.mesh(deflection, ANGLE).parts
         first = np.cumsum([0, *(len(p.points) for p in parts[:-1])])
         view, points = drawing.view, np.concatenate([p.points for p in parts])
-        depth = float(drawing.accuracy["contact"])
+        depth = drawing.accuracy.contact
         if not all(p.brep for p in parts):
             # What a mesh was made with it does not tell.
             depth = max(depth, MESH_CONTACT * float(np.linalg.norm(np.ptp(points, axis=0))))
@@ -67,7 +67,7 @@ class Caster:
             triangles=np.concatenate([p.triangles + np.int32(f) for p, f in zip(parts, first, strict=True)]),
             part=np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts]),
             paper=paper,
-            radius=float(drawing.accuracy["used"]),
+            radius=drawing.accuracy.used,
             depth=depth,
             nearest=NEAR * (view.distance or 0.0),
             right=np.array(view.right),
@@ -114,7 +114,7 @@ class Caster:
 
 def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threads: int) -> Labels:
     """The share and the longest stretch of lines that rays contradict."""
-    accuracy = float(drawing.accuracy["used"])
+    accuracy = drawing.accuracy.used
     segments, _ = drawn.steps()
     length = float(np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]).sum())
     if length == 0.0:
@@ -160,7 +160,7 @@ def contradicted(
         segments, owner = drawn.steps()
         ink = segments[np.array([x.visible for x in drawing.lines], bool)[owner]]
         of, none = np.zeros(len(hidden), np.int32), np.zeros(len(ink), np.int32)
-        most = under(float(drawing.accuracy["used"]))
+        most = under(drawing.accuracy.used)
         near = np.ascontiguousarray(points[hidden])
         off, _ = _kernel.nearest(near, of, np.ascontiguousarray(ink), none, most, threads)
         wrong[hidden] &= ~np.isfinite(off)

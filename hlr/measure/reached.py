@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -92,7 +92,7 @@ class Reached:
     lost: Errors
     short: Errors
     labels: Labels
-    seconds: float
+    seconds: float = field(default=0.0, compare=False)
 
     @property
     def worst(self) -> float:

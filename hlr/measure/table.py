@@ -21,7 +21,7 @@ def table(drawing: Drawing) -> str:
     reached = drawing.reached
     if reached is None:
         return ""
-    asked = drawing.accuracy.get("asked")
+    asked = drawing.accuracy.asked
     told = "as usual" if asked is None else f"asked {asked:g}"
     verdict = "kept" if reached.kept() else "NOT KEPT"
     rows = [

@@ -66,9 +66,9 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
     """
     if not drawing.lines:
         return Written(np.zeros((0, 2)), np.zeros(0, np.int64))
-    places = places_of(drawing, drawing.bounds())
-    rows = rows_of(drawing.lines, places, float(drawing.accuracy["used"]), cubic)
-    accuracy = float(drawing.accuracy["used"])
+    places = places_of(drawing, drawing.bounds)
+    rows = rows_of(drawing.lines, places, drawing.accuracy.used, cubic)
+    accuracy = drawing.accuracy.used
     at = np.asarray(rows.points * 10.0**-places, np.float64)
     owner = np.repeat(np.arange(len(rows.counts)), rows.counts)
     first = np.cumsum(rows.counts) - rows.counts

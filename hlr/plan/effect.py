@@ -86,8 +86,8 @@ class Decision:
     on: bool
     origin: str
     reason: str
-    seconds: float | None = None
-    counts: Mapping[str, int] = field(default_factory=dict)
+    seconds: float | None = field(default=None, compare=False)
+    counts: Mapping[str, int] = field(default_factory=dict, hash=False)
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON; without the seconds, which differ from run to run."""

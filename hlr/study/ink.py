@@ -11,12 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.curve import Arc, Curve
-from hlr.drawing import Drawing, DrawnPart, DrawnView, Line
+from hlr.drawing import Accuracy, Drawing, DrawnPart, DrawnView, Kind, Line
 from hlr.source.model import Floats
 
 Index = npt.NDArray[np.int64]
 
-KINDS = ("sharp", "boundary", "intersection", "outline", "smooth", "seam")
+KINDS: tuple[Kind, ...] = ("sharp", "boundary", "intersection", "outline", "smooth", "seam")
 
 MOST_PIECES = 20_000
 """Chords of one curve."""
@@ -108,7 +108,7 @@ def drawing_of(ink: Ink, source: str, view: DrawnView, scale: float, accuracy: f
         view=view,
         scale=scale,
         origin=(float(low[0]), float(low[1])),
-        accuracy={"asked": accuracy, "used": accuracy},
+        accuracy=Accuracy(accuracy, accuracy),
         unit=1.0,
         up_axis=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         parts=(DrawnPart(source, None, np.eye(4)),),

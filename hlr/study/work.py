@@ -91,7 +91,7 @@ def _opened(job: Job, options: Options) -> tuple[Source, Camera, Placed]:
 def _look(job: Job) -> dict[str, Any]:
     """The scale at which all draw, and what is drawn."""
     drawing = draw_views(job.source, [job.view], _options(job))[0]
-    x0, y0, x1, y1 = drawing.bounds()
+    x0, y0, x1, y1 = drawing.bounds
     return {
         "name": drawing.source,
         "scale": drawing.scale,
@@ -100,7 +100,7 @@ def _look(job: Job) -> dict[str, Any]:
         "parts": len(drawing.parts),
         "lines": len(drawing.lines),
         "triangles": int(drawing.counters.get("triangles", 0)),
-        "accuracy": float(drawing.accuracy["used"]),
+        "accuracy": drawing.accuracy.used,
         "notes": [str(note) for note in drawing.notes],
     }
 

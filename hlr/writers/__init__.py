@@ -2,31 +2,44 @@
 
 from __future__ import annotations
 
-import time
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 from hlr.errors import WriteError
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
 
-__all__ = ["FORMATS", "format_of", "note_time", "render", "write"]
+__all__ = ["FORMATS", "Format", "checked_format", "format_of", "render", "timed", "write"]
 
-FORMATS = ("svg", "pdf", "json")
+Format = Literal["svg", "pdf", "json"]
+"""What a drawing is written as."""
+
+FORMATS: tuple[Format, ...] = get_args(Format)
 
 
-def format_of(path: str | Path) -> str:
+def format_of(path: str | Path) -> Format:
     """The format that the ending of `path` names. Raises WriteError for any other ending."""
     ending = Path(path).suffix.lower().removeprefix(".")
-    if ending not in FORMATS:
-        has = f"the ending .{ending} is unknown" if ending else "the name has no ending"
-        raise WriteError(f"cannot tell the format of {path}: {has}; use .svg, .pdf or .json")
-    return ending
+    for known in FORMATS:
+        if ending == known:
+            return known
+    has = f"the ending .{ending} is unknown" if ending else "the name has no ending"
+    raise WriteError(f"cannot tell the format of {path}: {has}; use .svg, .pdf or .json")
+
+
+def checked_format(format: Any) -> Format:
+    """The format; raises WriteError for what is none."""
+    for known in FORMATS:
+        if format == known:
+            return known
+    raise WriteError(f"unknown format {format!r}; use svg, pdf or json")
 
 
 def render(drawing: Drawing, format: str) -> bytes:
     """The drawing as a file's content; format is one of FORMATS. Raises WriteError for any other."""
+    format = checked_format(format)
     # Each writer is imported only when it is used: PDF needs a library that the others do not.
     if format == "svg":
         from hlr.writers.svg import svg
@@ -36,33 +49,33 @@ def render(drawing: Drawing, format: str) -> bytes:
         from hlr.writers.pdf import pdf
 
         return pdf(drawing)
-    if format == "json":
-        from hlr.writers.json import document
+    from hlr.writers.json import document
 
-        return document(drawing)
-    raise WriteError(f"unknown format {format!r}; use svg, pdf or json")
+    return document(drawing)
 
 
-def write(drawing: Drawing, path: str | Path) -> Path:
-    """Write a drawing in the format that the ending of `path` names, and return the path.
+def write(drawing: Drawing, file: Any, format: Any = None) -> Path | None:
+    """Write a drawing into a file, named by its path, or into a binary file object.
 
-    The file appears whole or not at all; what was there before stays if anything fails. The time goes into
-    `drawing.timings["write"]`, and into its "total". Raises WriteError, in one sentence, for an unknown ending, a
-    missing folder, a lack of permission or a full disk.
+    format: needed for a file object; of a path the ending names it otherwise. Returns the path, or None. A file appears
+    whole or not at all; what was there before stays if anything fails. Raises WriteError, in one sentence, for an
+    unknown format, a missing folder, a lack of permission or a full disk.
     """
     from hlr.writers import files
 
-    begin = time.perf_counter()
-    path = Path(path)
-    kind = format_of(path)
+    if hasattr(file, "write"):
+        if format is None:
+            raise WriteError("a file object has no ending that names the format: give format='svg', 'pdf' or 'json'")
+        files.put(file, render(drawing, checked_format(format)))
+        return None
+    path = files.path_of(file)
+    kind = format_of(path) if format is None else checked_format(format)
     files.check(path)
     files.place({path: render(drawing, kind)})
-    note_time(drawing, time.perf_counter() - begin)
     return path
 
 
-def note_time(drawing: Drawing, seconds: float) -> None:
-    """Put the time of writing into a drawing's timings, and into their total; a later one replaces it."""
-    timings = drawing.timings
-    timings["total"] = timings.get("total", 0.0) - timings.get("write", 0.0) + seconds
-    timings["write"] = seconds
+def timed(drawing: Drawing, seconds: float) -> Drawing:
+    """The drawing with the time that writing it took among its timings, and in their total."""
+    total = drawing.timings.get("total", 0.0) - drawing.timings.get("write", 0.0) + seconds
+    return replace(drawing, timings={**drawing.timings, "write": seconds, "total": total})

@@ -8,9 +8,35 @@ import secrets
 import stat
 from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from hlr.errors import WriteError
 from hlr.writers.originals import check_model
+
+
+def path_of(file: Any) -> Path:
+    """The path that a caller gave; raises WriteError for anything else, named as it was given."""
+    try:
+        path = Path(file)
+    except TypeError:
+        raise WriteError(f"cannot write into {file!r}: give a path or a binary file object") from None
+    if "\0" in str(path):
+        raise WriteError(f"cannot write {str(path)!r}: a file name holds no zero character")
+    return path
+
+
+def put(file: Any, data: bytes) -> None:
+    """Write all of it into a file object that is open for bytes; raises WriteError where that is refused."""
+    name = str(getattr(file, "name", "") or f"the {type(file).__name__}")
+    try:
+        written = file.write(data)
+    except TypeError:
+        raise WriteError(f"cannot write into {name}: it takes text, not bytes; open it with mode 'wb'") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise WriteError(f"cannot write into {name}: {reason[:1].lower()}{reason[1:]}") from error
+    if isinstance(written, int) and written < len(data):
+        raise WriteError(f"cannot write into {name}: it took {written} of {len(data)} bytes; open it with buffering")
 
 
 def check(path: Path, make_folder: bool = False) -> None:

@@ -54,7 +54,7 @@ def svg_group(fill: Fill, places: int) -> list[str]:
         out.append(f'<g fill="{color}" stroke="{color}">\n')
         for part, loops in faces:
             path = "".join("M" + "L".join(f"{x} {y}" for x, y in loop) + "Z" for loop in loops)
-            out.append(f'<path data-part="{part}" d="{path}"/>\n')
+            out.append(f'<path d="{path}" data-part="{part}"/>\n')
         out.append("</g>\n")
     out.append("</g>\n")
     return out

@@ -72,7 +72,7 @@ class Strokes:
 
 def places_of(drawing: Drawing, bounds: tuple[float, float, float, float]) -> int:
     """Decimals of the points in SVG and PDF."""
-    return number.decimals(float(drawing.accuracy["used"]), max(map(abs, bounds)))
+    return number.decimals(drawing.accuracy.used, max(map(abs, bounds)))
 
 
 def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
@@ -83,8 +83,8 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     groups: dict[tuple[bool, str], list[Line]] = {(v, k): [] for v in (False, True) for k in style.KINDS}
     for line in drawing.lines:
         groups[line.visible, line.kind].append(line)
-    bounds = drawing.bounds()
-    accuracy, places = float(drawing.accuracy["used"]), places_of(drawing, bounds)
+    bounds = drawing.bounds
+    accuracy, places = drawing.accuracy.used, places_of(drawing, bounds)
     layers = [_layer(*key, lines, rows_of(lines, places, accuracy, cubic)) for key, lines in groups.items() if lines]
     corners = number.grid(np.array(bounds).reshape(2, 2), places)
     border = math.ceil((style.MARGIN + style.WIDE) * 10**places)

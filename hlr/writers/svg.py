@@ -92,9 +92,10 @@ def paths(layer: Layer, places: int) -> list[str]:
             drawn = text[start:end]
             if alone:
                 name = "ellipse" if ' rx="' in drawn else "circle"
-                out.append(f"<{name}{tie} {drawn}/>\n")
+                out.append(f"<{name} {drawn}{tie}/>\n")
             else:
-                out.append(f'<path{tie} d="{drawn}"/>\n')
+                # The data first, as other programs write it: whatever looks for `path d="M` finds it.
+                out.append(f'<path d="{drawn}"{tie}/>\n')
         out.append("</g>\n")
     return out
 
@@ -131,8 +132,8 @@ def _metadata(drawing: Drawing) -> str:
 
 def accuracies(drawing: Drawing) -> dict[str, str]:
     """The accuracy that was used and the one that was asked for, millimetres on paper."""
-    asked = drawing.accuracy.get("asked")
-    used = float(drawing.accuracy["used"])
+    asked = drawing.accuracy.asked
+    used = drawing.accuracy.used
     return {"accuracy": f"{used:.6g}", "accuracy-asked": "default" if asked is None else f"{float(asked):.6g}"}
 
 

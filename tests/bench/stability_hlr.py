@@ -82,8 +82,8 @@ class Model:
         self._options = Options(scale=first.scale)
         self.view, self.scale = first.view, first.scale
         self.per_model = first.scale * first.unit
-        self.accuracy = float(first.accuracy["used"])
-        self.deflection = float(first.accuracy["deflection"])
+        self.accuracy = first.accuracy.used
+        self.deflection = first.accuracy.deflection
         # Meshed once more than needed: the mesh of a drawing that was fitted is not told.
         self.meshed = self._mesh()
         every = np.concatenate(self.points)

@@ -76,7 +76,7 @@ def like(
     rim that runs into a generator tangentially, lines upon a surface there.
     """
     assert expected.visible.size + expected.hidden.size, "nothing is expected: the comparison would be empty"
-    drawn, tolerance = ink(drawing, without), drawing.accuracy["used"]
+    drawn, tolerance = ink(drawing, without), drawing.accuracy.used
     told = [t for t in differences(expected, drawn, tolerance, step, ends) if "missing" in t]
     doubtful = expect(drawing, either).visible
     allowed = Ink(*(np.concatenate([one, doubtful]) for one in (expected.visible, expected.hidden)))
@@ -92,7 +92,7 @@ def once(drawing: Drawing, touching: float = 0.0) -> None:
 
 def same(one: Drawing, other: Drawing, accuracies: float = 2.0) -> None:
     """Assert that two drawings put the same ink on paper: each may be off by its accuracy."""
-    used = max(one.accuracy["used"], other.accuracy["used"])
+    used = max(one.accuracy.used, other.accuracy.used)
     told = differences(ink(one), ink(other), accuracies * used)
     assert not told, "\n".join(told)
 

@@ -43,7 +43,7 @@ def picture(request: pytest.FixtureRequest) -> Callable[..., None]:
             drawing.save(path)
         assert path.exists(), f"no picture {path.name}: pytest tests/hard --draw makes it, then look at it"
         assert path.stat().st_size <= LARGEST_PICTURE
-        used = drawing.accuracy["used"]
+        used = drawing.accuracy.used
         told = differences(read_picture(path), ink(drawing), used, step, judged=ink(drawing, without))
         assert not told, f"not as in {path.name}:\n" + "\n".join(told)
         assert doubled(drawing) <= twice

@@ -176,7 +176,7 @@ def agrees(
     Kinds in `without` need not be expected, but may stand for what is.
     """
     assert expected.visible.size + expected.hidden.size, "nothing is expected: the comparison would be empty"
-    used = drawing.accuracy["used"]
+    used = drawing.accuracy.used
     told = differences(expected, ink(drawing), used, step, ends, judged=ink(drawing, without))
     assert not told, "\n".join(told)
     assert doubled(drawing) == 0.0
@@ -319,5 +319,5 @@ def covers(drawing: Drawing, lines: Iterable[Edge3], step: float | None = None) 
     """Assert that these edges, hidden or not, are all that is drawn; with `wrong_by_rays` this is the whole truth."""
     drawn = ink(drawing)
     both = Ink(np.concatenate([drawn.visible, drawn.hidden]), np.zeros((0, 2, 2)))
-    told = differences(expect(drawing, lines), both, drawing.accuracy["used"], step)
+    told = differences(expect(drawing, lines), both, drawing.accuracy.used, step)
     assert not told, "\n".join(told)

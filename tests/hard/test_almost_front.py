@@ -35,7 +35,7 @@ def test_the_same_lines_while_the_turn_moves_nothing(picture, kind, turn, tilt):
     x, z = math.sin(turn * tilt[0]), math.sin(turn * tilt[1])
     drawing = hlr.draw(MESH if kind == "mesh" else brep(), (x, -math.sqrt(1 - x * x - z * z), z))
     agrees(drawing, by_oracle(drawing, *MESH, BOX_EDGES))
-    used = drawing.accuracy["used"]
+    used = drawing.accuracy.used
     if turn * 60 <= used / 2:
         assert sum(length(line) > used for line in drawing.lines) == 4
         assert all(line.visible for line in drawing.lines)

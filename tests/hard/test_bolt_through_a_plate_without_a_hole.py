@@ -62,14 +62,14 @@ def test_the_generators_enter_at_the_very_height():
         sides = [line.points3 for line in of_kind(drawing, "outline", True) if abs(line.points3[:, 0] - x).max() < 0.1]
         low = min(side @ np.asarray(drawing.view.up) for side in np.concatenate(sides))
         right = np.array([x, 0, THICK]) @ np.asarray(drawing.view.up)
-        assert low == pytest.approx(right, abs=2 * drawing.accuracy["used"])
+        assert low == pytest.approx(right, abs=2 * drawing.accuracy.used)
 
 
 def test_the_circle_where_it_enters_is_drawn():
     drawing = hlr.draw(model(), VIEW)
     found = of_kind(drawing, "intersection")
     points = np.concatenate([line.points3 for line in found])
-    near = drawing.accuracy["used"]
+    near = drawing.accuracy.used
     assert np.abs(np.hypot(points[:, 0], points[:, 1]) - SHANK).max() < near
     assert np.abs(np.abs(points[:, 2]) - THICK).max() < near
     seen = np.concatenate([line.points3 for line in found if line.visible])

@@ -56,8 +56,8 @@ def test_order_and_orientation_of_what_is_given_do_not_matter():
         shuffled = place[triangles][rng.permutation(len(triangles))]
         shuffled = np.array([np.roll(t, rng.integers(3)) for t in shuffled])
         other = hlr.draw((points[number], shuffled), "iso")
-        assert not differences(ink(plain), ink(other), plain.accuracy["used"], step=0.3)
-        assert not differences(ink(other), ink(plain), plain.accuracy["used"], step=0.3)
+        assert not differences(ink(plain), ink(other), plain.accuracy.used, step=0.3)
+        assert not differences(ink(other), ink(plain), plain.accuracy.used, step=0.3)
 
 
 def random_boxes(count):

@@ -73,5 +73,5 @@ def test_a_t_junction_lets_nothing_through(view):
     drawing = hlr.draw(merged(left, right, box(low, high)), view)
     seen = [x for x in drawing.lines if x.visible and (x.points3[:, 2] < -6.5).all()]
     assert seen == []
-    told = differences(expect(drawing, [], box_lines(low, high)), ink(drawing), drawing.accuracy["used"])
+    told = differences(expect(drawing, [], box_lines(low, high)), ink(drawing), drawing.accuracy.used)
     assert not [t for t in told if t.startswith("hidden ink is missing")]

@@ -46,7 +46,7 @@ def test_a_box_by_hand_by_the_oracle_and_by_rays(drawing):
 def test_every_change_is_noticed(perspective):
     drawing = hlr.draw(MESH, (3, -1, 2), perspective=perspective)
     truth = boxed(drawing)
-    used = drawing.accuracy["used"]
+    used = drawing.accuracy.used
     assert differences(truth, ink(drawing), used) == []
     for n in range(len(drawing.lines)):
         line = drawing.lines[n]

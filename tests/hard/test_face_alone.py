@@ -54,6 +54,6 @@ def test_half_a_sphere_alone_has_an_outline_inside_and_out():
     u, v = (10 * np.asarray(axis) for axis in (drawing.view.right, drawing.view.up))
     # The lower half of the great circle across the view bounds the outside; the border is seen whole from above. Both
     # ends of the half circle (curvature 1/10) touch the ellipse (1/5 there), less than a fifth of the accuracy away.
-    touch = 2 * np.sqrt(2 * 0.2 * drawing.accuracy["used"] / (1 / 5 - 1 / 10))
+    touch = 2 * np.sqrt(2 * 0.2 * drawing.accuracy.used / (1 / 5 - 1 / 10))
     like(drawing, expect(drawing, ring(10) + arc((0, 0, 0), u, v, 180, 360)), touching=touch)
     assert kinds(drawing) == {("boundary", True), ("outline", True)}

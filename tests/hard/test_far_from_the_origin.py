@@ -27,7 +27,7 @@ def test_the_same_drawing_as_at_the_origin(view, place):
     moved = cq.Workplane(obj=part().val().located(cq.Location(place)))
     for drawing in (far, hlr.draw(moved, view, scale=20)):
         # Each is held against its own lower left corner: where the paper is far away, its digits are rounded.
-        assert drawing.bounds() == pytest.approx(near.bounds(), abs=0.01)
+        assert drawing.bounds == pytest.approx(near.bounds, abs=0.01)
         assert sorted((line.kind, line.visible) for line in drawing.lines) == sorted(
             (line.kind, line.visible) for line in near.lines
         )

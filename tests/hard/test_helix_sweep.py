@@ -34,8 +34,8 @@ def test_its_outline_is_there_once():
 
 def test_it_is_as_wide_and_high_as_helix_and_wire_say(picture):
     drawing = hlr.draw(spring(), "front")
-    x0, y0, x1, y1 = drawing.bounds()
-    near = 2 * drawing.accuracy["used"]
+    x0, y0, x1, y1 = drawing.bounds
+    near = 2 * drawing.accuracy.used
     assert x1 - x0 == pytest.approx(2 * (RADIUS + WIRE), abs=near)
     # The wire's section is square to the helix only on the way: its ends lie in the plane of the axis.
     assert y1 - y0 == pytest.approx(PITCH * TURNS + 2 * WIRE, abs=0.05)
@@ -51,5 +51,5 @@ def test_no_line_leaves_the_wire():
 
     points = np.concatenate([line.points3 for line in drawing.lines])
     away, _ = cKDTree(helix).query(points)
-    assert away.max() < WIRE + 2 * drawing.accuracy["used"]
+    assert away.max() < WIRE + 2 * drawing.accuracy.used
     assert away.min() > 0.9 * WIRE

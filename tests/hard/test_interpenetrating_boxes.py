@@ -55,7 +55,7 @@ def test_the_bar_shows_a_rectangle_on_the_face_it_leaves(kind):
     corners = [(10, low[0], low[1]), (10, high[0], low[1]), (10, high[0], high[1]), (10, low[0], high[1])]
     bottom, back, top, front = ring(corners)
     drawn = ink(replace(drawing, lines=tuple(of_kind(drawing, "intersection"))))
-    assert not differences(expect(drawing, [front, top], [bottom, back]), drawn, drawing.accuracy["used"])
+    assert not differences(expect(drawing, [front, top], [bottom, back]), drawn, drawing.accuracy.used)
 
 
 @KINDS
@@ -66,4 +66,4 @@ def test_the_post_stands_in_the_block_by_lines_that_it_hides_itself(kind):
     under = [((4, -10, 0), (10, -10, 0)), ((10, -10, 0), (10, -4, 0))]
     side = [((4, -10, 0), (4, -10, 10)), ((10, -4, 0), (10, -4, 10))]
     drawn = ink(replace(drawing, lines=tuple(of_kind(drawing, "intersection"))))
-    assert not differences(expect(drawing, [], [*top, *under, *side]), drawn, drawing.accuracy["used"])
+    assert not differences(expect(drawing, [], [*top, *under, *side]), drawn, drawing.accuracy.used)

@@ -49,7 +49,7 @@ def test_what_lies_behind_the_eye_is_not_there(how):
     camera = looking((1, 0, 3), (0, 20, 1))
     with_it = hlr.draw(how(AHEAD, BEHIND), perspective=camera)
     without = hlr.draw(AHEAD, perspective=camera)
-    assert not differences(ink(without), ink(with_it), without.accuracy["used"])
+    assert not differences(ink(without), ink(with_it), without.accuracy.used)
     agrees(with_it, by_oracle(with_it, *AHEAD, BOX_EDGES))
 
 
@@ -121,4 +121,4 @@ def test_from_far_away_perspective_becomes_parallel():
     shift = expect(other, [(centre, centre)]).visible[0, 0]
     there = ink(one)
     there = Ink(there.visible + shift, there.hidden + shift)
-    assert not differences(ink(other), there, other.accuracy["used"])
+    assert not differences(ink(other), there, other.accuracy.used)

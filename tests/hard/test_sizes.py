@@ -25,7 +25,7 @@ def test_any_size_gives_the_same_drawing(picture, size, view):
     drawing = hlr.draw((points * size, triangles), view, fit=FIT)
     agrees(drawing, by_oracle(drawing, points * size, triangles, EDGES), step=0.5, without=("intersection",))
     plain = ink(hlr.draw((points, triangles), view, fit=FIT))
-    assert not differences(plain, ink(drawing), drawing.accuracy["used"])
+    assert not differences(plain, ink(drawing), drawing.accuracy.used)
     if size == 1.0 and view == "iso":
         picture(drawing)
     assert defects((points * size, triangles)) == defects((points, triangles))
@@ -67,7 +67,7 @@ def test_a_small_part_far_from_the_origin(away, view):
     shift = on_paper(drawing, [points.mean(axis=0)])[0]
     there, here = ink(drawing), ink(near)
     here = type(here)(here.visible + shift, here.hidden + shift)
-    assert not differences(here, there, drawing.accuracy["used"])
+    assert not differences(here, there, drawing.accuracy.used)
     agrees(drawing, by_oracle(drawing, points, triangles, EDGES), step=0.5, without=("intersection",))
 
 

@@ -81,7 +81,7 @@ def test_the_edge_is_cut_where_the_wall_begins(picture):
 def test_the_cut_is_there_in_the_model_too():
     drawing = hlr.draw(compound(solid(), wall()), "front")
     curve = [line for line in drawing.lines if line.part == 0 and np.ptp(line.points3[:, 2]) > 1 and line.visible]
-    near = 2 * drawing.accuracy["used"]
+    near = 2 * drawing.accuracy.used
     for x in WALL:
         z = bezier(parameter(x))[1]
         ends = np.concatenate([line.points3[[0, -1]] for line in curve])

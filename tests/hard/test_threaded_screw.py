@@ -31,7 +31,7 @@ def test_it_is_as_large_on_paper_as_the_model():
     points = reference.from_shape(reference.read_shape(SCREW), 2000).points
     for view, axes in (("front", [0, 2]), ("top", [0, 1])):
         drawing = hlr.draw(SCREW, view, scale=2)
-        x0, y0, x1, y1 = drawing.bounds()
+        x0, y0, x1, y1 = drawing.bounds
         width, height = 2 * np.ptp(points[:, axes], axis=0)
         assert (x1 - x0, y1 - y0) == pytest.approx((width, height), abs=0.05)
 

@@ -48,9 +48,9 @@ def test_the_ellipses_are_drawn():
     drawing = hlr.draw(crossing(), "front")
     found = of_kind(drawing, "intersection", visible=True)
     points = np.concatenate([line.points3 for line in found])
-    near = 3 * drawing.accuracy["used"]
+    near = 3 * drawing.accuracy.used
     # Where both are tangent to one plane, a place on both is known to the root of the accuracy only.
-    tangent = (drawing.accuracy["used"] * RADIUS) ** 0.5
+    tangent = (drawing.accuracy.used * RADIUS) ** 0.5
     # On both cylinders, before them both, and from corner to corner.
     off = np.abs(np.abs(points[:, 0]) - np.abs(points[:, 2]))
     assert off.max() < tangent and off[np.abs(points[:, 0]) > 4 * tangent].max() < near

@@ -64,5 +64,5 @@ def test_an_inch_is_25_4_mm(tmp_path, unit, name, suffix, picture):
 
 def test_the_scale_is_of_millimetres(tmp_path, unit):
     unit("INCH")
-    x0, y0, x1, y1 = hlr.draw(write(tmp_path / "block.step"), "front", scale=0.5).bounds()
+    x0, y0, x1, y1 = hlr.draw(write(tmp_path / "block.step"), "front", scale=0.5).bounds
     assert (x1 - x0, y1 - y0) == pytest.approx((INCH / 2, INCH / 4), abs=1e-3)

@@ -72,7 +72,7 @@ def apart(one: np.ndarray, other: np.ndarray, step: float = 0.5) -> float:
 
 def drawn_twice(drawing: Drawing, width: float | None = None) -> float:
     """Millimetres of paper along which a line lies on another one, or on itself."""
-    width = 0.2 * drawing.accuracy["used"] if width is None else width
+    width = 0.2 * drawing.accuracy.used if width is None else width
     pieces = segments(drawing)
     pieces = pieces[np.hypot(*(pieces[:, 1] - pieces[:, 0]).T) > 4 * width]
     total = 0.0

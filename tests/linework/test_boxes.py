@@ -199,7 +199,7 @@ def test_lines_are_sorted_and_the_lower_left_corner_is_the_origin():
     drawing = hlr.draw(solids(((10, 10, 10), (0, 0, 0)), ((4, 4, 4), (20, 0, 0))), "iso")
     keys = [(line.part, line.edge) for line in drawing.lines]
     assert keys == sorted(keys)
-    assert drawing.bounds()[:2] == (0.0, 0.0)
+    assert drawing.bounds[:2] == (0.0, 0.0)
     lowest = np.concatenate([placed(drawing, line) for line in drawing.lines]).min(axis=0)
     assert tuple(lowest) == pytest.approx(drawing.origin)
 

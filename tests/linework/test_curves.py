@@ -90,7 +90,7 @@ def test_a_circle_from_above_is_whole_and_edge_on_a_straight_line() -> None:
     assert isinstance(line.curve, Arc) and line.curve.whole
     assert line.curve.radii == pytest.approx((7.0, 7.0), abs=1e-12)
     drawing = hlr.draw(body, "front")
-    assert drawing.bounds() == pytest.approx((0.0, 0.0, 14.0, 2.0), abs=1e-9)
+    assert drawing.bounds == pytest.approx((0.0, 0.0, 14.0, 2.0), abs=1e-9)
     assert all(line.curve is None for line in drawing.lines)
     assert b"<circle" in render(hlr.draw(body, "top"), "svg")
 
@@ -120,7 +120,7 @@ def test_a_drawing_off_by_half_an_accuracy_is_noticed() -> None:
     drawing = hlr.draw(body, "iso")
     line = next(line for line in drawing.lines if isinstance(line.curve, Arc))
     path = on_paper(drawing, true_curves(open_source(body))(drawing.parts[line.part].name, line.edge))
-    accuracy = drawing.accuracy["used"]
+    accuracy = drawing.accuracy.used
     assert distance(samples(line), path) < 0.01 * accuracy
     assert distance(samples(line) + 0.5 * accuracy, path) > 0.3 * accuracy
 
@@ -129,7 +129,7 @@ def test_points_run_along_the_curve() -> None:
     drawing = hlr.draw(DATA / "nist_ctc_01_asme1_ap242-e1.stp")
     for line in drawing.lines:
         if line.curve is not None:
-            assert distance(line.points, samples(line)) <= drawing.accuracy["used"]
+            assert distance(line.points, samples(line)) <= drawing.accuracy.used
             ends = samples(line)[[0, -1]]
             assert line.points[[0, -1]] == pytest.approx(ends, abs=1e-6)
 
@@ -149,7 +149,7 @@ def test_t_junctions_close() -> None:
     assert changes
     for change in changes:
         point = np.array([change])
-        assert min(distance(point, path) for path in near) < 0.1 * drawing.accuracy["used"]
+        assert min(distance(point, path) for path in near) < 0.1 * drawing.accuracy.used
 
 
 def test_a_line_hidden_in_between_is_one_line_interrupted() -> None:
@@ -168,14 +168,14 @@ def test_a_line_hidden_in_between_is_one_line_interrupted() -> None:
         (hidden,) = [line for line in lines if not line.visible]
         for end in hidden.points[[0, -1]]:
             assert any(np.array_equal(end, line.points[k]) for line in lines if line.visible for k in (0, -1))
-            assert min(distance(end[None], rim) for rim in rims) < 0.1 * drawing.accuracy["used"]
+            assert min(distance(end[None], rim) for rim in rims) < 0.1 * drawing.accuracy.used
 
 
 def test_json_holds_the_curves() -> None:
     drawing = hlr.draw(DATA / "nist_ctc_01_asme1_ap242-e1.stp")
     lines = json.loads(render(drawing, "json"))["lines"]
     assert len(lines) == len(drawing.lines)
-    accuracy = drawing.accuracy["used"]
+    accuracy = drawing.accuracy.used
     for line, told in zip(drawing.lines, lines, strict=True):
         curve = told.get("curve")
         if line.curve is None:
@@ -204,10 +204,10 @@ def test_boxes_of_curves_are_exact() -> None:
         last = curve.angles if isinstance(curve, Arc) else (0.0, 3.0)
         points = curve.at(np.linspace(*last, 6001))
         box = np.stack([points.min(axis=0), points.max(axis=0)])
-        assert curve.bounds() == pytest.approx(box, abs=1e-4)
-    whole = np.stack([arc.bounds() for arc in arcs])
+        assert curve.bounds == pytest.approx(box, abs=1e-4)
+    whole = np.stack([arc.bounds for arc in arcs])
     assert arc_bounds(arcs) == pytest.approx(np.stack([whole[:, 0].min(axis=0), whole[:, 1].max(axis=0)]))
-    whole = np.stack([chain.bounds() for chain in chains])
+    whole = np.stack([chain.bounds for chain in chains])
     assert bezier_bounds(chains) == pytest.approx(np.stack([whole[:, 0].min(axis=0), whole[:, 1].max(axis=0)]))
     t = np.linspace(0, 3, 50)
     assert raised(chains[0]).at(t) == pytest.approx(chains[0].at(t))

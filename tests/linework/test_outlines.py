@@ -40,7 +40,7 @@ def test_a_sphere_is_one_closed_outline(view):
     drawing = hlr.draw(cad().Workplane().sphere(10), view)
     (line,) = drawing.lines
     assert (line.kind, line.visible, closed(line)) == ("outline", True, True)
-    assert np.abs(radii(drawing, line) - 10).max() < drawing.accuracy["used"]
+    assert np.abs(radii(drawing, line) - 10).max() < drawing.accuracy.used
     assert length(line) == pytest.approx(2 * np.pi * 10, rel=0.005)
     assert drawn_twice(drawing) == 0
 
@@ -55,7 +55,7 @@ def test_a_sphere_in_perspective_is_larger_than_its_radius():
     drawing = hlr.draw(cad().Workplane().sphere(10), "front", perspective=hlr.Perspective(eye=eye, target=(0, 0, 0)))
     (line,) = drawing.lines
     # The cone of tangents from the eye meets the plane through the centre.
-    assert np.abs(radii(drawing, line) - 30 * 10 / np.sqrt(30**2 - 10**2)).max() < drawing.accuracy["used"]
+    assert np.abs(radii(drawing, line) - 30 * 10 / np.sqrt(30**2 - 10**2)).max() < drawing.accuracy.used
 
 
 @pytest.mark.parametrize("view", ["front", "left", "back", (1, 2, 0)])
@@ -66,7 +66,7 @@ def test_a_cylinder_from_the_side_is_two_generators_and_its_rims(view):
     assert [length(line) for line in sides] == pytest.approx([40, 40], abs=0.01)
     assert sorted(placed(drawing, line)[0, 0] for line in sides) == pytest.approx([-10, 10], abs=0.05)
     assert {line.edge for line in drawing.lines if line.kind == "sharp"} == {0, 2}
-    low, high = drawing.bounds()[:2], drawing.bounds()[2:]
+    low, high = drawing.bounds[:2], drawing.bounds[2:]
     assert (*low, *high) == pytest.approx((0, 0, 20, 40), abs=0.05)
 
 
@@ -78,7 +78,7 @@ def test_a_cylinder_from_above_is_one_circle_and_from_a_corner_a_rim_is_half_hid
     top = hlr.draw(cylinder(), "top")
     (line,) = top.lines
     assert (line.kind, line.visible, closed(line)) == ("sharp", True, True)
-    assert np.abs(radii(top, line) - 10).max() < top.accuracy["used"]
+    assert np.abs(radii(top, line) - 10).max() < top.accuracy.used
     iso = hlr.draw(cylinder(), "iso")
     assert counts(iso) == {("sharp", True): 2, ("sharp", False): 1, ("outline", True): 2}
     halves = [line for line in iso.lines if np.allclose(line.points3[:, 2], -20)]
@@ -91,8 +91,8 @@ def test_a_cone_from_the_side_is_a_triangle():
     drawing = hlr.draw(cad().Workplane().add(cad().Solid.makeCone(10, 0, 20)), "front")
     triangle = np.array([[[-10, 0], [10, 0]], [[10, 0], [0, 20]], [[0, 20], [-10, 0]]], float)
     found = segments(drawing)
-    assert distances(samples(found, 0.5), triangle).max() < drawing.accuracy["used"]
-    assert distances(samples(triangle, 0.5), found).max() < 2 * drawing.accuracy["used"]
+    assert distances(samples(found, 0.5), triangle).max() < drawing.accuracy.used
+    assert distances(samples(triangle, 0.5), found).max() < 2 * drawing.accuracy.used
     assert sum(length(line) for line in outlines(drawing)) == pytest.approx(2 * np.hypot(10, 20), rel=0.005)
 
 
@@ -101,17 +101,17 @@ def test_a_torus_from_above_is_two_circles():
     assert counts(drawing) == {("outline", True): 2}
     for line, radius in zip(sorted(drawing.lines, key=length), (15, 25), strict=True):
         assert closed(line)
-        assert np.abs(radii(drawing, line) - radius).max() < drawing.accuracy["used"]
+        assert np.abs(radii(drawing, line) - radius).max() < drawing.accuracy.used
 
 
 def test_a_torus_from_the_side_hides_the_inner_halves_of_its_ends():
     drawing = hlr.draw(cad().Solid.makeTorus(20, 5), "front")
     hidden = np.concatenate([samples_of(drawing, line) for line in drawing.lines if not line.visible])
-    assert np.abs(np.hypot(np.abs(hidden[:, 0]) - 20, hidden[:, 1]) - 5).max() < drawing.accuracy["used"]
-    assert (np.abs(hidden[:, 0]) < 20 + drawing.accuracy["used"]).all()
+    assert np.abs(np.hypot(np.abs(hidden[:, 0]) - 20, hidden[:, 1]) - 5).max() < drawing.accuracy.used
+    assert (np.abs(hidden[:, 0]) < 20 + drawing.accuracy.used).all()
     seen = np.concatenate([samples_of(drawing, line) for line in drawing.lines if line.visible])
     stadium = np.hypot(np.maximum(np.abs(seen[:, 0]) - 20, 0), seen[:, 1])
-    assert np.abs(stadium - 5).max() < 2 * drawing.accuracy["used"]
+    assert np.abs(stadium - 5).max() < 2 * drawing.accuracy.used
 
 
 def test_the_inner_outline_of_a_torus_is_one_line():
@@ -139,7 +139,7 @@ def test_a_smooth_edge_on_an_outline_is_not_drawn_again(view):
     by_kind = {k: segments_of(drawing, k) for k in ("smooth", "outline")}
     if len(by_kind["outline"]) and len(by_kind["smooth"]):
         middle = by_kind["smooth"].mean(axis=1)
-        assert distances(middle, by_kind["outline"]).min() > drawing.accuracy["used"]
+        assert distances(middle, by_kind["outline"]).min() > drawing.accuracy.used
 
 
 def segments_of(drawing, kind):

@@ -170,7 +170,7 @@ def test_a_fillet_tangent_to_a_plane_seen_edge_on_has_one_line(view):
     drawing = hlr.draw(body, view)
     assert count(drawing)[1] == 0
     ink = sum(float(np.hypot(*np.diff(line.points, axis=0).T).sum()) for line in drawing.lines)
-    width, height = drawing.bounds()[2:]
+    width, height = drawing.bounds[2:]
     assert ink == pytest.approx(2 * (width + height) - 8 * 2 + 2 * np.pi * 2, rel=1e-3)
 
 
@@ -257,7 +257,7 @@ def test_outlines_reach_the_rims_they_end_on():
     ]
     assert len(ends) == 4
     for place in places:
-        assert min(np.hypot(*(end - place)) for end in ends) < 0.1 * drawing.accuracy["used"]
+        assert min(np.hypot(*(end - place)) for end in ends) < 0.1 * drawing.accuracy.used
 
 
 @pytest.mark.parametrize(("height", "seen"), [(0.05, False), (1.0, True)])

@@ -115,7 +115,7 @@ def test_a_displaced_change_is_found(model, drawing, finer):
 
 
 def test_a_dot_on_its_own_is_found(model, drawing, finer):
-    x0, y0, _, _ = drawing.bounds()
+    x0, y0, _, _ = drawing.bounds
     points = np.array([(x0 - 5.0, y0), (x0 - 5.0 + 0.4 * ACCURACY, y0)])
     dot = Line("sharp", True, 0, 0, None, points, np.zeros((2, 3)))
     reached = judged(model, drawing, finer, [*drawing.lines, dot])

@@ -91,7 +91,7 @@ def distance(points: np.ndarray, path: np.ndarray) -> float:
 
 def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], str]:
     """Largest distance of curves and of polylines, in accuracies; how many lines of each form; which was the worst."""
-    accuracy = float(drawing.accuracy["used"])
+    accuracy = drawing.accuracy.used
     worst = {"curve": 0.0, "polyline": 0.0}
     forms: Counter[str] = Counter()
     where = ""

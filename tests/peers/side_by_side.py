@@ -58,7 +58,7 @@ def flat(line: Line) -> np.ndarray:
 def theirs(path: Path, drawing: Drawing, method: str, limit: float) -> Panel:
     """OpenCASCADE's lines of the same view, in the same place."""
     per_model = drawing.scale * drawing.unit
-    deflection = float(drawing.accuracy["deflection"]) / drawing.unit
+    deflection = drawing.accuracy.deflection / drawing.unit
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "drawing.json"
         script = Path(__file__).with_name("occt.py")

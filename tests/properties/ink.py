@@ -78,7 +78,7 @@ def _away(points: np.ndarray, other: Ink) -> np.ndarray:
 
 def _missing(one: Drawing, other: Drawing, reach: float, visible: bool, a: Map, b: Map) -> tuple[float, float, str]:
     """What ink of one class the first has and the second has not: longest stretch, all of it, and where."""
-    accuracy = one.accuracy["used"]
+    accuracy = one.accuracy.used
     step = STEP * accuracy
     mine, same = ink(one, visible, step, a), ink(other, visible, step, b)
     slack = 0.5 * step
@@ -113,7 +113,7 @@ def change(before: Drawing, after: Drawing, reach: float = 1.0, back: Map = lamb
         found.append((*_missing(after, before, reach, visible, back, still), "after"))
     longest, _, where, when = max(found)
     total = sum(each[1] for each in found)
-    accuracy = before.accuracy["used"]
+    accuracy = before.accuracy.used
     every = sum(ink_length(each, visible) for each in (before, after) for visible in (True, False))
     return Change(longest, total, total * accuracy / every if every else 0.0, f"{where} {when}" if where else "none")
 

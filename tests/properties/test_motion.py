@@ -139,7 +139,7 @@ def expect_doubled(model, view, power, accuracy, **options):
         for one, other in zip(before.lines, after.lines, strict=True):
             assert (wide * one.points == other.points).all()
             assert (factor * one.points3 == other.points3).all()
-        assert factor * before.accuracy["contact"] == after.accuracy["contact"]
+        assert factor * before.accuracy.contact == after.accuracy.contact
 
 
 def _scaled(perspective, factor):

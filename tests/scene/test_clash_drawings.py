@@ -44,13 +44,13 @@ def test_a_post_in_a_block(model):
     front, right, back, left = ring(10)
     drawn = ink(replace(drawing, lines=tuple(met(drawing))))
     wanted = expect(drawing, [front, right], [back, left, *ring(-10)])
-    assert not differences(wanted, drawn, drawing.accuracy["used"])
+    assert not differences(wanted, drawn, drawing.accuracy.used)
     for line in met(drawing):
         assert (line.part, line.other, line.edge, line.face) == (0, 1, None, None)
         assert len(line.points) == len(line.points3)
     (seen,) = met(drawing, True)
     corners = seen.points3 if seen.points3[0, 0] < 0 else seen.points3[::-1]
-    assert np.abs(corners - [(-4, -2, 10), (4, -2, 10), (4, 4, 10)]).max() < drawing.accuracy["used"]
+    assert np.abs(corners - [(-4, -2, 10), (4, -2, 10), (4, 4, 10)]).max() < drawing.accuracy.used
     assert all(line.other is None for line in drawing.lines if line.kind != "intersection")
 
 
@@ -94,7 +94,7 @@ def test_they_can_be_left_out(model):
     assert met(with_) and not met(without)
     # The rest stays, but for what lies under intersection lines.
     rest = [line for line in with_.lines if line.kind != "intersection"]
-    near = with_.accuracy["used"]
+    near = with_.accuracy.used
     told = differences(ink(without), ink(replace(with_, lines=tuple(rest))), 2 * near)
     assert not [t for t in told if "should not" in t], told
     assert with_.notes == without.notes

@@ -40,7 +40,7 @@ def test_coplanar_triangles_become_one_face():
     # Each side of a cube of 20 is foreshortened to 400 / sqrt(3).
     assert [area(drawing, k) for k in range(3)] == pytest.approx([400 / 3**0.5] * 3, rel=1e-4)
     low, high = drawing.fill.points.min(axis=0), drawing.fill.points.max(axis=0)
-    assert (*low, *high) == pytest.approx(drawing.bounds(), abs=1e-3)
+    assert (*low, *high) == pytest.approx(drawing.bounds, abs=1e-3)
 
 
 def test_the_lamp_is_at_the_viewers_shoulder():
@@ -72,7 +72,7 @@ def test_near_faces_are_painted_over_far_ones():
     page = pypdfium2.PdfDocument(io.BytesIO(written(drawing, "pdf")))[0]
     picture = np.asarray(page.render(scale=4 * 25.4 / 72).to_pil().convert("L"))
     # Between the lines there is no white: no gap within a face, nor where one ends over another.
-    x0, y0, x1, y1 = drawing.bounds()
+    x0, y0, x1, y1 = drawing.bounds
     left, top = (np.array(page.get_size()) / 72 * 25.4 - (x1 - x0, y1 - y0)) / 2 * 4
     inside = picture[int(top) + 4 : int(top + 20 * 4) - 4, int(left) + 4 : int(left + 20 * 4) - 4]
     assert inside.max() < 200
@@ -82,7 +82,7 @@ def test_svg_and_pdf_carry_the_faces():
     drawing = cube()
     svg = written(drawing, "svg").decode()
     group = svg[svg.index('<g id="fill"') : svg.index('<g id="hidden"')]
-    assert group.count("<path data-part=") == 3
+    assert len(re.findall(r'<path d="[^"]*" data-part=', group)) == 3
     assert len(set(re.findall(r'fill="(#[0-9a-f]{6})" stroke="\1"', group))) == 3
     assert b"Fill" in written(drawing, "pdf")
     plain = hlr.draw((CUBE, SIDES))

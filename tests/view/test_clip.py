@@ -206,15 +206,15 @@ def test_the_field_of_view_crops_only_from_a_given_eye():
     eye = Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=10.0)
     cropped = hlr.draw(box((10, 20, 30)), "front", perspective=eye)
     half = 100 * math.tan(math.radians(5))
-    height = cropped.bounds()[3]
+    height = cropped.bounds[3]
     assert height == pytest.approx(2 * half)
     for line in cropped.lines:
         assert (np.abs(placed(cropped, line)[:, 1]) <= half + 1e-9).all()
     # 4 : 3, or as what it is fitted into.
     wide = hlr.draw(box((500, 20, 3)), "front", perspective=eye)
-    assert wide.bounds()[2] == pytest.approx(2 * half * 4 / 3)
+    assert wide.bounds[2] == pytest.approx(2 * half * 4 / 3)
     square = hlr.draw(box((500, 20, 3)), "front", perspective=eye, fit=(70.0, 70.0))
-    assert square.bounds()[2] / square.scale == pytest.approx(2 * half)
+    assert square.bounds[2] / square.scale == pytest.approx(2 * half)
 
 
 def test_without_an_eye_and_nothing_behind_it_all_of_the_model_is_drawn():
@@ -247,4 +247,4 @@ def test_an_eye_that_sees_nothing_says_so():
     drawing = hlr.draw(box((10, 10, 10)), "front", perspective=away)
     assert drawing.lines == ()
     assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view"),)
-    assert drawing.bounds() == (0, 0, 0, 0)
+    assert drawing.bounds == (0, 0, 0, 0)

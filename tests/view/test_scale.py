@@ -20,10 +20,10 @@ def test_fit_fits_and_touches(view, fit, kind):
     model = box((10, 20, 30), (100, 0, 0)) if kind == "box" else cq.Workplane().sphere(7).translate((100, 0, 0))
     camera = Perspective(fov=60.0) if kind == "perspective" else None
     drawing = hlr.draw(model, view, fit=fit, perspective=camera)
-    width, height = drawing.bounds()[2:]
+    width, height = drawing.bounds[2:]
     assert width <= fit[0] + 1e-9
     assert height <= fit[1] + 1e-9
-    slack = 2 * drawing.accuracy["used"]
+    slack = 2 * drawing.accuracy.used
     assert width >= fit[0] - slack or height >= fit[1] - slack
 
 
@@ -46,14 +46,14 @@ def test_a_view_from_a_given_eye_fills_what_it_is_fitted_into(fit, fov):
     )
     # The frame that the field of view spans is what is fitted, whether or not lines reach its border.
     assert drawing.scale == pytest.approx(fit[1] / (2 * 100 * math.tan(math.radians(fov / 2))))
-    assert drawing.bounds()[2] <= fit[0] and drawing.bounds()[3] <= fit[1]
+    assert drawing.bounds[2] <= fit[0] and drawing.bounds[3] <= fit[1]
 
 
 @pytest.mark.parametrize("scale", [0.01, 0.5, 1.0, 3.0, 100.0])
 def test_scale_is_paper_to_model(scale):
     drawing = hlr.draw(box((10, 20, 30)), "front", scale=scale)
     assert drawing.scale == scale
-    assert drawing.bounds() == pytest.approx((0, 0, 10 * scale, 30 * scale))
+    assert drawing.bounds == pytest.approx((0, 0, 10 * scale, 30 * scale))
 
 
 def test_scaling_by_powers_of_two_changes_nothing_else():
@@ -83,7 +83,7 @@ def test_units_of_a_mesh_count(unit):
     mesh.units = unit
     drawing = hlr.draw(mesh, "front", scale=0.1)
     assert drawing.unit == millimetres
-    assert drawing.bounds()[2:] == pytest.approx((0.1 * millimetres, 0.3 * millimetres))
+    assert drawing.bounds[2:] == pytest.approx((0.1 * millimetres, 0.3 * millimetres))
 
 
 def test_a_tiny_and_a_huge_drawing_say_so():
@@ -99,7 +99,7 @@ def test_a_tiny_and_a_huge_drawing_say_so():
 
 
 def test_the_accuracy_follows_the_size_unless_given():
-    assert hlr.draw(box((300, 300, 400)), "right").accuracy["used"] == 0.05
+    assert hlr.draw(box((300, 300, 400)), "right").accuracy.used == 0.05
     small = hlr.draw(box((3, 3, 4)), "right").accuracy
     assert (small["asked"], small["used"]) == (None, pytest.approx(5 / 2000))
     given = hlr.draw(box((3, 3, 4)), "right", accuracy=0.01).accuracy
@@ -130,7 +130,7 @@ def test_the_accuracy_is_kept_before_the_image_plane():
     (rim,) = [line for line in drawing.lines if np.allclose(line.points3[:, 2], 2)]
     points = placed(drawing, rim)
     off = np.abs(np.hypot(*samples(np.stack([points[:-1], points[1:]], axis=1), 0.5).T) - 10 * 1030 / 28)
-    assert off.max() < drawing.accuracy["used"]
+    assert off.max() < drawing.accuracy.used
 
 
 @pytest.mark.parametrize(
@@ -157,6 +157,6 @@ def test_a_model_without_extent_is_refused():
         hlr.draw(([[1, 1, 1]], [[0, 0, 0]]), "front")
     # Flat is not without extent: edge-on it is a line.
     flat = ([[0, 0, 0], [10, 0, 0], [0, 10, 0]], [[0, 1, 2]])
-    assert hlr.draw(flat, "front").bounds() == pytest.approx((0, 0, 10, 0))
+    assert hlr.draw(flat, "front").bounds == pytest.approx((0, 0, 10, 0))
     fitted = hlr.draw(flat, "front", fit=(50.0, 50.0))
-    assert fitted.bounds() == pytest.approx((0, 0, 50, 0))
+    assert fitted.bounds == pytest.approx((0, 0, 50, 0))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hlr.drawing import Drawing, DrawnPart, DrawnView, Line
+from hlr.drawing import Accuracy, Drawing, DrawnPart, DrawnView, Line
 from hlr.notes import Note
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "writers"
@@ -36,7 +36,7 @@ def drawing(lines, accuracy=0.05, parts=None, **changes):
         view=ISO,
         scale=1.0,
         origin=(0.0, 0.0),
-        accuracy={"asked": None, "used": accuracy, "deflection": 0.02},
+        accuracy=Accuracy(None, accuracy, 0.02, 0.1),
         unit=1.0,
         up_axis=np.eye(3),
         parts=tuple(parts or (part(f"part {i}") for i in range(used + 1))),

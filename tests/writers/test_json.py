@@ -42,8 +42,7 @@ def test_lines_are_those_of_the_drawing_in_their_order():
         assert (found["class"], found["visible"], found["part"], found["edge"], found["face"]) == (
             entry.kind, entry.visible, entry.part, entry.edge, entry.face
         )  # fmt: skip
-        assert np.abs(np.array(found["points"]) - entry.points).max() < 0.05 / 1000
-        assert np.abs(np.array(found["points3"]) - entry.points3).max() < 0.05 / 1000
+        assert np.array_equal(found["points"], entry.points) and np.array_equal(found["points3"], entry.points3)
 
 
 def test_perspective_says_where_the_eye_is():

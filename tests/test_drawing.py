@@ -1,0 +1,163 @@
+"""The drawing as a value: compared, hashed, shown, and written without being changed."""
+
+import copy
+import io
+import pickle
+from dataclasses import FrozenInstanceError, fields, replace
+
+import numpy as np
+import pytest
+import trimesh
+from writers.fakes import drawing, line, sample
+
+import hlr
+from hlr.curve import Arc, Bezier
+from hlr.drawing import Drawing, DrawnPart, Fill
+from hlr.notes import Note
+
+POINTS = np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 2.0], [4.0, 0.0]])
+
+
+MAKERS = [
+    lambda: line([[0, 0], [1, 1]]),
+    lambda: Arc(np.zeros(2), np.eye(2), np.array([0.0, 1.0])),
+    lambda: Bezier(3, POINTS.copy()),
+    lambda: replace(line([[0, 0], [1, 1]]), curve=Bezier(3, POINTS.copy())),
+    lambda: DrawnPart("a", None, np.eye(4)),
+    lambda: Fill(POINTS.copy(), *(np.arange(2, dtype=np.int32) for _ in "ab"), np.zeros((1, 3)), np.zeros(1)),
+    sample,
+    lambda: hlr.preview(trimesh.creation.box((9, 9, 9)), size=(9, 9), depth=True, ids=True),
+]
+"""Of everything that holds an array."""
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_equal_values_are_equal_and_have_one_hash(make):
+    one, other = make(), make()
+    assert one == other and hash(one) == hash(other) and len({one, other}) == 1
+    assert copy.deepcopy(one) == one == pickle.loads(pickle.dumps(one))
+    for thing in (None, 0, "text", POINTS, line([[0, 0], [1, 2]])):
+        assert (one == thing) is False and (thing == one) is False
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_each_array_counts(make):
+    one = make()
+    for f in fields(one):
+        value = getattr(one, f.name)
+        if isinstance(value, np.ndarray):
+            assert one != replace(one, **{f.name: value + 1}) and one != replace(one, **{f.name: value[:0]})
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_what_is_shown_is_short(make):
+    assert len(repr(make())) < 200
+
+
+def test_no_number_and_minus_zero_are_themselves():
+    one, other = (line([[0.0, np.nan], [1, sign * 0.0]]) for sign in (1, -1))
+    assert one == other and hash(one) == hash(other)
+
+
+def test_two_runs_make_equal_drawings():
+    box = trimesh.creation.box((10, 20, 30))
+    one, other = (hlr.draw(box, threads=threads) for threads in (1, 2))
+    assert one == other and hash(one) == hash(other) and one != hlr.draw(box, "front")
+    assert replace(one, timings={"total": 1.0}) == one != replace(one, notes=(Note("defects", "open"),))
+    assert set(one.plan) == set(other.plan)
+
+
+def test_it_shows_itself_in_one_line():
+    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "iso")
+    assert repr(drawing) == "<Drawing Trimesh, iso, 1:1, 9 visible and 3 hidden lines>"
+    assert repr(drawing.lines[0]).startswith("<Line sharp, visible, part 0, 2 points>")
+
+
+def test_visible_and_hidden_lines_and_bounds():
+    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "front")
+    assert set(drawing.visible) | set(drawing.hidden) == set(drawing.lines)
+    assert all(x.visible for x in drawing.visible) and not any(x.visible for x in drawing.hidden)
+    assert drawing.bounds == pytest.approx((0, 0, 10, 30)) and drawing.bounds.height == pytest.approx(30)
+
+
+def test_a_drawing_cannot_be_changed():
+    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "front")
+    with pytest.raises(FrozenInstanceError):
+        drawing.scale = 2.0
+    with pytest.raises(ValueError, match="read-only"):
+        drawing.lines[0].points[0] = 7.0
+    with pytest.raises(ValueError, match="read-only"):
+        drawing.lines[0].points3[0] = 7.0
+
+
+@pytest.mark.parametrize("format", ["svg", "pdf", "json"])
+def test_saving_changes_nothing(tmp_path, format):
+    drawing = sample()
+    before = pickle.dumps(drawing)
+    drawing.save(tmp_path / f"a.{format}")
+    assert pickle.dumps(drawing) == before
+
+
+@pytest.mark.parametrize("format", ["svg", "pdf", "json"])
+def test_it_is_written_into_a_path_of_any_kind_and_into_file_objects(tmp_path, format):
+    drawing, path = sample(), tmp_path / f"a.{format}"
+    assert drawing.save(str(path)) == path
+    told = getattr(drawing, f"to_{format}")()
+    assert path.read_bytes() == (told if isinstance(told, bytes) else told.encode())
+    memory = io.BytesIO()
+    assert drawing.save(memory, format=format) is None and memory.getvalue() == path.read_bytes()
+    with open(tmp_path / "b", "wb") as file:
+        drawing.save(file, format)
+    assert (tmp_path / "b").read_bytes() == path.read_bytes()
+    assert drawing.save(tmp_path / "c", format).read_bytes() == path.read_bytes()
+
+
+class Short(io.RawIOBase):
+    def write(self, data):
+        return 1
+
+
+def closed():
+    file = io.BytesIO()
+    file.close()
+    return file
+
+
+@pytest.mark.parametrize(
+    ("file", "format", "message"),
+    [
+        (io.BytesIO(), None, "a file object has no ending that names the format: give format='svg', 'pdf' or 'json'"),
+        (io.BytesIO(), "dxf", "unknown format 'dxf'; use svg, pdf or json"),
+        (io.StringIO(), "svg", "cannot write into the StringIO: it takes text, not bytes; open it with mode 'wb'"),
+        (closed(), "svg", "cannot write into the BytesIO: I/O operation on closed file"),
+        (Short(), "svg", "it took 1 of"),
+        (7, "svg", "cannot write into 7: give a path or a binary file object"),
+        (None, None, "cannot write into None: give a path or a binary file object"),
+        ("a\0.svg", None, "a file name holds no zero character"),
+        ("a.svg", "dwg", "unknown format 'dwg'"),
+        ("a.svg", ["svg"], "unknown format"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_written_is_refused_in_a_sentence(tmp_path, monkeypatch, file, format, message):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(hlr.WriteError) as caught:
+        sample().save(file, format)
+    assert message.lower() in str(caught.value).lower() and "\n" not in str(caught.value)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_notebook_shows_the_picture():
+    shown = sample()._repr_svg_()
+    assert shown.lstrip().startswith("<svg ") and shown.rstrip().endswith("</svg>")
+
+
+def test_the_data_of_a_path_comes_first():
+    assert 'path d="M' in sample().to_svg() and "<path data" not in sample().to_svg()
+
+
+def test_drawings_are_the_same_type_only():
+    class Other(Drawing):
+        pass
+
+    made = drawing([])
+    assert made != Other(**{f.name: getattr(made, f.name) for f in fields(made)})
