@@ -68,16 +68,18 @@ def true_lines(
     threads: int,
 ) -> dict[str, Any]: ...
 def arc_rows(arcs: Floats, ends: Floats, places: int, accuracy: float, cubic: bool) -> dict[str, Any]: ...
-def path_data(
-    points: npt.NDArray[np.int64],
-    op: Bytes,
-    arc: Ints,
-    shapes: npt.NDArray[np.int64],
-    starts: npt.NDArray[np.int64],
-    closed: Bools,
-    places: int,
-    as_pdf: bool,
-) -> tuple[bytes, npt.NDArray[np.int64]]: ...
+
+_Layer = tuple[
+    npt.NDArray[np.int64],
+    Bytes,
+    Ints,
+    npt.NDArray[np.int64],
+    npt.NDArray[np.int64],
+    Bools,
+]
+
+def path_data(layer: _Layer, places: int, as_pdf: bool) -> tuple[bytes, npt.NDArray[np.int64]]: ...
+def dashes(layer: _Layer, visible: list[_Layer], places: int, dash: float, gap: float) -> list[tuple[str, str]]: ...
 def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
 def linework(
     flat_points: Floats,

@@ -151,9 +151,7 @@ def to_pdf(page: Page) -> bytes:
         out.append(f"{' '.join(_real(v / 255.0) for v in colors[visible])} RG {dash}\n".encode("ascii"))
         for layer in layers:
             if layer.visible == visible:
-                data, _ = _kernel.path_data(
-                    layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, places, True
-                )
+                data, _ = _kernel.path_data(layer.arrays, places, True)
                 out.append(data)
     out.append(b"Q\n")
     if page.axes:

@@ -89,16 +89,22 @@ def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
 
         out += [b"/OC /L0 BDC ", pdf_content(fill, page.places), b"EMC\n"]
     for index, layer in enumerate(page.layers, 0 if fill is None else 1):
-        dash = style.dash(layer.visible)
-        pattern = " ".join(number(v) for v in dash) if dash else ""
+        dashes = page.dashes(layer)
         # Round caps would lengthen each dash by the line width.
-        cap = 0 if dash else 1
+        cap = 1 if dashes is None else 0
         width = number(style.width(layer.kind, layer.visible))
-        out.append(f"/OC /L{index} BDC {width} w {cap} J [{pattern}] 0 d\n".encode("ascii"))
-        data, _ = _kernel.path_data(
-            layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, page.places, True
-        )
-        out.append(data)
+        out.append(f"/OC /L{index} BDC {width} w {cap} J [] 0 d\n".encode("ascii"))
+        data, offsets = _kernel.path_data(layer.arrays, page.places, True)
+        if dashes is None:
+            out.append(data)
+        else:
+            at = offsets.tolist()
+            last = ("", "")
+            for pattern, start, end in zip(dashes, at[:-1], at[1:], strict=True):
+                if pattern != last:
+                    out.append(f"[{pattern[0]}] {pattern[1] or 0} d\n".encode("ascii"))
+                last = pattern
+                out.append(data[start:end])
         out.append(b"EMC\n")
     return b"".join(out)
 

@@ -57,6 +57,11 @@ class Layer:
     edge: list[int | None]
     other: list[int | None]
 
+    @property
+    def arrays(self) -> tuple[Ints, Bytes, npt.NDArray[np.int32], Ints, Ints, Bools]:
+        """As the kernel takes them."""
+        return self.points, self.op, self.arc, self.shapes, self.starts, self.closed
+
 
 @dataclass(frozen=True, slots=True)
 class Strokes:
@@ -68,6 +73,16 @@ class Strokes:
     width: int
     height: int
     layers: tuple[Layer, ...]
+
+    def dashes(self, layer: Layer) -> list[tuple[str, str]] | None:
+        """For each stroke of a dashed layer, its lengths of dash, gap, dash, ... and where in them it begins, in
+        millimetres, as text; both empty for a stroke that is drawn through. None: no stroke has dashes.
+        """
+        pattern = style.dash(layer.kind, layer.visible)
+        if pattern is None:
+            return None
+        visible = [other.arrays for other in self.layers if other.visible]
+        return _kernel.dashes(layer.arrays, visible, self.places, *pattern)
 
 
 def places_of(drawing: Drawing, bounds: tuple[float, float, float, float]) -> int:

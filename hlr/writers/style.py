@@ -23,9 +23,17 @@ def width(kind: str, visible: bool) -> float:
     return WIDE if visible and kind not in ("smooth", "seam") else NARROW
 
 
-def dash(visible: bool) -> tuple[float, float] | None:
+def group_width(visible: bool) -> float:
+    """Line width in millimetres of most classes: what a group of them states once."""
+    return WIDE if visible else NARROW
+
+
+def dash(kind: str, visible: bool) -> tuple[float, float] | None:
     """Dash and gap in millimetres; None for a continuous line."""
-    return None if visible else (DASH[0] * NARROW, DASH[1] * NARROW)
+    if visible:
+        return None
+    wide = width(kind, visible)
+    return DASH[0] * wide, DASH[1] * wide
 
 
 def ratio(scale: float) -> str:

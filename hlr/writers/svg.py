@@ -14,7 +14,7 @@ exchange format.
 from __future__ import annotations
 
 import re
-from itertools import groupby
+from itertools import groupby, repeat
 from xml.sax.saxutils import escape, quoteattr
 
 from hlr import _kernel
@@ -47,11 +47,15 @@ def svg(drawing: Drawing) -> bytes:
 
         out.extend(svg_group(drawing.fill, page.places))
     for visible, layers in groupby(page.layers, lambda layer: layer.visible):
-        out.append(_open_group(visible))
+        usual = style.group_width(visible)
+        # Round caps would lengthen each dash by the line width.
+        cap = "" if visible else ' stroke-linecap="butt"'
+        out.append(f'<g id="{"visible" if visible else "hidden"}" stroke-width="{number(usual)}"{cap}>\n')
         for layer in layers:
-            thin = f' stroke-width="{number(style.NARROW)}"' if layer.visible and _narrow(layer) else ""
-            out.append(f'<g class="{layer.kind}"{thin}>\n')
-            out.extend(paths(layer, page.places))
+            wide = style.width(layer.kind, visible)
+            own = "" if wide == usual else f' stroke-width="{number(wide)}"'
+            out.append(f'<g class="{layer.kind}"{own}>\n')
+            out.extend(paths(layer, page.places, page.dashes(layer)))
             out.append("</g>\n")
         out.append("</g>\n")
     out.append("</svg>\n")
@@ -63,41 +67,36 @@ def title(drawing: Drawing) -> str:
     return f"{drawing.source}, {drawing.view.name}, {style.ratio(drawing.scale)}"
 
 
-def _open_group(visible: bool) -> str:
-    if visible:
-        return f'<g id="visible" stroke-width="{number(style.WIDE)}">\n'
-    pattern = " ".join(number(v) for v in style.dash(False) or ())
-    # Round caps would lengthen each dash by the line width.
-    return f'<g id="hidden" stroke-width="{number(style.NARROW)}" stroke-dasharray="{pattern}" stroke-linecap="butt">\n'
-
-
-def _narrow(layer: Layer) -> bool:
-    return style.width(layer.kind, layer.visible) == style.NARROW
-
-
-def paths(layer: Layer, places: int) -> list[str]:
-    """One element per stroke; those of one part after another are one group."""
-    data, offsets = _kernel.path_data(
-        layer.points, layer.op, layer.arc, layer.shapes, layer.starts, layer.closed, places, False
-    )
+def paths(layer: Layer, places: int, dashes: list[tuple[str, str]] | None = None) -> list[str]:
+    """One element per stroke; those of one part after another are one group. dashes: as `Strokes.dashes` gives them."""
+    data, offsets = _kernel.path_data(layer.arrays, places, False)
     text, at = data.decode("ascii"), offsets.tolist()
     whole = (layer.op[layer.starts[:-1]] == WHOLE).tolist()
+    patterns = map(_dashed, dashes) if dashes is not None else repeat("")
     out = []
-    spans = zip(layer.part, at[:-1], at[1:], whole, layer.edge, layer.other, strict=True)
+    spans = zip(layer.part, at[:-1], at[1:], whole, layer.edge, layer.other, patterns, strict=False)
     for part, of_part in groupby(spans, lambda span: span[0]):
         out.append(f'<g data-part="{part}">\n')
-        for _, start, end, alone, edge, other in of_part:
+        for _, start, end, alone, edge, other, pattern in of_part:
             tie = "" if edge is None else f' data-edge="{edge}"'
             tie += "" if other is None else f' data-other="{other}"'
             drawn = text[start:end]
             if alone:
                 name = "ellipse" if ' rx="' in drawn else "circle"
-                out.append(f"<{name} {drawn}{tie}/>\n")
+                out.append(f"<{name} {drawn}{tie}{pattern}/>\n")
             else:
                 # The data first, as other programs write it: whatever looks for `path d="M` finds it.
-                out.append(f'<path d="{drawn}"{tie}/>\n')
+                out.append(f'<path d="{drawn}"{tie}{pattern}/>\n')
         out.append("</g>\n")
     return out
+
+
+def _dashed(dashes: tuple[str, str]) -> str:
+    lengths, offset = dashes
+    if not lengths:
+        return ""
+    shift = "" if offset == "0" else f' stroke-dashoffset="{offset}"'
+    return f' stroke-dasharray="{lengths}"{shift}'
 
 
 def _metadata(drawing: Drawing) -> str:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from writers import golden
 from writers.fakes import GOLDEN, drawing, line, part, sample
 
+from hlr.writers import style
 from hlr.writers.svg import svg
 
 NS = {"s": "http://www.w3.org/2000/svg", "d": "urn:hlr:drawing:1"}
@@ -82,11 +83,22 @@ def test_hidden_lines_are_drawn_first_narrow_and_dashed():
     groups = root.findall("s:g", NS)
     assert [group.get("id") for group in groups] == ["hidden", "visible"]
     hidden, visible = groups
-    assert hidden.get("stroke-dasharray") == "3 .75"
+    assert all(path.get("stroke-dasharray") for path in hidden.findall(".//s:path", NS))
+    assert not any(path.get("stroke-dasharray") for path in visible.findall(".//s:path", NS))
     assert (hidden.get("stroke-width"), visible.get("stroke-width")) == (".25", ".5")
     widths = {group.get("class"): group.get("stroke-width") for group in visible}
     assert widths["smooth"] == widths["seam"] == ".25"
     assert {widths[kind] for kind in ("sharp", "outline", "boundary", "intersection")} == {None}
+
+
+def test_widths_are_those_of_the_style(monkeypatch):
+    widths = {"sharp": 0.7, "smooth": 0.13, "outline": 0.35}
+    monkeypatch.setattr(style, "width", lambda kind, visible: widths.get(kind, 0.18) if visible else 0.09)
+    for group in tree(sample()).findall("s:g", NS):
+        for of_kind in group:
+            visible = group.get("id") == "visible"
+            drawn = of_kind.get("stroke-width") or group.get("stroke-width")
+            assert float(drawn) == style.width(of_kind.get("class"), visible)
 
 
 def test_metadata_names_the_source_the_view_and_the_parts():

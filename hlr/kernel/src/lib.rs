@@ -29,6 +29,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::geometry::true_lines, m)?)?;
     m.add_function(wrap_pyfunction!(bind::ink::arc_rows, m)?)?;
     m.add_function(wrap_pyfunction!(bind::ink::path_data, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::ink::dashes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     m.add_class::<bind::preview::ShadedModel>()?;

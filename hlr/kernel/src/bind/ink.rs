@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::running::run;
 use super::scan::{expect_len, flat, rows};
 use crate::ink::arcs::{Arc, Rows, Shape, cubic_rows, rows as arc_rows_of};
-use crate::ink::{ARC, CUBIC, Strokes, WHOLE, pdf, svg};
+use crate::ink::dashes::{Ends, Fitted, Pattern, dashes as fitted_dashes};
+use crate::ink::{ARC, CONTROL, CUBIC, QUADRATIC, START, Strokes, WHOLE, pdf, svg};
 
 /// Rows of arcs (n, 8: centre, axes, angles) between their ends (n, 4), and how many each has.
 #[pyfunction]
@@ -56,44 +57,82 @@ pub fn arc_rows<'py>(
 
 type PathData<'py> = (Bound<'py, PyBytes>, Bound<'py, PyArray1<i64>>);
 
-/// Path data of strokes as SVG, or, in `pdf`, as painted paths; and where each stroke begins.
-#[pyfunction]
-#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
-pub fn path_data<'py>(
-    py: Python<'py>,
-    points: PyReadonlyArray2<'py, i64>,
-    op: PyReadonlyArray1<'py, u8>,
-    arc: PyReadonlyArray1<'py, i32>,
-    shapes: PyReadonlyArray2<'py, i64>,
-    starts: PyReadonlyArray1<'py, i64>,
-    closed: PyReadonlyArray1<'py, bool>,
-    places: usize,
-    as_pdf: bool,
-) -> PyResult<PathData<'py>> {
-    let points = rows::<i64, 2>(&points, "points")?;
-    let (op, arc) = (flat(&op, "op")?, flat(&arc, "arc")?);
-    let (starts, closed) = (flat(&starts, "starts")?, flat(&closed, "closed")?);
-    let shapes: Vec<Shape> = rows::<i64, 5>(&shapes, "shapes")?
-        .iter()
-        .map(|s| Shape { radii: [s[0], s[1]], rotation: s[2], large: s[3] != 0, rising: s[4] != 0 })
-        .collect();
+/// The arrays of one layer, as `hlr.writers.strokes.Layer` holds them: points, op, arc, shapes, starts, closed.
+type Layer<'py> = (
+    PyReadonlyArray2<'py, i64>,
+    PyReadonlyArray1<'py, u8>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray2<'py, i64>,
+    PyReadonlyArray1<'py, i64>,
+    PyReadonlyArray1<'py, bool>,
+);
+
+fn shapes_of(layer: &Layer) -> PyResult<Vec<Shape>> {
+    let shape = |s: &[i64; 5]| Shape { radii: [s[0], s[1]], rotation: s[2], large: s[3] != 0, rising: s[4] != 0 };
+    Ok(rows::<i64, 5>(&layer.3, "shapes")?.iter().map(shape).collect())
+}
+
+/// The strokes of a layer, once its arrays fit together.
+fn strokes_of<'a>(layer: &'a Layer<'_>, arcs: &'a [Shape], places: usize) -> PyResult<Strokes<'a>> {
+    let points = rows::<i64, 2>(&layer.0, "points")?;
+    let (op, arc) = (flat(&layer.1, "op")?, flat(&layer.2, "arc")?);
+    let (starts, closed) = (flat(&layer.4, "starts")?, flat(&layer.5, "closed")?);
     expect_len("op", op.len(), points.len())?;
     expect_len("arc", arc.len(), points.len())?;
     expect_len("starts", starts.len(), closed.len() + 1)?;
     if places > 12 {
         return Err(PyValueError::new_err("places must be at most 12"));
     }
-    if starts.windows(2).any(|w| w[0] > w[1]) || starts[0] < 0 || starts[starts.len() - 1] > points.len() as i64 {
+    if starts.windows(2).any(|w| w[0] >= w[1]) || starts[0] < 0 || starts[starts.len() - 1] > points.len() as i64 {
         return Err(PyValueError::new_err("starts must ascend within the rows"));
     }
     let shaped = |i: usize| matches!(op[i], ARC | WHOLE);
-    if (0..op.len()).any(|i| shaped(i) && !(0..shapes.len() as i32).contains(&arc[i])) {
+    if (0..op.len()).any(|i| shaped(i) && !(0..arcs.len() as i32).contains(&arc[i])) {
         return Err(PyValueError::new_err("arc holds numbers that are not in shapes"));
     }
-    if starts.windows(2).any(|w| (w[0]..w[1]).any(|i| op[i as usize] == CUBIC && i - w[0] < 3)) {
-        return Err(PyValueError::new_err("a cubic curve needs a start and two control points"));
+    // Rows before it in its stroke that each kind of row needs.
+    let needed = |op: u8| match op {
+        START | CONTROL | WHOLE => 0,
+        QUADRATIC => 2,
+        CUBIC => 3,
+        _ => 1,
+    };
+    if starts.windows(2).any(|w| (w[0]..w[1]).any(|i| i - w[0] < needed(op[i as usize]))) {
+        return Err(PyValueError::new_err("a line or a curve needs a start and its control points before it"));
     }
-    let strokes = Strokes { points, op, arc, arcs: &shapes, starts, closed, places };
-    let (text, offsets) = py.detach(|| if as_pdf { (pdf::paths(&strokes), Vec::new()) } else { svg::paths(&strokes) });
+    Ok(Strokes { points, op, arc, arcs, starts, closed, places })
+}
+
+/// Path data of the strokes of a layer as SVG, or, in `pdf`, as painted paths; and where each stroke begins.
+#[pyfunction]
+pub fn path_data<'py>(py: Python<'py>, layer: Layer<'py>, places: usize, as_pdf: bool) -> PyResult<PathData<'py>> {
+    let shapes = shapes_of(&layer)?;
+    let strokes = strokes_of(&layer, &shapes, places)?;
+    let (text, offsets) = py.detach(|| if as_pdf { pdf::paths(&strokes) } else { svg::paths(&strokes) });
     Ok((PyBytes::new(py, &text), offsets.into_pyarray(py)))
+}
+
+/// Dashes of each stroke of a hidden layer: lengths of dash, gap, dash, ... and where in them it begins, as text; both
+/// empty for a continuous line. visible: the layers that hidden lines may go on from.
+#[pyfunction]
+pub fn dashes<'py>(
+    py: Python<'py>,
+    layer: Layer<'py>,
+    visible: Vec<Layer<'py>>,
+    places: usize,
+    dash: f64,
+    gap: f64,
+) -> PyResult<Vec<(String, String)>> {
+    if !(dash > 0.0 && gap > 0.0 && dash.is_finite() && gap.is_finite()) {
+        return Err(PyValueError::new_err("dash and gap must be positive lengths"));
+    }
+    let shapes = shapes_of(&layer)?;
+    let strokes = strokes_of(&layer, &shapes, places)?;
+    let mut ends = Ends::default();
+    for layer in &visible {
+        let shapes = shapes_of(layer)?;
+        ends.add(&strokes_of(layer, &shapes, places)?);
+    }
+    let found = py.detach(|| fitted_dashes(&strokes, &Pattern { dash, gap }, &ends));
+    Ok(found.iter().map(Fitted::text).collect())
 }

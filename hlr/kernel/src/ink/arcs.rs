@@ -84,6 +84,15 @@ impl Arc {
         self.axes[0][0] * self.axes[1][1] > self.axes[0][1] * self.axes[1][0]
     }
 
+    /// A whole one as renderers draw the `<circle>` or `<ellipse>` of `rows`: from the end of its first axis on the
+    /// right, clockwise. So its dashes fall on the same places.
+    fn as_element(&self, scale: f64, accuracy: f64) -> Self {
+        let [major, minor] = self.radii();
+        let turned = shape(self, scale, EXTRA, accuracy).rotation as f64 * 10f64.powi(-(ROTATION as i32));
+        let (s, c) = turned.to_radians().sin_cos();
+        Self { centre: self.centre, axes: [[major * c, major * s], [-minor * s, minor * c]], angles: [0.0, -TAU] }
+    }
+
     /// Distance of a point near this arc.
     fn distance(&self, p: &Vec2) -> f64 {
         let [major, minor] = self.radii();
@@ -156,39 +165,66 @@ fn shape(arc: &Arc, scale: f64, extra: usize, accuracy: f64) -> Shape {
     Shape { radii, rotation: ((arc.rotation() * 10f64.powi(digits)).round() * unit) as i64, ..Shape::default() }
 }
 
+/// An arc as a renderer draws it: millimetres, y up.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    centre: Vec2,
+    radii: [f64; 2],
+    /// Cosine and sine of the rotation of the first radius.
+    turned: [f64; 2],
+    start: f64,
+    turn: f64,
+}
+
+impl Drawn {
+    /// From two end points and a shape (SVG 2, appendix B.2.4); None where nothing is drawn. unit: of the grid, mm.
+    pub fn between(shape: &Shape, a: &Vec2, b: &Vec2, unit: f64) -> Option<Self> {
+        let [mut rx, mut ry] = shape.radii.map(|r| r as f64 * unit / 10f64.powi(EXTRA as i32));
+        let (sin, cos) = (shape.rotation as f64 * 10f64.powi(-(ROTATION as i32))).to_radians().sin_cos();
+        let (dx, dy) = (0.5 * (a[0] - b[0]), 0.5 * (a[1] - b[1]));
+        let (x, y) = (cos * dx + sin * dy, cos * dy - sin * dx);
+        let lambda = x * x / (rx * rx) + y * y / (ry * ry);
+        if lambda == 0.0 {
+            return None; // too short to be drawn
+        }
+        if lambda > 1.0 {
+            rx *= lambda.sqrt();
+            ry *= lambda.sqrt();
+        }
+        let root = (1.0 / lambda.min(1.0) - 1.0).max(0.0).sqrt() * if shape.large == shape.rising { -1.0 } else { 1.0 };
+        let (cx, cy) = (root * rx * y / ry, -root * ry * x / rx);
+        let centre = [cos * cx - sin * cy + 0.5 * (a[0] + b[0]), sin * cx + cos * cy + 0.5 * (a[1] + b[1])];
+        let start = ((y - cy) / ry).atan2((x - cx) / rx);
+        let mut turn = ((-y - cy) / ry).atan2((-x - cx) / rx) - start;
+        if shape.rising && turn < 0.0 {
+            turn += TAU;
+        } else if !shape.rising && turn > 0.0 {
+            turn -= TAU;
+        }
+        Some(Self { centre, radii: [rx, ry], turned: [cos, sin], start, turn })
+    }
+
+    /// A quarter of a whole ellipse whose first axis is level.
+    pub fn quarter(centre: Vec2, radii: [f64; 2], which: usize) -> Self {
+        Self { centre, radii, turned: [1.0, 0.0], start: which as f64 * FRAC_PI_2, turn: FRAC_PI_2 }
+    }
+
+    /// A point for s in 0..1.
+    pub fn at(&self, s: f64) -> Vec2 {
+        let (sin, cos) = (self.start + s * self.turn).sin_cos();
+        let (u, v) = (cos * self.radii[0], sin * self.radii[1]);
+        let [c, d] = self.turned;
+        [self.centre[0] + c * u - d * v, self.centre[1] + d * u + c * v]
+    }
+}
+
 /// How far from the true arc a renderer draws a shape between two points.
 fn strays(shape: &Shape, a: &Vec2, b: &Vec2, scale: f64, truth: &Arc) -> f64 {
-    let fine = scale * 10f64.powi(EXTRA as i32);
-    let [mut rx, mut ry] = shape.radii.map(|r| r as f64 / fine);
-    let (sin, cos) = (shape.rotation as f64 * 10f64.powi(-(ROTATION as i32))).to_radians().sin_cos();
-    let (dx, dy) = (0.5 * (a[0] - b[0]), 0.5 * (a[1] - b[1]));
-    let (x, y) = (cos * dx + sin * dy, cos * dy - sin * dx);
-    let lambda = x * x / (rx * rx) + y * y / (ry * ry);
-    if lambda == 0.0 {
-        return 0.0; // not drawn at all, and too short to be
-    }
-    if lambda > 1.0 {
-        rx *= lambda.sqrt();
-        ry *= lambda.sqrt();
-    }
-    let root = (1.0 / lambda.min(1.0) - 1.0).max(0.0).sqrt() * if shape.large == shape.rising { -1.0 } else { 1.0 };
-    let (cx, cy) = (root * rx * y / ry, -root * ry * x / rx);
-    let centre = [cos * cx - sin * cy + 0.5 * (a[0] + b[0]), sin * cx + cos * cy + 0.5 * (a[1] + b[1])];
-    let start = ((y - cy) / ry).atan2((x - cx) / rx);
-    let mut turn = ((-y - cy) / ry).atan2((-x - cx) / rx) - start;
-    if shape.rising && turn < 0.0 {
-        turn += TAU;
-    } else if !shape.rising && turn > 0.0 {
-        turn -= TAU;
-    }
-    let drawn = |s: f64| {
-        let (u, v) = ((start + s * turn).cos() * rx, (start + s * turn).sin() * ry);
-        [centre[0] + cos * u - sin * v, centre[1] + sin * u + cos * v]
-    };
+    let Some(drawn) = Drawn::between(shape, a, b, 1.0 / scale) else { return 0.0 };
     // Off the true curve, and, at the middle, elsewhere on it.
-    let worst = (1..=MEASURED).map(|i| truth.distance(&drawn(i as f64 / (MEASURED + 1) as f64))).fold(0.0, f64::max);
+    let worst = (1..=MEASURED).map(|i| truth.distance(&drawn.at(i as f64 / (MEASURED + 1) as f64))).fold(0.0, f64::max);
     let middle = truth.at(0.5 * (truth.angles[0] + truth.angles[1]));
-    let astray = length(&minus(&middle, &drawn(0.5)));
+    let astray = length(&minus(&middle, &drawn.at(0.5)));
     if astray > truth.radii()[0] { astray } else { worst }
 }
 
@@ -196,6 +232,11 @@ fn strays(shape: &Shape, a: &Vec2, b: &Vec2, scale: f64, truth: &Arc) -> f64 {
 pub fn cubic_rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out: &mut Rows) {
     let scale = 10f64.powi(places as i32);
     let grid = |p: &Vec2| p.map(|c| (c * scale).round() as i64);
+    let begun = arc.whole().then(|| arc.as_element(scale, accuracy));
+    let (arc, ends) = match &begun {
+        Some(whole) => (whole, &[whole.at(0.0); 2]),
+        None => (arc, ends),
+    };
     let turned = arc.angles[1] - arc.angles[0];
     // A quarter of a circle is off by 2.8e-4 of its radius, and the error falls with the sixth power of the angle.
     let share = (2.8e-4 * arc.radii()[0] / (0.1 * accuracy)).max(1e-12).powf(1.0 / 6.0);

@@ -1,7 +1,9 @@
 //! Strokes as text: rows of grid points with what leads to them, as path data of SVG and PDF.
 
 pub mod arcs;
+pub mod dashes;
 pub mod digits;
+pub mod length;
 pub mod pdf;
 pub mod svg;
 

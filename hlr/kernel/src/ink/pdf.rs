@@ -3,9 +3,10 @@
 use super::digits::put;
 use super::{CONTROL, CUBIC, START, Strokes};
 
-/// All strokes; arcs and quadratic curves must have become cubic ones before.
-pub fn paths(strokes: &Strokes) -> Vec<u8> {
+/// All strokes, and where each begins (strokes + 1); arcs and quadratic curves must have become cubic ones before.
+pub fn paths(strokes: &Strokes) -> (Vec<u8>, Vec<i64>) {
     let mut out = Vec::new();
+    let mut offsets = vec![0];
     for (w, &closed) in strokes.starts.windows(2).zip(strokes.closed) {
         for i in w[0] as usize..w[1] as usize {
             if i as i64 > w[0] {
@@ -23,6 +24,7 @@ pub fn paths(strokes: &Strokes) -> Vec<u8> {
             });
         }
         out.extend(if closed { b" s\n" } else { b" S\n" });
+        offsets.push(out.len() as i64);
     }
-    out
+    (out, offsets)
 }
