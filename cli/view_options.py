@@ -37,6 +37,18 @@ SIZE = (
     ),
 )
 
+CHOICE = (
+    click.option(
+        "--only",
+        metavar="PART",
+        multiple=True,
+        help='Draw only these parts: a name or a pattern such as "bolt*", or an assembly. May be repeated.',
+    ),
+    click.option("--hide", metavar="PART", multiple=True, help="Leave these parts out. May be repeated."),
+    click.option("--var", metavar="NAME", help="Scripts: the variable to draw, instead of what the script shows."),
+)
+"""Which parts are drawn."""
+
 CAMERA = (
     click.option("--up", type=Vector(), metavar="X,Y,Z", help="What points up on paper."),
     click.option("--perspective", is_flag=True, help="Perspective instead of parallel projection."),

@@ -10,7 +10,7 @@ from hlr.errors import OptionError
 from hlr.pipeline import draw_views as drawn_once
 from hlr.plan.options import Options, View
 from hlr.plan.request import checked, checked_views
-from hlr.source import open_source
+from hlr.source.chosen import open_chosen
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
@@ -29,7 +29,7 @@ def draw_views(
     views = checked_views(views, options)
     if not options.report and options.within is None:
         return drawn_once(source, views, options, progress)
-    opened = open_source(source)
+    opened = open_chosen(source, options)
     if options.within is None:
         drawings = drawn_once(opened, views, options, progress)
     else:

@@ -15,6 +15,9 @@ NoteCode = Literal[
     "paper-size",
     "nothing-in-view",
     "over-time",
+    "script-shape",
+    "stray-parts",
+    "cut-short",
 ]
 """All codes there are; `CODES` says what each means."""
 
@@ -28,10 +31,13 @@ CODES: dict[NoteCode, str] = {
     "paper-size": "at 1:1, which nobody asked for, the drawing is very small or very large",
     "nothing-in-view": "there is not a line in the drawing",
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
+    "script-shape": "which of its shapes a script has shown, or is taken to have meant",
+    "stray-parts": "a few parts far from the rest make the drawing several times as large",
+    "cut-short": "the file ends too early: some of the model may be missing",
 }
 """What each code means. A code keeps its meaning; new ones may be added."""
 
-REMARKS: frozenset[NoteCode] = frozenset({"paper-size"})
+REMARKS: frozenset[NoteCode] = frozenset({"paper-size", "script-shape", "stray-parts"})
 """Codes of what is worth knowing, though the drawing is what was asked for: `strict` makes no errors of them."""
 
 

@@ -21,7 +21,7 @@ from hlr.plan.plan import decide
 from hlr.plan.request import checked, checked_views
 from hlr.plan.table import DRAWING
 from hlr.scene.scene import Scene
-from hlr.source import open_source
+from hlr.source.chosen import open_chosen
 from hlr.source.model import Progress, Source
 from hlr.view.camera import resolve
 from hlr.view.clip import clipped
@@ -48,7 +48,7 @@ def draw_views(
     started = perf_counter()
 
     tell("source", 0.0)
-    opened = open_source(source)
+    opened = open_chosen(source, options)
     bounds = opened.bounds()
     cameras = [resolve(view, options, opened.frame, bounds) for view in views]
     started = lap(clock, "source", started)

@@ -12,7 +12,7 @@ from hlr.plan.options import Options, View
 from hlr.plan.plan import decide
 from hlr.plan.request import checked, checked_views
 from hlr.plan.table import DRAWING
-from hlr.source import open_source
+from hlr.source.chosen import open_chosen
 from hlr.source.model import Progress
 from hlr.view.camera import resolve
 from hlr.view.clip import clipped
@@ -41,7 +41,7 @@ def plan_views(
         return []
     tell = progress or (lambda _stage, _done: None)
     tell("source", 0.0)
-    opened = open_source(source)
+    opened = open_chosen(source, options)
     bounds = opened.bounds()
     cameras = [resolve(view, options, opened.frame, bounds) for view in views]
     tell("tessellate", 0.0)

@@ -38,7 +38,7 @@ from hlr.scene.scene import Scene
 from hlr.shading.lens import Lens, frame_scale, lens, light_lens, toward_light
 from hlr.shading.lines import pieces
 from hlr.shading.scene import ShadedScene, shaded_scene
-from hlr.source import open_source
+from hlr.source.chosen import open_chosen
 from hlr.source.model import Progress, Source
 from hlr.view.camera import NEAR, Camera, resolve
 from hlr.view.scale import Placed, place
@@ -77,7 +77,7 @@ def preview_views(
     started = perf_counter()
 
     tell("source", 0.0)
-    opened = open_source(source)
+    opened = open_chosen(source, options)
     bounds = opened.bounds()
     wish = line_options(options, _sheet(options))
     cameras = [resolve(view, wish, opened.frame, bounds) for view in views]
@@ -113,7 +113,7 @@ def preview_views(
                 _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, INK, options.threads)
             lap(own, "edges", started)
         own["total"] = sum(own.values())
-        notes = tuple(dict.fromkeys((*opened.notes, *scene.notes)))
+        notes = tuple(dict.fromkeys((*opened.notes, *scene.notes, *(n for n in at.notes if n.code == "stray-parts"))))
         if options.strict:
             refuse_warnings(notes)
         out.append(

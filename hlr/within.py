@@ -31,7 +31,7 @@ from hlr.notes import Note
 from hlr.pipeline import draw_views
 from hlr.plan.options import Options, View
 from hlr.plan.request import checked, checked_views
-from hlr.source import open_source
+from hlr.source.chosen import open_chosen
 from hlr.source.model import Progress, Source
 from hlr.view.camera import resolve
 from hlr.view.scale import place
@@ -88,7 +88,7 @@ def draw_within(
     views = checked_views(views, options)
     if not views:
         return []
-    opened = open_source(source)
+    opened = open_chosen(source, options)
     first, goal = _range(opened, views, options)
     guess = FIRST_GROWTH if hasattr(opened, "edge_shape") else MESH_GROWTH
     request = replace(options, within=None, report=False)

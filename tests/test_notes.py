@@ -34,6 +34,9 @@ def test_a_drawing_writes_code_and_text():
     assert json.loads(render(drawing, "json"))["notes"] == [{"code": note.code, "text": note.text}]
 
 
-def test_strict_says_the_sentence():
-    with pytest.raises(hlr.StrictError, match=r"^the drawing is only"):
-        hlr.draw(trimesh.creation.box((1, 1, 1)), "front", strict=True)
+def test_strict_says_the_sentence_of_a_warning_and_lets_remarks_pass():
+    box = trimesh.creation.box((1, 1, 1))
+    assert [note.is_warning for note in hlr.draw(box, "front", strict=True).notes] == [False]
+    box.update_faces(box.face_normals[:, 2] < 0.5)
+    with pytest.raises(hlr.StrictError, match=r"is drawn as it is: open"):
+        hlr.draw(box, "front", strict=True)

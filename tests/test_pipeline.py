@@ -124,11 +124,11 @@ def test_a_file_in_metres_with_y_up(tmp_path):
 
 def test_several_views_read_and_mesh_once(monkeypatch):
     seen = {"open": 0, "mesh": 0, "build": 0}
-    real_open, real_build = pipeline.open_source, fitting.build
+    real_open, real_build = pipeline.open_chosen, fitting.build
 
-    def opening(thing):
+    def opening(thing, options):
         seen["open"] += 1
-        source = real_open(thing)
+        source = real_open(thing, options)
         mesh = source.mesh
 
         def meshing(*arguments):
@@ -142,7 +142,7 @@ def test_several_views_read_and_mesh_once(monkeypatch):
         seen["build"] += 1
         return real_build(*arguments)
 
-    monkeypatch.setattr(pipeline, "open_source", opening)
+    monkeypatch.setattr(pipeline, "open_chosen", opening)
     monkeypatch.setattr(fitting, "build", building)
     drawings = hlr.draw_views(bracket(), ["front", "top", "right", "iso"])
     assert [d.view.name for d in drawings] == ["front", "top", "right", "iso"]

@@ -17,7 +17,7 @@ from ..parameters import Duration, Vector3
 from ..streams import Output, result_only
 from ..telling import summary, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, RUN, SIZE, VIEW, names_of, options, perspective_of
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
@@ -52,7 +52,7 @@ LINES = (
     "{n} stand for the source, the view and its number. Default: {stem}.svg in this folder.",
 )
 @VIEW
-@options(*LINES)
+@options(*CHOICE, *LINES)
 @options(*SIZE)
 @click.option(
     "--circles",
@@ -156,7 +156,7 @@ def _within(
 
     from hlr.drawings import with_report
     from hlr.plan.request import checked, checked_views
-    from hlr.source import open_source
+    from hlr.source.chosen import open_chosen
     from hlr.within import draw_within
 
     with ExitStack() as stack:
@@ -175,7 +175,7 @@ def _within(
             done[:] = write(drawings, targets, put)
 
         asked = checked_views(views, checked(request))
-        opened = open_source(source)
+        opened = open_chosen(source, request)
         drawings = draw_within(opened, asked, request, progress, finished, started)
         drawings = done or drawings
         if request.report:

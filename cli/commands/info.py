@@ -29,9 +29,10 @@ _LONGEST_NAME = 40
     default=30.0,
     help="Meshes: fold that counts as an edge. Default: 30.",
 )
+@click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
+def info(source: str, crease: float, var: str | None, as_json: bool, quiet: bool) -> None:
     """Say what SOURCE consists of, part by part, and what is wrong with it.
 
     closed: every edge has a face on both sides, and the faces agree on what is outside.
@@ -42,14 +43,14 @@ def info(source: str, crease: float, as_json: bool, quiet: bool) -> None:
         with meter(quiet) as progress:
             import hlr
 
-            model = hlr.info(source, crease=crease, progress=progress)
+            model = hlr.info(source, crease=crease, progress=progress, **({} if var is None else {"var": var}))
         if as_json:
             import json
 
             text = json.dumps(_document(model), indent=2)
         else:
             text = _table(model)
-            tell_notes(model.notes)
+            tell_notes(model.notes, quiet=quiet)
         out.put((text + "\n").encode(encoding, "replace"))
 
 

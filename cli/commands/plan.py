@@ -11,14 +11,14 @@ from ..meter import meter
 from ..parameters import Vector3
 from ..streams import result_only
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, RUN, SIZE, VIEW, names_of, options
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, names_of, options
 from .draw import LINES, request_of
 
 
 @click.command(cls=Verb)
 @click.argument("source")
 @VIEW
-@options(*LINES, *SIZE, *CARE, *CAMERA, *RUN)
+@options(*CHOICE, *LINES, *SIZE, *CARE, *CAMERA, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def plan(*, source: str, views: tuple[str | Vector3, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:

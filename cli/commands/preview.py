@@ -16,7 +16,7 @@ from ..parameters import Pixels, Vector3
 from ..streams import result_only
 from ..telling import tell_notes, tell_written
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, RUN, VIEW, names_of, options, perspective_of
+from ..view_options import CAMERA, CARE, CHOICE, RUN, VIEW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.picture import Picture
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     "view and its number. Default: {stem}.png in this folder.",
 )
 @VIEW
+@options(*CHOICE)
 @click.option("--size", type=Pixels(), metavar="WxH", default="1920x1080", help="In pixels. Default: 1920x1080.")
 @click.option("--edges", is_flag=True, help="The visible lines of the drawing on top.")
 @click.option("--smooth", is_flag=True, help="With --edges: also tangent edges, thin.")

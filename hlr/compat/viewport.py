@@ -92,7 +92,7 @@ def draw(
     )
     (drawing,) = draw_views(opened, [viewport.direction], options)
     for note in drawing.notes:
-        if note.code != "paper-size":  # here lines are in model units
+        if note.is_warning:  # remarks are on paper and on files
             warnings.warn(str(note), stacklevel=_caller())
     drawing = replace(drawing, lines=_sewn(drawing, opened, seam))
     shift = np.array(drawing.origin)

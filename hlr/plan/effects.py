@@ -54,7 +54,7 @@ class PreviewOptions:
     smooth       with edges: also tangent edges, thin
     crease       degrees: a mesh without B-rep is smooth where it folds less than this
     accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
-    up, perspective, threads, strict   as of a drawing (`Options`)
+    up, perspective, threads, strict, only, hide, var   as of a drawing (`Options`)
     """
 
     size: tuple[int, int] = (1920, 1080)
@@ -73,6 +73,9 @@ class PreviewOptions:
     perspective: Perspective | None = None
     threads: int = 0
     strict: bool = False
+    only: tuple[str, ...] = ()
+    hide: tuple[str, ...] = ()
+    var: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,4 +190,7 @@ def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale
         perspective=options.perspective,
         threads=options.threads,
         strict=options.strict,
+        only=options.only,
+        hide=options.hide,
+        var=options.var,
     )

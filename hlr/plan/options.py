@@ -42,6 +42,9 @@ class Options:
     fill         paint the visible faces, flat-shaded, under the lines (SVG and PDF)
     threads      0: all cores
     strict       warnings are errors
+    only, hide   patterns of parts: only those are drawn, or all but those; letters of any case, * and ? as in file
+                 names; a name without its number means all of that name, that of an assembly all that is in it
+    var          the variable of a script to draw, instead of what it shows
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
     within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
     """
@@ -62,6 +65,9 @@ class Options:
     strict: bool = False
     report: bool = False
     within: float | None = None
+    only: tuple[str, ...] = ()
+    hide: tuple[str, ...] = ()
+    var: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

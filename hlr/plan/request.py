@@ -41,6 +41,12 @@ def checked(options: Options) -> Options:
         raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
     if options.fit is not None and options.scale != 1.0:
         raise OptionError("scale and fit contradict one another: give one of them")
+    for name in ("only", "hide"):
+        patterns = getattr(options, name)
+        if isinstance(patterns, str) or not _is_strings(patterns):
+            raise OptionError(f"{name} needs a list of names or patterns of parts, not {patterns!r}")
+    if options.var is not None and not isinstance(options.var, str):
+        raise OptionError(f"var needs the name of a variable, not {options.var!r}")
     check_crease(options.crease)
     if options.up is not None and not _is_vector(options.up, 3):
         raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
@@ -107,6 +113,10 @@ def _shown(value: Any) -> str:
 
 def _is_real(value: Any) -> bool:
     return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _is_strings(value: Any) -> bool:
+    return isinstance(value, Sequence) and all(isinstance(each, str) for each in value)
 
 
 def _is_vector(value: Any, length: int, finite: bool = True) -> bool:

@@ -8,13 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.scene.scene import Scene
-from hlr.source.model import Floats, Ints, Look, Rgba
+from hlr.source.model import PLAIN, Floats, Ints, Look, Rgba
 from hlr.source.weld import equal_rows
 
 Colours = npt.NDArray[np.float32]
-
-PLAIN: Rgba = (0.70, 0.74, 0.79, 1.0)
-"""What nobody gave a colour."""
 
 
 def corner_paint(scene: Scene, looks: Mapping[str, Look]) -> tuple[Colours, Ints]:

@@ -7,30 +7,34 @@ from pathlib import Path
 from typing import Any
 
 from hlr.endings import ENDINGS
-from hlr.errors import SourceError
+from hlr.errors import OptionError, SourceError
 from hlr.source.model import Source
 
 __all__ = ["ENDINGS", "open_source"]
 
 
-def open_source(thing: Any) -> Source:
+def open_source(thing: Any, var: str | None = None) -> Source:
     """Open anything that can be drawn.
 
     Args:
         thing: the name of a file (see `ENDINGS`), a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a
             list of CAD objects, or a pair (vertices (n, 3), faces (m, 3)). A source that is open already stays as it
             is.
+        var: the variable of a script to draw, instead of what it shows.
 
     Raises:
         SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
+        OptionError: it has no such variable.
     """
     if isinstance(thing, str | os.PathLike):
-        return _open_path(Path(os.fspath(thing)))
+        return _open_path(Path(os.fspath(thing)), var)
     from hlr.source.objects import family
 
     if type(thing).__module__.startswith("hlr.source."):
         opened: Source = thing
         return opened
+    if var is not None:
+        raise OptionError("var names a variable of a script, and an object is no script: leave it out.")
     root = family(thing)
     if root == "trimesh":
         from hlr.source.meshes import open_trimesh
@@ -65,7 +69,7 @@ def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
     return bool(item) and all(isinstance(row, list | tuple) or hasattr(row, "dtype") for row in item)
 
 
-def _open_path(path: Path) -> Source:
+def _open_path(path: Path, var: str | None) -> Source:
     from hlr.source.files import check_readable
 
     kind = ENDINGS.get(path.suffix.lower())
@@ -77,7 +81,9 @@ def _open_path(path: Path) -> Source:
     if kind == "script":
         from hlr.source.script import open_script
 
-        return open_script(path)
+        return open_script(path, var)
+    if var is not None:
+        raise OptionError(f"var names a variable of a script, and {path.name} is no script: leave it out.")
     if kind in ("step", "iges"):
         from hlr.source.step import open_iges, open_step
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from copy import copy
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,7 @@ from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
 from hlr.source.model import (
+    Choice,
     EdgeCurves,
     Floats,
     Frame,
@@ -71,11 +73,8 @@ class BrepSource:
             edges = sum(self._counts[part.root][1] for part in wires)
             text = f"{_some(wires)} without faces ({edges} edges) left out."
             self._notes.append(Note("wires-left-out", text))
-        self._bounds: Floats | None = None
-        self._tessellator: Tessellator | None = None
-        self._curves = EdgeCurveReader(self._roots)
-        self._maps: dict[tuple[int, Any], Any] = {}
-        self._root_of = {part.name: part.root for part in self._parts}
+        self.choice: Choice | None = None
+        self._hold(self._roots, self._counts)
 
     @property
     def name(self) -> str:
@@ -101,6 +100,34 @@ class BrepSource:
         """Counts of every part's index maps."""
         return [PartInfo(part.name, *self._counts[part.root]) for part in self._parts]
 
+    def boxes(self) -> list[Floats]:
+        """Corners of every part's box, (8, 3), or none where it has no extent."""
+        boxes = [_box(root) for root in self._roots]
+        return [
+            moved(boxes[part.root], part.transform) if len(boxes[part.root]) else np.empty((0, 3))
+            for part in self._parts
+        ]
+
+    def of_parts(self, names: Collection[str], choice: Choice) -> BrepSource:
+        """The same source with these parts only; nothing else of it is meshed."""
+        chosen = copy(self)
+        chosen.choice = choice
+        parts = [part for part in self._parts if part.name in names]
+        used = sorted({part.root for part in parts})
+        number = {root: i for i, root in enumerate(used)}
+        chosen._parts = [replace(part, root=number[part.root]) for part in parts]
+        chosen._hold([self._roots[root] for root in used], [self._counts[root] for root in used])
+        return chosen
+
+    def _hold(self, roots: list[Any], counts: list[tuple[int, int, int]]) -> None:
+        """What is known of shapes, and what will be."""
+        self._roots, self._counts = roots, counts
+        self._bounds: Floats | None = None
+        self._tessellator: Tessellator | None = None
+        self._curves = EdgeCurveReader(roots)
+        self._maps: dict[tuple[int, Any], Any] = {}
+        self._root_of = {part.name: part.root for part in self._parts}
+
     def looks(self) -> dict[str, Look]:
         """Colours and opacities of parts and faces."""
         return {part.name: look(part, self._roots[part.root]) for part in self._parts}
@@ -108,8 +135,7 @@ class BrepSource:
     def bounds(self) -> Floats:
         """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
         if self._bounds is None:
-            boxes = [_box(root) for root in self._roots]
-            corners = [moved(boxes[part.root], part.transform) for part in self._parts if len(boxes[part.root])]
+            corners = [box for box in self.boxes() if len(box)]
             if not corners:
                 raise SourceError(f"{self._name}: no part has any extent.")
             every = np.concatenate(corners)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,7 +14,7 @@ from hlr.errors import SourceError
 from hlr.notes import Note
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved
-from hlr.source.model import Color, Floats, Frame, Ints, Look, Meshed, PartInfo, PartMesh, Progress
+from hlr.source.model import Choice, Color, Floats, Frame, Ints, Look, Meshed, PartInfo, PartMesh, Progress
 from hlr.source.weld import Clean, clean
 
 UNITS = {
@@ -73,6 +74,7 @@ class MeshSource:
             SourceError: no triangle is left, or the model is too large to calculate with.
         """
         self._name, self._kind = name, kind
+        self.choice: Choice | None = None
         self._frame = frame if frame is not None else Frame()
         self._notes: list[Note] = []
         cleaned = [clean(points, triangles) for points, triangles in geometries]
@@ -135,6 +137,18 @@ class MeshSource:
     def infos(self) -> list[PartInfo]:
         """Meshes have no faces or edges of their own; both counts are 0."""
         return [PartInfo(part.name, 0, 0, 0) for part in self._parts]
+
+    def boxes(self) -> list[Floats]:
+        """(2, 3) corners of every part."""
+        return [np.stack((part.points.min(axis=0), part.points.max(axis=0))) for part in self._parts]
+
+    def of_parts(self, names: Collection[str], choice: Choice) -> MeshSource:
+        """The same source with these parts only."""
+        chosen = copy(self)
+        chosen.choice = choice
+        chosen._drawn = [drawn for drawn in self._drawn if drawn[0].name in names]
+        chosen._parts = [part for part, _, _ in chosen._drawn]
+        return chosen
 
     def looks(self) -> dict[str, Look]:
         """Materials, and colours of vertices and faces where there is no material."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Protocol
@@ -17,6 +17,8 @@ Ints = npt.NDArray[np.int32]
 Color = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
 """Red, green, blue as screens show them (sRGB), and opacity; 0 to 1."""
+PLAIN: Rgba = (0.70, 0.74, 0.79, 1.0)
+"""What nobody gave a colour."""
 Progress = Callable[[str, float], None]
 """Called with a stage's name and the fraction done (0..1)."""
 
@@ -181,6 +183,10 @@ class Meshed:
     edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
 
 
+Choice = tuple[tuple[str, ...], tuple[str, ...]]
+"""Patterns of parts that are drawn, and of those that are left out."""
+
+
 class Source(Protocol):
     """An opened source: read once, meshed as finely as each request needs."""
 
@@ -205,6 +211,12 @@ class Source(Protocol):
 
     def infos(self) -> list[PartInfo]:
         """Every part's counts, in the order of the parts."""
+
+    def boxes(self) -> list[Floats]:
+        """(k, 3) corners of every part in model coordinates, in the order of the parts; cheap, may be too far out."""
+
+    def of_parts(self, names: Collection[str], choice: Choice) -> Source:
+        """The same source with these parts only; `choice` says how they were chosen."""
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""

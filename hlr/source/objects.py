@@ -10,6 +10,7 @@ from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
 from hlr.source.model import Color
 from hlr.source.occt import ready
+from hlr.source.paint import wrapped_paint
 from hlr.source.parts import Leaf
 
 
@@ -48,83 +49,89 @@ def family(thing: Any) -> str:
 _FAMILIES = {"cadquery", "build123d", "OCP", "trimesh", "manifold3d"}
 
 
-def to_leaves(thing: Any, name: str, color: Color | None = None) -> list[Leaf]:
-    """Leaves of any supported object; `name` is used where it brings none.
+def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float = 1.0) -> list[Leaf]:
+    """Leaves of any supported object; name, colour and opacity are used where it brings none.
+
+    Those of nested assemblies have their path in their names: gearbox/shaft/key.
 
     Raises:
         SourceError: not a supported object.
     """
     root = family(thing)
     if root == "OCP" and _is_kind(thing, "TopoDS_Shape"):
-        return [Leaf(thing, name, color)]
+        return [Leaf(thing, name, color, opacity=opacity)]
     if root == "cadquery":
-        return _cadquery(thing, name, color)
+        return _cadquery(thing, name, color, opacity)
     if root == "build123d":
-        return _build123d(thing, name, color)
+        return _build123d(thing, getattr(thing, "label", "") or name, color, opacity)
     if isinstance(thing, Iterable) and not isinstance(thing, str | bytes | dict):
-        return [leaf for item in thing for leaf in to_leaves(item, name, color)]
+        return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
     raise SourceError(
         f"An object of type {type(thing).__name__} cannot be drawn: pass a CadQuery, build123d, OpenCASCADE, trimesh "
         "or manifold3d object, (vertices, faces), or the name of a file."
     )
 
 
-def _cadquery(thing: Any, name: str, color: Color | None) -> list[Leaf]:
+def _cadquery(thing: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:
     if _is_kind(thing, "Assembly"):
-        return _assembly(thing, None, None, 1.0, name)
+        return _assembly(thing, None, color, opacity, _readable(thing.name) or name)
     if _is_kind(thing, "Workplane"):
-        return [leaf for item in thing.vals() if _is_kind(item, "Shape") for leaf in to_leaves(item, name, color)]
+        shapes = [item for item in thing.vals() if _is_kind(item, "Shape")]
+        return [leaf for item in shapes for leaf in to_leaves(item, name, color, opacity)]
     if _is_kind(thing, "Sketch"):
-        return to_leaves(thing.moved() if not thing.locs else thing.val(), name, color)
+        return to_leaves(thing.moved() if not thing.locs else thing.val(), name, color, opacity)
     if _is_kind(thing, "Shape"):
-        return [] if thing.wrapped is None else [Leaf(thing.wrapped, name, color)]
+        return [] if thing.wrapped is None else [Leaf(thing.wrapped, name, color, opacity=opacity)]
     raise SourceError(f"A cadquery.{type(thing).__name__} cannot be drawn: pass a Workplane, a Shape or an Assembly.")
 
 
-def _assembly(node: Any, place: Any, inherited: Color | None, opacity: float, fallback: str) -> list[Leaf]:
-    """A cq.Assembly, children after the node's own shapes."""
-    from hlr.source.step import srgb
-
+def _assembly(node: Any, place: Any, color: Color | None, opacity: float, name: str, path: str = "") -> list[Leaf]:
+    """A cq.Assembly, children after the node's own shapes. path: what the names of its children begin with."""
     here = node.loc.wrapped if place is None else place.Multiplied(node.loc.wrapped)
-    color = inherited
     if node.color is not None:
-        color, opacity = srgb(node.color.wrapped.GetRGB()), round(node.color.wrapped.Alpha(), 6)
-    name = _readable(node.name) or fallback
+        color, opacity = wrapped_paint(node.color)
     leaves = []
     for shape in node.shapes:
         if shape is not None and shape.wrapped is not None:
             leaves.append(Leaf(shape.wrapped.Moved(here, False), name, color, opacity=opacity))
     for child in node.children:
-        leaves.extend(_assembly(child, here, color, opacity, name))
+        leaves.extend(_assembly(child, here, color, opacity, *_nested(path, _readable(child.name), name)))
     return leaves
 
 
-def _build123d(thing: Any, name: str, color: Color | None, opacity: float = 1.0) -> list[Leaf]:
+def _nested(path: str, own: str, parent: str) -> tuple[str, str]:
+    """The name of a child, and the path of its children: the top of an assembly is in no name."""
+    if not own:
+        return parent, path
+    whole = f"{path}/{own}" if path else own
+    return whole, whole
+
+
+def _build123d(thing: Any, name: str, color: Color | None, opacity: float, path: str = "") -> list[Leaf]:
+    """A build123d object, whose own label is in the name already. path: what the names of its children begin with."""
     own = getattr(thing, "color", None)
     if own is not None and hasattr(own, "wrapped"):
-        from hlr.source.step import srgb
-
-        color, opacity = srgb(own.wrapped.GetRGB()), round(own.wrapped.Alpha(), 6)
-    label = getattr(thing, "label", "") or name
+        color, opacity = wrapped_paint(own)
     for attribute in ("part", "sketch", "line"):
-        if _is_kind(thing, "Builder") and getattr(thing, attribute, None) is not None:
-            return _build123d(getattr(thing, attribute), label, color, opacity)
+        if _is_kind(thing, "Builder") and (made := getattr(thing, attribute, None)) is not None:
+            return _build123d(made, getattr(made, "label", "") or name, color, opacity)
     children = getattr(thing, "children", ())
     if children:
         # A compound's children hold locations relative to it; build123d composes them here.
-        return [leaf for child in children for leaf in _placed(child, thing, label, color, opacity)]
+        inside = [(child, *_nested(path, getattr(child, "label", ""), name)) for child in children]
+        return [leaf for each in inside for leaf in _placed(thing, *each, color, opacity)]
     shape = _wrapped(thing)
     if shape is not None:
-        return [Leaf(shape, label, color, opacity=opacity)]
+        return [Leaf(shape, name, color, opacity=opacity)]
     if isinstance(thing, Iterable):
-        return [leaf for item in thing for leaf in to_leaves(item, name, color)]
+        return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
     if _is_kind(thing, "Shape", "Builder"):
         return []
     raise SourceError(f"A build123d.{type(thing).__name__} cannot be drawn: pass a shape or a builder.")
 
 
-def _placed(child: Any, parent: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:
-    leaves = _build123d(child, name, color, opacity)
+def _placed(parent: Any, child: Any, name: str, path: str, color: Color | None, opacity: float) -> list[Leaf]:
+    leaves = _build123d(child, name, color, opacity, path)
     outer = _wrapped(parent)
     if outer is None or outer.Location().IsIdentity():
         return leaves

@@ -9,7 +9,7 @@ import numpy as np
 
 from hlr.notes import Note
 from hlr.source.locations import chained
-from hlr.source.model import Color, Floats, Look, Rgba, rgba
+from hlr.source.model import PLAIN, Color, Floats, Look, Rgba, rgba
 
 
 @dataclass(slots=True)
@@ -161,7 +161,10 @@ def look(part: Part, root: Any) -> Look:
             color = _painted(leaf, face)
             if color is not None and color != own:
                 faces[i] = color
-    return Look(own or rgba(leaf.color, leaf.opacity), faces)
+    whole = own or rgba(leaf.color, leaf.opacity)
+    if whole is None and leaf.opacity < 1.0:
+        whole = (*PLAIN[:3], leaf.opacity)
+    return Look(whole, faces)
 
 
 def _painted(leaf: Leaf, shape: Any) -> Rgba | None:

@@ -2,8 +2,14 @@
 
 The file is executed with the caller's rights, because the caller asked to draw it. As in CQ-editor and cq-cli the
 script finds `show_object(obj, name=None, options=None)` and `debug(obj)`, and its `__name__` is "__cq_main__";
-`show(...)` is there for scripts written for viewers. If nothing was shown, the variable `result` counts, then the
-names other tools look for, then the last shape that was assigned.
+`show(...)` is there for scripts written for viewers. What is drawn, in this order:
+
+1. the variable that the caller names;
+2. everything shown;
+3. the variable `result`;
+4. the solid that was assigned last. A sketch, a face or a wire is drawn only where there is no solid.
+
+A remark says which it was.
 """
 
 from __future__ import annotations
@@ -11,63 +17,133 @@ from __future__ import annotations
 import os
 import sys
 import traceback
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from hlr.errors import SourceError
+from hlr.errors import OptionError, SourceError
+from hlr.notes import Note
 from hlr.source.brep import BrepSource
-from hlr.source.model import Color
 from hlr.source.objects import is_shape_like, to_leaves
 from hlr.source.occt import explain, ready
+from hlr.source.paint import Paint, paint_of
 from hlr.source.parts import Leaf
 
-_NAMES = ("result", "part", "assembly", "assy", "model", "shape", "solid", "r", "res")
+_RESULT = "result"
+
+Shown = tuple[Any, str, Paint]
+"""An object, the name it is shown under or "", and its colour."""
+
+_PLAIN: Paint = (None, 1.0)
 
 
-def open_script(path: Path) -> BrepSource:
-    """Run a script and take what it shows.
+def open_script(path: Path, var: str | None = None) -> BrepSource:
+    """Run a script and take what it shows, or the variable of this name.
 
     Raises:
         SourceError: the script fails (line and exception are named), or shows nothing.
+        OptionError: it has no such variable, or that is no shape.
     """
-    shown: list[tuple[Any, str, Color | None]] = []
+    shown: list[Shown] = []
     values = _run(path, shown)
     ready()
+    chosen, why = _chosen(path, shown, values, var)
     leaves: list[Leaf] = []
-    for thing, name, color in shown or _variables(values):
+    for thing, name, (color, opacity) in chosen:
         try:
-            leaves.extend(to_leaves(thing, name or path.stem, color))
+            leaves.extend(to_leaves(thing, name or path.stem, color, opacity))
         except SourceError as error:
             raise SourceError(f"{path.name} shows something that is no shape: {error}") from None
     if not leaves:
         raise SourceError(
             f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
         )
-    return BrepSource(path.name, "script", leaves)
+    return BrepSource(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
 
 
-def _run(path: Path, shown: list[tuple[Any, str, Color | None]]) -> dict[str, Any]:
+def _chosen(path: Path, shown: list[Shown], values: dict[str, Any], var: str | None) -> tuple[list[Shown], str]:
+    """What is drawn, and why it is that."""
+    if var is not None:
+        return [(_named(path, values, var), "", _PLAIN)], f'the variable "{var}" is drawn'
+    if shown:
+        return shown, "all that it shows is drawn" + (f", {len(shown)} objects" if len(shown) > 1 else "")
+    found = _shapes(values)
+    if _RESULT in found:
+        return [(found[_RESULT], "", _PLAIN)], f'the variable "{_RESULT}" is drawn'
+    for rank, what in enumerate(("the last solid", "the last face, for there is no solid", "the last shape")):
+        names = [name for name, thing in found.items() if _rank(thing) <= rank]
+        if names:
+            why = f'the variable "{names[-1]}" is drawn, {what}'
+            choice = "show_object(shape), or a variable result, in the script, or --var NAME, chooses another"
+            return [(found[names[-1]], "", _PLAIN)], f"{why}; {choice}"
+    return [], ""
+
+
+def _named(path: Path, values: dict[str, Any], var: str) -> Any:
+    if var in values and _is_shape(values[var]):
+        return values[var]
+    names = ", ".join(_shapes(values)) or "none"
+    what = "is no shape" if var in values else "is not there"
+    raise OptionError(f'The variable "{var}" of {path.name} {what}: its shapes are {names}.')
+
+
+def _shapes(values: dict[str, Any]) -> dict[str, Any]:
+    """Variables that are shapes, in the order in which they were assigned last."""
+    return {name: thing for name, thing in values.items() if not name.startswith("_") and _is_shape(thing)}
+
+
+def _is_shape(value: Any) -> bool:
+    try:
+        return is_shape_like(value)
+    except Exception:  # a variable with strange attributes is no shape
+        return False
+
+
+def _rank(thing: Any) -> int:
+    """0: has a solid; 1: has a face; 2: has something; 3: is empty."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopExp import TopExp_Explorer
+
+    try:
+        shapes = [leaf.shape for leaf in to_leaves(thing, "part") if leaf.shape is not None]
+    except Exception:  # whatever a half-made object raises
+        return 3
+    for rank, kind in enumerate((Kind.TopAbs_SOLID, Kind.TopAbs_FACE)):
+        if any(TopExp_Explorer(shape, kind).More() for shape in shapes):
+            return rank
+    return 2 if shapes else 3
+
+
+class _Variables(dict[str, Any]):
+    """Those of a script, in the order in which each was assigned last."""
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self.pop(name, None)
+        super().__setitem__(name, value)
+
+
+def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
     def show_object(obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
-        shown.append((obj, name or "", _color(options, more)))
+        shown.append((obj, str(name or ""), paint_of(options if isinstance(options, dict) else more)))
 
     def show(*objects: Any, names: Any = (), **_: Any) -> None:
         given = list(names or ())
         for i, obj in enumerate(objects):
-            shown.append((obj, str(given[i]) if i < len(given) else "", None))
+            shown.append((obj, str(given[i]) if i < len(given) else "", _PLAIN))
 
     def nothing(*_: Any, **__: Any) -> None: ...
 
-    values: dict[str, Any] = {
-        "__name__": "__cq_main__",
-        "__file__": str(path.resolve()),
-        "__builtins__": __builtins__,
-        "show_object": show_object,
-        "show": show,
-        "show_all": nothing,
-        "debug": nothing,
-        "log": nothing,
-    }
+    values = _Variables(
+        {
+            "__name__": "__cq_main__",
+            "__file__": str(path.resolve()),
+            "__builtins__": __builtins__,
+            "show_object": show_object,
+            "show": show,
+            "show_all": nothing,
+            "debug": nothing,
+            "log": nothing,
+        }
+    )
     folder, here = path.resolve().parent, _here()
     before, arguments = list(sys.path), sys.argv
     sys.path.insert(0, str(folder))
@@ -108,34 +184,3 @@ def _sentence(path: Path, error: BaseException) -> str:
     text = " ".join(str(error).split())
     where = f", line {lines[-1]}" if lines else ""
     return f"{path.name}{where}: {type(error).__name__}" + (f": {text}" if text else "")
-
-
-def _variables(values: dict[str, Any]) -> list[tuple[Any, str, Color | None]]:
-    """What a script that shows nothing means to show."""
-    found = {key: value for key, value in values.items() if not key.startswith("_") and _safe(is_shape_like, value)}
-    for name in _NAMES:
-        if name in found:
-            return [(found[name], "", None)]
-    return [(found[name], "", None) for name in list(found)[-1:]]
-
-
-def _safe(check: Callable[[Any], bool], value: Any) -> bool:
-    try:
-        return check(value)
-    except Exception:  # a variable with strange attributes is no shape
-        return False
-
-
-def _color(options: Any, more: dict[str, Any]) -> Color | None:
-    """The colour of show_object(..., options={"color": ...}): a name, "#rrggbb", a triple, or an object with rgb."""
-    given = options if isinstance(options, dict) else {}
-    color = given.get("color", more.get("color"))
-    if isinstance(color, list | tuple) and len(color) in (3, 4) and all(isinstance(v, int | float) for v in color):
-        scale = 255.0 if max(color[:3]) > 1 else 1.0
-        return color[0] / scale, color[1] / scale, color[2] / scale
-    if isinstance(color, str) and len(color) == 7 and color.startswith("#"):
-        try:
-            return tuple(int(color[i : i + 2], 16) / 255.0 for i in (1, 3, 5))  # type: ignore[return-value]
-        except ValueError:
-            return None
-    return None

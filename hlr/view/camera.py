@@ -137,6 +137,7 @@ def check_directions(views: Sequence[View], up: Vector | None, perspective: Pers
         if up is not None:
             normalized(up, "up")
         return
+    _apart(perspective.eye, perspective.target, 0.0)
     way = [e - t for e, t in zip(perspective.eye, perspective.target, strict=True)]
     _axes(normalized(way, "the way from target to eye"), up)
 

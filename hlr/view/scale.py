@@ -14,6 +14,7 @@ from hlr.source.model import Floats, Source
 from hlr.tolerance import CURVE_BULGE, Tolerances, choose, derive
 from hlr.view.camera import NEAR, Camera
 from hlr.view.clip import ASPECT
+from hlr.view.strays import stray_note
 
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
@@ -72,7 +73,9 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
     brep = source.kind in ("step", "iges", "brep", "script", "object")
     magnified = _magnified(camera, corners)
     draft = Placed(1.0, 1.0, derive(1.0, 1.0, 0.0, brep=brep), source.frame.unit, brep, aspect, magnified)
-    return _sized(width, height, options, draft)
+    placed = _sized(width, height, options, draft)
+    stray = stray_note([info.name for info in source.infos()], source.boxes(), camera)
+    return placed if stray is None else replace(placed, notes=(*placed.notes, stray))
 
 
 def _extent(camera: Camera, points: Floats, aspect: float) -> tuple[float, float]:

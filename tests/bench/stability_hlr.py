@@ -56,13 +56,16 @@ class Disturbed:
     def infos(self) -> Any:
         return self._source.infos()
 
+    def boxes(self) -> list[Floats]:
+        return self._source.boxes()
+
     def mesh(self, *_: Any) -> Meshed:
         return self._meshed
 
 
 def draw(source: Source, view: Any, options: Options) -> Drawing:
     """`hlr.draw_views` on a source that is open already: all stages but reading."""
-    with mock.patch.object(pipeline, "open_source", lambda opened: opened):
+    with mock.patch.object(pipeline, "open_chosen", lambda opened, _: opened):
         return pipeline.draw_views(source, [view], options)[0]
 
 

@@ -124,7 +124,7 @@ def test_what_an_eye_sees_is_called_so(hlr_real, tmp_path):
         (["iso", "front"], {"up": (0.0, 2.0, 0.0)}, "up is parallel"),
         ([(0.0, 0.0, 5.0)], {"up": (0.0, 0.0, -1.0)}, "up is parallel"),
         (["nowhere"], {}, "no view is called 'nowhere'"),
-        (["iso"], {"perspective": Perspective(eye=(1.0, 1.0, 1.0), target=(1.0, 1.0, 1.0))}, "is zero"),
+        (["iso"], {"perspective": Perspective(eye=(1.0, 1.0, 1.0), target=(1.0, 1.0, 1.0))}, "one point"),
         (
             ["iso"],
             {"perspective": Perspective((0, 0, 9), (0, 0, 0)), "up": (0.0, 0.0, 1.0)},

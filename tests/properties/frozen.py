@@ -52,6 +52,9 @@ class Frozen:
     def infos(self) -> list[PartInfo]:
         return [PartInfo(part.name, len(part.face_planar), len(part.edge_index), 1) for part in self.parts]
 
+    def boxes(self) -> list[np.ndarray]:
+        return [part.points for part in self.parts]
+
     def mesh(self, deflection: float, angle: float, progress: Any = None) -> Meshed:
         return Meshed(parts=list(self.parts))
 
@@ -67,5 +70,5 @@ def freeze(thing: Any, fineness: float) -> Frozen:
 
 def draw(model: Frozen, view: str | Sequence[float], accuracy: float, **options: Any) -> Drawing:
     """The accuracy is always given: by default it follows from the model's upright box, which turning changes."""
-    with patch.object(pipeline, "open_source", lambda thing: thing):
+    with patch.object(pipeline, "open_chosen", lambda thing, _: thing):
         return pipeline.draw_views(model, [view], Options(accuracy=accuracy, **options))[0]

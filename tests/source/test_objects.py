@@ -30,8 +30,31 @@ def test_a_cadquery_assembly():
     inner.add(block, name="turned", loc=cq.Location((0, 5, 0), (0, 0, 1), 90)).add(block)
     outer = cq.Assembly(name="outer").add(inner).add(block, name="green", color=cq.Color(0, 1, 0))
     parts = open_source(outer).mesh(0.1, 0.3).parts
-    assert {part.name: part.color for part in parts} == {"turned": (1, 0, 0), "inner": (1, 0, 0), "green": (0, 1, 0)}
-    assert centres(outer) == {"turned": [10, 5, 0], "inner": [10, 0, 0], "green": [0, 0, 0]}
+    assert {part.name: part.color for part in parts} == {
+        "inner/turned": (1, 0, 0), "inner": (1, 0, 0), "green": (0, 1, 0),
+    }  # fmt: skip
+    assert centres(outer) == {"inner/turned": [10, 5, 0], "inner": [10, 0, 0], "green": [0, 0, 0]}
+
+
+def test_nested_assemblies_keep_their_path():
+    block = cq.Workplane().box(1, 2, 3)
+    top = cq.Assembly(name="top")
+    for i, name in enumerate(("sub", "sub2")):
+        top.add(cq.Assembly(name=name, loc=cq.Location((9 * i, 0, 0))).add(block, name="cube"), name=name)
+    top.children[1].add(cq.Assembly(name="deep").add(block, name="cube").add(block), name="deep")
+    assert list(centres(top)) == ["sub/cube", "sub2/cube", "sub2/deep/cube", "sub2/deep"]
+
+
+def test_nested_compounds_of_build123d_keep_their_path():
+    bd = pytest.importorskip("build123d")
+
+    def sub(label, x):
+        cube = bd.Box(1, 1, 1)
+        cube.label = "cube"
+        return bd.Pos(x, 0, 0) * bd.Compound(label=label, children=[cube])
+
+    top = bd.Compound(label="top", children=[sub("sub", 0), sub("sub2", 9)])
+    assert centres(top) == {"sub/cube": [0, 0, 0], "sub2/cube": [9, 0, 0]}
 
 
 def test_build123d():

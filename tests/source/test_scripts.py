@@ -81,3 +81,102 @@ def test_errors_are_one_sentence(script, text, sentence):
 
 def test_leaving_after_showing_is_fine(script):
     assert len(shown(script(CQ + "show_object(box)\nimport sys\nsys.exit(1)\n"))) == 1
+
+
+def drawn(path, var=None):
+    """The extent of what is drawn, and the remark about it."""
+    source = open_source(path, var)
+    low, high = source.bounds()
+    (remark,) = [note for note in source.notes if note.code == "script-shape"]
+    assert not remark.is_warning
+    return [round(float(x), 3) for x in high - low], remark.text
+
+
+def test_which_shape_is_drawn_is_defined_and_said(script):
+    two = CQ + "big = cq.Workplane().box(9, 9, 9)\n"
+    assert drawn(script(two + "show_object(box)\n")) == ([1, 2, 3], "model.py: all that it shows is drawn.")
+    assert drawn(script(two + "show_object(box)\nresult = big\nshow_object(big)\n"))[1].endswith("drawn, 2 objects.")
+    assert drawn(script(two + "result = box\nlater = big\n")) == (
+        [1, 2, 3],
+        'model.py: the variable "result" is drawn.',
+    )
+    size, text = drawn(script(two))
+    assert size == [9, 9, 9]
+    assert text.startswith('model.py: the variable "big" is drawn, the last solid; show_object(shape), or')
+
+
+def test_the_last_solid_is_that_which_was_assigned_last(script):
+    text = CQ + "big = cq.Workplane().box(9, 9, 9)\nbox = box.translate((1, 1, 1))\n"
+    assert drawn(script(text))[1].startswith('model.py: the variable "box" is drawn')
+
+
+@pytest.mark.parametrize(
+    "last",
+    [
+        "sketch = cq.Sketch().rect(5, 5)",
+        "wire = cq.Workplane().rect(5, 5)",
+        "plane = box.faces('>Z').workplane()",
+        "edges = box.edges()",
+        "for face in box.faces().vals(): pass",
+        "empty = cq.Workplane()",
+    ],
+)
+def test_a_construction_sketch_is_not_drawn_while_there_are_solids(script, last):
+    size, text = drawn(script(CQ + last + "\n"))
+    assert size == [1, 2, 3] and '"box" is drawn, the last solid' in text
+
+
+def test_a_sketch_alone_is_drawn(script):
+    size, text = drawn(script("import cadquery as cq\ns = cq.Sketch().rect(5, 4)\nw = cq.Workplane().rect(9, 9)\n"))
+    assert size[:2] == [5, 4] and '"s" is drawn, the last face' in text
+
+
+def test_a_sketch_of_build123d_is_not_drawn_instead_of_the_part(script):
+    pytest.importorskip("build123d")
+    text = "from build123d import *\nwith BuildPart() as p:\n    with BuildSketch() as s:\n"
+    text += "        Rectangle(4, 3)\n    extrude(amount=5)\n"
+    size, text = drawn(script(text))
+    assert size == [4, 3, 5] and '"p" is drawn' in text
+
+
+def test_a_variable_may_be_chosen(script):
+    from hlr import OptionError
+
+    path = script(CQ + "big = cq.Workplane().box(9, 9, 9)\nshow_object(big)\nwidth = 5\n")
+    assert drawn(path, "box") == ([1, 2, 3], 'model.py: the variable "box" is drawn.')
+    with pytest.raises(OptionError, match=r'"bax" of model\.py is not there: its shapes are box, big\.'):
+        open_source(path, "bax")
+    with pytest.raises(OptionError, match=r'"width" of model\.py is no shape'):
+        open_source(path, "width")
+
+
+@pytest.mark.parametrize(
+    ("options", "look"),
+    [
+        ("{'color': cq.Color('red')}", (1, 0, 0, 1)),
+        ("{'color': cq.Color(1, 0.5, 0.25, 0.5)}", (1, 0.5, 0.25, 0.5)),
+        ("{'color': 'red', 'alpha': 0.25}", (1, 0, 0, 0.75)),
+        ("{'color': 'gray50'}", (0.498039, 0.498039, 0.498039, 1)),
+        ("{'color': '#0f0'}", (0, 1, 0, 1)),
+        ("{'color': (0, 0, 255)}", (0, 0, 1, 1)),
+        ("{'color': (0.0, 0.5, 1.0, 0.5)}", (0, 0.5, 1, 0.5)),
+        ("{'rgba': (0, 0, 255, 0.4)}", (0, 0, 1, 0.6)),
+        ("{'alpha': 0.5}", (0.70, 0.74, 0.79, 0.5)),
+        ("{'color': 'no such colour'}", None),
+        ("{'color': (-1, 'a', 3)}", None),
+        ("{}", None),
+    ],
+)
+def test_colours_and_opacities_are_kept(script, options, look):
+    source = open_source(script(CQ + f"show_object(box, 'b', options={options})\n"))
+    whole = source.looks()["b"].whole
+    assert whole == (None if look is None else pytest.approx(look, abs=2e-3))
+
+
+def test_an_assembly_has_the_colour_it_is_shown_in_where_it_has_none(script):
+    text = (
+        "a = cq.Assembly().add(box, name='own', color=cq.Color(0, 1, 0, 0.5)).add(box, name='none')\n"
+        "show_object(a, options={'color': cq.Color('red')})\n"
+    )
+    looks = open_source(script(CQ + text)).looks()
+    assert looks["own"].whole == (0, 1, 0, 0.5) and looks["none"].whole == (1, 0, 0, 1)
