@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,17 @@ class DrawnLine:
     face: int | None
     points: Floats
     points3: Floats
+    curve: Mapping[str, Any] | None = None
+
+    def ink(self, spacing: float) -> Floats:
+        """Points on paper along what is drawn, the curve if there is one, at most about `spacing` apart."""
+        rough = self.points if self.curve is None else _along(self.curve, 4 * len(self.points) + 16)
+        along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(rough, axis=0), axis=1))]
+        count = max(2, int(np.ceil(along[-1] / spacing)) + 1)
+        if self.curve is not None:
+            return _along(self.curve, max(count, 16))
+        wanted = np.unique(np.r_[np.linspace(0.0, along[-1], count), along])
+        return np.stack([np.interp(wanted, along, rough[:, k]) for k in (0, 1)], axis=1)
 
 
 @dataclass(frozen=True)
@@ -53,6 +65,45 @@ class Exchange:
     origin: Floats
     unit: float
     document: Mapping[str, Any]
+
+    @property
+    def accuracy(self) -> float:
+        """Millimetres on paper that the drawing says it kept; 0 where it does not say."""
+        return float(self.document.get("accuracy", {}).get("used") or 0.0)
+
+    @property
+    def factor(self) -> float:
+        """Millimetres on paper per model unit; in perspective, at the image plane."""
+        return self.unit * self.scale
+
+    def magnification(self, model: Floats) -> Floats:
+        """Millimetres on paper per model unit at each point (n, 3)."""
+        if self.camera.eye is None:
+            return np.full(len(model), self.factor)
+        depth = -((model - self.camera.eye) @ self.camera.direction)
+        with np.errstate(all="ignore"):
+            return np.asarray(self.factor * self.camera.distance / depth)
+
+    def on_paper(self, model: Floats) -> Floats:
+        """Where points of the model (n, 3) lie on paper (n, 2), as the format describes it."""
+        from_eye = model if self.camera.eye is None else model - self.camera.eye
+        flat = np.stack([from_eye @ self.camera.right, from_eye @ self.camera.up], axis=1)
+        with np.errstate(all="ignore"):
+            return np.asarray(flat * self.magnification(model)[:, None] - self.origin)
+
+    def rays(self, paper: Floats, back: float) -> tuple[Floats, Floats]:
+        """Start and unit direction (n, 3) of the way from the viewer through points on paper (n, 2).
+
+        Parallel rays start `back` model units before the origin.
+        """
+        camera = self.camera
+        flat = (paper + self.origin) / self.factor
+        aside = flat[:, :1] * camera.right + flat[:, 1:] * camera.up
+        if camera.eye is None:
+            return aside + back * camera.direction, np.broadcast_to(-camera.direction, aside.shape)
+        toward = aside - camera.distance * camera.direction
+        toward = toward / np.linalg.norm(toward, axis=1)[:, None]
+        return np.broadcast_to(camera.eye, aside.shape), toward
 
 
 def _vector(value: Any, what: str) -> Floats:
@@ -75,6 +126,26 @@ def _camera(view: Mapping[str, Any]) -> Camera:
     return Camera(str(view["name"]), axes["direction"], axes["right"], axes["up"], eye, distance)
 
 
+def _along(curve: Mapping[str, Any], count: int) -> Floats:
+    """At least `count` points along a curve of the format."""
+    if curve["type"] == "arc":
+        t = np.linspace(*curve["angles"], count)[:, None]
+        one, other = np.asarray(curve["axes"], dtype=np.float64)
+        return np.asarray(np.asarray(curve["centre"]) + np.cos(t) * one + np.sin(t) * other)
+    if curve["type"] != "bezier":
+        raise FormatError(f"curve of type {curve['type']!r}")
+    control, degree = np.asarray(curve["points"], dtype=np.float64), int(curve["degree"])
+    pieces = (len(control) - 1) // degree
+    t = np.linspace(0.0, 1.0, max(2, -(-count // pieces) + 1))[:, None]
+    found = []
+    for piece in range(pieces):
+        points = [np.broadcast_to(p, (len(t), 2)) for p in control[piece * degree : (piece + 1) * degree + 1]]
+        while len(points) > 1:
+            points = [(1 - t) * a + t * b for a, b in pairwise(points)]
+        found.append(points[0])
+    return np.concatenate(found)
+
+
 def _line(number: int, entry: Mapping[str, Any], parts: int) -> DrawnLine:
     points = np.asarray(entry["points"], dtype=np.float64)
     points3 = np.asarray(entry["points3"], dtype=np.float64)
@@ -92,6 +163,7 @@ def _line(number: int, entry: Mapping[str, Any], parts: int) -> DrawnLine:
         entry["face"],
         points,
         points3,
+        entry.get("curve"),
     )
 
 

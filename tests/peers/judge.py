@@ -72,6 +72,9 @@ class RayCaster:
         self._coarseness = FINENESS / reference.fineness
         self._centre = (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2
         self._corners = (corners - self._centre) / self.diagonal
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        self.normals = across / np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
+        self.centre, self.corners = self._centre, corners.reshape(-1, 3)
         self._scene = EmbreeScene(robust=True)
         TriangleMesh(self._scene, np.ascontiguousarray(self._corners, dtype=np.float32))
 
@@ -113,6 +116,21 @@ class RayCaster:
         away = np.broadcast_to(-camera.direction, origins.shape)
         met = self._hit(origins, away, np.full(len(origins), 2 * step)).reshape(-1, RING)
         return np.asarray(RING - met.sum(axis=1), dtype=np.int64)
+
+    def first(self, starts: Floats, toward: Floats) -> tuple[Floats, npt.NDArray[np.int64]]:
+        """How far each ray goes before it hits (model units, inf where it never does), and the triangle, else -1."""
+        far, hit = np.full(len(starts), np.inf), np.full(len(starts), -1, dtype=np.int64)
+        for i in range(0, len(starts), CHUNK):
+            part = slice(i, i + CHUNK)
+            result = self._scene.run(
+                np.ascontiguousarray((starts[part] - self._centre) / self.diagonal, dtype=np.float32),
+                np.ascontiguousarray(toward[part], dtype=np.float32),
+                output=True,
+            )
+            hit[part] = result["primID"]
+            met = result["primID"] >= 0
+            far[part][met] = result["tfar"][met] * self.diagonal
+        return far, hit
 
     def _ring(self, camera: Camera) -> Floats:
         angles = np.arange(RING) * (2 * np.pi / RING)
@@ -161,16 +179,10 @@ def _displaced(drawing: Exchange, measure: float) -> int:
     """Vertices that lie elsewhere on paper than where the format puts their model position."""
     if not drawing.lines:
         return 0
-    camera = drawing.camera
     model = np.concatenate([line.points3 for line in drawing.lines])
     paper = np.concatenate([line.points for line in drawing.lines])
-    factor = np.full(len(model), drawing.unit * drawing.scale)
-    if camera.eye is not None:
-        model = model - camera.eye
-        factor *= camera.distance / -(model @ camera.direction)
-    flat = np.stack([model @ camera.right, model @ camera.up], axis=1)
-    off = np.abs(flat * factor[:, None] - drawing.origin - paper).max(axis=1)
-    return int((off > OFF * measure * factor).sum())
+    off = np.abs(drawing.on_paper(model) - paper).max(axis=1)
+    return int((off > OFF * measure * drawing.magnification(model)).sum())
 
 
 def judge(drawing: Exchange, caster: RayCaster) -> Verdict:

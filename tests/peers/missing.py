@@ -1,118 +1,190 @@
 """The other half of the truth: is everything drawn that is plainly to be seen?
 
 The ray test judges lines that are there, so an empty drawing would pass it, and so would a contour that is wrongly
-called hidden (half of its ring is blocked by its own body). Here the edges of the reference mesh are asked instead:
-where one is sharp, a border or an outline, and free toward the viewer, a visible line has to run nearby.
+called hidden (half of its ring is blocked by its own body). Here a depth image of the model is asked instead: where
+the depth jumps or the normal turns between two pixels, a visible line has to run nearby. Each such place is found by
+halving the way between the two, so that what is merely steep or round is none: but only where there is no line, for
+what is drawn needs no proof.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from peers.exchange import Exchange
-from peers.judge import RING, RayCaster
-from peers.reference import Floats, Reference
+import numpy.typing as npt
+from peers.depth import Depths, Hits, Sheet
+from peers.exchange import Exchange, Floats
+from scipy.ndimage import label
 from scipy.spatial import cKDTree
 
-SHARP = np.cos(np.radians(45))
+NEAR = 2.5
+"""A visible line this many pixels away will do."""
+JUMP = 1.0
+"""Pixels of depth, and at least as many accuracies as the next."""
+CONTACT = 4.0
+"""Accuracies: what runs into one another by less counts as touching, and what rises by less is no fold. On a slope a
+step of so much across the line of sight is one of as much more in depth."""
+SHARP = np.cos(np.radians(40))
 """Well over the crease angle of 30 degrees and the turn of a tessellated fillet, so that there is no arguing."""
-NEAR = 1 / 500
-"""A visible line this near will do; in diagonals, like SPACING."""
-SPACING = 1 / 2000
-WELD = 1e-7
-FREE = 3
-"""Rays that must be free besides the point's own: an outline has half of its ring before its own body."""
-PLACES = 5000
-"""Places asked, picked at random by length; most of them will not be free."""
-STEP = 1 / 200
-"""Beside an outline there is no surface within this depth."""
-GRAZING = 1e-3
-"""Triangles nearer to edge-on than this face neither way."""
+HALVINGS = 9
+WIDE = 4.0
+"""Accuracies: both sides of a place go on this far. Cracks between unjoined faces are narrower."""
+USUAL = 1 / 6
+"""Pixels of accuracy of a drawing that does not say."""
+RING = 16
+SECTOR = 3
+"""Of the points of a ring: corners sharper than that are not judged."""
+REACH = 3
+"""Pixels between missing places of one run."""
+SHORT = 5.0
+"""Pixels: runs up to this long are counted, but are no fault; where lines end, figures are blunted by so much."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """Missing places next to one another: how long, and the middle one on paper, both in millimetres."""
+
+    length: float
+    at: tuple[float, float]
 
 
 @dataclass(frozen=True)
 class Missing:
-    """Places that were asked, and those where no visible line was near."""
+    """Places (n, 2) on paper beside which no visible line runs; asked: at how many places there should be one."""
 
     asked: int
     places: Floats
+    runs: list[Run]
+    pixel: float
+
+    @property
+    def worst(self) -> float:
+        """Millimetres of the longest run."""
+        return max((run.length for run in self.runs), default=0.0)
+
+    @property
+    def faults(self) -> list[Run]:
+        """Runs too long to be argued away, longest first."""
+        return [run for run in self.runs if run.length > SHORT * self.pixel]
 
 
-class Edges:
-    """Edges of a reference mesh with the normals on both sides; borders have the same one twice."""
-
-    def __init__(self, reference: Reference) -> None:
-        size = reference.diagonal
-        _, first, number = np.unique(
-            np.round(reference.points / (WELD * size)), axis=0, return_index=True, return_inverse=True
-        )
-        points = reference.points[first]
-        corners = number.ravel()[reference.triangles]
-        normals = np.cross(
-            points[corners[:, 1]] - points[corners[:, 0]],
-            points[corners[:, 2]] - points[corners[:, 0]],
-        )
-        length = np.linalg.norm(normals, axis=1)
-        flat = length <= size**2 * 1e-14
-        normals = normals / np.where(flat, 1.0, length)[:, None]
-        sides = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
-        owner = np.tile(np.arange(len(corners)), 3)
-        order = np.lexsort((sides[:, 1], sides[:, 0]))
-        sides, owner = sides[order], owner[order]
-        starts = np.flatnonzero(np.r_[True, (sides[1:] != sides[:-1]).any(axis=1)])
-        counts = np.diff(np.r_[starts, len(sides)])
-        # Where three meet, or one has no area, what is an outline or a border is a matter of opinion.
-        plain = (counts <= 2) & ~flat[owner[starts]] & ~flat[owner[starts + counts - 1]]
-        starts, counts = starts[plain], counts[plain]
-        self.start, self.end = points[sides[starts, 0]], points[sides[starts, 1]]
-        self.left, self.right = normals[owner[starts]], normals[owner[starts + counts - 1]]
-        self.border = counts == 1
-
-    def sharp(self) -> np.ndarray:
-        """Drawn from everywhere."""
-        return np.asarray(np.sum(self.left * self.right, axis=1) < SHARP)
-
-    def outlines(self, direction: Floats) -> np.ndarray:
-        """One side turned to the viewer, the other away."""
-        one, other = self.left @ direction, self.right @ direction
-        return np.asarray((one * other < 0) & (np.minimum(abs(one), abs(other)) > GRAZING))
+def missing(drawing: Exchange, depths: Depths, sheet: Sheet, image: Hits) -> Missing:
+    """Compare the lines of a drawing with the depth image of its sheet."""
+    accuracy = drawing.accuracy or USUAL * sheet.pixel
+    jump = max(JUMP * sheet.pixel, CONTACT * accuracy)
+    drawn = [line.ink(sheet.pixel / 4) for line in drawing.lines if line.visible]
+    near = cKDTree(np.concatenate(drawn)) if drawn else None
+    answered, absent = 0, []
+    for one, other in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1, :], np.s_[1:, :])):
+        a, b = image[one], image[other]
+        jumps = _off_plane(a, b, sheet.centres[other] - sheet.centres[one]) > jump
+        candidate = jumps | (_turn(a, b) < SHARP)
+        pairs = Pairs(sheet.centres[one][candidate], sheet.centres[other][candidate], a[candidate], b[candidate])
+        if near is not None and len(pairs.start):
+            distance, _ = near.query(pairs.middle, distance_upper_bound=NEAR * sheet.pixel)
+            pairs = pairs[~np.isfinite(distance)]
+        answered += int(candidate.sum()) - len(pairs.start)
+        jumped, at = _jumps(depths, pairs, jump, accuracy)
+        sharp, at_crease = _creases(depths, pairs[~jumped], jump, accuracy)
+        absent.append(np.concatenate([at[jumped], at_crease[sharp]]))
+    places = np.concatenate(absent)
+    return Missing(answered + len(places), places, runs(absent, sheet), sheet.pixel)
 
 
-def missing(drawing: Exchange, edges: Edges, caster: RayCaster) -> Missing:
-    """Orthographic views only."""
-    camera, size = drawing.camera, caster.measure
-    axes = np.stack([camera.right, camera.up], axis=1)
-    sharp = edges.sharp()
-    chosen = np.flatnonzero(sharp | edges.border | edges.outlines(camera.direction))
-    start, end = edges.start[chosen], edges.end[chosen]
-    length = np.linalg.norm((end - start) @ axes, axis=1)
-    start, end, sharp, length = (each[length > 0] for each in (start, end, sharp[chosen], length))
-    rng = np.random.default_rng(1)
-    if not len(length):
-        return Missing(0, np.zeros((0, 3)))
-    picked = rng.choice(len(length), PLACES, p=length / length.sum())
-    places = start[picked] + rng.uniform(0.0, 1.0, PLACES)[:, None] * (end - start)[picked]
-    blocked = caster.blocked_each(places, camera)
-    asked = ~blocked[:, 0] & (blocked.sum(axis=1) <= RING - FREE)
-    # A dent of the tessellation faces away too, and faces that were never joined have borders; but beside these the
-    # surface goes on.
-    asked &= sharp[picked] | (caster.open_around(places, camera, size * STEP) >= FREE)
-    places = places[asked]
-    drawn = _dense(drawing, axes, size * SPACING)
-    if not len(places) or not len(drawn):
-        return Missing(len(places), places)
-    distance, _ = cKDTree(drawn).query(places @ axes, distance_upper_bound=size * NEAR)
-    return Missing(len(places), places[~np.isfinite(distance)])
+@dataclass(frozen=True)
+class Pairs:
+    """Pairs of points (n, 2) on paper, and what is seen there."""
+
+    start: Floats
+    end: Floats
+    a: Hits
+    b: Hits
+
+    @property
+    def middle(self) -> Floats:
+        return (self.start + self.end) / 2
+
+    def __getitem__(self, index: npt.NDArray[np.bool_]) -> Pairs:
+        return Pairs(self.start[index], self.end[index], self.a[index], self.b[index])
 
 
-def _dense(drawing: Exchange, axes: Floats, spacing: float) -> Floats:
-    """Points all along the visible lines, on the image plane."""
-    found = [np.zeros((0, 2))]
-    for line in drawing.lines:
-        if line.visible:
-            flat = line.points3 @ axes
-            along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(flat, axis=0), axis=1))]
-            wanted = np.linspace(0.0, along[-1], int(along[-1] / spacing) + 2)
-            found.append(np.stack([np.interp(wanted, along, flat[:, k]) for k in (0, 1)], axis=1))
-    return np.concatenate(found)
+def _jumps(depths: Depths, pairs: Pairs, jump: float, accuracy: float) -> tuple[npt.NDArray[np.bool_], Floats]:
+    """Between which pairs the depth jumps, and where."""
+    pairs = _halved(depths, pairs, lambda a, b, c: _gap(a, b) >= _gap(b, c))
+    both = np.linalg.norm([pairs.a.slope, pairs.b.slope], axis=2).min(axis=0)
+    deep = jump + CONTACT * accuracy * both
+    wide = _wide(depths, pairs, accuracy, lambda hits, other, way: _off_plane(hits, other, way) > deep[:, None])
+    return (_gap(pairs.a, pairs.b) > deep) & wide, pairs.middle
+
+
+def _creases(depths: Depths, pairs: Pairs, jump: float, accuracy: float) -> tuple[npt.NDArray[np.bool_], Floats]:
+    """Between which pairs the surface is sharp, and where."""
+    pairs = _halved(depths, pairs, lambda a, b, c: _turn(a, b) <= _turn(b, c))
+    wide = _wide(depths, pairs, accuracy, lambda hits, other, _: _turn(hits, other) < SHARP)
+    return (_turn(pairs.a, pairs.b) < SHARP) & (_gap(pairs.a, pairs.b) <= jump) & wide, pairs.middle
+
+
+def _halved(depths: Depths, pairs: Pairs, first: Callable[[Hits, Hits, Hits], npt.NDArray[np.bool_]]) -> Pairs:
+    """The pairs drawn together where `first` says of three hits in a row that it happens between the first two."""
+    start, end, a, b = pairs.start, pairs.end, pairs.a, pairs.b
+    for _ in range(HALVINGS):
+        middle = (start + end) / 2
+        m = depths.at(middle)
+        former = first(a, m, b)
+        start, end = np.where(former[:, None], start, middle), np.where(former[:, None], middle, end)
+        a, b = a.where(former, m), m.where(former, b)
+    return Pairs(start, end, a, b)
+
+
+def _wide(
+    depths: Depths, pairs: Pairs, accuracy: float, apart: Callable[[Hits, Hits, Floats], npt.NDArray[np.bool_]]
+) -> npt.NDArray[np.bool_]:
+    """Where both sides take up a part of a ring around the place: a crack or a splinter does not."""
+    angles = np.arange(RING) * (2 * np.pi / RING)
+    ring = WIDE * accuracy * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    around = depths.at(pairs.middle[:, None] + ring)
+    return np.logical_and(*(apart(hits[:, None], around, ring).sum(axis=1) >= SECTOR for hits in (pairs.a, pairs.b)))
+
+
+def _gap(a: Hits, b: Hits) -> Floats:
+    """Difference of depth; inf where only one of both met anything."""
+    with np.errstate(invalid="ignore"):
+        return np.where(a.met & b.met, np.abs(a.depth - b.depth), np.where(a.met == b.met, 0.0, np.inf))
+
+
+def _off_plane(a: Hits, b: Hits, way: Floats) -> Floats:
+    """The same, but for what is explained by the planes of both."""
+    with np.errstate(invalid="ignore"):
+        rise = b.depth - a.depth
+        apart = [np.abs(rise - (hits.slope * way).sum(axis=-1)) for hits in (a, b)]
+        return np.where(a.met & b.met, np.maximum(*apart), np.where(a.met == b.met, 0.0, np.inf))
+
+
+def _turn(a: Hits, b: Hits) -> Floats:
+    """Cosine between normals; 1 where either met nothing."""
+    return np.where(a.met & b.met, (a.normal * b.normal).sum(axis=-1), 1.0)
+
+
+def runs(crossings: Sequence[Floats], sheet: Sheet) -> list[Run]:
+    """Places that lie within `REACH` pixels of one another as one run each, longest first.
+
+    crossings: with the rows of the sheet's grid and with its columns, which together give a straight run's length.
+    """
+    places = np.concatenate(crossings)
+    if not len(places):
+        return []
+    family = np.repeat([0, 1], [len(each) for each in crossings])
+    marks: npt.NDArray[np.bool_] = np.zeros((sheet.rows // REACH + 2, sheet.columns // REACH + 2), dtype=np.bool_)
+    row, column = (sheet.index(places) // REACH).T
+    marks[row, column] = True
+    numbers, count = label(marks, structure=np.ones((3, 3)))
+    of = numbers[row, column]
+    found = []
+    for number in range(1, count + 1):
+        own = places[of == number]
+        x, y = own[np.argmin(((own - own.mean(axis=0)) ** 2).sum(axis=1))].tolist()
+        length = float(np.hypot(*np.bincount(family[of == number], minlength=2)))
+        found.append(Run(length * sheet.pixel, (x, y)))
+    return sorted(found, key=lambda run: -run.length)

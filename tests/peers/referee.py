@@ -1,11 +1,13 @@
-"""The ray referee: draw models and judge every line by casting rays against an independent mesh.
+"""The ray referee: draw models and judge every drawing against an independent mesh and the curves of the file.
 
     python tests/peers/referee.py FOLDER_OR_FILES... [--views front,top,right,iso] [--random 2] [--table out.md]
+    python tests/peers/referee.py part.step --view iso --view 1,-2,3 --why --png pictures
     python tests/peers/referee.py M6.step --views iso --peer occt-exact --why
 
-Drawings are made at scale 1 with an accuracy of the diagonal / 20000 and judged as `peers.judge` says. With
-`--against MODEL` the files given are drawings (.json) made elsewhere, judged as they are.
-Exit code 1 if anything is wrong.
+Wrong lines, missing lines, edges off their own curves, and faces that are lost: `peers.judge`, `peers.missing`,
+`peers.off_curve` and `peers.lost` say how. The diagonal of a model is 300 mm on paper, the accuracy a 20000th of that;
+with `--fineness 6000` it is the usual 0.05 mm. With `--against MODEL` the files given are drawings (.json) made
+elsewhere, judged as they are. Exit code 1 if anything is wrong.
 """
 
 from __future__ import annotations
@@ -16,23 +18,43 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from peers import exchange, reference, report
+from peers import exchange, picture, reference, report
+from peers.depth import PIXELS
 from peers.judge import RayCaster, Verdict, judge, offenders
-from peers.missing import Edges, Missing, missing
+from peers.off_curve import Off, file_curves, off_curve
+from peers.seen import Seen, look
 
 VIEWS = "front,top,right,iso"
+NAMED = ("front", "back", "left", "right", "top", "bottom", "iso", "iso-sw", "iso-ne", "iso-nw")
 PEERS = ("hlr", "occt-exact", "occt-poly")
+SHEET = 300.0
+"""Millimetres on paper of every model's diagonal: about A4."""
 View = str | tuple[float, float, float]
-Drawn = tuple[str, exchange.Exchange | str, float]
-"""View name, the drawing or why there is none, seconds."""
+Curves = tuple[Callable[[str, int], Any], Callable[[str, int], float]]
+"""What `off_curve` asks for: curves of edges, and their tolerances."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A drawing, or why there is none.
+
+    own    the triangles that it was made from, where they are known
+    """
+
+    view: str
+    drawing: exchange.Exchange | str
+    seconds: float
+    own: reference.Reference | None = None
 
 
 @dataclass(frozen=True)
@@ -42,36 +64,68 @@ class Judged:
     row: report.Row
     drawing: exchange.Exchange | None = None
     verdict: Verdict | None = None
-    gaps: Missing | None = None
+    seen: Seen | None = None
+    off: list[Off] = field(default_factory=list)
 
     def why(self) -> Iterator[str]:
-        """The wrong lines, worst first, and then where lines are missing."""
+        """The wrong lines, worst first, and then where lines are missing, off their curve, and faces lost."""
         if self.drawing is not None and self.verdict is not None:
             yield from offenders(self.drawing, self.verdict)
-        for x, y, z in self.gaps.places if self.gaps else ():
-            yield f"no visible line at ({x:.6g}, {y:.6g}, {z:.6g})"
+        if self.drawing is not None and self.seen is not None:
+            yield from self.seen.why()
+            for off in self.off:
+                line, (x, y) = self.drawing.lines[off.line], off.at
+                yield (
+                    f"off its curve by {off.accuracies:.3g} accuracies at ({x:.2f}, {y:.2f}) on paper: {line.kind} of "
+                    f"part {line.part} {self.drawing.parts[line.part]!r} edge {line.edge}"
+                )
+
+    def save_picture(self, path: Path) -> None:
+        """Everything marked on the depth image, as PNG."""
+        if self.drawing is None or self.verdict is None or self.seen is None:
+            return
+        wrong = self.drawing.on_paper(self.verdict.samples.points[self.verdict.wrong_visible])
+        seen = self.seen
+        picture.save(path, self.drawing, seen.sheet, seen.image, seen.gaps, wrong=wrong, off=self.off, lost=seen.lost)
 
 
 class Referee:
-    """An independent mesh of one model, ready to judge drawings of it."""
+    """An independent mesh of one model, ready to judge drawings of it; with its curves, where lines lie as well."""
 
-    def __init__(self, model: reference.Reference) -> None:
+    def __init__(self, model: reference.Reference, curves: Curves | None = None, pixels: int = PIXELS) -> None:
         self._caster = RayCaster(model)
-        self._edges = Edges(model)
+        self._curves, self._pixels = curves, pixels
 
-    def judge(self, file: str, drawer: str, drawing: exchange.Exchange, seconds: float = 0.0) -> Judged:
+    def judge(
+        self,
+        file: str,
+        drawer: str,
+        drawing: exchange.Exchange,
+        seconds: float = 0.0,
+        own: reference.Reference | None = None,
+    ) -> Judged:
+        """Everything that can be held against one drawing; `own`: the triangles that it was made from."""
         start = time.perf_counter()
         verdict = judge(drawing, self._caster)
-        gaps = missing(drawing, self._edges, self._caster) if drawing.camera.eye is None else None
+        seen = look(drawing, self._caster, own, self._pixels)
+        off = off_curve(drawing, *self._curves) if self._curves else []
         spent = time.perf_counter() - start
-        row = report.row(file, drawer, drawing, verdict, gaps=gaps, draw=seconds, judge=spent)
-        return Judged(row, drawing, verdict, gaps)
+        row = report.row(file, drawer, drawing, verdict, seen, off=len(off), draw=seconds, judge=spent)
+        return Judged(row, drawing, verdict, seen, off)
 
 
 def random_views(count: int, seed: int = 1) -> list[View]:
     """Directions spread evenly over the sphere; none is special, so nothing lies edge-on by design."""
     vectors = np.random.default_rng(seed).normal(size=(count, 3))
     return [(float(x), float(y), float(z)) for x, y, z in vectors / np.linalg.norm(vectors, axis=1)[:, None]]
+
+
+def parsed_view(text: str) -> View:
+    """A name, or the direction that three numbers give."""
+    if "," not in text:
+        return text
+    x, y, z = map(float, text.split(","))
+    return x, y, z
 
 
 def view_name(view: View) -> str:
@@ -85,17 +139,38 @@ def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference)
     from hlr.plan.options import Options
     from hlr.writers import render
 
-    options = Options(hidden=True, scale=1.0, accuracy=model.accuracy)
+    options = Options(hidden=True, scale=SHEET / (model.diagonal * model.unit), accuracy=SHEET / model.fineness)
     start = time.perf_counter()
+    own: list[reference.Reference] = []
     try:
-        drawings = hlr.draw_views(path, list(views), options)
+        with own_triangles(own):
+            drawings = hlr.draw_views(path, list(views), options)
     except HlrError as error:
-        yield "all", f"refused: {error}", time.perf_counter() - start
+        yield Drawn("all", f"refused: {error}", time.perf_counter() - start)
         return
     seconds = (time.perf_counter() - start) / len(views)
     for drawing in drawings:
         document = exchange.parse(render(drawing, "json"))
-        yield document.camera.name, document, seconds
+        yield Drawn(document.camera.name, document, seconds, own[0] if own else None)
+
+
+@contextmanager
+def own_triangles(found: list[reference.Reference]) -> Iterator[None]:
+    """While this lasts, the triangles that drawings are made from are put into `found`."""
+    from hlr import pipeline
+
+    former = pipeline.drawing_of
+
+    def noted(opened: Any, scene: Any, *rest: Any) -> Any:
+        if not found and len(scene.triangles):
+            found.append(reference.from_arrays(scene.points, scene.triangles))
+        return former(opened, scene, *rest)
+
+    pipeline.drawing_of = noted
+    try:
+        yield
+    finally:
+        pipeline.drawing_of = former
 
 
 def draw_with_occt(path: Path, views: Sequence[View], method: str, timeout: float) -> Iterator[Drawn]:
@@ -110,14 +185,14 @@ def draw_with_occt(path: Path, views: Sequence[View], method: str, timeout: floa
                     [*command, f"--out={out}"], timeout=timeout, capture_output=True, text=True, check=False
                 )
             except subprocess.TimeoutExpired:
-                yield view_name(view), f"no end within {timeout:.0f} s", timeout
+                yield Drawn(view_name(view), f"no end within {timeout:.0f} s", timeout)
                 continue
             if done.returncode or not out.exists():
                 last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-                yield view_name(view), f"failed ({done.returncode}): {last}", 0.0
+                yield Drawn(view_name(view), f"failed ({done.returncode}): {last}", 0.0)
                 continue
             document = exchange.read(out)
-            yield document.camera.name, document, float(document.document["timings"]["total"])
+            yield Drawn(document.camera.name, document, float(document.document["timings"]["total"]))
 
 
 def drawings(
@@ -126,7 +201,7 @@ def drawings(
     if peer == "hlr":
         return draw_with_hlr(path, views, model)
     if path.suffix.lower() not in reference.BREP:
-        return iter([("all", "no B-rep, nothing for OpenCASCADE to draw", 0.0)])
+        return iter([Drawn("all", "no B-rep, nothing for OpenCASCADE to draw", 0.0)])
     return draw_with_occt(path, views, peer.removeprefix("occt-"), timeout)
 
 
@@ -146,6 +221,7 @@ def judge_file(
     timeout: float = 120.0,
     fineness: float = reference.FINENESS,
     cache: Path | None = None,
+    pixels: int = PIXELS,
 ) -> Iterator[Judged]:
     """Judge one file; a file that cannot be meshed here is reported, not raised."""
     start = time.perf_counter()
@@ -154,40 +230,59 @@ def judge_file(
     except Exception as error:
         yield Judged(report.Row(path.name, "all", "referee", failure=f"no reference mesh: {error}"))
         return
-    judging = Referee(model)
+    judging = Referee(model, curves_of(path), pixels)
     print(
         f"{path.name}: {len(model.triangles)} triangles, diagonal {model.diagonal:.6g}, "
         f"{model.unmeshed} faces unmeshed, {time.perf_counter() - start:.1f} s",
         file=sys.stderr,
     )
     for peer in peers:
-        for name, drawing, seconds in drawings(path, views, peer, model, timeout):
-            if isinstance(drawing, str):
-                yield Judged(report.Row(path.name, name, peer, failure=drawing))
+        for drawn in drawings(path, views, peer, model, timeout):
+            if isinstance(drawn.drawing, str):
+                yield Judged(report.Row(path.name, drawn.view, peer, failure=drawn.drawing))
             else:
-                yield judging.judge(path.name, peer, drawing, seconds)
+                yield judging.judge(path.name, peer, drawn.drawing, drawn.seconds, drawn.own)
+
+
+def curves_of(path: Path) -> Curves | None:
+    """The curves of a B-rep file's edges."""
+    if path.suffix.lower() not in reference.BREP:
+        return None
+    from hlr.source import open_source
+
+    return file_curves(open_source(path))
 
 
 def judge_drawings(given: argparse.Namespace) -> Iterator[Judged]:
     """Drawings that exist already, all of one model."""
-    judging = Referee(reference.load(given.against, given.fineness, given.cache))
+    model = reference.load(given.against, given.fineness, given.cache)
+    judging = Referee(model, curves_of(given.against), given.pixels)
     for path in given.paths:
         yield judging.judge(path.name, "file", exchange.read(path))
 
 
 def judge_models(given: argparse.Namespace) -> Iterator[Judged]:
-    views: list[View] = [name for name in given.views.split(",") if name]
-    views += random_views(given.random, given.seed)
+    names = given.view or (NAMED if given.views == "all" else [name for name in given.views.split(",") if name])
+    views = [*map(parsed_view, names), *random_views(given.random, given.seed)]
     for path in files(given.paths):
         yield from judge_file(
-            path, views, given.peer or ["hlr"], timeout=given.timeout, fineness=given.fineness, cache=given.cache
+            path,
+            views,
+            given.peer or ["hlr"],
+            timeout=given.timeout,
+            fineness=given.fineness,
+            cache=given.cache,
+            pixels=given.pixels,
         )
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("paths", nargs="+", type=Path, help="folders or model files")
-    parser.add_argument("--views", default=VIEWS, help=f"names, separated by commas (default {VIEWS}); '' for none")
+    parser.add_argument("--view", action="append", help="a name or x,y,z; may be repeated, takes the place of --views")
+    parser.add_argument(
+        "--views", default=VIEWS, help=f"names, separated by commas (default {VIEWS}); all; '' for none"
+    )
     parser.add_argument("--random", type=int, default=0, metavar="N", help="N random views more")
     parser.add_argument("--seed", type=int, default=1, help="of the random views")
     parser.add_argument("--peer", action="append", choices=PEERS, help="who draws (default hlr); may be repeated")
@@ -195,7 +290,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--timeout", type=float, default=120.0, help="seconds for each view of a peer")
     parser.add_argument("--table", type=Path, help="write the table here as Markdown too")
     parser.add_argument("--why", type=int, nargs="?", const=10, default=0, help="list the N worst lines of each view")
-    parser.add_argument("--svg", type=Path, help="folder for pictures with the wrong samples marked")
+    parser.add_argument("--png", type=Path, help="folder for pictures in which everything wrong is marked")
+    parser.add_argument("--pixels", type=int, default=PIXELS, help="of the depth image, along its longer side")
     parser.add_argument("--fineness", type=float, default=reference.FINENESS, help="coarser rules for a quick look")
     parser.add_argument("--cache", type=Path, help="folder that keeps the reference meshes of B-rep files")
     given = parser.parse_args(arguments)
@@ -206,10 +302,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("  " + " ".join(row.cells()).strip(), flush=True)
         for text in itertools.islice(judged.why(), given.why):
             print("    " + text)
-        if given.svg and judged.drawing and judged.verdict:
-            given.svg.mkdir(parents=True, exist_ok=True)
-            picture = given.svg / f"{Path(row.file).stem}-{row.drawer}-{row.view}.svg"
-            report.save_picture(picture, judged.drawing, judged.verdict, judged.gaps)
+        if given.png:
+            judged.save_picture(given.png / f"{Path(row.file).stem}-{row.drawer}-{row.view}.png")
     if not rows:
         print("no model files found", file=sys.stderr)
         return 2

@@ -1,15 +1,13 @@
-"""What the referee tells: a table, the worst offenders, and a picture with the wrong samples in red."""
+"""What the referee tells: one row per drawing, and the table of all."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
-import numpy as np
 from peers.exchange import Exchange
 from peers.judge import Verdict
-from peers.missing import Missing
+from peers.seen import Seen
 
 HEADINGS = (
     "file",
@@ -23,8 +21,12 @@ HEADINGS = (
     "wrong",
     "%",
     "displaced",
-    "asked",
+    "breaks",
     "missing",
+    "by own",
+    "longest mm",
+    "off curve",
+    "lost mm2",
     "draw s",
     "judge s",
 )
@@ -45,13 +47,19 @@ class Row:
     displaced: int = 0
     asked: int = 0
     missing: int = 0
+    by_own: int = 0
+    longest: float = 0.0
+    faults: int = 0
+    off: int = 0
+    lost: float = 0.0
     draw: float = 0.0
     judge: float = 0.0
     failure: str = ""
 
     @property
     def bad(self) -> bool:
-        return bool(self.wrong_visible or self.wrong_hidden or self.displaced or self.missing or self.failure)
+        wrong = self.wrong_visible or self.wrong_hidden or self.displaced
+        return bool(wrong or self.faults or self.off or self.lost or self.failure)
 
     def cells(self) -> list[str]:
         if self.failure:
@@ -70,13 +78,17 @@ class Row:
             str(self.displaced),
             str(self.asked),
             str(self.missing),
+            str(self.by_own),
+            f"{self.longest:.2f}" + ("!" if self.faults else ""),
+            str(self.off),
+            f"{self.lost:.1f}",
             f"{self.draw:.2f}",
             f"{self.judge:.2f}",
         ]
 
 
 def row(
-    file: str, drawer: str, drawing: Exchange, verdict: Verdict, *, gaps: Missing | None, draw: float, judge: float
+    file: str, drawer: str, drawing: Exchange, verdict: Verdict, seen: Seen, *, off: int, draw: float, judge: float
 ) -> Row:
     visible = verdict.samples.visible
     return Row(
@@ -89,8 +101,13 @@ def row(
         hidden=int((~visible).sum()),
         wrong_hidden=int(verdict.wrong_hidden.sum()),
         displaced=verdict.displaced,
-        asked=gaps.asked if gaps else 0,
-        missing=len(gaps.places) if gaps else 0,
+        asked=seen.gaps.asked,
+        missing=len(seen.gaps.places),
+        by_own=len(seen.own_gaps.places) if seen.own_gaps else 0,
+        longest=seen.gaps.worst,
+        faults=len(seen.gaps.faults),
+        off=off,
+        lost=sum(area for area, _ in seen.lost.areas) if seen.lost else 0.0,
         draw=draw,
         judge=judge,
     )
@@ -108,10 +125,15 @@ def total(rows: Sequence[Row]) -> Row:
             "displaced",
             "asked",
             "missing",
+            "by_own",
+            "faults",
+            "off",
+            "lost",
             "draw",
             "judge",
         )
     }
+    sums["longest"] = max((each.longest for each in rows), default=0.0)
     failures = sum(bool(each.failure) for each in rows)
     return Row(file="total", view=f"{len(rows)} views, {failures} failed", drawer="", **sums)
 
@@ -128,36 +150,3 @@ def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
         "| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)) + " |" for line in table
     ]
     return "\n".join([lines[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *lines[1:]])
-
-
-def save_picture(path: Path, drawing: Exchange, verdict: Verdict, gaps: Missing | None = None) -> None:
-    """Visible black, hidden grey; red rings: wrongly visible, orange: wrongly hidden, blue: missing."""
-    axes = np.stack([drawing.camera.right, drawing.camera.up], axis=1)
-    every = np.concatenate([line.points3 @ axes for line in drawing.lines] or [np.zeros((1, 2))])
-    low, high = every.min(axis=0), every.max(axis=0)
-    size = float(max(high - low)) or 1.0
-    width, height = (high - low) + 0.04 * size
-
-    def place(points: np.ndarray) -> np.ndarray:
-        flat = points @ axes - low + 0.02 * size
-        return np.stack([flat[:, 0], height - flat[:, 1]], axis=1) * (1000 / size)
-
-    out = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {1000 * width / size:.1f} {1000 * height / size:.1f}">'
-    ]
-    out.append('<rect width="100%" height="100%" fill="#fff"/>')
-    for visible, color, stroke in ((False, "#9ab", 0.5), (True, "#000", 1.0)):
-        data = "".join(
-            "M" + " ".join(f"{x:.2f},{y:.2f}" for x, y in place(line.points3))
-            for line in drawing.lines
-            if line.visible == visible
-        )
-        out.append(f'<path d="{data}" fill="none" stroke="{color}" stroke-width="{stroke}"/>')
-    samples = verdict.samples.points
-    marks = [(samples[verdict.wrong_visible], "#e00"), (samples[verdict.wrong_hidden], "#f80")]
-    if gaps is not None:
-        marks.append((gaps.places, "#00f"))
-    for places, color in marks:
-        for x, y in place(places):
-            out.append(f'<circle cx="{x:.2f}" cy="{y:.2f}" r="5" fill="none" stroke="{color}" stroke-width="1.5"/>')
-    path.write_text("\n".join([*out, "</svg>\n"]))

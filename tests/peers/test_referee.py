@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from peers import exchange, models, occt, referee, reference
 from peers.judge import FRACTIONS, RayCaster, judge, offenders
+from PIL import Image
 
 
 def wall_document(lines: list[dict[str, Any]], eye: list[float] | None = None) -> dict[str, Any]:
@@ -167,11 +168,12 @@ def test_command_judges_a_peer_and_writes_the_table(tmp_path: Path) -> None:
     script = Path(referee.__file__)
     command = [sys.executable, script, path, "--views=iso", "--peer=occt-exact", "--peer=occt-poly"]
     done = subprocess.run(
-        [*command, f"--table={table}", f"--svg={tmp_path}"], capture_output=True, text=True, check=False
+        [*command, f"--table={table}", f"--png={tmp_path}"], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert table.read_text().count("| box.brep") == 2
-    assert (tmp_path / "box-occt-exact-iso.svg").read_text().count("<path") == 2
+    with Image.open(tmp_path / "box-occt-exact-iso.png") as picture:
+        assert picture.size[0] > 1000 and len(picture.getcolors(1000) or []) > 2
 
 
 def test_command_says_when_a_peer_does_not_end(tmp_path: Path) -> None:
@@ -233,11 +235,11 @@ def test_missing_and_wrongly_hidden_outlines_are_noticed() -> None:
     judging = referee.Referee(reference.from_shape(shape))
     document = occt.draw(shape, "exact", occt.camera_of("iso"))
     whole = judging.judge("bracket", "occt", exchange.parse(document))
-    assert whole.gaps is not None and whole.gaps.asked > 200 and not whole.row.bad, list(whole.why())
+    assert whole.row.asked > 200 and not whole.row.bad, list(whole.why())
     outlines = [entry for entry in document["lines"] if entry["class"] == "outline" and entry["visible"]]
     seen = max(outlines, key=lambda entry: float(np.ptp(entry["points"], axis=0).max()))
     seen["visible"] = False
     called_hidden = judging.judge("bracket", "occt", exchange.parse(document)).row
     assert called_hidden.missing and not called_hidden.wrong_hidden
     document["lines"] = []
-    assert judging.judge("bracket", "occt", exchange.parse(document)).row.missing == whole.gaps.asked
+    assert judging.judge("bracket", "occt", exchange.parse(document)).row.missing > 0.5 * whole.row.asked

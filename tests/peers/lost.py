@@ -1,0 +1,43 @@
+"""Faces that are there in one mesh and not in the other: two depth images of the same sheet, pixel by pixel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from peers.depth import Hits, Sheet
+from scipy.ndimage import binary_opening, label
+
+BROAD = 5
+"""Pixels: an area is at least this wide both ways. Borders, which differ by a tessellation, are not."""
+DEEP = 2.0
+"""Pixels of depth, and as much again as the surface falls on its way over as many."""
+
+
+@dataclass(frozen=True)
+class Lost:
+    """Areas where the two meshes differ.
+
+    mask   (rows, columns): the pixels
+    areas  square millimetres, and a place on paper, largest first
+    """
+
+    mask: npt.NDArray[np.bool_]
+    areas: list[tuple[float, tuple[float, float]]]
+
+
+def lost(sheet: Sheet, image: Hits, own: Hits) -> Lost:
+    """Compare what is seen of the reference with what is seen of the drawing's own triangles."""
+    steep = np.minimum(*(np.linalg.norm(hits.slope, axis=2) for hits in (image, own)))
+    with np.errstate(invalid="ignore"):
+        apart = np.abs(image.depth - own.depth) > DEEP * sheet.pixel * (1 + steep)
+    mask = np.where(image.met & own.met, apart, image.met != own.met)
+    mask = binary_opening(mask, np.ones((BROAD, BROAD)))
+    numbers, count = label(mask)
+    areas = []
+    for number in range(1, count + 1):
+        inside = sheet.centres[numbers == number]
+        nearest = inside[np.argmin(((inside - inside.mean(axis=0)) ** 2).sum(axis=1))]
+        areas.append((len(inside) * sheet.pixel**2, (float(nearest[0]), float(nearest[1]))))
+    return Lost(mask, sorted(areas, reverse=True))

@@ -1,0 +1,50 @@
+"""What a viewer of the paper sees, by two depth images: of the referee's own mesh, and of the drawing's triangles.
+
+What the first asks for and the drawing lacks may be the fault of any stage; what the second asks for and the drawing
+lacks is that of visibility and linework alone; where the two differ, faces were lost on the way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from peers.depth import PIXELS, Depths, Hits, Sheet
+from peers.exchange import Exchange
+from peers.judge import RayCaster
+from peers.lost import Lost, lost
+from peers.missing import Missing, missing
+from peers.reference import Reference
+
+
+@dataclass(frozen=True)
+class Seen:
+    """One drawing beside the depth images of its sheet; None: its triangles are not known."""
+
+    sheet: Sheet
+    image: Hits
+    gaps: Missing
+    own_gaps: Missing | None = None
+    lost: Lost | None = None
+
+    def why(self) -> Iterator[str]:
+        """Where on paper lines are missing, and faces lost, worst first."""
+        for gaps, by in ((self.gaps, ""), (self.own_gaps, " (by its own triangles)")):
+            for run in gaps.faults if gaps else ():
+                yield f"no visible line for {run.length:.2f} mm at ({run.at[0]:.2f}, {run.at[1]:.2f}) on paper{by}"
+        for area, (x, y) in self.lost.areas if self.lost else ():
+            yield f"faces differ over {area:.1f} square mm at ({x:.2f}, {y:.2f}) on paper"
+
+
+def look(drawing: Exchange, caster: RayCaster, own: Reference | None = None, pixels: int = PIXELS) -> Seen:
+    """Cast the depth images and compare."""
+    sheet = Sheet.of(drawing, caster.corners, pixels)
+    depths = Depths(drawing, caster)
+    image = depths.at(sheet.centres)
+    gaps = missing(drawing, depths, sheet, image)
+    if own is None:
+        return Seen(sheet, image, gaps)
+    own_depths = Depths(drawing, RayCaster(own))
+    own_image = own_depths.at(sheet.centres)
+    own_gaps = missing(drawing, own_depths, sheet, own_image)
+    return Seen(sheet, image, gaps, own_gaps, lost(sheet, image, own_image))
