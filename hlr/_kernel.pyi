@@ -178,6 +178,16 @@ class ShadedModel:
 def stroke_picture(
     picture: Bytes, pieces: Floats, width: float, colour: tuple[int, int, int, int], threads: int = 0
 ) -> None: ...
+def filled_areas(
+    model: ShadedModel,
+    lens: Lens,
+    light: tuple[float, float, float],
+    ambient: float,
+    diffuse: float,
+    label: Ints,
+    fine: float,
+    threads: int = 0,
+) -> dict[str, Any]: ...
 def surface_normals(
     points: Floats,
     triangles: Ints,

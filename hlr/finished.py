@@ -22,6 +22,7 @@ Lines = tuple[tuple[Line, ...], tuple[float, float], int]
 
 def finished(
     opened: Source,
+    scene: Scene,
     seen: Scene,
     view: Staged,
     options: Options,
@@ -30,16 +31,19 @@ def finished(
     drawn: Lines,
     clock: Clock,
 ) -> Drawing:
-    """The drawing of one view of a scene."""
+    """The drawing of one view of a scene; seen: what of it is before the camera, with its outlines."""
     camera, at, planner = view.camera, view.at, view.planner
     lines, origin, sought = drawn
     started = perf_counter()
     fill: Fill | None = None
     if plan.fill:
-        from hlr.surfaces.fill import filled
+        from hlr.shading.fill import filled
 
-        fill = filled(seen, camera, at.per_model, origin)
+        fill = filled(
+            scene, opened.looks(), camera, seen.points, at.per_model, origin, at.tolerances.accuracy, options.threads
+        )
         planner.spent("fill", perf_counter() - started)
+        planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
     lap(clock, "linework", started)
     clock["total"] = sum(clock.values())
     counters = _counters(seen, segments, lines, fill, sought, plan)
@@ -103,6 +107,7 @@ def _counters(
         "curves_sought": sought,
         "filled_faces": faces,
         "coloured_faces": faces,
+        "gradients": 0 if fill is None else len(fill.gradients),
     }
 
 

@@ -88,7 +88,7 @@ def drawing_of(
         seen, curves, plan, segments, camera, projected, at.per_model, at.tolerances, options.hidden, threads
     )
     started = lap(clock, "linework", started)
-    return finished(opened, seen, view, options, plan, segments, lines, clock)
+    return finished(opened, scene, seen, view, options, plan, segments, lines, clock)
 
 
 def refuse_warnings(notes: Sequence[Note]) -> None:

@@ -39,7 +39,7 @@ class Options:
                  neighbours are less than the crease angle (and 45 degrees) apart
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
-    fill         paint the visible faces, flat-shaded, under the lines (SVG and PDF)
+    fill         paint what is seen of the faces, shaded, under the lines (SVG and PDF)
     threads      0: all cores
     strict       warnings are errors
     only, hide   patterns of parts: only those are drawn, or all but those; letters of any case, * and ? as in file

@@ -166,5 +166,5 @@ DRAWING: tuple[Effect, ...] = (
     _wish("circles", "asked for", "not asked for"),
     Effect("exact curves", SCENE, _exact, ("curves_sought",)),
     _wish("fill", "asked for", "not asked for"),
-    Effect("colours", ASKED, _colours, ("coloured_faces",)),
+    Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),
 )

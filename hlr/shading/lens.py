@@ -22,17 +22,23 @@ def lens(camera: Camera, points: Floats, scale: float, size: tuple[int, int]) ->
 
     The picture's middle is the middle of what is seen, or where the camera looks if its eye was given.
     """
-    ahead = camera.ahead(points)
-    nearest, farthest = float(ahead.min()), float(ahead.max())
     distance = 0.0 if camera.eye is None or camera.distance is None else camera.distance
     middle = (0.0, 0.0)
-    if distance:
-        nearest = max(nearest, NEAR * distance)
-        farthest = max(farthest, 2.0 * nearest)
-    if not camera.framed and (not distance or float(ahead.min()) > NEAR * distance):
+    if not camera.framed and (not distance or float(camera.ahead(points).min()) > NEAR * distance):
         flat = camera.project(points)[:, :2]
         low, high = flat.min(axis=0), flat.max(axis=0)
         middle = (float(low[0] + high[0]) * 0.5, float(low[1] + high[1]) * 0.5)
+    return lens_at(camera, points, scale, size, middle)
+
+
+def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int], middle: tuple[float, float]) -> Lens:
+    """The same with the place on the image plane that the picture's middle shows, in model units."""
+    ahead = camera.ahead(points)
+    nearest, farthest = float(ahead.min()), float(ahead.max())
+    distance = 0.0 if camera.eye is None or camera.distance is None else camera.distance
+    if distance:
+        nearest = max(nearest, NEAR * distance)
+        farthest = max(farthest, 2.0 * nearest)
     room = ROOM * (farthest - nearest) or ROOM * max(1.0, abs(nearest))
     d = camera.direction
     return (

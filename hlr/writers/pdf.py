@@ -47,12 +47,18 @@ def pdf(drawing: Drawing) -> bytes:
     document.add_object(stream)
 
     names = {f"L{i}": reference for i, reference in enumerate(layers)}
+    resources = {"Properties": pydyf.Dictionary(names)}
+    if drawing.fill is not None:
+        from hlr.writers.fill import pdf_resources
+
+        for name, held in pdf_resources(drawing.fill, _matrix(page, factor)).items():
+            resources[name] = pydyf.Dictionary(held)
     sheet = {
         "Type": "/Page",
         "Parent": document.pages.reference,
         "MediaBox": pydyf.Array([0, 0, _real(page.width * unit * factor), _real(page.height * unit * factor)]),
         "Contents": stream.reference,
-        "Resources": pydyf.Dictionary({"Properties": pydyf.Dictionary(names)}),
+        "Resources": pydyf.Dictionary(resources),
     }
     if user_unit > 1:
         sheet["UserUnit"] = user_unit
@@ -81,9 +87,8 @@ def layer_name(kind: str, visible: bool) -> str:
 
 def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
     """The page's drawing commands, in millimetres."""
-    unit = 10.0**-page.places
-    shift = f"{_real(-page.left * unit * factor)} {_real(-page.bottom * unit * factor)}"
-    out = [f"{_real(factor)} 0 0 {_real(factor)} {shift} cm 1 j\n".encode("ascii")]
+    matrix = " ".join(map(_real, _matrix(page, factor)))
+    out = [f"{matrix} cm 1 j\n".encode("ascii")]
     if fill is not None:
         from hlr.writers.fill import pdf_content
 
@@ -107,6 +112,12 @@ def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
                 out.append(data[start:end])
         out.append(b"EMC\n")
     return b"".join(out)
+
+
+def _matrix(page: Strokes, factor: float) -> tuple[float, ...]:
+    """From millimetres to the page."""
+    unit = 10.0**-page.places
+    return (factor, 0.0, 0.0, factor, -page.left * unit * factor, -page.bottom * unit * factor)
 
 
 def _real(value: float) -> str:

@@ -3,6 +3,7 @@
 pub mod bind;
 pub mod clash;
 pub mod exact;
+pub mod fill;
 pub mod geometry;
 pub mod ink;
 pub mod lines;
@@ -34,6 +35,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
     m.add_class::<bind::preview::ShadedModel>()?;
     m.add_function(wrap_pyfunction!(bind::preview::stroke_picture, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::fill::filled_areas, m)?)?;
     m.add_function(wrap_pyfunction!(bind::preview::surface_normals, m)?)?;
     m.add_function(wrap_pyfunction!(bind::painters::quadric_row, m)?)?;
     m.add_class::<bind::raster::RasterScene>()?;

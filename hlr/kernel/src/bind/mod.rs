@@ -1,6 +1,7 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry.
 
 pub mod clash;
+pub mod fill;
 pub mod geometry;
 pub mod ink;
 pub mod lines;

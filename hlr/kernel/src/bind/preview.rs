@@ -24,9 +24,9 @@ use crate::preview::workspace::Workspace;
 use crate::preview::{Model, NOTHING};
 
 /// right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: see `preview/lens.rs`.
-type LensTuple = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, [f64; 2], f64, [f64; 2], [usize; 2]);
+pub type LensTuple = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, [f64; 2], f64, [f64; 2], [usize; 2]);
 
-fn lens_of(given: LensTuple) -> PyResult<Lens> {
+pub fn lens_of(given: LensTuple) -> PyResult<Lens> {
     let (right, up, ahead, origin, scale, centre, distance, range, size) = given;
     if size.iter().any(|&s| s == 0 || s > MOST_PIXELS) {
         return Err(PyValueError::new_err(format!("a picture has 1 to {MOST_PIXELS} pixels a side")));
@@ -39,7 +39,7 @@ fn lens_of(given: LensTuple) -> PyResult<Lens> {
     Ok(Lens { right, up, ahead, origin, scale, centre, distance, range, size })
 }
 
-fn stopped_error() -> PyErr {
+pub fn stopped_error() -> PyErr {
     PyKeyboardInterrupt::new_err("stopped")
 }
 
@@ -59,14 +59,14 @@ pub struct ShadedModel {
 
 impl ShadedModel {
     /// Work in the memory of the last picture, or in fresh memory while another thread is at it.
-    fn with_space<T>(&self, work: impl FnOnce(&mut Workspace) -> T) -> T {
+    pub fn with_space<T>(&self, work: impl FnOnce(&mut Workspace) -> T) -> T {
         match self.space.try_lock() {
             Ok(mut space) => work(&mut space),
             Err(_) => work(&mut Workspace::default()),
         }
     }
 
-    fn model(&self) -> Model<'_> {
+    pub fn model(&self) -> Model<'_> {
         Model {
             points: &self.points,
             triangles: &self.triangles,

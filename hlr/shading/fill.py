@@ -1,0 +1,121 @@
+"""The faces under the lines of a filled drawing: what the shaded preview shows, as areas on paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.drawing import Fill, Gradient
+from hlr.plan.effects import AMBIENT, DIFFUSE, SHOULDER
+from hlr.scene.scene import INTERIOR, Scene
+from hlr.shading.lens import lens_at, toward_light
+from hlr.shading.scene import shaded_scene
+from hlr.source.model import EdgeClass, Floats, Ints, Look
+from hlr.view.camera import NEAR, Camera
+
+MOST = 6_000_000
+"""Points of the grid on which is looked for what is seen: about 150 MB while it is made."""
+
+MOST_A_SIDE = 16_000
+
+LEAST_A_SIDE = 400
+"""Points along the longer side: small drawings are looked at as closely as large ones."""
+
+BAND = 0.3
+"""Millimetres on paper that a band of light is wide, as a rule at least."""
+
+
+def filled(
+    scene: Scene,
+    looks: Mapping[str, Look],
+    camera: Camera,
+    shown: Floats,
+    per_model: float,
+    origin: tuple[float, float],
+    accuracy: float,
+    threads: int = 0,
+) -> Fill:
+    """What is seen of the faces, in the colours and the light of a preview.
+
+    shown (n, 3): the points whose images the drawing reaches around. per_model, origin: as of the drawing's lines.
+    accuracy: millimetres on paper. What is seen is looked up on a grid of that width, or of MOST points if that
+    is wider; where a border runs is computed on the triangles themselves.
+    """
+    if not len(scene.triangles) or not len(shown):
+        return _nothing()
+    flat = camera.project(shown)[:, :2]
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    extent = np.maximum(high - low, 1e-9 * max(float((high - low).max()), 1e-300))
+    pixels = _per_mm(extent * per_model, accuracy) * per_model
+    size = tuple(math.ceil(float(e) * pixels) + 4 for e in extent)
+    middle = (float(low[0] + high[0]) * 0.5, float(low[1] + high[1]) * 0.5)
+    before = None
+    if camera.eye is not None and camera.distance is not None:
+        before = np.asarray(camera.ahead(scene.points) - NEAR * camera.distance)
+    shaded = shaded_scene(scene, looks, before, threads)
+    eye = lens_at(camera, shaded.points, pixels, (size[0], size[1]), middle)
+    found = _kernel.filled_areas(
+        shaded.model,
+        eye,
+        toward_light(camera, SHOULDER),
+        AMBIENT,
+        DIFFUSE,
+        _labels(scene),
+        max(1.0, BAND * pixels / per_model),
+        threads,
+    )
+
+    def paper(places: Floats) -> Floats:
+        """Pixels -> millimetres."""
+        off = (places - np.asarray(eye[5])) * [per_model / pixels, -per_model / pixels]
+        return np.asarray(off - np.asarray(origin), np.float64)
+
+    return Fill(
+        points=paper(found["points"]),
+        loops=found["loops"],
+        faces=found["areas"],
+        colors=found["colours"],
+        gradient=found["gradient"],
+        gradients=tuple(
+            Gradient(paper(line[:2]), paper(line[2:]), found["shares"][a:b], found["shades"][a:b, :3])
+            for line, a, b in zip(found["lines"], found["stops"][:-1], found["stops"][1:], strict=True)
+        ),
+        part=scene.triangle_part[found["triangle"]].astype(np.int32),
+        spacing=per_model / pixels,
+    )
+
+
+def _nothing() -> Fill:
+    none, start = np.zeros(0, np.int32), np.zeros(1, np.int32)
+    return Fill(np.zeros((0, 2)), start, start, np.zeros((0, 4), np.uint8), none, (), none, 0.0)
+
+
+def _per_mm(extent: Floats, accuracy: float) -> float:
+    """Points of the grid per millimetre of paper; extent (2,) millimetres."""
+    wide, high = (float(e) for e in extent)
+    longest = max(wide, high)
+    wanted = max(1.0 / accuracy, LEAST_A_SIDE / longest)
+    return min(wanted, math.sqrt(MOST / (wide * high)), MOST_A_SIDE / longest)
+
+
+def _labels(scene: Scene) -> Ints:
+    """(t,) which triangles are one face: of a B-rep its own; of a mesh what hangs together without a crease."""
+    face = scene.triangle_face.astype(np.int64)
+    own = scene.triangle_part.astype(np.int64) * (int(face.max()) + 1) + face
+    bare = scene.groups.bare[scene.triangle_group]
+    if bare.any():
+        smooth = (scene.edge_kind == INTERIOR) | (scene.edge_kind == EdgeClass.SMOOTH)
+        inner = np.flatnonzero(smooth & (np.diff(scene.offsets) == 2))
+        first = scene.offsets[:-1][inner]
+        pairs = np.stack([scene.incident[first], scene.incident[first + 1]], axis=1)
+        pairs = pairs[(own[pairs[:, 0]] == own[pairs[:, 1]]) & bare[pairs].all(axis=1)]
+        # Each triangle with itself as well: the components of these are those of the triangles.
+        alone = np.arange(len(own))
+        joined = np.concatenate([np.stack([alone, alone], axis=1), pairs]).astype(np.int32)
+        piece = _kernel.edge_components(np.ascontiguousarray(joined), len(own))[: len(own)].astype(np.int64)
+        own = np.where(bare, int(own.max()) + 1 + piece, own)
+    _, label = np.unique(own, return_inverse=True)
+    return np.ascontiguousarray(label.ravel(), np.int32)
