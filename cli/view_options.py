@@ -13,7 +13,7 @@ from hlr.view.names import EYE
 from .parameters import Scale, Size, Vector, Vector3, ViewName
 
 if TYPE_CHECKING:
-    from hlr.plan.options import Perspective
+    from hlr.plan.options import Perspective, View
 
 Command = Callable[..., Any]
 
@@ -95,7 +95,7 @@ def options(*chosen: Callable[[Command], Command]) -> Callable[[Command], Comman
     return decorate
 
 
-def names_of(views: tuple[str | Vector3, ...], eye: Vector3 | None) -> list[str]:
+def names_of(views: tuple[View, ...], eye: Vector3 | None) -> list[str]:
     """Views as they are called in file names. Raises OptionError where the eye says already what the view says."""
     if eye is not None:
         if views:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
-from hlr.errors import OptionError
+from hlr.keywords import record_of, shown
 from hlr.pipeline import draw_views as drawn_once
-from hlr.plan.options import Options, View
+from hlr.plan.options import Options, View, Wishes
 from hlr.plan.request import checked, checked_views
 from hlr.source.chosen import open_chosen
 
@@ -39,13 +39,13 @@ def draw_views(
     return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
 
 
-def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Drawing:
-    """One view of a source; the keywords are the fields of `Options`."""
-    try:
-        request = Options(**options)
-    except TypeError as error:
-        raise OptionError(f"{error}".replace("Options.__init__()", "draw()")) from None
-    return draw_views(source, [view], request, progress)[0]
+@shown(Options)
+def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Unpack[Wishes]) -> Drawing:
+    """One view of a source; the keywords are the fields of `Options`.
+
+    Raises SourceError, ViewError, OptionError; with strict=True StrictError for any warning.
+    """
+    return draw_views(source, [view], record_of(Options, options, "draw"), progress)[0]
 
 
 def with_report(source: Any, drawing: Drawing, progress: Progress | None = None) -> Drawing:

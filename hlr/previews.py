@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from time import perf_counter
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +13,9 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.clock import Clock, lap
 from hlr.drawing import DrawnPart
-from hlr.errors import OptionError
 from hlr.finished import drawn_view
 from hlr.fitting import Staged, meshed_scene
+from hlr.keywords import record_of, shown
 from hlr.picture import Picture
 from hlr.pipeline import drawing_of, refuse_warnings
 from hlr.plan.effect import Facts, Planner
@@ -27,6 +27,7 @@ from hlr.plan.effects import (
     SHOULDER,
     Effects,
     PreviewOptions,
+    PreviewWishes,
     checked_preview,
     decide_effects,
     line_options,
@@ -51,16 +52,15 @@ MARGIN = 0.04
 INK = (0, 0, 0, 255)
 
 
-def preview(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Any) -> Picture:
+@shown(PreviewOptions)
+def preview(
+    source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Unpack[PreviewWishes]
+) -> Picture:
     """A shaded picture of one view of a source; the keywords are the fields of `PreviewOptions`.
 
     Raises SourceError, ViewError, OptionError; with strict=True StrictError for any warning.
     """
-    try:
-        request = PreviewOptions(**options)
-    except TypeError as error:
-        raise OptionError(f"{error}".replace("PreviewOptions.__init__()", "preview()")) from None
-    return preview_views(source, [view], request, progress)[0]
+    return preview_views(source, [view], record_of(PreviewOptions, options, "preview"), progress)[0]
 
 
 def preview_views(

@@ -21,7 +21,7 @@ from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, names_of, opti
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
-    from hlr.plan.options import Options
+    from hlr.plan.options import Options, View
 
     from ..meter import Progress
 
@@ -76,7 +76,7 @@ def draw(
     *,
     source: str,
     outputs: tuple[str, ...],
-    views: tuple[str | Vector3, ...],
+    views: tuple[View, ...],
     format: str | None,
     explain: bool,
     as_json: bool,
@@ -144,7 +144,7 @@ def request_of(
 
 def _within(
     source: str,
-    views: list[str | Vector3],
+    views: list[View],
     request: Options,
     progress: Progress,
     targets: Targets,

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from ..guard import start
 from ..meter import meter
 from ..outputs import in_folder, place
-from ..parameters import Pixels, Vector3, ViewName
+from ..parameters import Pixels, ViewName
 from ..streams import result_only
 from ..telling import tell_written
 from ..verb import Verb
+
+if TYPE_CHECKING:
+    from hlr.plan.options import View
 
 
 @click.command(cls=Verb)
@@ -50,7 +55,7 @@ def methods(
     counts: tuple[int, ...],
     crossing: tuple[int, ...],
     methods: tuple[str, ...],
-    view: str | Vector3,
+    view: View,
     limit: float,
     quiet: bool,
 ) -> None:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..guard import start
 from ..meter import meter
-from ..parameters import Vector3
 from ..streams import result_only
 from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, names_of, options
 from .draw import LINES, request_of
+
+if TYPE_CHECKING:
+    from hlr.plan.options import View
 
 
 @click.command(cls=Verb)
@@ -21,7 +23,7 @@ from .draw import LINES, request_of
 @options(*CHOICE, *LINES, *SIZE, *CARE, *CAMERA, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def plan(*, source: str, views: tuple[str | Vector3, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:
+def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:
     """Say which effects a drawing of SOURCE needs, and why.
 
     \b

@@ -21,6 +21,7 @@ from ..view_options import CAMERA, CARE, CHOICE, RUN, VIEW, names_of, options, p
 if TYPE_CHECKING:
     from hlr.picture import Picture
     from hlr.plan.effects import PreviewOptions
+    from hlr.plan.options import View
 
 
 @click.command(cls=Verb)
@@ -50,7 +51,7 @@ if TYPE_CHECKING:
 @click.option("--explain", is_flag=True, help="Say what the scene and the request called for, and why.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
 def preview(
-    *, source: str, output: str | None, views: tuple[str | Vector3, ...], explain: bool, quiet: bool, **wishes: Any
+    *, source: str, output: str | None, views: tuple[View, ...], explain: bool, quiet: bool, **wishes: Any
 ) -> None:
     """Show SOURCE shaded, in its own colours.
 

@@ -12,12 +12,13 @@ from hlr.errors import OptionError, SourceError
 from ..guard import end_when_orphaned
 from ..meter import meter
 from ..outputs import Target, in_folder, place
-from ..parameters import Scale, Size, Vector3, ViewName
+from ..parameters import Scale, Size, ViewName
 from ..signals import Stopped, tidily
 from ..telling import tell_written
 from ..verb import Verb
 
 if TYPE_CHECKING:
+    from hlr.plan.options import View
     from hlr.study.sweep import Study
 
 FILES = ("study.csv", "study.md", "error.png", "stages.png", "arithmetic.csv")
@@ -63,7 +64,7 @@ def study(
     *,
     source: str,
     output: str,
-    view: str | Vector3,
+    view: View,
     scale: float | None,
     fit: tuple[float, float] | None,
     accuracies: tuple[float, ...],

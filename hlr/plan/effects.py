@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from numbers import Integral
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -76,6 +76,27 @@ class PreviewOptions:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+
+
+class PreviewWishes(TypedDict, total=False):
+    """The fields of `PreviewOptions` as the keywords of `hlr.preview`: none has to be given."""
+
+    size: tuple[int, int]
+    background: str
+    edges: bool
+    antialias: bool
+    shadows: bool
+    occlusion: bool
+    specular: bool
+    depth: bool
+    ids: bool
+    smooth: bool
+    crease: float
+    accuracy: float | None
+    up: Vector | None
+    perspective: Perspective | None
+    threads: int
+    strict: bool
 
 
 @dataclass(frozen=True, slots=True)

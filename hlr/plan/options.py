@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal, TypedDict
 
 Vector = tuple[float, float, float]
-View = str | Sequence[float]
-"""A named view (`hlr.view.names`) or a direction from the object toward the viewer."""
+
+ViewName = Literal[
+    "front", "back", "left", "right", "top", "bottom", "iso", "iso-se", "iso-sw", "iso-ne", "iso-nw"
+]  # fmt: skip
+"""Views with a name; `hlr.view.names` says where each looks from."""
+
+View = ViewName | Sequence[float]
+"""A named view or a direction from the object toward the viewer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +75,27 @@ class Options:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+
+
+class Wishes(TypedDict, total=False):
+    """The fields of `Options` as the keywords of `hlr.draw`: none has to be given."""
+
+    hidden: bool
+    smooth: bool
+    seam: bool
+    intersections: bool
+    scale: float
+    fit: tuple[float, float] | None
+    accuracy: float | None
+    crease: float
+    circles: bool
+    up: Vector | None
+    perspective: Perspective | None
+    fill: bool
+    threads: int
+    strict: bool
+    report: bool
+    within: float | None
 
 
 @dataclass(frozen=True, slots=True)

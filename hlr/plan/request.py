@@ -71,11 +71,11 @@ def checked_views(views: Sequence[View], options: Looking) -> list[View]:
     checked already: whatever is wrong with it is known before the model is read.
     """
     if isinstance(views, str):
-        views = [views]
+        views = [cast(View, views)]
     elif _is_vector(views, 3):
         views = [cast(Sequence[float], views)]
     try:
-        found = [view.strip().lower() if isinstance(view, str) else view for view in views]
+        found = [cast(View, view.strip().lower()) if isinstance(view, str) else view for view in views]
     except TypeError:
         raise ViewError(f"{views!r} is no list of views: give names such as 'iso', or directions") from None
     for view in found:

@@ -6,9 +6,9 @@ the viewer stands at, as in AutoCAD.
 
 from __future__ import annotations
 
-Vector = tuple[float, float, float]
+from hlr.plan.options import Vector, ViewName
 
-NAMED: dict[str, tuple[Vector, Vector]] = {
+NAMED: dict[ViewName, tuple[Vector, Vector]] = {
     "front": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
     "back": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
     "left": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),

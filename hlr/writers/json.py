@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, fields, is_dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.curve import Arc, Curve
-from hlr.drawing import Drawing, Line
+from hlr.drawing import Drawing, DrawnView, Line
 from hlr.errors import WriteError
 from hlr.writers.number import NOT_FINITE
 
@@ -27,10 +27,10 @@ def document(drawing: Drawing) -> bytes:
         "source": drawing.source,
         "units": "mm",
         "accuracy": accuracies(drawing),
-        "view": _view(drawing),
-        "scale": drawing.scale,
-        "origin": [x + 0.0 for x in drawing.origin],
-        "model": {"unit": drawing.unit, "up_axis": _numbers(drawing.up_axis)},
+        "view": _view(drawing.view),
+        "scale": float(drawing.scale),
+        "origin": _numbers(drawing.origin),
+        "model": {"unit": float(drawing.unit), "up_axis": _numbers(drawing.up_axis)},
     }
     parts = [{"name": part.name, "color": part.color, "transform": _numbers(part.transform)} for part in drawing.parts]
     tail = {
@@ -39,6 +39,8 @@ def document(drawing: Drawing) -> bytes:
         "counters": dict(drawing.counters),
         "timings": {**drawing.timings, **_effects(drawing)},
     }
+    if drawing.fill is not None:
+        tail = {"fill": _record(drawing.fill), **tail}
     listed = ",\n".join(_dump(part) for part in parts)
     drawn = ",\n".join(_lines(drawing.lines))
     text = f'{_dump(head)[:-1]},\n"parts": [\n{listed}\n],\n"lines": [\n{drawn}\n],\n{_dump(tail)[1:]}\n'
@@ -59,18 +61,10 @@ def accuracies(drawing: Drawing) -> dict[str, Any]:
     return fields if drawing.reached is None else fields | {"reached": drawing.reached.as_dict()}
 
 
-def _view(drawing: Drawing) -> dict[str, Any]:
-    view = drawing.view
-    fields: dict[str, Any] = {
-        "name": view.name,
-        "projection": view.projection,
-        "direction": [x + 0.0 for x in view.direction],
-        "right": [x + 0.0 for x in view.right],
-        "up": [x + 0.0 for x in view.up],
-    }
-    if view.projection == "perspective":
-        fields |= {"eye": view.eye, "target": view.target, "fov": view.fov, "distance": view.distance}
-    return fields
+def _view(view: DrawnView) -> dict[str, Any]:
+    fields = {k: v if isinstance(v, str) else _numbers(v) for k, v in asdict(view).items() if v is not None}
+    # In perspective, what is unknown is null.
+    return fields if view.projection == "orthographic" else dict.fromkeys(asdict(view)) | fields
 
 
 def _lines(lines: Sequence[Line]) -> Iterator[str]:
@@ -98,10 +92,18 @@ def _curve(curve: Curve) -> dict[str, Any]:
     return {"type": "bezier", "degree": curve.degree, "points": _numbers(curve.points)}
 
 
-def _numbers(values: npt.ArrayLike) -> list[Any]:
+def _record(value: Any) -> Any:
+    """A record of arrays, by the names of its fields."""
+    if isinstance(value, np.ndarray):
+        return _numbers(value) if value.dtype.kind == "f" else value.tolist()
+    if is_dataclass(value):
+        return {f.name: _record(getattr(value, f.name)) for f in fields(value)}
+    return [_record(each) for each in value] if isinstance(value, tuple) else value
+
+
+def _numbers(values: npt.ArrayLike) -> Any:
     # Adding zero turns -0.0 into 0.0: a sign without meaning would differ between equal drawings.
-    rows: list[Any] = (np.asarray(values, dtype=np.float64) + 0.0).tolist()
-    return rows
+    return (np.asarray(values, dtype=np.float64) + 0.0).tolist()
 
 
 def _dump(value: Any, between: str = ", ") -> str:

@@ -38,7 +38,7 @@ def drawing(lines, accuracy=0.05, parts=None, **changes):
         origin=(0.0, 0.0),
         accuracy=Accuracy(None, accuracy, 0.02, 0.1),
         unit=1.0,
-        up_axis=np.eye(3),
+        up_axis=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         parts=tuple(parts or (part(f"part {i}") for i in range(used + 1))),
         lines=tuple(lines),
     )

@@ -1,0 +1,38 @@
+"""Keywords of a function that are the fields of a record: `help` shows them, a wrong one is refused in a sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from difflib import get_close_matches
+from inspect import Parameter, signature
+from typing import Any, TypeVar
+
+from hlr.errors import OptionError
+
+Record = TypeVar("Record")
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def record_of(kind: type[Record], keywords: Mapping[str, Any], function: str) -> Record:
+    """The record with these fields; raises OptionError for a keyword that is none of them, with the nearest that is."""
+    known = [f.name for f in fields(kind)]  # type: ignore[arg-type]
+    for name in keywords:
+        if name not in known:
+            near = get_close_matches(name, known, 1)
+            advice = f"did you mean {near[0]}?" if near else f"use {', '.join(known)}"
+            raise OptionError(f"{function}() has no option {name!r}: {advice}")
+    return kind(**keywords)
+
+
+def shown(kind: type) -> Callable[[Function], Function]:
+    """Let `help` show the fields of `kind` in place of a function's **keywords."""
+
+    def named(function: Function) -> Function:
+        found = signature(function)
+        own = [p for p in found.parameters.values() if p.kind is not Parameter.VAR_KEYWORD]
+        more = [p.replace(kind=Parameter.KEYWORD_ONLY) for p in signature(kind).parameters.values()]
+        function.__signature__ = found.replace(parameters=[*own, *more])  # type: ignore[attr-defined]
+        return function
+
+    return named

@@ -1,0 +1,109 @@
+"""The package's face: what it names, what it loads, and what a type checker refuses."""
+
+import inspect
+import os
+import subprocess
+import sys
+from dataclasses import fields
+from pathlib import Path
+from typing import get_args, get_type_hints
+
+import pytest
+
+import hlr
+from hlr.plan.effects import PreviewOptions, PreviewWishes
+from hlr.plan.options import Options, ViewName, Wishes
+from hlr.view.names import NAMED
+
+
+def test_all_public_names_are_listed_and_there():
+    assert set(hlr.__all__) <= set(dir(hlr)) and {"draw", "load", "methods", "study", "surfaces"} <= set(dir(hlr))
+    for name in hlr.__all__:
+        assert getattr(hlr, name) is not None
+    assert hlr.__all__ == sorted(hlr.__all__)
+    assert callable(hlr.methods) and callable(hlr.study.study) and "study" in dir(hlr.study)
+    with pytest.raises(AttributeError, match="no attribute 'darw'"):
+        _ = hlr.darw
+
+
+def test_listing_the_names_loads_nothing():
+    code = "import hlr, sys; dir(hlr); print([m for m in sys.modules if m.startswith(('hlr.', 'numpy'))])"
+    done = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
+
+
+@pytest.mark.parametrize(("record", "keywords"), [(Options, Wishes), (PreviewOptions, PreviewWishes)])
+def test_keywords_are_the_fields_of_the_record(record, keywords):
+    assert get_type_hints(keywords) == get_type_hints(record) and not keywords.__required_keys__
+
+
+def test_names_of_views_are_those_that_are_known():
+    assert get_args(ViewName) == tuple(NAMED)
+
+
+@pytest.mark.parametrize(("function", "record"), [(hlr.draw, Options), (hlr.preview, PreviewOptions)])
+def test_help_shows_the_options_and_their_defaults(function, record):
+    shown = inspect.signature(function).parameters
+    assert {f.name: f.default for f in fields(record)}.items() <= {k: p.default for k, p in shown.items()}.items()
+    assert "options" not in shown
+
+
+def test_a_wrong_option_is_refused_with_the_nearest():
+    with pytest.raises(hlr.OptionError, match=r"^draw\(\) has no option 'hiden': did you mean hidden\?$"):
+        hlr.draw("a.step", hiden=False)
+    with pytest.raises(hlr.OptionError, match=r"^preview\(\) has no option 'xyz': use size, "):
+        hlr.preview("a.step", xyz=1)
+
+
+PROGRAM = """
+import io
+import hlr
+drawing = hlr.draw("a.step", "front", scale=0.5, hidden=False, fit=(10.0, 10.0), up=(0.0, 0.0, 1.0), accuracy=0.01)
+hlr.draw("a.step", (1.0, -1.0, 1.0))
+picture = hlr.preview("a.step", size=(8, 8), edges=True)
+drawing.save("a.svg")
+drawing.save(io.BytesIO(), format="pdf")
+used: float = drawing.accuracy.used
+width: float = drawing.bounds.width
+code: hlr.NoteCode = drawing.notes[0].code
+first: hlr.Line = drawing.visible[0]
+again: hlr.Drawing = hlr.load("a.json")
+hlr.study.study("a.step", wish=hlr.study.Wish(rivals=False))
+hlr.methods(counts=[100], limit=1.0)
+hlr.surfaces.render
+"""
+
+REFUSED = {
+    'hlr.draw("a.step", hiden=False)': 'Unexpected keyword argument "hiden"',
+    'hlr.draw("a.step", hidden="no")': 'incompatible type "str"; expected "bool"',
+    'hlr.draw("a.step", accuracy="fine")': 'incompatible type "str"; expected "float | None"',
+    'hlr.draw("a.step", "frnt")': "expected \\\"Literal['front'",
+    'hlr.preview("a.step", colour=1)': 'Unexpected keyword argument "colour"',
+    'hlr.darw("a.step")': 'Module has no attribute "darw"',
+    'drawing.save("a.dxf", "dxf")': "No overload variant",
+    "drawing.save(io.BytesIO())": "No overload variant",
+    'drawing.accuracy["used"]': '"Accuracy" is not indexable',
+    "drawing.bounds()": '"Bounds" not callable',
+    'drawing.lines[0].kind == "shrap"': "Non-overlapping equality check",
+    "drawing.scale = 2.0": 'Property "scale" defined in "Drawing" is read-only',
+}
+
+
+def test_a_type_checker_takes_what_is_right_and_refuses_what_is_wrong(tmp_path):
+    pytest.importorskip("mypy")
+    path = tmp_path / "program.py"
+    path.write_text(PROGRAM + "".join(f"{line}\n" for line in REFUSED))
+    command = [sys.executable, "-m", "mypy", "--strict", "--no-pretty", "--no-error-summary"]
+    command += ["--cache-dir", str(tmp_path), "--config-file", "", str(path)]
+    home = Path(hlr.__file__).parents[1]
+    env = {**os.environ} if home.name == "site-packages" else {**os.environ, "MYPYPATH": str(home)}
+    done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=env, check=False)
+    told = {}
+    for text in done.stdout.splitlines():
+        if text.startswith("program.py:") and ": error: " in text:
+            told.setdefault(int(text.split(":")[1]), text)
+    lines = path.read_text().splitlines()
+    right = len(PROGRAM.splitlines())
+    assert {lines[number - 1] for number in told if number <= right} == set(), done.stdout + done.stderr
+    for number, (line, message) in enumerate(REFUSED.items(), right + 1):
+        assert message.replace("\\", "") in told.get(number, ""), f"{line}: {told.get(number)}\n{done.stderr}"
