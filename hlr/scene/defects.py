@@ -71,7 +71,7 @@ def reports(
                 color=part.color,
                 transform=part.transform,
                 faces=len(part.face_planar) if part.brep else 0,
-                edges=len(part.edge_index) if part.brep else int(drawn[i]),
+                edges=_distinct(part.edge_index) if part.brep else int(drawn[i]),
                 triangles=int(triangles[i]),
                 closed=bool(triangles[i] > 0 and not border[i] and not unclosed[i]),
                 oriented=bool(turned[i] == 0),
@@ -104,3 +104,8 @@ def _inside_out(groups: Groups, group_part: Ints) -> npt.NDArray[np.bool_]:
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _distinct(ascending: Ints) -> int:
+    """How many different numbers there are; an edge that changes its class is there in pieces."""
+    return int(np.count_nonzero(np.diff(ascending))) + (len(ascending) > 0)

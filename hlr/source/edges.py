@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,20 +13,7 @@ from hlr.source.explore import Topology
 from hlr.source.locations import moved_each
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.source.tables import Bools, Bytes, Tables, ranges, starts
-
-TANGENT = 0.01
-"""Radians: surfaces that meet at less are tangent; what STEP and IGES readers assume as well."""
-
-WAVERING, MOSTLY_TANGENT = 0.02, 0.008
-"""Radians: surfaces that were fitted to one another waver about TANGENT along an edge; the worst of a few places there
-would say now this, now that, as the tessellation falls. They are tangent where no place is worse than the one, and the
-root of the mean square is less than the other."""
-
-NEARLY_TANGENT = 0.1
-"""Radians: an edge recorded as tangent is believed where its sides come as close as this somewhere.
-
-Where a fillet runs out to a point its surface has no normal, so not every place along the edge can be asked to agree.
-"""
+from hlr.source.tangency import MOSTLY_TANGENT, NEARLY_TANGENT, TANGENT, WAVERING, Tangency
 
 
 @dataclass(slots=True)
@@ -102,8 +90,42 @@ def edge_lines(laid: Laid) -> Lines:
     )
 
 
-def classify(laid: Laid) -> Bytes:
-    """EdgeClass of every edge.
+def in_pieces(lines: Lines, edge_class: Bytes, points: Floats, judged: Mapping[int, Tangency]) -> tuple[Lines, Bytes]:
+    """The lines, edges that change their class cut where they do, and the EdgeClass of each; points: of all nodes."""
+    cut: dict[int, tuple[list[int], list[int]]] = {}
+    for edge, tangency in judged.items():
+        line = int(np.searchsorted(lines.edge, edge))
+        if len(tangency.smooth) == 1 or line == len(lines.edge) or lines.edge[line] != edge:
+            continue
+        nodes = points[lines.nodes[lines.start[line] : lines.start[line + 1]]]
+        at = [int(((nodes - p) ** 2).sum(axis=1).argmin()) for p in tangency.points]
+        classes = np.where(tangency.smooth, EdgeClass.SMOOTH, EdgeClass.SHARP).tolist()
+        bounds = [0, *at, len(nodes) - 1]
+        kept = [k for k in range(len(classes)) if bounds[k] < bounds[k + 1]]
+        cut[line] = [bounds[k] for k in kept[1:]], [classes[k] for k in kept]
+    result = edge_class[lines.edge]
+    if not cut:
+        return lines, result
+    rows = []
+    for line, count in enumerate(np.diff(lines.start).tolist()):
+        inner, classes = cut.get(line, ([], [int(result[line])]))
+        bounds = [0, *inner, count - 1]
+        rows += [
+            (line, kind, low, high - low + 1) for kind, low, high in zip(classes, bounds[:-1], bounds[1:], strict=True)
+        ]
+    line_of, kinds, first, sizes = np.array(rows, np.int32).T
+    pieces = Lines(
+        edge=lines.edge[line_of],
+        start=starts(sizes),
+        nodes=lines.nodes[ranges(lines.start[line_of] + first, sizes)],
+        free_edge=lines.free_edge,
+        free_points=lines.free_points,
+    )
+    return pieces, kinds.astype(np.uint8)
+
+
+def classify(laid: Laid, judged: Mapping[int, Tangency]) -> Bytes:
+    """EdgeClass of every edge; judged: how the faces meet at those that were compared along their whole length.
 
     An edge of two faces is SMOOTH where the surface normals agree along it; a seam whose normals do not agree is a
     crease. Edges of more than two faces, and edges of none, are SHARP; those of one face are its BOUNDARY.
@@ -127,6 +149,8 @@ def classify(laid: Laid) -> Bytes:
     recorded = tables.smooth[topo.edge_shape] >= t.G1
     tangent = (worst <= _squared_sine(TANGENT)) | (recorded & (least <= _squared_sine(NEARLY_TANGENT)))
     tangent |= (worst <= _squared_sine(WAVERING)) & (mean <= _squared_sine(MOSTLY_TANGENT))
+    for edge, tangency in judged.items():
+        tangent[edge] = tangency.smooth.all()
     result[(faces == 2) & tangent] = EdgeClass.SMOOTH
     return result
 

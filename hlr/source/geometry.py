@@ -131,8 +131,8 @@ def _conic(kind: int, first: float, last: float, origin: Any, a: tuple[float, An
 def _poles(curve: Any) -> Floats:
     """(n, 4) x, y, z, weight."""
     count = curve.NbPoles()
-    points = [curve.Pole(i) for i in range(1, count + 1)]
-    poles = np.array([(p.X(), p.Y(), p.Z(), 1.0) for p in points])
+    poles = np.ones((count, 4))
+    poles[:, :3] = [curve.Pole(i).Coord() for i in range(1, count + 1)]
     if curve.IsRational():
         poles[:, 3] = [curve.Weight(i) for i in range(1, count + 1)]
     return poles

@@ -170,6 +170,5 @@ def _poles(surface: Any) -> list[float]:
     out: list[float] = []
     for i in range(1, surface.NbUPoles() + 1):
         for j in range(1, surface.NbVPoles() + 1):
-            p = pole(i, j)
-            out += (p.X(), p.Y(), p.Z(), weight(i, j) if rational else 1.0)
+            out += (*pole(i, j).Coord(), weight(i, j) if rational else 1.0)
     return out

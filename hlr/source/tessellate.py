@@ -11,6 +11,7 @@ import numpy as np
 from hlr.notes import Note
 from hlr.source.delabella import treacherous, without
 from hlr.source.dump import DumpError, read_dump
+from hlr.source.freeform import FreeEdges, is_free, with_nodes
 from hlr.source.model import Progress
 from hlr.source.parts import compound, explored
 from hlr.source.quality import FINE, coarse_faces, edge_pairs, lapped_faces, tightened
@@ -38,7 +39,7 @@ class Tessellator:
         self._faces: list[Any] = []
         self._flat: list[bool] = []
         self._batches: list[list[int]] = [[]]
-        seen: set[Any] = set()
+        self._number: dict[Any, int] = {}
         filled = 0
         for number, root in enumerate(roots):
             faces = explored(root, Kind.TopAbs_FACE)
@@ -49,16 +50,26 @@ class Tessellator:
             filled += len(faces)
             for face in faces:
                 underlying = face.TShape()
-                if underlying not in seen:
-                    seen.add(underlying)
+                if underlying not in self._number:
+                    self._number[underlying] = len(self._faces)
                     self._faces.append(TopoDS.Face_s(face))
         self._flat = [_is_flat(face, FLAT * size) for face in self._faces]
         self.surfaces = FaceSurfaces(self._faces)
+        self._free_edges: FreeEdges | None = None
         kept = zip(self._faces, self._flat, strict=True)
         self._kept_back = {face.TShape() for face, flat in kept if flat and treacherous(face)}
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> tuple[Meshes, list[Note]]:
         """All roots at this chord error and turning angle (radians), and notes on what failed."""
+        if self._free_edges is None:
+            free = [not flat and is_free(face) for face, flat in zip(self._faces, self._flat, strict=True)]
+            self._free_edges = FreeEdges.compared(self._roots, self._number, free, self.surfaces)
+        with with_nodes(self._free_edges.uneven):
+            return self._mesh(self._free_edges, deflection, angle, progress)
+
+    def _mesh(
+        self, free_edges: FreeEdges, deflection: float, angle: float, progress: Progress | None
+    ) -> tuple[Meshes, list[Note]]:
         from OCP.BRepTools import BRepTools
 
         notes: list[Note] = []
@@ -79,7 +90,7 @@ class Tessellator:
         planar = np.zeros(len(tables.kind), dtype=bool)
         # The dump lists each underlying face once, in the order in which an explorer meets them: so do we.
         planar[faces] = self._flat
-        result = build(tables, planar)
+        result = build(tables, planar, free_edges.found)
         result.face_shape -= np.int32(first)
         if progress is not None:
             progress("tessellate", 1.0)

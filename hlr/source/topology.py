@@ -3,21 +3,24 @@
 1. Expand the tree of every part into faces, edges and their uses (`explore`).
 2. Lay out one block of nodes per face and join the nodes that faces share (`conform`).
 3. Drop the triangles that collapse, and read each edge's polyline off one of its polygons (`edges`).
-4. Classify the edges by the faces they bound and by the surface normals on both sides (`edges`).
+4. Classify the edges by the faces they bound and by the surface normals on both sides: at their nodes (`edges`), those
+   of free-form faces along their whole length (`tangency`), in pieces where that changes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from hlr.source.conform import edge_polygons, join_nodes
-from hlr.source.edges import Laid, classify, edge_lines
+from hlr.source.edges import Laid, classify, edge_lines, in_pieces
 from hlr.source.explore import explore
 from hlr.source.locations import determinant_sign, moved_each
 from hlr.source.model import Floats, Ints
 from hlr.source.tables import FACE, Bools, Bytes, Tables, ranges, starts
+from hlr.source.tangency import Tangency
 
 
 @dataclass(slots=True)
@@ -52,8 +55,11 @@ class Meshes:
     face_reversed: Bools
 
 
-def build(tables: Tables, planar: Bools) -> Meshes:
-    """All four steps. `planar`: (n,) bool per underlying shape, meaningful for faces."""
+def build(tables: Tables, planar: Bools, judged: Mapping[tuple[int, int], Tangency] | None = None) -> Meshes:
+    """All four steps. `planar`: (n,) bool per underlying shape, meaningful for faces.
+
+    judged: by part and index in its edge map, edges of which it is known how their faces meet.
+    """
     topo = explore(tables)
     parts = int(tables.sub_start[-1] - tables.sub_start[-2]) - 1
     tri = tables.face_tri[topo.face_shape]
@@ -83,8 +89,10 @@ def build(tables: Tables, planar: Bools) -> Meshes:
     triangles, face_of_triangle, raw = triangles[whole], face_of_triangle[whole], raw[whole]
 
     laid = Laid(tables, topo, planar, polygons, positions, label, raw, face_of_triangle)
+    edge_start = np.searchsorted(topo.edge_part, np.arange(parts + 1)).astype(np.int32)
+    known = {int(edge_start[part]) + edge: found for (part, edge), found in (judged or {}).items()}
     lines = edge_lines(laid)
-    edge_class = classify(laid)
+    lines, line_class = in_pieces(lines, classify(laid, known), np.concatenate((positions, lines.free_points)), known)
 
     # Compress: used nodes, part after part; nodes of free edges follow those of the part's faces.
     node_part = np.concatenate((topo.face_part[face_of_node], topo.edge_part[lines.free_edge]))
@@ -97,7 +105,6 @@ def build(tables: Tables, planar: Bools) -> Meshes:
     number = np.empty(len(everything), dtype=np.int32)
     number[kept] = np.arange(len(kept), dtype=np.int32)
     face_start = np.searchsorted(topo.face_part, np.arange(parts + 1)).astype(np.int32)
-    edge_start = np.searchsorted(topo.edge_part, np.arange(parts + 1)).astype(np.int32)
     drawn_part = topo.edge_part[lines.edge]
     missing = np.bincount(topo.face_part[~meshed], minlength=parts)
     of_faces = np.flatnonzero(tables.kind == FACE)
@@ -113,7 +120,7 @@ def build(tables: Tables, planar: Bools) -> Meshes:
         edge_offsets=lines.start,
         edge_nodes=number[lines.nodes],
         edge_index=lines.edge - edge_start[drawn_part],
-        edge_class=edge_class[lines.edge],
+        edge_class=line_class,
         missing_faces=missing.astype(np.int32),
         node_start=np.searchsorted(topo.face_part[face_of_node], np.arange(parts + 1)).astype(np.int32),
         corner=raw,

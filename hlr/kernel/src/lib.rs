@@ -27,6 +27,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::clash::boxes_meet, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::geometry::surface_points, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::true_lines, m)?)?;
     m.add_function(wrap_pyfunction!(bind::ink::arc_rows, m)?)?;
     m.add_function(wrap_pyfunction!(bind::ink::path_data, m)?)?;
