@@ -12,7 +12,7 @@ from typing import NoReturn
 
 import click
 
-from hlr.errors import HlrError
+from hlr.errors import HlrError, KernelError
 
 from . import guard, signals
 from .streams import ReaderGoneError
@@ -37,6 +37,10 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
         _refuse(f"{_sentence(error.format_message())} (see {path} --help)")
     except click.ClickException as error:
         _refuse(error.format_message())
+    except KernelError as error:
+        _debug()
+        _say(f"hlr: {error}")
+        _leave(FAULT)
     except HlrError as error:
         _debug()
         _refuse(str(error))
@@ -51,7 +55,7 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
         _refuse("out of memory; a larger --accuracy needs less")
     except SystemExit:
         raise
-    except BaseException as error:  # a panic of the kernel is no Exception
+    except BaseException as error:
         _debug()
         _report(error)
 

@@ -210,19 +210,35 @@ def quadric_row(coefficients: list[int], x0: int, y: int, count: int) -> tuple[n
 
 RasterCamera = tuple[tuple[tuple[float, float, float, float], ...], tuple[int, int], tuple[float, float, float], bool]
 
+RasterLimits = tuple[float, bool, float]
+"""Seconds, whether of the thread's work alone, and bytes."""
+
 class RasterScene:
-    """Polygons for the visible-surface methods."""
+    """Polygons for the visible-surface methods. TimeoutError, MemoryError: a limit was too narrow."""
 
     def __new__(
-        cls, points: Floats, corners: Ints, loops: Ints, polygons: Ints, cull: Bools, values: Floats, non_zero: bool
+        cls,
+        points: Floats,
+        corners: Ints,
+        loops: Ints,
+        polygons: Ints,
+        cull: Bools,
+        values: Floats,
+        non_zero: bool,
+        limits: RasterLimits,
     ) -> RasterScene: ...
     def render(
-        self, camera: RasterCamera, method: tuple[str, str], seconds: float, shaded: str, traced: bool
+        self, camera: RasterCamera, method: tuple[str, str], limits: RasterLimits, shaded: str, traced: bool
     ) -> dict[str, Any]: ...
-    def painters_list(self, camera: RasterCamera, method: str, seconds: float, most: int) -> dict[str, Any] | None: ...
+    def painters_list(
+        self, camera: RasterCamera, method: str, limits: RasterLimits, most: int
+    ) -> dict[str, Any] | None: ...
     def scan_row(
-        self, camera: RasterCamera, row: int
+        self, camera: RasterCamera, row: int, limits: RasterLimits
     ) -> tuple[list[tuple[int, int, float]], list[tuple[int, int, list[int]]]]: ...
-    def pairs(self, camera: RasterCamera) -> Ints: ...
-    def tree(self) -> list[tuple[list[int], int | None, int | None]]: ...
-    def moved(self, points: Floats) -> RasterScene: ...
+    def pairs(self, camera: RasterCamera, limits: RasterLimits) -> Ints: ...
+    def tree(self, limits: RasterLimits) -> list[tuple[list[int], int | None, int | None]]: ...
+    def moved(self, points: Floats, limits: RasterLimits) -> RasterScene: ...
+
+def take_fault() -> str: ...
+def provoke_fault(on_worker: bool) -> int: ...

@@ -35,3 +35,7 @@ class WriteError(HlrError):
 
 class StrictError(HlrError):
     """A warning, where the caller asked for warnings to be errors."""
+
+
+class KernelError(HlrError):
+    """A fault of hlr itself, in its kernel: worth a report. The command line ends with exit code 1."""

@@ -14,7 +14,7 @@ sys.path.append(str(Path(__file__).resolve().parent))
 from writers.fakes import ISO, drawing, line, sample
 
 import hlr
-from hlr import errors
+from hlr import errors, faults
 from hlr.notes import Note
 
 
@@ -55,7 +55,7 @@ def draw_views(source, views, options, progress=None):
     if stem == "bug":
         raise ZeroDivisionError("division by\nzero")
     if stem == "panic":
-        raise type("PanicException", (BaseException,), {})("index out of bounds")
+        raise faults.fault("src/scan/sweep.rs:7: index out of bounds")
     if stem == "memory":
         raise MemoryError
     if stem == "prints":

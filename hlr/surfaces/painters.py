@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from hlr.errors import OptionError
 from hlr.source.model import Floats, Ints
+from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.polygons import polygons_of
-from hlr.surfaces.render import NotFinishedError
 from hlr.surfaces.viewport import Screen, Window, viewport
 from hlr.view.camera import Camera
 
@@ -52,6 +51,7 @@ def painters_list(
     window: Window | None = None,
     space: str = "image",
     time_limit: float | None = None,
+    memory_limit: float | None = None,
     most_comparisons: int = MOST,
 ) -> PaintersList:
     """The polygons of a scene in the order of drawing, split where they overlap in a cycle or pass through one another.
@@ -61,13 +61,13 @@ def painters_list(
     """
     if method not in PAINTERS:
         raise OptionError(f"{method!r} has no order of drawing: use {' or '.join(PAINTERS)}")
+    within = limits(time_limit, memory_limit)
     polygons = polygons_of(scene, rule, cull)
     port = viewport(camera, polygons.points, size, window=window, space=space)
-    seconds = math.inf if time_limit is None else time_limit
-    found = polygons.kernel().painters_list(port.kernel(), method, seconds, most_comparisons)
+    with within.over(method):
+        found = polygons.kernel(within=within).painters_list(port.kernel(), method, within.kernel(), most_comparisons)
     if found is None:
-        limit = f"{most_comparisons:,} comparisons" if time_limit is None else f"{time_limit:g} seconds"
-        raise NotFinishedError(f"{method} did not finish within {limit}")
+        raise NotFinishedError(f"{method} did not finish within {most_comparisons:,} comparisons")
     return PaintersList(
         found["ids"], found["polygons"], found["loops"], found["points"], int(found["statistics"]["splits"])
     )

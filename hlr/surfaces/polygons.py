@@ -13,6 +13,7 @@ from hlr import _kernel
 from hlr.errors import OptionError
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
+from hlr.surfaces.limits import Limits, limits
 
 RULES = ("even-odd", "non-zero")
 
@@ -55,18 +56,27 @@ class Polygons:
             self.rule,
         )
 
-    def kernel(self, values: Floats | None = None) -> _kernel.RasterScene:
-        """The kernel's scene; values (n, 3) per point are interpolated where that is asked for."""
+    def kernel(self, values: Floats | None = None, within: Limits | None = None) -> _kernel.RasterScene:
+        """The kernel's scene; values (n, 3) per point are interpolated where that is asked for.
+
+        Raises OptionError for arrays that do not fit together or hold what is no number, NotFinishedError.
+        """
+        within = within or limits()
         none = np.zeros((0, 3))
-        return _kernel.RasterScene(
-            np.ascontiguousarray(self.points, np.float64),
-            np.ascontiguousarray(self.corners, np.int32),
-            np.ascontiguousarray(self.loops, np.int32),
-            np.ascontiguousarray(self.polygons, np.int32),
-            np.ascontiguousarray(self.cull, np.bool_),
-            none if values is None else np.ascontiguousarray(values, np.float64),
-            self.rule == "non-zero",
-        )
+        try:
+            with within.over("the scene"):
+                return _kernel.RasterScene(
+                    np.ascontiguousarray(self.points, np.float64),
+                    np.ascontiguousarray(self.corners, np.int32),
+                    np.ascontiguousarray(self.loops, np.int32),
+                    np.ascontiguousarray(self.polygons, np.int32),
+                    np.ascontiguousarray(self.cull, np.bool_),
+                    none if values is None else np.ascontiguousarray(values, np.float64),
+                    self.rule == "non-zero",
+                    within.kernel(),
+                )
+        except (ValueError, TypeError) as error:
+            raise OptionError(f"the polygons are not well formed: {error}") from None
 
 
 def polygons_of(scene: Any, rule: str = "even-odd", cull: bool = False) -> Polygons:

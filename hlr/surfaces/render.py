@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -10,19 +9,18 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.errors import HlrError, OptionError
+from hlr.errors import OptionError
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
+from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.methods import checked
 from hlr.surfaces.polygons import Polygons, polygons_of
 from hlr.surfaces.viewport import Screen, Viewport, Window, viewport
 from hlr.view.camera import Camera
 
+__all__ = ["SHADING", "NotFinishedError", "Rendering", "Statistics", "render", "rendering"]
+
 SHADING = ("textbook", "correct")
-
-
-class NotFinishedError(HlrError):
-    """A method that did not come to an end within its time limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +110,7 @@ def render(
     shading: str = "correct",
     trace: bool = False,
     time_limit: float | None = None,
+    memory_limit: float | None = None,
 ) -> Rendering:
     """The visible polygon and its depth at every pixel's centre.
 
@@ -122,28 +121,33 @@ def render(
     rule, cull  as in `polygons_of`;  window, front, back, space  as in `viewport`
     values   (points, 3) colours or normals to interpolate; shading "correct" for perspective, or "textbook"
     trace    note all writes in their order
-    time_limit  seconds
+    time_limit, memory_limit  seconds and bytes; None: as in `hlr.surfaces.limits`; math.inf: none
 
-    Raises OptionError for what cannot be asked, NotFinishedError when the time is over.
+    Raises OptionError for what cannot be asked, NotFinishedError beyond a limit.
     """
     method, variant = checked(method, variant)
     if shading not in SHADING:
         raise OptionError(f"no shading is called {shading!r}: use {' or '.join(SHADING)}")
-    if time_limit is not None and not time_limit > 0.0:
-        raise OptionError(f"a time limit of {time_limit!r} seconds leaves no time: give a positive number")
+    within = limits(time_limit, memory_limit)
     polygons = polygons_of(scene, rule, cull)
-    given = None if values is None else np.asarray(values, np.float64)
-    if given is not None and given.shape != polygons.points.shape:
-        raise OptionError(f"values need three numbers for each of the {len(polygons.points)} points")
+    given = _values(values, polygons)
     port = viewport(camera, polygons.points, size, window=window, front=front, back=back, space=space)
-    found = polygons.kernel(given).render(
-        port.kernel(),
-        (method, variant),
-        math.inf if time_limit is None else time_limit,
-        shading if given is not None else "",
-        trace,
-    )
-    return rendering(found, port, camera, variant, trace, method, time_limit)
+    with within.over(method):
+        found = polygons.kernel(given, within).render(
+            port.kernel(), (method, variant), within.kernel(), shading if given is not None else "", trace
+        )
+    return rendering(found, port, camera, variant, trace)
+
+
+def _values(values: Any, polygons: Polygons) -> Floats | None:
+    wrong = OptionError(f"values need three finite numbers for each of the {len(polygons.points)} points")
+    try:
+        given = None if values is None else np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise wrong from None
+    if given is not None and (given.shape != polygons.points.shape or not np.isfinite(given).all()):
+        raise wrong
+    return given
 
 
 def rendering(
@@ -152,12 +156,8 @@ def rendering(
     camera: Camera | Screen,
     variant: str,
     trace: bool,
-    method: str,
-    time_limit: float | None,
 ) -> Rendering:
-    """The kernel's answer as a Rendering; raises NotFinishedError."""
-    if not found["finished"]:
-        raise NotFinishedError(f"{method} did not finish within {time_limit:g} seconds")
+    """The kernel's answer as a Rendering."""
     larger = variant == "larger" or (isinstance(camera, Screen) and camera.nearer == "larger")
     depth = found["depth"]
     return Rendering(

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.methods import METHODS
 from hlr.surfaces.render import Statistics
 from hlr.surfaces.viewport import Viewport
@@ -72,8 +73,11 @@ def _one(scenery: Scenery, trial: Trial, limit: float) -> Timing:
     found: list[Statistics] = []
     for _ in range(REPEATS):
         # A scene of its own: a BSP tree that is there already would be no work.
-        answer = scenery.make().render(scenery.viewport.kernel(), trial, limit, "", False)
-        if not answer["finished"]:
+        within = limits(limit, worked=True)
+        try:
+            with within.over(label(trial)):
+                answer = scenery.make().render(scenery.viewport.kernel(), trial, within.kernel(), "", False)
+        except NotFinishedError:
             return Timing(scenery.name, scenery.count, label(trial), None, None)
         found.append(Statistics(**answer["statistics"]))
         if found[0].seconds > QUICK:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +9,7 @@ import numpy as np
 
 from hlr.errors import OptionError
 from hlr.source.model import Floats, Ints
+from hlr.surfaces.limits import limits
 from hlr.surfaces.painters import MOST
 from hlr.surfaces.polygons import Polygons, polygons_of
 from hlr.surfaces.render import Rendering, rendering
@@ -22,16 +22,29 @@ Node = tuple[list[int], int | None, int | None]
 class BspTree:
     """A BSP tree over the polygons of a scene."""
 
-    def __init__(self, scene: Any, *, rule: str = "even-odd", cull: bool = False) -> None:
-        """scene, rule, cull: as in `polygons_of`."""
+    def __init__(
+        self,
+        scene: Any,
+        *,
+        rule: str = "even-odd",
+        cull: bool = False,
+        time_limit: float | None = None,
+        memory_limit: float | None = None,
+    ) -> None:
+        """scene, rule, cull: as in `polygons_of`; limits, of each call, as in `render`. Raises NotFinishedError."""
+        self._limits = (time_limit, memory_limit)
+        within = limits(*self._limits)
         self.polygons: Polygons = polygons_of(scene, rule, cull)
-        self._scene = self.polygons.kernel()
-        self._scene.tree()
+        self._scene = self.polygons.kernel(within=within)
+        with within.over("the BSP tree"):
+            self._scene.tree(within.kernel())
 
     @property
     def nodes(self) -> list[Node]:
         """(polygons in the node's plane, number of the node behind it, of the node in front); the root first."""
-        return self._scene.tree()
+        within = limits(*self._limits)
+        with within.over("the BSP tree"):
+            return self._scene.tree(within.kernel())
 
     def drawn(self) -> str:
         """The tree as text: each node's polygons, what is in front above, what is behind below."""
@@ -52,14 +65,18 @@ class BspTree:
     def order(self, camera: Camera | Screen, size: tuple[int, int] = (1024, 1024)) -> Ints:
         """(n,) int32: the polygons in the order of drawing, far to near, once for each piece before the camera."""
         port = viewport(camera, self.polygons.points, size)
-        found = self._scene.painters_list(port.kernel(), "bsp", math.inf, MOST)
+        within = limits(*self._limits)
+        with within.over("the BSP tree"):
+            found = self._scene.painters_list(port.kernel(), "bsp", within.kernel(), MOST)
         return found["ids"] if found is not None else np.zeros(0, np.int32)
 
     def render(self, camera: Camera | Screen, size: tuple[int, int], *, window: Window | None = None) -> Rendering:
         """The picture from this viewpoint; the tree stays as it is."""
         port = viewport(camera, self.polygons.points, size, window=window)
-        found = self._scene.render(port.kernel(), ("bsp", ""), math.inf, "", False)
-        return rendering(found, port, camera, "", False, "bsp", None)
+        within = limits(*self._limits)
+        with within.over("the BSP tree"):
+            found = self._scene.render(port.kernel(), ("bsp", ""), within.kernel(), "", False)
+        return rendering(found, port, camera, "", False)
 
     def moved(self, points: Floats) -> BspTree:
         """The tree after some of its (n, 3) points have moved: only the polygons there are taken out and let in again.
@@ -71,5 +88,8 @@ class BspTree:
             raise OptionError(f"the moved points must be {len(self.polygons.points)} finite points, as before")
         other = BspTree.__new__(BspTree)
         other.polygons = replace(self.polygons, points=points)
-        other._scene = self._scene.moved(points)
+        other._limits = self._limits
+        within = limits(*self._limits)
+        with within.over("the BSP tree"):
+            other._scene = self._scene.moved(points, within.kernel())
         return other

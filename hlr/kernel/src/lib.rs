@@ -8,6 +8,7 @@ pub mod geometry;
 pub mod ink;
 pub mod lines;
 pub mod measure;
+pub mod memory;
 pub mod paper;
 pub mod preview;
 pub mod raster;
@@ -43,5 +44,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::measure::nearest, m)?)?;
     m.add_function(wrap_pyfunction!(bind::measure::blocked, m)?)?;
-    Ok(())
+    m.add_function(wrap_pyfunction!(bind::guard::take_fault, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::guard::provoke_fault, m)?)?;
+    // Last: what is registered after it is not guarded.
+    bind::guard::guard(m)
 }

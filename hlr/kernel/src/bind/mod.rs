@@ -3,9 +3,11 @@
 pub mod clash;
 pub mod fill;
 pub mod geometry;
+pub mod guard;
 pub mod ink;
 pub mod lines;
 pub mod measure;
+pub mod methods;
 pub mod painters;
 pub mod preview;
 pub mod raster;

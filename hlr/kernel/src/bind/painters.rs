@@ -5,12 +5,13 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::raster::bsp::{Tree, View};
+use crate::raster::bsp::Tree;
 use crate::raster::clip::{Corner, clip_loop, walls};
 use crate::raster::plane::STEPS;
 use crate::raster::scene::Camera;
 use crate::raster::screen::Screen;
 use crate::raster::statistics::Statistics;
+use crate::raster::view::View;
 use crate::raster::watch::Watch;
 use crate::raster::{depth_sort, quadric};
 
@@ -29,7 +30,7 @@ pub fn sorted_list(on: &Screen, most: u64, watch: &Watch, statistics: &mut Stati
 
 /// The fragments of the tree, each clipped by the view volume, flat.
 pub fn tree_list(tree: &Tree, camera: &Camera, watch: &Watch) -> Option<Listed> {
-    let view = View::new(camera)?;
+    let view = View::new(&tree.origin, camera)?;
     let walls = walls(camera, 1e6);
     let mut out = Vec::new();
     tree.order(&view, watch, |f| {
@@ -37,7 +38,7 @@ pub fn tree_list(tree: &Tree, camera: &Camera, watch: &Watch) -> Option<Listed> 
         let (mut loops, mut next) = (Vec::new(), Vec::new());
         for l in &fragment.loops {
             let mut corners: Vec<Corner> =
-                l.iter().map(|p| Corner { at: camera.project(p), value: [0.0; 3] }).collect();
+                l.iter().map(|p| Corner { at: camera.project(&tree.in_model(p)), value: [0.0; 3] }).collect();
             for wall in &walls {
                 clip_loop(&corners, wall, &mut next);
                 std::mem::swap(&mut corners, &mut next);
@@ -96,6 +97,9 @@ pub fn quadric_row<'py>(
     const MOST: i64 = 1 << 20;
     if coefficients[2] <= 0 || coefficients.iter().any(|c| c.abs() > MOST * MOST) || x0.abs().max(y.abs()) > MOST {
         return Err(PyValueError::new_err("a quadric needs c > 0, coefficients up to 2^40 and coordinates up to 2^20"));
+    }
+    if count as i64 > 2 * MOST || x0 + count as i64 > MOST {
+        return Err(PyValueError::new_err("a row of a quadric ends at column 2^20"));
     }
     let (depths, corrections) = py.detach(|| quadric::row(&coefficients, x0, y, count));
     let depths: Vec<i64> = depths.into_iter().map(|z| z.unwrap_or(i64::MIN)).collect();

@@ -7,6 +7,7 @@ use numpy::{PyReadwriteArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
+use super::guard::caught;
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::geometry::surface::Surface;
@@ -83,7 +84,9 @@ impl ShadedModel {
 #[pymethods]
 impl ShadedModel {
     #[new]
+    #[allow(clippy::too_many_arguments)] // one per array: the stub names them
     fn new(
+        py: Python<'_>,
         points: PyReadonlyArray2<'_, f64>,
         triangles: PyReadonlyArray2<'_, i32>,
         corner: PyReadonlyArray2<'_, i32>,
@@ -92,30 +95,32 @@ impl ShadedModel {
         colours: PyReadonlyArray2<'_, f32>,
         cull: PyReadonlyArray1<'_, bool>,
     ) -> PyResult<ShadedModel> {
-        let points = rows::<f64, 3>(&points, "points")?;
-        let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-        let corner = rows::<i32, 3>(&corner, "corner")?;
-        let normals = rows::<f32, 3>(&normals, "normals")?;
-        let paint = rows::<i32, 3>(&paint, "paint")?;
-        let colours = rows::<f32, 4>(&colours, "colours")?;
-        let cull = flat(&cull, "cull")?;
-        for (name, found) in [("corner", corner.len()), ("paint", paint.len()), ("cull", cull.len())] {
-            expect_len(name, found, triangles.len())?;
-        }
-        expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-        expect_below("paint", paint.iter().flatten().copied(), colours.len())?;
-        let smooth = corner.iter().filter(|c| c[0] >= 0);
-        expect_below("corner", smooth.flatten().copied(), normals.len())?;
-        Ok(ShadedModel {
-            points: points.to_vec(),
-            triangles: triangles.to_vec(),
-            corner: corner.to_vec(),
-            normals: normals.to_vec(),
-            paint: paint.to_vec(),
-            colours: colours.to_vec(),
-            cull: cull.to_vec(),
-            glass: paint.iter().map(|p| p.iter().any(|&i| colours[i as usize][3] < 1.0)).collect(),
-            space: Mutex::default(),
+        caught(py, || {
+            let points = rows::<f64, 3>(&points, "points")?;
+            let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+            let corner = rows::<i32, 3>(&corner, "corner")?;
+            let normals = rows::<f32, 3>(&normals, "normals")?;
+            let paint = rows::<i32, 3>(&paint, "paint")?;
+            let colours = rows::<f32, 4>(&colours, "colours")?;
+            let cull = flat(&cull, "cull")?;
+            for (name, found) in [("corner", corner.len()), ("paint", paint.len()), ("cull", cull.len())] {
+                expect_len(name, found, triangles.len())?;
+            }
+            expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+            expect_below("paint", paint.iter().flatten().copied(), colours.len())?;
+            let smooth = corner.iter().filter(|c| c[0] >= 0);
+            expect_below("corner", smooth.flatten().copied(), normals.len())?;
+            Ok(ShadedModel {
+                points: points.to_vec(),
+                triangles: triangles.to_vec(),
+                corner: corner.to_vec(),
+                normals: normals.to_vec(),
+                paint: paint.to_vec(),
+                colours: colours.to_vec(),
+                cull: cull.to_vec(),
+                glass: paint.iter().map(|p| p.iter().any(|&i| colours[i as usize][3] < 1.0)).collect(),
+                space: Mutex::default(),
+            })
         })
     }
 

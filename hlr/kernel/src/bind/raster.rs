@@ -1,75 +1,33 @@
 //! The visible-surface methods as Python sees them: a scene of polygons that can be rendered by any of them.
 
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use super::guard::caught;
+use super::methods::{CameraTuple, LimitsTuple, Method, camera_of, method_of, with_tree, within};
 use super::painters::{counted, sorted_list, tree_list};
-use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::raster::active_edges::ActiveEdges;
-use crate::raster::bsp::{self, Tree};
+use crate::raster::bsp::Tree;
 use crate::raster::canvas::{Canvas, Write};
 use crate::raster::edge_table::EdgeTable;
 use crate::raster::polygon_table::PolygonTable;
-use crate::raster::ray_casting::Acceleration;
-use crate::raster::scan_line::Coherence;
-use crate::raster::scan_line_z_buffer::Lists;
+use crate::raster::prepare::{Bent, screen};
 use crate::raster::scene::{Camera, Rule, Scene};
-use crate::raster::screen::{Bent, NONE, Screen, screen};
+use crate::raster::screen::NONE;
 use crate::raster::statistics::Statistics;
 use crate::raster::stopwatch::Stopwatch;
 use crate::raster::warped::planar;
 use crate::raster::watch::Watch;
-use crate::raster::z_buffer::Nearer;
-use crate::raster::{depth_sort, ray_casting, scan_line, scan_line_z_buffer, shading, span_list, warnock, z_buffer};
+use crate::raster::{scan_line_z_buffer, shading};
 
-/// Matrix, size in pixels, (front, back, near), whether to clip in image space.
-type CameraTuple = ([[f64; 4]; 4], (u32, u32), (f64, f64, f64), bool);
-
-fn camera_of((matrix, (width, height), (front, back, near), image_space): CameraTuple) -> Camera {
-    Camera { matrix, width, height, front, back, near, image_space }
-}
-
-#[derive(Clone, Copy)]
-enum Method {
-    ZBuffer(Nearer),
-    ScanLineZBuffer(Lists),
-    ScanLine(Coherence),
-    SpanList,
-    Warnock,
-    DepthSort,
-    Bsp,
-    RayCasting(Acceleration),
-}
-
-fn method_of(name: &str, variant: &str) -> PyResult<Method> {
-    Ok(match (name, variant) {
-        ("z-buffer", "" | "smaller") => Method::ZBuffer(Nearer::Smaller),
-        ("z-buffer", "larger") => Method::ZBuffer(Nearer::Larger),
-        ("scan-line z-buffer", "" | "merged") => Method::ScanLineZBuffer(Lists::Merged),
-        ("scan-line z-buffer", "per polygon") => Method::ScanLineZBuffer(Lists::PerPolygon),
-        ("scan line", "" | "both ends") => Method::ScanLine(Coherence::BothEnds),
-        ("scan line", "naive") => Method::ScanLine(Coherence::Naive),
-        ("scan line", "leaving") => Method::ScanLine(Coherence::Leaving),
-        ("scan line", "visible") => Method::ScanLine(Coherence::Visible),
-        ("span list", "") => Method::SpanList,
-        ("warnock", "") => Method::Warnock,
-        ("depth sort", "") => Method::DepthSort,
-        ("bsp", "") => Method::Bsp,
-        ("ray casting", "" | "hierarchy") => Method::RayCasting(Acceleration::Hierarchy),
-        ("ray casting", "flat") => Method::RayCasting(Acceleration::Flat),
-        ("ray casting", "grid") => Method::RayCasting(Acceleration::Grid),
-        ("ray casting", "partition") => Method::RayCasting(Acceleration::Partition),
-        _ => return Err(PyValueError::new_err(format!("no method '{name}' with the variant '{variant}'"))),
-    })
-}
-
-/// Active edges and spans.
+/// Active edges: polygon, edge, x. Spans: from, to, polygons that are in.
+type RowParts = (Vec<(i32, u32, f64)>, Vec<(i64, i64, Vec<i32>)>);
+/// The same for Python.
 type Row<'py> = (Bound<'py, PyList>, Bound<'py, PyList>);
 /// Polygons in the plane, the node behind and the one in front.
 type TreeNode = (Vec<i32>, Option<u32>, Option<u32>);
@@ -89,7 +47,6 @@ pub struct RasterScene {
 }
 
 struct Picture {
-    finished: bool,
     ids: Vec<i32>,
     depth: Vec<f64>,
     values: Vec<[f64; 3]>,
@@ -99,8 +56,9 @@ struct Picture {
     seconds: f64,
 }
 
-fn deadline(seconds: f64) -> Option<Instant> {
-    Duration::try_from_secs_f64(seconds).ok().and_then(|d| Instant::now().checked_add(d))
+/// Where neither time nor memory was short: the caller interrupted, which `run` has told already.
+fn unfinished() -> PyErr {
+    pyo3::exceptions::PyRuntimeError::new_err("the kernel stopped unexpectedly")
 }
 
 impl RasterScene {
@@ -120,88 +78,80 @@ impl RasterScene {
         if self.owner.is_empty() { polygon as i32 } else { self.owner[polygon as usize] as i32 }
     }
 
-    fn picture(&self, camera: &Camera, method: Method, shaded: &str, traced: bool, watch: &Watch) -> Picture {
+    /// None where the limits were too narrow.
+    fn picture(&self, camera: &Camera, method: Method, shaded: &str, traced: bool, watch: &Watch) -> Option<Picture> {
         let mut statistics = Statistics::default();
+        let each = size_of::<(u32, i32, f64)>() + if shaded.is_empty() { 0 } else { size_of::<[f64; 3]>() };
+        let pixels = camera.width as usize * camera.height as usize;
+        if !watch.has_room(pixels * (each + method.bytes_per_pixel())) {
+            return None;
+        }
         let started = Stopwatch::start();
-        let on = screen(&self.scene(), camera, Bent::Triangulated, watch, &mut statistics);
+        let on = screen(&self.scene(), camera, Bent::Triangulated, watch, &mut statistics)?;
         let prepared = started.seconds();
         let started = Stopwatch::start();
         let mut canvas = Canvas::new(camera.width.into(), camera.height.into(), traced);
-        let done = on.as_ref().and_then(|on| self.fill(on, camera, method, &mut canvas, watch, &mut statistics));
+        method.fill(&self.scene(), &self.tree, &on, camera, &mut canvas, watch, &mut statistics)?;
         let seconds = started.seconds();
-        let mut out = Picture {
-            finished: done.is_some(),
-            ids: Vec::new(),
-            depth: Vec::new(),
-            values: Vec::new(),
-            trace: canvas.trace.take().unwrap_or_default(),
-            statistics,
-            prepared,
-            seconds,
+        let values = match shaded {
+            "" => Vec::new(),
+            _ => shading::shade(&on, &canvas.pixels, shaded == "correct", watch)?,
         };
-        let (Some(on), Some(())) = (on, done) else { return out };
         let id = |f: u32| self.id(on.facets[f as usize].id);
-        out.ids = canvas.pixels.iter().map(|&f| if f == NONE { -1 } else { id(f) }).collect();
         let at = |(k, &f): (usize, &u32)| match f {
             NONE => f64::INFINITY,
             _ => on.true_depth(f, (k % canvas.width) as i64, (k / canvas.width) as i64),
         };
-        out.depth = canvas.pixels.iter().enumerate().map(at).collect();
-        out.trace.iter_mut().for_each(|w| w.facet = id(w.facet) as u32);
-        if !shaded.is_empty() {
-            match shading::shade(&on, &canvas.pixels, shaded == "correct", watch) {
-                Some(values) => out.values = values,
-                None => out.finished = false,
+        let mut trace = canvas.trace.take().unwrap_or_default();
+        trace.iter_mut().for_each(|w| w.facet = id(w.facet) as u32);
+        Some(Picture {
+            ids: canvas.pixels.iter().map(|&f| if f == NONE { -1 } else { id(f) }).collect(),
+            depth: canvas.pixels.iter().enumerate().map(at).collect(),
+            values,
+            trace,
+            statistics,
+            prepared,
+            seconds,
+        })
+    }
+
+    fn row(&self, camera: &Camera, row: i64, watch: &Watch) -> Option<RowParts> {
+        let mut statistics = Statistics::default();
+        let on = screen(&self.scene(), camera, Bent::Triangulated, watch, &mut statistics)?;
+        let (mut edges, mut spans) = (Vec::new(), Vec::new());
+        let table = EdgeTable::new(&on, watch)?;
+        let mut active = ActiveEdges::new(&table);
+        let id = |f: u32| self.id(on.facets[f as usize].id);
+        let here = loop {
+            match active.next_row(&mut statistics) {
+                Some(here) if here < row && !watch.over() => {}
+                Some(here) if here < row => return None,
+                other => break other,
+            }
+        };
+        if here == Some(row) {
+            let mut polygons = PolygonTable::new(on.rule, on.facets.len());
+            for (k, e) in active.edges.iter().enumerate() {
+                edges.push((id(e.facet), e.number, e.crossing()));
+                polygons.cross(e.facet, e.winding);
+                if let Some(next) = active.edges.get(k + 1).filter(|n| n.column > e.column) {
+                    let mut inside: Vec<i32> = polygons.inside.iter().map(|&f| id(f)).collect();
+                    inside.sort_unstable();
+                    spans.push((e.column, next.column, inside));
+                }
             }
         }
-        out
-    }
-
-    fn fill(
-        &self,
-        on: &Screen,
-        camera: &Camera,
-        method: Method,
-        canvas: &mut Canvas,
-        watch: &Watch,
-        statistics: &mut Statistics,
-    ) -> Option<()> {
-        match method {
-            Method::ZBuffer(nearer) => z_buffer::render(on, canvas, nearer, watch, statistics),
-            Method::ScanLineZBuffer(lists) => scan_line_z_buffer::render(on, canvas, lists, watch, statistics),
-            Method::ScanLine(coherence) => scan_line::render(on, canvas, coherence, watch, statistics),
-            Method::SpanList => span_list::render(on, canvas, watch, statistics),
-            Method::Warnock => warnock::render(on, canvas, watch, statistics),
-            Method::DepthSort => depth_sort::render(on, canvas, watch, statistics),
-            Method::RayCasting(how) => ray_casting::render(on, canvas, how, watch, statistics),
-            Method::Bsp => self.with_tree(watch, statistics, |tree, statistics| {
-                bsp::render(tree, on, camera, canvas, watch, statistics)
-            }),
-        }
-    }
-
-    /// The tree that is there, or a new one; its making is the setup.
-    fn with_tree<T>(
-        &self,
-        watch: &Watch,
-        statistics: &mut Statistics,
-        work: impl FnOnce(&Tree, &mut Statistics) -> Option<T>,
-    ) -> Option<T> {
-        let mut slot = self.tree.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if slot.is_none() {
-            let started = Stopwatch::start();
-            *slot = Some(Tree::new(&self.scene(), watch, statistics)?);
-            statistics.setup = started.seconds();
-        }
-        slot.as_ref().and_then(|tree| work(tree, statistics))
+        Some((edges, spans))
     }
 }
 
 #[pymethods]
 impl RasterScene {
     #[new]
-    #[pyo3(signature = (points, corners, loops, polygons, cull, values, non_zero))]
+    #[pyo3(signature = (points, corners, loops, polygons, cull, values, non_zero, limits))]
+    #[allow(clippy::too_many_arguments)] // one per array: the stub names them
     fn new(
+        py: Python<'_>,
         points: PyReadonlyArray2<'_, f64>,
         corners: PyReadonlyArray1<'_, i32>,
         loops: PyReadonlyArray1<'_, i32>,
@@ -209,66 +159,68 @@ impl RasterScene {
         cull: PyReadonlyArray1<'_, bool>,
         values: PyReadonlyArray2<'_, f64>,
         non_zero: bool,
+        limits: LimitsTuple,
     ) -> PyResult<RasterScene> {
-        let points = rows::<f64, 3>(&points, "points")?;
-        let (corners, loops) = (flat(&corners, "corners")?, flat(&loops, "loops")?);
-        let (polygons, cull) = (flat(&polygons, "polygons")?, flat(&cull, "cull")?);
-        let values = rows::<f64, 3>(&values, "values")?;
-        expect_below("corners", corners.iter().copied(), points.len())?;
-        for (name, offsets, end) in [("loops", loops, corners.len()), ("polygons", polygons, loops.len().max(1) - 1)] {
-            let rising = offsets.windows(2).all(|w| w[0] < w[1]);
-            if !rising || offsets.first() != Some(&0) || offsets.last().map(|&l| l as usize) != Some(end) {
-                return Err(PyValueError::new_err(format!("{name} must rise from 0 to {end}")));
+        caught(py, || {
+            let points = rows::<f64, 3>(&points, "points")?;
+            let (corners, loops) = (flat(&corners, "corners")?, flat(&loops, "loops")?);
+            let (polygons, cull) = (flat(&polygons, "polygons")?, flat(&cull, "cull")?);
+            let values = rows::<f64, 3>(&values, "values")?;
+            expect_below("corners", corners.iter().copied(), points.len())?;
+            for (name, offsets, end) in
+                [("loops", loops, corners.len()), ("polygons", polygons, loops.len().max(1) - 1)]
+            {
+                let rising = offsets.windows(2).all(|w| w[0] < w[1]);
+                if !rising || offsets.first() != Some(&0) || offsets.last().map(|&l| l as usize) != Some(end) {
+                    return Err(PyValueError::new_err(format!("{name} must rise from 0 to {end}")));
+                }
             }
-        }
-        expect_len("cull", cull.len(), polygons.len() - 1)?;
-        if !values.is_empty() {
-            expect_len("values", values.len(), points.len())?;
-        }
-        if !points.iter().flatten().all(|c| c.is_finite()) {
-            return Err(PyValueError::new_err("points hold coordinates that are not finite"));
-        }
-        let mut scene = RasterScene {
-            points: points.to_vec(),
-            corners: corners.to_vec(),
-            loops: loops.to_vec(),
-            polygons: polygons.to_vec(),
-            cull: cull.to_vec(),
-            values: values.to_vec(),
-            rule: if non_zero { Rule::NonZero } else { Rule::EvenOdd },
-            owner: Vec::new(),
-            tree: Mutex::new(None),
-        };
-        if let Some(p) = planar(&scene.scene()) {
-            (scene.corners, scene.loops, scene.polygons) = (p.corners, p.loops, p.polygons);
-            (scene.cull, scene.owner) = (p.cull, p.owner);
-        }
-        Ok(scene)
+            expect_len("cull", cull.len(), polygons.len() - 1)?;
+            if !values.is_empty() {
+                expect_len("values", values.len(), points.len())?;
+            }
+            for (name, numbers) in [("points", points), ("values", values)] {
+                if !numbers.iter().flatten().all(|c| c.is_finite()) {
+                    return Err(PyValueError::new_err(format!("{name} hold numbers that are not finite")));
+                }
+            }
+            let mut scene = RasterScene {
+                points: points.to_vec(),
+                corners: corners.to_vec(),
+                loops: loops.to_vec(),
+                polygons: polygons.to_vec(),
+                cull: cull.to_vec(),
+                values: values.to_vec(),
+                rule: if non_zero { Rule::NonZero } else { Rule::EvenOdd },
+                owner: Vec::new(),
+                tree: Mutex::new(None),
+            };
+            if let Some(Some(p)) = within(py, limits, |watch| planar(&scene.scene(), watch))? {
+                (scene.corners, scene.loops, scene.polygons) = (p.corners, p.loops, p.polygons);
+                (scene.cull, scene.owner) = (p.cull, p.owner);
+            }
+            Ok(scene)
+        })
     }
 
     /// method: its name and its variant, "" for the default.
-    #[pyo3(signature = (camera, method, seconds, shaded, traced))]
+    #[pyo3(signature = (camera, method, limits, shaded, traced))]
     fn render<'py>(
         &self,
         py: Python<'py>,
         camera: CameraTuple,
         method: (String, String),
-        seconds: f64,
+        limits: LimitsTuple,
         shaded: &str,
         traced: bool,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, method) = (camera_of(camera), method_of(&method.0, &method.1)?);
         let (height, width) = (camera.height as usize, camera.width as usize);
-        let found = run(py, 1, |stopped| {
-            let watch = Watch::new(stopped, deadline(seconds));
-            self.picture(&camera, method, shaded, traced, &watch)
-        })?;
+        let found = within(py, limits, |watch| self.picture(&camera, method, shaded, traced, watch))?;
+        let found = found.ok_or_else(unfinished)?;
         let out = PyDict::new(py);
-        out.set_item("finished", found.finished)?;
-        if !found.ids.is_empty() {
-            out.set_item("ids", found.ids.into_pyarray(py).reshape([height, width])?)?;
-            out.set_item("depth", found.depth.into_pyarray(py).reshape([height, width])?)?;
-        }
+        out.set_item("ids", found.ids.into_pyarray(py).reshape([height, width])?)?;
+        out.set_item("depth", found.depth.into_pyarray(py).reshape([height, width])?)?;
         if !found.values.is_empty() {
             out.set_item("values", found.values.into_flattened().into_pyarray(py).reshape([height, width, 3])?)?;
         }
@@ -281,26 +233,25 @@ impl RasterScene {
     }
 
     /// The painter's list of depth sort or of the BSP tree: ids, where each one's loops and points begin, points in pixels.
-    /// None where it takes longer than so many seconds, or depth sort more than `most` comparisons.
-    #[pyo3(signature = (camera, method, seconds, most))]
+    /// None where depth sort takes more than `most` comparisons.
+    #[pyo3(signature = (camera, method, limits, most))]
     fn painters_list<'py>(
         &self,
         py: Python<'py>,
         camera: CameraTuple,
         method: &str,
-        seconds: f64,
+        limits: LimitsTuple,
         most: u64,
     ) -> PyResult<Option<Bound<'py, PyDict>>> {
         let camera = camera_of(camera);
         let by_tree = matches!(method_of(method, "")?, Method::Bsp);
-        let found = run(py, 1, |stopped| {
-            let watch = Watch::new(stopped, deadline(seconds));
+        let found = within(py, limits, |watch| {
             let mut statistics = Statistics::default();
             let listed = if by_tree {
-                self.with_tree(&watch, &mut statistics, |tree, _| tree_list(tree, &camera, &watch))
+                with_tree(&self.scene(), &self.tree, watch, &mut statistics, |tree, _| tree_list(tree, &camera, watch))
             } else {
-                screen(&self.scene(), &camera, Bent::Whole, &watch, &mut statistics)
-                    .and_then(|on| sorted_list(&on, most, &watch, &mut statistics))
+                screen(&self.scene(), &camera, Bent::Whole, watch, &mut statistics)
+                    .and_then(|on| sorted_list(&on, most, watch, &mut statistics))
             };
             listed.map(|l| (l, statistics))
         })?;
@@ -325,72 +276,47 @@ impl RasterScene {
     }
 
     /// One row as the scan line sees it: active edges (polygon, edge, x) and spans (from, to, polygons that are in).
-    fn scan_row<'py>(&self, py: Python<'py>, camera: CameraTuple, row: i64) -> PyResult<Row<'py>> {
+    fn scan_row<'py>(&self, py: Python<'py>, camera: CameraTuple, row: i64, limits: LimitsTuple) -> PyResult<Row<'py>> {
         let camera = camera_of(camera);
-        let never = || false;
-        let watch = Watch::new(&never, None);
-        let mut statistics = Statistics::default();
-        let (edges, spans) = (PyList::empty(py), PyList::empty(py));
-        let Some(on) = screen(&self.scene(), &camera, Bent::Triangulated, &watch, &mut statistics) else {
-            return Ok((edges, spans));
-        };
-        let table = EdgeTable::new(&on);
-        let mut active = ActiveEdges::new(&table);
-        let id = |f: u32| self.id(on.facets[f as usize].id);
-        while let Some(here) = active.next_row(&mut statistics) {
-            if here < row {
-                continue;
-            }
-            if here > row {
-                break;
-            }
-            let mut polygons = PolygonTable::new(on.rule, on.facets.len());
-            for (k, e) in active.edges.iter().enumerate() {
-                edges.append((id(e.facet), e.number, e.crossing()))?;
-                polygons.cross(e.facet, e.winding);
-                if let Some(next) = active.edges.get(k + 1).filter(|n| n.column > e.column) {
-                    let mut inside: Vec<i32> = polygons.inside.iter().map(|&f| id(f)).collect();
-                    inside.sort_unstable();
-                    spans.append((e.column, next.column, inside))?;
-                }
-            }
-            break;
-        }
-        Ok((edges, spans))
+        let found = within(py, limits, |watch| self.row(&camera, row, watch))?;
+        let (edges, spans) = found.ok_or_else(unfinished)?;
+        Ok((PyList::new(py, edges)?, PyList::new(py, spans)?))
     }
 
     /// Pairs of crossings (row, from, to, polygon) in the order in which the merged list completes them.
-    fn pairs<'py>(&self, py: Python<'py>, camera: CameraTuple) -> PyResult<Bound<'py, PyArray1<i32>>> {
+    fn pairs<'py>(
+        &self,
+        py: Python<'py>,
+        camera: CameraTuple,
+        limits: LimitsTuple,
+    ) -> PyResult<Bound<'py, PyArray1<i32>>> {
         let camera = camera_of(camera);
-        let found = run(py, 1, |stopped| {
-            let watch = Watch::new(stopped, None);
+        let found = within(py, limits, |watch| {
             let mut statistics = Statistics::default();
             let mut canvas = Canvas::new(camera.width.into(), camera.height.into(), false);
             let mut out = Vec::new();
-            if let Some(on) = screen(&self.scene(), &camera, Bent::Triangulated, &watch, &mut statistics) {
-                let mut paired = |w: Write| {
-                    let id = self.id(on.facets[w.facet as usize].id);
-                    out.extend([w.row as i32, w.from as i32, w.to as i32, id]);
-                };
-                let _ = scan_line_z_buffer::merged(&on, &mut canvas, &watch, &mut statistics, &mut paired);
-            }
-            out
+            let on = screen(&self.scene(), &camera, Bent::Triangulated, watch, &mut statistics)?;
+            let mut paired = |w: Write| {
+                let id = self.id(on.facets[w.facet as usize].id);
+                out.extend([w.row as i32, w.from as i32, w.to as i32, id]);
+            };
+            scan_line_z_buffer::merged(&on, &mut canvas, watch, &mut statistics, &mut paired)?;
+            Some(out)
         })?;
-        Ok(found.into_pyarray(py))
+        Ok(found.ok_or_else(unfinished)?.into_pyarray(py))
     }
 
     /// The BSP tree's nodes, the root first: (polygons in the plane, node behind, node in front).
-    fn tree(&self, py: Python<'_>) -> PyResult<Vec<TreeNode>> {
-        let drawn = run(py, 1, |stopped| {
-            let watch = Watch::new(stopped, None);
-            self.with_tree(&watch, &mut Statistics::default(), |tree, _| Some(tree.drawn()))
+    fn tree(&self, py: Python<'_>, limits: LimitsTuple) -> PyResult<Vec<TreeNode>> {
+        let drawn = within(py, limits, |watch| {
+            with_tree(&self.scene(), &self.tree, watch, &mut Statistics::default(), |tree, _| Some(tree.drawn()))
         })?;
         let ids = |polygons: Vec<u32>| polygons.into_iter().map(|p| self.id(p)).collect();
         Ok(drawn.unwrap_or_default().into_iter().map(|(p, behind, front)| (ids(p), behind, front)).collect())
     }
 
     /// The scene with some of its points moved. The tree goes with it: the polygons at those points are let in again.
-    fn moved(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>) -> PyResult<RasterScene> {
+    fn moved(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>, limits: LimitsTuple) -> PyResult<RasterScene> {
         let points = rows::<f64, 3>(&points, "points")?;
         expect_len("points", points.len(), self.points.len())?;
         let tree = self.tree.lock().unwrap_or_else(std::sync::PoisonError::into_inner).take();
@@ -411,8 +337,8 @@ impl RasterScene {
             let moved: Vec<u32> =
                 (0..scene.len() as u32).filter(|&p| scene.loops_of(p as usize).flatten().any(elsewhere)).collect();
             tree.remove(&moved);
-            let done = run(py, 1, |stopped| {
-                tree.insert(&scene, &moved, &Watch::new(stopped, None), &mut Statistics::default()).map(|()| tree)
+            let done = within(py, limits, |watch| {
+                tree.insert(&scene, &moved, watch, &mut Statistics::default()).map(|()| tree)
             })?;
             out.tree = Mutex::new(done);
         }

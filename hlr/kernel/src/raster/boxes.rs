@@ -11,7 +11,7 @@ use super::watch::Watch;
 pub struct Box3 {
     pub columns: [i32; 2],
     pub rows: [i32; 2],
-    pub depth: [i32; 2],
+    pub depth: [i64; 2],
 }
 
 impl Box3 {
@@ -31,7 +31,7 @@ impl Box3 {
         Box3 {
             columns: join(self.columns, other.columns),
             rows: join(self.rows, other.rows),
-            depth: join(self.depth, other.depth),
+            depth: [self.depth[0].min(other.depth[0]), self.depth[1].max(other.depth[1])],
         }
     }
 }
@@ -104,13 +104,13 @@ impl Hierarchy {
             let number = stack[top];
             let node = &self.nodes[number as usize];
             statistics.box_tests += 1;
-            if !node.bounds.is_hit(column, row) || f64::from(node.bounds.depth[0]) > nearest {
+            if !node.bounds.is_hit(column, row) || node.bounds.depth[0] as f64 > nearest {
                 continue;
             }
             if node.right == 0 {
                 for &f in &self.facets[node.facets.start as usize..node.facets.end as usize] {
                     let bounds = &self.boxes[f as usize];
-                    if bounds.is_hit(column, row) && f64::from(bounds.depth[0]) <= nearest {
+                    if bounds.is_hit(column, row) && bounds.depth[0] as f64 <= nearest {
                         nearest = test(f, statistics);
                     }
                 }

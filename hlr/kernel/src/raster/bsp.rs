@@ -3,7 +3,7 @@
 //! H. Fuchs, Z. Kedem, B. Naylor, "On visible surface generation by a priori tree structures", 1980.
 //!
 //! 1. the plane of some polygon divides the rest: front is the side of its normal. What it passes through is split, what
-//!    lies in it stays in the node
+//!    lies in it stays in the node; that polygon itself always does, however little it bends, so that the tree ends
 //! 2. each side is divided in the same way
 //! 3. seen from anywhere: draw the side away from the viewer, then the node, then the viewer's side
 //!
@@ -22,14 +22,18 @@ use super::pieces::{Half, Painter};
 use super::scene::{Camera, Scene};
 use super::screen::Screen;
 use super::statistics::Statistics;
-use super::warped::plane_of;
+use super::view::View;
+use super::warped::{Flat, plane_of};
 use super::watch::Watch;
 
 const NIL: u32 = u32::MAX;
 /// Polygons tried as a node's plane; the one that splits least is taken.
 const TRIED: usize = 5;
-/// Of the scene's size: nearer to a plane is on it.
-const ON: f64 = 1e-9;
+/// Of the scene's extent: nearer to a plane is on it. What floating point is off by, and no more: on the screen that is
+/// less than a 256th of a pixel, whatever part of the scene the picture shows.
+const ON: f64 = 1.0 / (1u64 << 50) as f64;
+/// Of the largest coordinate: what it was rounded to before it came here.
+const GIVEN: f64 = f64::EPSILON;
 
 /// What the planes above have left of a polygon.
 #[derive(Clone, Debug)]
@@ -49,7 +53,9 @@ struct Cut {
 
 #[derive(Debug)]
 struct Node {
-    plane: [f64; 4],
+    plane: Flat,
+    /// The polygon whose plane it is; NIL once that has been taken out.
+    own: u32,
     /// Fragments that lie in the plane.
     fragments: Vec<u32>,
     /// Behind and in front of the plane.
@@ -61,9 +67,11 @@ pub struct Tree {
     nodes: Vec<Node>,
     pub fragments: Vec<Fragment>,
     cuts: Vec<Cut>,
-    /// Plane of each polygon, NaN for those without area.
-    planes: Vec<[f64; 4]>,
+    /// Plane of each polygon, None for those without area.
+    planes: Vec<Option<Flat>>,
     tolerance: f64,
+    /// The middle of the scene, from which all coordinates in the tree are measured.
+    pub origin: [f64; 3],
 }
 
 impl Tree {
@@ -83,14 +91,18 @@ impl Tree {
         watch: &Watch,
         statistics: &mut Statistics,
     ) -> Option<()> {
-        self.planes.resize(scene.len(), [f64::NAN; 4]);
-        let reach = scene.points.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
-        self.tolerance = self.tolerance.max(ON * reach);
+        self.planes.resize(scene.len(), None);
+        self.measure(scene);
+        let origin = self.origin;
+        let from_origin = |p: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|k| p[k] - origin[k]) };
         let mut here = Vec::new();
         for &polygon in polygons {
+            if watch.over() {
+                return None;
+            }
             let Some(plane) = plane_of(scene, polygon as usize) else { continue };
-            self.planes[polygon as usize] = plane;
-            let corners = |l: &[i32]| l.iter().map(|&i| scene.points[i as usize]).collect();
+            self.planes[polygon as usize] = Some(Flat { base: from_origin(&plane.base), ..plane });
+            let corners = |l: &[i32]| l.iter().map(|&i| from_origin(&scene.points[i as usize])).collect();
             here.push(self.keep(Fragment {
                 polygon,
                 loops: scene.loops_of(polygon as usize).map(corners).collect(),
@@ -132,11 +144,37 @@ impl Tree {
         Some(())
     }
 
+    /// The origin, before anything is in the tree, and the tolerance.
+    fn measure(&mut self, scene: &Scene) {
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for p in scene.points {
+            for k in 0..3 {
+                low[k] = low[k].min(p[k]);
+                high[k] = high[k].max(p[k]);
+            }
+        }
+        if scene.points.is_empty() {
+            return;
+        }
+        if self.fragments.is_empty() {
+            self.origin = std::array::from_fn(|k| low[k] * 0.5 + high[k] * 0.5);
+        }
+        for k in 0..3 {
+            let reach = (high[k] - self.origin[k]).max(self.origin[k] - low[k]);
+            self.tolerance = self.tolerance.max(ON * reach + GIVEN * high[k].abs().max(low[k].abs()));
+        }
+    }
+
     /// Take polygons out; their planes go on dividing what is left.
     pub fn remove(&mut self, polygons: &[u32]) {
+        let mut out = vec![false; self.planes.len()];
+        polygons.iter().for_each(|&p| out[p as usize] = true);
         let fragments = &self.fragments;
         for node in &mut self.nodes {
-            node.fragments.retain(|&f| !polygons.contains(&fragments[f as usize].polygon));
+            node.fragments.retain(|&f| !out[fragments[f as usize].polygon as usize]);
+            if node.own != NIL && out[node.own as usize] {
+                node.own = NIL;
+            }
         }
     }
 
@@ -156,9 +194,10 @@ impl Tree {
     ) -> Option<u32> {
         let count = fragments.len();
         let tried = TRIED.min(count);
-        let mut best = (usize::MAX, [f64::NAN; 4]);
+        let mut best: Option<(usize, u32, Flat)> = None;
         for k in 0..tried {
-            let plane = self.planes[self.fragments[fragments[k * count / tried] as usize].polygon as usize];
+            let own = self.fragments[fragments[k * count / tried] as usize].polygon;
+            let Some(plane) = self.planes[own as usize] else { continue };
             // Of a long list a sample tells enough.
             let sample = (count / 256).max(1);
             let (mut split, mut balance) = (0usize, 0i64);
@@ -167,7 +206,7 @@ impl Tree {
                     return None;
                 }
                 statistics.comparisons += 1;
-                match self.side(&self.fragments[f as usize], &plane) {
+                match self.side(&self.fragments[f as usize], &plane, own) {
                     Side::Split => split += 1,
                     Side::Front => balance += 1,
                     Side::Behind => balance -= 1,
@@ -175,12 +214,13 @@ impl Tree {
                 }
             }
             let cost = 8 * split + balance.unsigned_abs() as usize;
-            if cost < best.0 {
-                best = (cost, plane);
+            if best.is_none_or(|(least, ..)| cost < least) {
+                best = Some((cost, own, plane));
             }
         }
+        let (_, own, plane) = best?;
         let number = self.nodes.len() as u32;
-        self.nodes.push(Node { plane: best.1, fragments: Vec::new(), sides: [NIL; 2] });
+        self.nodes.push(Node { plane, own, fragments: Vec::new(), sides: [NIL; 2] });
         if parent != NIL {
             self.nodes[parent as usize].sides[side] = number;
         }
@@ -195,14 +235,14 @@ impl Tree {
         watch: &Watch,
         statistics: &mut Statistics,
     ) -> Option<[Vec<u32>; 2]> {
-        let plane = self.nodes[node as usize].plane;
+        let Node { plane, own, .. } = self.nodes[node as usize];
         let mut sides = [Vec::new(), Vec::new()];
         for &f in fragments {
             if watch.over() {
                 return None;
             }
             statistics.comparisons += 1;
-            match self.side(&self.fragments[f as usize], &plane) {
+            match self.side(&self.fragments[f as usize], &plane, own) {
                 Side::On => self.nodes[node as usize].fragments.push(f),
                 Side::Behind => sides[0].push(f),
                 Side::Front => sides[1].push(f),
@@ -213,11 +253,8 @@ impl Tree {
                     for (k, sign) in [(0, -1.0), (1, 1.0)] {
                         let cut = self.cuts.len() as u32;
                         self.cuts.push(Cut { node, front: k == 1, before });
-                        let half: Vec<_> = loops
-                            .iter()
-                            .map(|l| clip(l, |p| sign * height(p, &plane)))
-                            .filter(|l| l.len() > 2)
-                            .collect();
+                        let half: Vec<_> =
+                            loops.iter().map(|l| clip(l, |p| sign * plane.height(p))).filter(|l| l.len() > 2).collect();
                         let part = self.keep(Fragment { polygon, loops: half, cut });
                         sides[k].push(part);
                     }
@@ -227,8 +264,12 @@ impl Tree {
         Some(sides)
     }
 
-    fn side(&self, fragment: &Fragment, plane: &[f64; 4]) -> Side {
-        let heights = fragment.loops.iter().flatten().map(|p| height(p, plane));
+    /// Where a fragment lies to the plane of the polygon `own`.
+    fn side(&self, fragment: &Fragment, plane: &Flat, own: u32) -> Side {
+        if fragment.polygon == own {
+            return Side::On;
+        }
+        let heights = fragment.loops.iter().flatten().map(|p| plane.height(p));
         let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
         match (low < -self.tolerance, high > self.tolerance) {
             (false, false) => Side::On,
@@ -238,7 +279,7 @@ impl Tree {
         }
     }
 
-    /// Fragments in the order of drawing, far to near, seen through `view`: the inverse transpose of the camera's matrix.
+    /// Fragments in the order of drawing, far to near.
     pub fn order(&self, view: &View, watch: &Watch, mut visit: impl FnMut(u32)) -> Option<()> {
         // Nodes to enter, and nodes to draw, whose far side is done.
         let mut stack = if self.nodes.is_empty() { vec![] } else { vec![(0u32, false)] };
@@ -267,7 +308,7 @@ impl Tree {
     pub fn halves(&self, fragment: u32, view: &View, out: &mut Vec<Half>) {
         out.clear();
         let fragment = &self.fragments[fragment as usize];
-        let own = view.plane(&self.planes[fragment.polygon as usize]);
+        let Some(own) = self.planes[fragment.polygon as usize].map(|plane| view.plane(&plane)) else { return };
         let mut at = fragment.cut;
         while at != NIL {
             let cut = self.cuts[at as usize];
@@ -291,8 +332,9 @@ impl Tree {
                 * (size_of::<Fragment>() + size_of::<Vec<[f64; 3]>>() + 3 * size_of::<[f64; 3]>() + 4)
     }
 
-    pub fn count(&self) -> usize {
-        self.nodes.len()
+    /// A corner of a fragment in the model.
+    pub fn in_model(&self, p: &[f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|k| p[k] + self.origin[k])
     }
 
     /// The tree as (polygons in the node, behind, front), the root first; for teaching.
@@ -313,54 +355,6 @@ enum Side {
     Split,
 }
 
-fn height(p: &[f64; 3], plane: &[f64; 4]) -> f64 {
-    plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] - plane[3]
-}
-
-/// How planes of the model look on the screen.
-pub struct View {
-    inverse: [[f64; 4]; 4],
-}
-
-impl View {
-    /// None where the camera's matrix has no inverse.
-    pub fn new(camera: &Camera) -> Option<View> {
-        Some(View { inverse: inverse(&camera.matrix)? })
-    }
-
-    /// A plane n . p = d as A u + B v + C q + D w, which keeps its sign wherever w is positive.
-    fn plane(&self, plane: &[f64; 4]) -> [f64; 4] {
-        let given = [plane[0], plane[1], plane[2], -plane[3]];
-        std::array::from_fn(|k| (0..4).map(|i| given[i] * self.inverse[i][k]).sum())
-    }
-
-    /// Whether the viewer, at depth -inf, is in front of the plane.
-    pub fn before(&self, plane: &[f64; 4]) -> bool {
-        self.plane(plane)[2] < 0.0
-    }
-}
-
-/// By Gauss and Jordan, with pivots.
-fn inverse(m: &[[f64; 4]; 4]) -> Option<[[f64; 4]; 4]> {
-    let mut a: [[f64; 8]; 4] =
-        std::array::from_fn(|i| std::array::from_fn(|k| if k < 4 { m[i][k] } else { f64::from(u8::from(k - 4 == i)) }));
-    for c in 0..4 {
-        let pivot = (c..4).max_by(|&i, &k| a[i][c].abs().total_cmp(&a[k][c].abs()))?;
-        a.swap(c, pivot);
-        let by = a[c][c];
-        if by == 0.0 || !by.is_finite() {
-            return None;
-        }
-        a[c].iter_mut().for_each(|v| *v /= by);
-        let row = a[c];
-        for (_, other) in a.iter_mut().enumerate().filter(|(i, _)| *i != c) {
-            let by = other[c];
-            other.iter_mut().zip(row).for_each(|(v, r)| *v -= by * r);
-        }
-    }
-    Some(std::array::from_fn(|i| std::array::from_fn(|k| a[i][4 + k])))
-}
-
 /// Paint the tree's fragments in their order.
 pub fn render(
     tree: &Tree,
@@ -370,7 +364,7 @@ pub fn render(
     watch: &Watch,
     statistics: &mut Statistics,
 ) -> Option<()> {
-    let Some(view) = View::new(camera) else { return Some(()) };
+    let Some(view) = View::new(&tree.origin, camera) else { return Some(()) };
     // The facets of each polygon: they follow one another.
     let polygons = tree.planes.len();
     let mut first = vec![0u32; polygons + 1];

@@ -49,8 +49,8 @@ impl Edge {
         if first >= end {
             return None;
         }
-        let [x0, y0] = [i64::from(top[0]), i64::from(top[1])];
-        let (dx, dy) = (i64::from(bottom[0]) - x0, i64::from(bottom[1]) - y0);
+        let [x0, y0, _] = *top;
+        let (dx, dy) = (bottom[0] - x0, bottom[1] - y0);
         // Column k is not left of the crossing where 256 k + 128 >= x0 + (y - y0) dx / dy.
         let over = STEPS * dy;
         let numerator = (x0 - STEPS / 2) * dy + (centre(first.into()) - y0) * dx;
@@ -184,7 +184,7 @@ pub fn owns(screen: &Screen, facet: &Facet, column: i64, row: i64) -> bool {
     for l in screen.loops_of(facet) {
         let mut p = &l[l.len() - 1];
         for q in l {
-            let ([px, py], [qx, qy]) = ([p[0], p[1]].map(i64::from), [q[0], q[1]].map(i64::from));
+            let ([px, py, _], [qx, qy, _]) = (*p, *q);
             if (py <= y) != (qy <= y) {
                 // Positive where the centre is right of the edge as it runs down, or left of it as it runs up.
                 let side = (qy - py) * (x - px) - (y - py) * (qx - px);

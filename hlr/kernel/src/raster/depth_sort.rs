@@ -109,10 +109,10 @@ impl Sort<'_> {
         let slopes = screen.facets.iter().map(|f| {
             let corner = screen.points[screen.loops[f.loops.start as usize].start as usize];
             // The plane's depth there, should the corners lie in no plane.
-            let z = f.plane.depth(corner[0].into(), corner[1].into()) as f64 / f.plane.c as f64;
-            let per = |a: i64| -(a as f64) / f.plane.c as f64;
-            let corner = [corner[0].into(), corner[1].into(), z];
-            Slope { corner, right: per(f.plane.a), down: per(f.plane.b), slack: f.slack.into() }
+            let z = f.plane.depth(corner[0], corner[1]) as f64 / f.plane.c as f64;
+            let per = |a: i128| -(a as f64) / f.plane.c as f64;
+            let corner = [corner[0] as f64, corner[1] as f64, z];
+            Slope { corner, right: per(f.plane.a), down: per(f.plane.b), slack: f.slack }
         });
         let slopes: Vec<_> = slopes.collect();
         let pieces: Vec<Piece> = (0..screen.facets.len() as u32).map(|f| Piece::whole(screen, f)).collect();
@@ -252,11 +252,11 @@ impl Piece {
             }
         }
         // A cut may be a little beside its true place: a pixel more on each side does no harm.
-        let wider = if halves.is_empty() { 0 } else { STEPS as i32 };
+        let wider = if halves.is_empty() { 0 } else { STEPS };
         let whole = &screen.facets[facet as usize];
         let range = |k: usize, whole: [i32; 2]| {
-            let from = first_centre(low[k].floor() as i32 - wider).max(whole[0]);
-            let to = first_centre(high[k].ceil() as i32 + wider).min(whole[1]);
+            let from = first_centre(low[k].floor() as i64 - wider).max(whole[0]);
+            let to = first_centre(high[k].ceil() as i64 + wider).min(whole[1]);
             [from, to]
         };
         let (columns, rows) = (range(0, whole.columns), range(1, whole.rows));
@@ -265,9 +265,9 @@ impl Piece {
 
     fn whole(screen: &Screen, number: u32) -> Piece {
         let facet = &screen.facets[number as usize];
-        let loops = screen.loops_of(facet).map(|l| l.iter().map(|p| p.map(f64::from)).collect()).collect();
+        let loops = screen.loops_of(facet).map(|l| l.iter().map(|p| p.map(|c| c as f64)).collect()).collect();
         let mut piece = Piece::new(screen, number, loops, Vec::new());
-        (piece.near, piece.far) = (facet.depth[0].into(), facet.depth[1].into());
+        (piece.near, piece.far) = (facet.depth[0] as f64, facet.depth[1] as f64);
         piece
     }
 

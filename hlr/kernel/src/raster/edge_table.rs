@@ -8,6 +8,7 @@
 use super::coverage::{Edge, edges_of};
 use super::screen::Screen;
 use super::statistics::bytes_of;
+use super::watch::Watch;
 
 pub struct EdgeTable {
     edges: Vec<Edge>,
@@ -16,10 +17,14 @@ pub struct EdgeTable {
 }
 
 impl EdgeTable {
-    pub fn new(screen: &Screen) -> EdgeTable {
+    /// None where there was no time.
+    pub fn new(screen: &Screen, watch: &Watch) -> Option<EdgeTable> {
         let height = screen.height as i32;
         let mut entries: Vec<(i32, Edge)> = Vec::new();
         for number in 0..screen.facets.len() as u32 {
+            if watch.over() {
+                return None;
+            }
             edges_of(screen, number, 0, height, |row, edge| entries.push((row, edge)));
         }
         entries.sort_unstable_by(|(r, e), (s, f)| {
@@ -35,7 +40,7 @@ impl EdgeTable {
         for y in 0..height as usize {
             first[y + 1] += first[y];
         }
-        EdgeTable { edges: entries.into_iter().map(|(_, e)| e).collect(), first }
+        Some(EdgeTable { edges: entries.into_iter().map(|(_, e)| e).collect(), first })
     }
 
     pub fn starting(&self, row: i64) -> &[Edge] {

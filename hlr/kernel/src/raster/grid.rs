@@ -4,7 +4,7 @@
 //! A. Fujimoto, T. Tanaka, K. Iwata, "ARTS: accelerated ray-tracing system", 1986.
 
 use super::boxes::Box3;
-use super::screen::Screen;
+use super::screen::{NEAR_TIE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::watch::Watch;
 
@@ -23,8 +23,8 @@ impl Grid {
     /// About as many cells as facets.
     pub fn new(screen: &Screen, watch: &Watch) -> Option<Grid> {
         let boxes: Vec<Box3> = (0..screen.facets.len() as u32).map(|f| Box3::of(screen, f)).collect();
-        let (low, high) = boxes.iter().fold((i32::MAX, i32::MIN), |(l, h), b| (l.min(b.depth[0]), h.max(b.depth[1])));
-        let (low, high) = if low > high { (0.0, 1.0) } else { (f64::from(low), f64::from(high) + 1.0) };
+        let (low, high) = boxes.iter().fold((i64::MAX, i64::MIN), |(l, h), b| (l.min(b.depth[0]), h.max(b.depth[1])));
+        let (low, high) = if low > high { (0.0, 1.0) } else { (low as f64, high as f64 + 1.0) };
         let along = (boxes.len() as f64).cbrt().ceil().clamp(1.0, 256.0) as usize;
         let cells = [along.min(screen.width as usize), along.min(screen.height as usize), along];
         let extent = [screen.width as f64, screen.height as f64, high - low];
@@ -32,13 +32,23 @@ impl Grid {
         let mut grid =
             Grid { cells, size, low, first: vec![0; cells.iter().product::<usize>() + 1], facets: vec![], boxes };
         // Count, add up, fill.
+        let mut entries = 0usize;
         for b in 0..grid.boxes.len() {
             if watch.over() {
                 return None;
             }
             for c in grid.reached(&grid.boxes[b]) {
+                if watch.over() {
+                    return None;
+                }
                 grid.first[c + 1] += 1;
+                entries += 1;
             }
+        }
+        // Numbers of entries have 32 bits.
+        let room = if entries > u32::MAX as usize { usize::MAX } else { entries * size_of::<u32>() };
+        if !watch.has_room(room) {
+            return None;
         }
         for c in 1..grid.first.len() {
             grid.first[c] += grid.first[c - 1];
@@ -47,6 +57,9 @@ impl Grid {
         let mut next = grid.first.clone();
         for b in 0..grid.boxes.len() {
             for c in grid.reached(&grid.boxes[b]) {
+                if watch.over() {
+                    return None;
+                }
                 grid.facets[next[c] as usize] = b as u32;
                 next[c] += 1;
             }
@@ -63,7 +76,7 @@ impl Grid {
         let span = |axis: usize, low: f64, high: f64| self.cell(axis, low)..=self.cell(axis, high);
         let columns = span(0, b.columns[0].into(), (b.columns[1] - 1).into());
         let rows = span(1, b.rows[0].into(), (b.rows[1] - 1).into());
-        let depths = span(2, f64::from(b.depth[0]) - self.low, f64::from(b.depth[1]) - self.low);
+        let depths = span(2, b.depth[0] as f64 - self.low, b.depth[1] as f64 - self.low);
         depths.flat_map(move |z| {
             let columns = columns.clone();
             rows.clone().flat_map(move |y| columns.clone().map(move |x| (z * ny + y) * nx + x))
@@ -83,8 +96,8 @@ impl Grid {
         for z in 0..self.cells[2] {
             let begins = self.low + z as f64 * self.size[2];
             statistics.box_tests += 1;
-            // A step of depth to spare: the border of a cell is rounded.
-            if begins - 1.0 > nearest {
+            // Some steps of depth to spare: the border of a cell is rounded.
+            if begins - NEAR_TIE > nearest {
                 return;
             }
             let c = (z * self.cells[1] + y) * self.cells[0] + x;

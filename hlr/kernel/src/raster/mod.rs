@@ -1,15 +1,15 @@
 //! The classic visible-surface methods, side by side on one scene and one camera.
 //!
-//! Each is its textbook form made exact: coordinates are rounded once, to a 256th of a pixel and to 2^24 steps of depth;
+//! Each is its textbook form made exact: coordinates are rounded once, to a 256th of a pixel and to 2^48 steps of depth;
 //! after that coverage and depth at a pixel's centre are integer predicates. So all methods give the same picture, pixel by
 //! pixel, and differ in what they cost (`statistics`).
 //!
 //! Shared by all:
 //! 1. `scene`       polygons as they come: loops of points, an id, an inside rule
 //! 2. `clip`        the six planes of the view volume, before anything is divided; 2-D clipping after object space
-//! 3. `plane`       Newell's plane of the rounded polygon, in integers; `back_face` its sign
+//! 3. `depth_grid`  depth in whole steps; `plane` of the rounded polygon, in integers; `back_face` its sign
 //! 4. `triangulate` polygons whose rounded corners lie in no plane
-//! 5. `screen`      the above, one after another: facets ready for any method
+//! 5. `prepare`     the above, one after another; `screen` its facets, ready for any method, and their depths compared
 //! 6. `coverage`    which pixels a polygon owns; `canvas` where they are written, with a trace if wanted
 //!
 //! The methods:
@@ -28,6 +28,7 @@ pub mod bsp;
 pub mod canvas;
 pub mod clip;
 pub mod coverage;
+pub mod depth_grid;
 pub mod depth_sort;
 pub mod edge_table;
 pub mod grid;
@@ -35,6 +36,7 @@ pub mod partition;
 pub mod pieces;
 pub mod plane;
 pub mod polygon_table;
+pub mod prepare;
 pub mod quadric;
 pub mod ray_casting;
 pub mod scan_line;
@@ -46,6 +48,7 @@ pub mod span_list;
 pub mod statistics;
 pub mod stopwatch;
 pub mod triangulate;
+pub mod view;
 pub mod warnock;
 pub mod warped;
 pub mod watch;

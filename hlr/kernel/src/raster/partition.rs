@@ -19,7 +19,7 @@ enum Node {
     /// Below `at` the child that follows, else `right`.
     Inner {
         axis: usize,
-        at: i32,
+        at: i64,
         right: u32,
     },
 }
@@ -27,10 +27,10 @@ enum Node {
 const LEAF: usize = 6;
 const DEEPEST: usize = 40;
 
-fn range(b: &Box3, axis: usize) -> [i32; 2] {
+fn range(b: &Box3, axis: usize) -> [i64; 2] {
     match axis {
-        0 => [b.columns[0], b.columns[1] - 1],
-        1 => [b.rows[0], b.rows[1] - 1],
+        0 => [b.columns[0], b.columns[1] - 1].map(i64::from),
+        1 => [b.rows[0], b.rows[1] - 1].map(i64::from),
         _ => b.depth,
     }
 }
@@ -69,15 +69,13 @@ impl Partition {
 
     /// The side of the picture along which a cut at the median leaves the fewest facets; along depth, which every ray goes
     /// through, only where neither helps.
-    fn best(&self, here: &[u32]) -> Option<(usize, i32)> {
-        let mut found: Option<(usize, usize, i32)> = None;
+    fn best(&self, here: &[u32]) -> Option<(usize, i64)> {
+        let mut found: Option<(usize, usize, i64)> = None;
         for axis in 0..3 {
-            let mut middles: Vec<i64> = here
-                .iter()
-                .map(|&f| range(&self.boxes[f as usize], axis).iter().map(|&v| i64::from(v)).sum::<i64>().div_euclid(2))
-                .collect();
+            let mut middles: Vec<i64> =
+                here.iter().map(|&f| range(&self.boxes[f as usize], axis).iter().sum::<i64>().div_euclid(2)).collect();
             let half = middles.len() / 2;
-            let at = *middles.select_nth_unstable(half).1 as i32;
+            let at = *middles.select_nth_unstable(half).1;
             let below = here.iter().filter(|&&f| range(&self.boxes[f as usize], axis)[0] < at).count();
             let above = here.iter().filter(|&&f| range(&self.boxes[f as usize], axis)[1] >= at).count();
             let larger = below.max(above);
@@ -118,12 +116,12 @@ impl Partition {
                     }
                 }
                 Node::Inner { axis: 2, at, right } => {
-                    stack[top] = (*right, begins.max(f64::from(*at)));
+                    stack[top] = (*right, begins.max(*at as f64));
                     stack[top + 1] = (number + 1, begins);
                     top += 2;
                 }
                 Node::Inner { axis, at, right } => {
-                    let here = if *axis == 0 { column } else { row };
+                    let here = i64::from(if *axis == 0 { column } else { row });
                     stack[top] = (if here < *at { number + 1 } else { *right }, begins);
                     top += 1;
                 }

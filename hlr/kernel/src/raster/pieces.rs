@@ -102,7 +102,7 @@ impl<'a> Painter<'a> {
                 if owner != NONE {
                     let under = &screen.facets[owner as usize];
                     let apart = (facet.depth_at(column, row) - under.depth_at(column, row)).abs();
-                    let trusted = apart > f64::from(facet.slack + under.slack);
+                    let trusted = apart > facet.slack + under.slack;
                     if !trusted || doubted || doubt(owner) || at_border(column, row, under) {
                         statistics.settled += 1;
                         if screen.compare(number, owner, column, row, statistics) != Ordering::Less {
@@ -130,8 +130,8 @@ fn near_edge(screen: &Screen, facet: &Facet, column: i64, row: i64) -> bool {
     screen.loops_of(facet).any(|l| {
         let mut p = &l[l.len() - 1];
         l.iter().any(|q| {
-            let (dx, dy) = (f64::from(q[0]) - f64::from(p[0]), f64::from(q[1]) - f64::from(p[1]));
-            let off = dx * (y - f64::from(p[1])) - dy * (x - f64::from(p[0]));
+            let (dx, dy) = ((q[0] - p[0]) as f64, (q[1] - p[1]) as f64);
+            let off = dx * (y - p[1] as f64) - dy * (x - p[0] as f64);
             p = q;
             off * off <= BORDER * BORDER * (dx * dx + dy * dy)
         })

@@ -1,22 +1,26 @@
 //! The plane of a polygon in integers, and depths compared without error.
 //!
-//! From all corners by Newell's summation (Sutherland, Sproull, Schumacker 1974), not from three: a corner that lies on
-//! the line between its neighbours does no harm.
+//! Through three of its corners: those that span the largest triangle in the image (`widest`). Then no corner lies
+//! farther from a line through two of them than the third, so that what rounding has moved one of the three by moves the
+//! plane at any other corner by no more than the three together. A sum over all corners (Newell's) has no such bound:
+//! it vanishes, but for rounding, where a loop crosses itself so that its lobes cancel. It serves for the side that
+//! the polygon turns to the viewer, which is all it is good for there.
 //!
-//! Bounds: |x|, |y| <= 2^22, 0 <= z <= 2^24. Then |A|, |B| < 2^49, |C| < 2^48 and |A x + B y + D| < 2^74 for polygons that
-//! wind around once; two depths are compared by products below 2^123, which leaves four bits for those that wind more.
+//! Bounds: |x|, |y| <= 2^22, |z| < 2^49. Then |A|, |B| < 2^74, |C| < 2^48 and |A x + B y + D| < 2^98, however often a
+//! polygon winds; two depths are compared by products of 256 bits.
 
+use crate::exact::wide::cmp_products;
 use std::cmp::Ordering;
 
 /// Right, down, away from the viewer; in 256ths of a pixel and in steps of depth.
-pub type Point = [i32; 3];
+pub type Point = [i64; 3];
 
 /// Steps per pixel.
 pub const STEPS: i64 = 256;
 /// |x| and |y| of any point.
 pub const LIMIT: f64 = (1i64 << 22) as f64;
-/// Bits of depth.
-pub const DEPTH_LIMIT: f64 = (1i64 << 24) as f64;
+/// Steps from the nearest to the farthest depth.
+pub const DEPTH_LIMIT: f64 = (1i64 << 48) as f64;
 
 /// The centre of a pixel along one axis.
 #[inline(always)]
@@ -27,65 +31,71 @@ pub fn centre(pixel: i64) -> i64 {
 /// A x + B y + C z + D = 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plane {
-    pub a: i64,
-    pub b: i64,
+    pub a: i128,
+    pub b: i128,
     pub c: i64,
     pub d: i128,
 }
 
-impl Plane {
-    /// Newell's plane; its normal is outward where the loops run counter-clockwise seen from outside.
-    pub fn newell<'a>(loops: impl Iterator<Item = &'a [Point]> + Clone) -> Plane {
-        let (mut a, mut b, mut c) = (0i64, 0i64, 0i64);
-        let (mut count, mut sum) = (0i128, [0i128; 3]);
-        for l in loops.clone() {
-            let mut p = &l[l.len() - 1];
-            for q in l {
-                let ([px, py, pz], [qx, qy, qz]) = (p.map(i64::from), q.map(i64::from));
-                a += (py - qy) * (pz + qz);
-                b += (pz - qz) * (px + qx);
-                c += (px - qx) * (py + qy);
-                count += 1;
-                for k in 0..3 {
-                    sum[k] += i128::from(q[k]);
-                }
-                p = q;
-            }
-        }
-        if (a, b, c) == (0, 0, 0) {
-            return Plane::of_three(loops);
-        }
-        // Through the mean of the corners; where they are coplanar that is a whole number.
-        let through = i128::from(a) * sum[0] + i128::from(b) * sum[1] + i128::from(c) * sum[2];
-        Plane { a, b, c, d: -through.div_euclid(count.max(1)) }
-    }
+/// Twice the area of a triangle in the image, with its sign.
+#[inline(always)]
+pub fn turn(p: &Point, q: &Point, r: &Point) -> i64 {
+    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+}
 
-    /// A loop that crosses itself so that its halves cancel has no sum: the plane of the first corner and the two that
-    /// span the largest triangle with it, one after another.
-    fn of_three<'a>(loops: impl Iterator<Item = &'a [Point]> + Clone) -> Plane {
-        let corners: Vec<Point> = loops.flatten().copied().collect();
-        let normal = |q: &Point, r: &Point| {
-            let [[px, py, pz], [qx, qy, qz], [rx, ry, rz]] = [corners[0], *q, *r].map(|p| p.map(i64::from));
-            let (u, v) = ([qx - px, qy - py, qz - pz], [rx - px, ry - py, rz - pz]);
-            [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+/// Which three corners span the largest triangle in the image, as far as changing one of them at a time finds it; None
+/// where all lie on one line.
+pub fn widest(corners: &[Point]) -> Option<[usize; 3]> {
+    let first = corners.first()?;
+    if let [p, q, r] = corners {
+        return (turn(p, q, r) != 0).then_some([0, 1, 2]);
+    }
+    let square = |p: &Point| (p[0] - first[0]).pow(2) + (p[1] - first[1]).pow(2);
+    let far = (1..corners.len()).max_by_key(|&k| square(&corners[k]))?;
+    let area = |t: &[usize; 3]| turn(&corners[t[0]], &corners[t[1]], &corners[t[2]]).abs();
+    let mut best = [0, far, 0];
+    let (mut largest, mut idle) = (0, 0);
+    // Each change makes it larger: in practice two or three rounds.
+    for k in (0..3).rev().cycle().take(3 * 16) {
+        let changed = |i: usize| {
+            let mut t = best;
+            t[k] = i;
+            t
         };
-        let size = |n: &[i64; 3]| n.iter().map(|&c| i128::from(c) * i128::from(c)).sum::<i128>();
-        let pairs = corners.iter().enumerate().flat_map(|(k, q)| corners[k..].iter().map(move |r| (q, r)));
-        let [a, b, c] = pairs.map(|(q, r)| normal(q, r)).max_by_key(size).unwrap_or_default();
-        let [x, y, z] = corners[0].map(i128::from);
-        Plane { a, b, c, d: -(i128::from(a) * x + i128::from(b) * y + i128::from(c) * z) }
+        let next = changed((0..corners.len()).max_by_key(|&i| area(&changed(i)))?);
+        if area(&next) > largest {
+            (largest, best, idle) = (area(&next), next, 0);
+        } else {
+            idle += 1;
+        }
+        if idle == 3 {
+            break;
+        }
+    }
+    (largest > 0).then_some(best)
+}
+
+impl Plane {
+    /// The plane through three points, its normal outward where they run counter-clockwise seen from outside.
+    pub fn through([p, q, r]: [&Point; 3]) -> Plane {
+        let difference = |a: &Point, b: &Point| [0, 1, 2].map(|k| i128::from(b[k]) - i128::from(a[k]));
+        let (u, v) = (difference(p, q), difference(p, r));
+        let [a, b] = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]];
+        let c = turn(p, q, r);
+        let d = -(a * i128::from(p[0]) + b * i128::from(p[1]) + i128::from(c) * i128::from(p[2]));
+        Plane { a, b, c, d }
     }
 
     /// A x + B y + C z + D.
     #[inline(always)]
     pub fn at(&self, p: &Point) -> i128 {
-        self.across(i64::from(p[0]), i64::from(p[1])) + i128::from(self.c) * i128::from(p[2])
+        self.across(p[0], p[1]) + i128::from(self.c) * i128::from(p[2])
     }
 
     /// A x + B y + D.
     #[inline(always)]
     pub fn across(&self, x: i64, y: i64) -> i128 {
-        i128::from(self.a) * i128::from(x) + i128::from(self.b) * i128::from(y) + self.d
+        self.a * i128::from(x) + self.b * i128::from(y) + self.d
     }
 
     /// The same plane with C > 0, so that depth is a fraction over a positive number; C = 0 has no depth.
@@ -100,18 +110,13 @@ impl Plane {
     }
 
     /// Which of two planes with C > 0 is nearer at (x, y).
-    #[inline(always)]
     pub fn compare(&self, other: &Plane, x: i64, y: i64) -> Ordering {
-        (self.depth(x, y) * i128::from(other.c)).cmp(&(other.depth(x, y) * i128::from(self.c)))
+        cmp_products(self.depth(x, y), other.c.into(), other.depth(x, y), self.c.into())
     }
 
-    /// The difference of the depths of two planes with C > 0, times both C, at (x, y); and its growth per pixel along x.
-    /// Both are integers, so the pixel from which on one is nearer is found without error.
-    pub fn difference(&self, other: &Plane, x: i64, y: i64) -> (i128, i128) {
-        let (own, its) = (i128::from(self.c), i128::from(other.c));
-        let here = self.depth(x, y) * its - other.depth(x, y) * own;
-        let step = i128::from(STEPS) * (i128::from(other.a) * own - i128::from(self.a) * its);
-        (here, step)
+    /// Whether this plane falls behind another as x grows; both with C > 0.
+    pub fn falls_behind(&self, other: &Plane) -> bool {
+        cmp_products(other.a, self.c.into(), self.a, other.c.into()) == Ordering::Greater
     }
 }
 
@@ -120,12 +125,12 @@ mod tests {
     use super::*;
 
     fn plane(corners: &[Point]) -> Plane {
-        Plane::newell([corners].into_iter())
+        Plane::through(widest(corners).unwrap().map(|k| &corners[k]))
     }
 
     #[test]
     fn a_collinear_first_corner_does_no_harm() {
-        let p = plane(&[[0, 0, 0], [5, 0, 5], [10, 0, 10], [10, 10, 10], [0, 10, 0]]);
+        let p = plane(&[[0, 0, 0], [5, 0, 5], [10, 0, 10], [10, 10, 10], [0, 10, 0]]).facing();
         assert_eq!((p.a.signum(), p.b, p.c.signum()), (-1, 0, 1));
         for q in [[0, 0, 0], [5, 0, 5], [10, 10, 10], [3, 7, 3]] {
             assert_eq!(p.at(&q), 0);
@@ -133,24 +138,50 @@ mod tests {
     }
 
     #[test]
-    fn the_difference_of_two_depths_is_linear() {
+    fn the_widest_triangle_holds_every_corner_within_its_own_size() {
+        let mut state = 1u64;
+        let mut next = |n: u64| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 33) % n) as i64
+        };
+        for _ in 0..200 {
+            let corners: Vec<Point> = (0..9).map(|_| [next(900), next(7), 0]).collect();
+            let Some(t) = widest(&corners) else { continue };
+            let [p, q, r] = t.map(|k| &corners[k]);
+            let whole = turn(p, q, r).abs();
+            for v in &corners {
+                for part in [turn(v, q, r), turn(p, v, r), turn(p, q, v)] {
+                    assert!(part.abs() <= whole);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn lobes_that_cancel_have_a_plane() {
+        // A bow tie, of no area in sum.
+        let p = plane(&[[0, 0, 0], [400, 400, 8], [400, 0, 4], [0, 400, 4]]).facing();
+        assert_eq!(p.at(&[200, 200, 4]), 0);
+        assert!(widest(&[[0, 0, 0], [4, 4, 1], [8, 8, 7]]).is_none());
+    }
+
+    #[test]
+    fn one_plane_falls_behind_another() {
         let p = plane(&[[0, 0, 0], [1000, 0, 700], [0, 1000, 50]]).facing();
         let q = plane(&[[0, 0, 900], [1000, 0, 100], [0, 1000, 400]]).facing();
-        let (d0, step) = p.difference(&q, centre(0), centre(3));
-        for k in 0..5 {
-            let (d, _) = p.difference(&q, centre(k), centre(3));
-            assert_eq!(d, d0 + i128::from(k) * step);
-            assert_eq!(d.cmp(&0), p.compare(&q, centre(k), centre(3)));
-        }
+        assert!(p.falls_behind(&q) && !q.falls_behind(&p) && !p.falls_behind(&p));
+        let first = (0..9).find(|&k| p.compare(&q, centre(k), centre(0)) == Ordering::Greater);
+        // 0.7 x = 900 - 0.8 x - ..., at 588 of 256ths: the third centre.
+        assert_eq!(first, Some(2));
     }
 
     #[test]
     fn the_largest_coordinates_fit() {
         let m = 1 << 22;
-        let z = 1 << 24;
-        let p = plane(&[[-m, -m, 0], [m, -m, z], [m, m, 0], [-m, m, z - 1]]).facing();
-        let q = plane(&[[-m, -m, z], [m, m, 0], [-m, m, z]]).facing();
-        let _ = p.compare(&q, i64::from(m), -i64::from(m));
-        let _ = q.compare(&plane(&[[-m, -m, 0], [m, -m, z], [m, -m + 1, 0]]).facing(), i64::from(m), i64::from(m));
+        let z = (1 << 49) - 1;
+        let p = plane(&[[-m, -m, -z], [m, -m, z], [m, m, -z], [-m, m, z - 1]]).facing();
+        let q = plane(&[[-m, -m, z], [m, m, -z], [-m, m, z]]).facing();
+        let _ = p.compare(&q, m, -m);
+        let _ = q.compare(&plane(&[[-m, -m, -z], [m, -m, z], [m, -m + 1, -z]]).facing(), m, m);
     }
 }

@@ -13,7 +13,7 @@ use super::canvas::Canvas;
 use super::coverage::owns;
 use super::grid::Grid;
 use super::partition::Partition;
-use super::screen::{NONE, Screen};
+use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::stopwatch::Stopwatch;
 use super::watch::Watch;
@@ -83,7 +83,7 @@ fn cast(
 ) -> Option<u32> {
     let (mut best, mut depth) = (NONE, f64::INFINITY);
     let (c, r) = (i64::from(column), i64::from(row));
-    // The depth beyond which nothing matters: a step more than that of the hit, for floating point's sake.
+    // The depth beyond which nothing matters: some steps more than that of the hit, for floating point's sake.
     let mut test = |f: u32, statistics: &mut Statistics| -> f64 {
         statistics.polygon_tests += 1;
         let facet = &screen.facets[f as usize];
@@ -92,8 +92,8 @@ fn cast(
             && (best == NONE || screen.compare(f, best, c, r, statistics) == Ordering::Less)
         {
             best = f;
-            let z = facet.depth_at(c, r) + 1.0;
-            depth = if z.is_nan() { f64::from(facet.depth[1]) } else { z };
+            let z = facet.depth_at(c, r) + NEAR_TIE;
+            depth = if z.is_nan() { facet.depth[1] as f64 } else { z };
         }
         depth
     };

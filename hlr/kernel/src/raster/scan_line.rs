@@ -23,7 +23,6 @@
 use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
 use super::edge_table::EdgeTable;
-use super::plane::centre;
 use super::polygon_table::{PolygonTable, Toggle};
 use super::screen::{NONE, Screen};
 use super::statistics::Statistics;
@@ -50,7 +49,7 @@ pub fn render(
     watch: &Watch,
     statistics: &mut Statistics,
 ) -> Option<()> {
-    let table = EdgeTable::new(screen);
+    let table = EdgeTable::new(screen, watch)?;
     let mut active = ActiveEdges::new(&table);
     let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
     while let Some(row) = active.next_row(statistics) {
@@ -176,24 +175,10 @@ impl Scan<'_> {
             return Some(());
         }
         statistics.splits += 1;
-        let m = takes_over(self.screen, left, right, from, self.row).clamp(from + 1, to - 1);
+        let m = self.screen.takes_over(left, right, from, self.row).clamp(from + 1, to - 1);
         let before = if m - from == 1 { left } else { self.nearest(m - 1, statistics) };
         self.between(from, left, m, before, watch, statistics)?;
         let after = if to - m == 1 { right } else { self.nearest(m, statistics) };
         self.between(m, after, to, right, watch, statistics)
     }
-}
-
-/// The first column after `from`, where `first` is in front, at which `then` is; i64::MAX where it never is.
-pub fn takes_over(screen: &Screen, first: u32, then: u32, from: i64, row: i64) -> i64 {
-    let (p, q) = (&screen.facets[first as usize].plane, &screen.facets[then as usize].plane);
-    // How far `first` is behind `then`: not positive at `from`.
-    let (here, step) = p.difference(q, centre(from), centre(row));
-    if step <= 0 {
-        return i64::MAX;
-    }
-    // At equal depth the lower number wins.
-    let enough = if then < first { 0 } else { 1 };
-    let columns = (enough - here + step - 1).div_euclid(step);
-    i64::try_from(columns).map_or(i64::MAX, |k| from.saturating_add(k.max(1)))
 }

@@ -161,7 +161,7 @@ pub fn merged(
     statistics: &mut Statistics,
     paired: &mut dyn FnMut(Write),
 ) -> Option<()> {
-    let table = EdgeTable::new(screen);
+    let table = EdgeTable::new(screen, watch)?;
     let mut active = ActiveEdges::new(&table);
     let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
     let mut entered = vec![0i64; screen.facets.len()];

@@ -41,12 +41,12 @@ fn value(screen: &Screen, number: u32, column: i64, row: i64, correct: bool) -> 
         for i in l.clone() {
             let next = if i + 1 == l.end { l.start } else { i + 1 };
             let (p, q) = (&screen.points[i as usize], &screen.points[next as usize]);
-            let (py, qy) = (f64::from(p[1]), f64::from(q[1]));
+            let (py, qy) = (p[1] as f64, q[1] as f64);
             if (py <= y) == (qy <= y) {
                 continue;
             }
             let t = (y - py) / (qy - py);
-            let at = f64::from(p[0]) + t * (f64::from(q[0]) - f64::from(p[0]));
+            let at = p[0] as f64 + t * (q[0] - p[0]) as f64;
             let value = between(&screen.values[i as usize], &screen.values[next as usize], t, correct);
             if at <= x && left.is_none_or(|(l, _)| at > l) {
                 left = Some((at, value));

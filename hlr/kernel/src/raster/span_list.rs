@@ -20,7 +20,6 @@ use super::canvas::Canvas;
 use super::coverage::Edge;
 use super::edge_table::EdgeTable;
 use super::polygon_table::{PolygonTable, Toggle};
-use super::scan_line::takes_over;
 use super::screen::Screen;
 use super::statistics::{Statistics, bytes_of};
 use super::watch::Watch;
@@ -31,7 +30,7 @@ use std::collections::BinaryHeap;
 type Crossing = (i64, u32, u32);
 
 pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
-    let table = EdgeTable::new(screen);
+    let table = EdgeTable::new(screen, watch)?;
     let mut active = ActiveEdges::new(&table);
     let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
     let mut row_of_spans = Spans { screen, row: 0, order: Vec::new(), crossings: BinaryHeap::new() };
@@ -134,7 +133,7 @@ impl Spans<'_> {
     fn meet(&mut self, at: usize, column: i64) {
         let (Some(&f), Some(&g)) = (self.order.get(at), self.order.get(at + 1)) else { return };
         // Asked one column before: after an end, or another crossing in this column, they may have to change at once.
-        let there = takes_over(self.screen, f, g, column - 1, self.row);
+        let there = self.screen.takes_over(f, g, column - 1, self.row);
         if there < self.screen.width {
             self.crossings.push(Reverse((there, f, g)));
         }

@@ -2,13 +2,13 @@
 
 use super::bsp::Tree;
 use super::canvas::Canvas;
+use super::prepare::{Bent, screen};
 use super::ray_casting::Acceleration;
 use super::scan_line::Coherence;
 use super::scan_line_z_buffer::Lists;
 use super::scene::{Camera, Rule, Scene};
-use super::screen::{Bent, screen};
 use super::statistics::Statistics;
-use super::watch::Watch;
+use super::watch::{Limits, Watch};
 use super::z_buffer::Nearer;
 use super::{bsp, depth_sort, ray_casting, scan_line, scan_line_z_buffer, span_list, warnock, z_buffer};
 
@@ -45,7 +45,7 @@ fn random_triangles_look_the_same_to_all_methods() {
             near: f64::NEG_INFINITY,
             image_space: true,
         };
-        let watch = Watch::new(&never, None);
+        let watch = Watch::new(&never, Limits::NONE);
         let mut statistics = Statistics::default();
         let on = screen(&scene, &camera, Bent::Triangulated, &watch, &mut statistics).unwrap();
         let picture = |name: &str| {

@@ -3,29 +3,27 @@
 //! Ear clipping (Meisters 1975), holes joined to the outline by bridges first (Eberly), all in integers on the image. Edges
 //! are kept, and the triangles' outlines add up to the polygon's: so the pixels of the triangles together are those of the
 //! polygon. A loop that crosses itself has no such triangulation without new corners, which are on no grid: `None`, and the
-//! polygon keeps its outline and Newell's plane.
+//! polygon keeps its outline, in one plane.
 
-use super::plane::Point;
+use super::plane::{Point, turn};
 use super::scene::Rule;
-
-fn turn(p: &Point, q: &Point, r: &Point) -> i64 {
-    let (px, py) = (i64::from(p[0]), i64::from(p[1]));
-    (i64::from(q[0]) - px) * (i64::from(r[1]) - py) - (i64::from(q[1]) - py) * (i64::from(r[0]) - px)
-}
+use super::watch::Watch;
+use std::ops::Range;
 
 /// Triangles as indices into the corners of all loops, one after another; None where loops cross, or touch so that no ear
-/// is left.
-pub fn triangulate(points: &[Point], loops: &[std::ops::Range<usize>], rule: Rule) -> Option<Vec<[usize; 3]>> {
-    if crosses(points, loops) {
+/// is left, or where there was no time.
+pub fn triangulate(points: &[Point], loops: &[Range<usize>], rule: Rule, watch: &Watch) -> Option<Vec<[usize; 3]>> {
+    if crosses(points, loops, watch) {
         return None;
     }
-    let area = |l: &std::ops::Range<usize>| -> i64 {
+    let twice = |t: [usize; 3]| i128::from(turn(&points[t[0]], &points[t[1]], &points[t[2]]));
+    let area = |l: &Range<usize>| -> i128 {
         let n = l.len();
-        (0..n).map(|k| turn(&points[l.start], &points[l.start + k], &points[l.start + (k + 1) % n])).sum()
+        (0..n).map(|k| twice([l.start, l.start + k, l.start + (k + 1) % n])).sum()
     };
     // The outline is the largest loop; it is walked with positive area, holes the other way.
     let outline = (0..loops.len()).max_by_key(|&k| area(&loops[k]).abs())?;
-    let walked = |l: &std::ops::Range<usize>, positive: bool| -> Vec<usize> {
+    let walked = |l: &Range<usize>, positive: bool| -> Vec<usize> {
         let mut out: Vec<usize> = l.clone().collect();
         if (area(l) > 0) != positive {
             out.reverse();
@@ -39,27 +37,30 @@ pub fn triangulate(points: &[Point], loops: &[std::ops::Range<usize>], rule: Rul
     // The hole that reaches farthest right first: its bridge meets no other hole.
     holes.sort_by_key(|h| std::cmp::Reverse(h.iter().map(|&i| points[i][0]).max()));
     for hole in holes {
-        bridge(points, &mut ring, &hole)?;
+        bridge(points, &mut ring, &hole, watch)?;
     }
-    let mut triangles = ears(points, ring)?;
+    let mut triangles = ears(points, ring, watch)?;
     if flipped {
         triangles.iter_mut().for_each(|t| t.swap(1, 2));
     }
     let whole = match rule {
         // Loops within the outline are holes, whichever way they run.
-        Rule::EvenOdd => 2 * area(&loops[outline]).abs() - loops.iter().map(|l| area(l).abs()).sum::<i64>(),
-        Rule::NonZero => loops.iter().map(area).sum::<i64>().abs(),
+        Rule::EvenOdd => 2 * area(&loops[outline]).abs() - loops.iter().map(|l| area(l).abs()).sum::<i128>(),
+        Rule::NonZero => loops.iter().map(area).sum::<i128>().abs(),
     };
-    let parts: i64 = triangles.iter().map(|t| turn(&points[t[0]], &points[t[1]], &points[t[2]])).sum();
+    let parts: i128 = triangles.iter().map(|&t| twice(t)).sum();
     (whole == parts.abs()).then_some(triangles)
 }
 
-/// Whether two edges that are no neighbours meet.
-fn crosses(points: &[Point], loops: &[std::ops::Range<usize>]) -> bool {
+/// Whether two edges that are no neighbours meet, or there is no time to find out.
+fn crosses(points: &[Point], loops: &[Range<usize>], watch: &Watch) -> bool {
     let edges: Vec<(usize, usize)> =
         loops.iter().flat_map(|l| l.clone().map(move |i| (i, if i + 1 == l.end { l.start } else { i + 1 }))).collect();
     for (k, &(a, b)) in edges.iter().enumerate() {
         for &(c, d) in &edges[k + 1..] {
+            if watch.over() {
+                return true;
+            }
             if a == c || a == d || b == c || b == d {
                 continue;
             }
@@ -75,11 +76,11 @@ fn crosses(points: &[Point], loops: &[std::ops::Range<usize>]) -> bool {
 }
 
 /// Join a hole to the ring by the shortest bridge that crosses neither.
-fn bridge(points: &[Point], ring: &mut Vec<usize>, hole: &[usize]) -> Option<()> {
+fn bridge(points: &[Point], ring: &mut Vec<usize>, hole: &[usize], watch: &Watch) -> Option<()> {
     let start = (0..hole.len()).max_by_key(|&k| (points[hole[k]][0], points[hole[k]][1]))?;
     let from = &points[hole[start]];
     let distance = |i: usize| -> i64 {
-        let (dx, dy) = (i64::from(points[i][0] - from[0]), i64::from(points[i][1] - from[1]));
+        let (dx, dy) = (points[i][0] - from[0], points[i][1] - from[1]);
         dx * dx + dy * dy
     };
     let mut order: Vec<usize> = (0..ring.len()).collect();
@@ -101,6 +102,7 @@ fn bridge(points: &[Point], ring: &mut Vec<usize>, hole: &[usize]) -> Option<()>
             turn(before, to, from) >= 0 || turn(to, after, from) >= 0
         };
         within
+            && !watch.over()
             && (0..n).all(|i| free(ring[i], ring[(i + 1) % n]))
             && (0..hole.len()).all(|i| free(hole[i], hole[(i + 1) % hole.len()]))
     };
@@ -112,10 +114,11 @@ fn bridge(points: &[Point], ring: &mut Vec<usize>, hole: &[usize]) -> Option<()>
     Some(())
 }
 
-fn ears(points: &[Point], mut ring: Vec<usize>) -> Option<Vec<[usize; 3]>> {
+fn ears(points: &[Point], mut ring: Vec<usize>, watch: &Watch) -> Option<Vec<[usize; 3]>> {
     let mut out = Vec::with_capacity(ring.len());
     while ring.len() > 2 {
         let n = ring.len();
+        // Corner by corner, each against all others.
         let ear = (0..n).find(|&k| {
             let [a, b, c] = [ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]];
             let [p, q, r] = [&points[a], &points[b], &points[c]];
@@ -123,6 +126,7 @@ fn ears(points: &[Point], mut ring: Vec<usize>) -> Option<Vec<[usize; 3]>> {
             // A corner on a straight line, or a spike, goes without a triangle.
             side == 0
                 || (side > 0
+                    && !watch.over()
                     && ring.iter().all(|&i| {
                         let v = &points[i];
                         let shared = [p, q, r].iter().any(|w| w[0] == v[0] && w[1] == v[1]);
@@ -140,7 +144,12 @@ fn ears(points: &[Point], mut ring: Vec<usize>) -> Option<Vec<[usize; 3]>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::watch::Limits;
     use super::*;
+
+    fn triangles(points: &[Point], loops: &[Range<usize>], rule: Rule) -> Option<Vec<[usize; 3]>> {
+        triangulate(points, loops, rule, &Watch::new(&|| false, Limits::NONE))
+    }
 
     #[test]
     fn a_square_with_a_hole() {
@@ -148,11 +157,11 @@ mod tests {
             [[0, 0], [9, 0], [9, 9], [0, 9], [3, 3], [6, 3], [6, 6], [3, 6]].map(|[x, y]| [x, y, 0]).to_vec();
         for (rule, found) in [(Rule::EvenOdd, true), (Rule::NonZero, false)] {
             // Run the same way as the outline, the inner loop is a hole under the even-odd rule only.
-            let t = triangulate(&points, &[0..4, 4..8], rule);
+            let t = triangles(&points, &[0..4, 4..8], rule);
             assert_eq!(t.is_some(), found);
             let mut turned = points.clone();
             turned[4..].reverse();
-            let t = triangulate(&turned, &[0..4, 4..8], rule).unwrap();
+            let t = triangles(&turned, &[0..4, 4..8], rule).unwrap();
             let area: i64 = t.iter().map(|t| turn(&turned[t[0]], &turned[t[1]], &turned[t[2]])).sum();
             assert_eq!(area, 2 * (81 - 9));
         }
@@ -161,6 +170,6 @@ mod tests {
     #[test]
     fn a_bow_tie_has_no_triangulation() {
         let points: Vec<Point> = [[0, 0], [4, 4], [4, 0], [0, 4]].map(|[x, y]| [x, y, 0]).to_vec();
-        assert!(triangulate(&points, std::slice::from_ref(&(0..4)), Rule::EvenOdd).is_none());
+        assert!(triangles(&points, std::slice::from_ref(&(0..4)), Rule::EvenOdd).is_none());
     }
 }

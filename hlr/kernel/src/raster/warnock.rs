@@ -163,22 +163,11 @@ impl Subdivision<'_> {
     fn hides(&self, front: u32, other: u32, area: Area, statistics: &mut Statistics) -> bool {
         let [left, right] = [area.columns[0], area.columns[1] - 1].map(i64::from);
         let [top, bottom] = [area.rows[0], area.rows[1] - 1].map(i64::from);
-        [(left, top), (right, top), (left, bottom), (right, bottom)]
-            .iter()
-            .all(|&(c, r)| self.corner(front, other, c, r, statistics))
-    }
-
-    /// The planes reach beyond their polygons here, where floating point makes no promises.
-    fn corner(&self, front: u32, other: u32, column: i64, row: i64, statistics: &mut Statistics) -> bool {
-        let (a, b) = (&self.screen.facets[front as usize], &self.screen.facets[other as usize]);
-        statistics.comparisons += 1;
-        let (za, zb) = (a.depth_at(column, row), b.depth_at(column, row));
-        let unsure = 0.01 + (za.abs() + zb.abs() + b.start.abs()) * 1e-12;
-        let difference = zb - za;
-        if difference.abs() > unsure {
-            return difference > 0.0;
-        }
-        self.screen.compare_exactly(front, other, column, row, statistics) == Ordering::Less
+        [(left, top), (right, top), (left, bottom), (right, bottom)].iter().all(|&(c, r)| {
+            statistics.comparisons += 1;
+            // The planes reach beyond their polygons here.
+            self.screen.compare_planes(front, other, c, r) == Ordering::Less
+        })
     }
 }
 
@@ -218,7 +207,7 @@ pub fn relation(
 
 /// Whether a segment meets a closed rectangle.
 fn meets(p: &Point, q: &Point, low: [i64; 2], high: [i64; 2]) -> bool {
-    let ([px, py], [qx, qy]) = ([p[0], p[1]].map(i64::from), [q[0], q[1]].map(i64::from));
+    let ([px, py, _], [qx, qy, _]) = (*p, *q);
     if px.max(qx) < low[0] || px.min(qx) > high[0] || py.max(qy) < low[1] || py.min(qy) > high[1] {
         return false;
     }

@@ -5,6 +5,7 @@
 use super::plane::Point;
 use super::scene::Scene;
 use super::triangulate::triangulate;
+use super::watch::Watch;
 
 /// Of a polygon's size: what lies nearer to its plane is planar.
 const FLAT: f64 = 1e-7;
@@ -20,19 +21,32 @@ pub struct Planar {
     pub owner: Vec<u32>,
 }
 
-/// None where all polygons are planar, as triangles are.
-pub fn planar(scene: &Scene) -> Option<Planar> {
-    if !(0..scene.len()).any(|p| is_warped(scene, p)) {
-        return None;
+/// The first None where there was no time, the second where all polygons are planar, as triangles are.
+pub fn planar(scene: &Scene, watch: &Watch) -> Option<Option<Planar>> {
+    let mut warped = Vec::new();
+    for p in 0..scene.len() {
+        if watch.over() {
+            return None;
+        }
+        if is_warped(scene, p) {
+            warped.push(p);
+        }
+    }
+    if warped.is_empty() {
+        return Some(None);
     }
     let mut out = Planar { corners: vec![], loops: vec![0], polygons: vec![0], cull: vec![], owner: vec![] };
+    let mut warped = warped.into_iter().peekable();
     for p in 0..scene.len() {
-        match is_warped(scene, p).then(|| triangles(scene, p)).flatten() {
+        if watch.over() {
+            return None;
+        }
+        match warped.next_if_eq(&p).and_then(|p| triangles(scene, p, watch)) {
             Some(triangles) => triangles.iter().for_each(|t| out.add(std::iter::once(&t[..]), scene.cull[p], p)),
             None => out.add(scene.loops_of(p), scene.cull[p], p),
         }
     }
-    Some(out)
+    Some(Some(out))
 }
 
 impl Planar {
@@ -47,57 +61,87 @@ impl Planar {
     }
 }
 
-/// Newell's plane of a polygon in the model: normal of length 1 and offset; None where it has no area.
-pub fn plane_of(scene: &Scene, polygon: usize) -> Option<[f64; 4]> {
+/// A plane in the model: a point of it, and its normal of length 1.
+#[derive(Clone, Copy, Debug)]
+pub struct Flat {
+    pub base: [f64; 3],
+    pub normal: [f64; 3],
+}
+
+impl Flat {
+    /// How far a point is before the plane.
+    #[inline(always)]
+    pub fn height(&self, p: &[f64; 3]) -> f64 {
+        let (n, b) = (&self.normal, &self.base);
+        n[0] * (p[0] - b[0]) + n[1] * (p[1] - b[1]) + n[2] * (p[2] - b[2])
+    }
+}
+
+fn difference(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| b[k] - a[k])
+}
+
+fn cross(u: &[f64; 3], v: &[f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+fn dot(u: &[f64; 3], v: &[f64; 3]) -> f64 {
+    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+}
+
+/// The plane of a polygon through those three of its corners that span the largest triangle, as far as changing one at a
+/// time finds it: the same rule as on the screen (`plane::widest`). Its normal is on the side of Newell's sum, from where
+/// the loops run counter-clockwise. None where all corners lie on one line.
+pub fn plane_of(scene: &Scene, polygon: usize) -> Option<Flat> {
+    let size = size_of_polygon(scene, polygon);
+    if !(size > 0.0 && size.is_finite()) {
+        return None;
+    }
     let base = scene.points[*scene.loops_of(polygon).flatten().next()? as usize];
-    let at = |i: i32| -> [f64; 3] { std::array::from_fn(|k| scene.points[i as usize][k] - base[k]) };
-    let mut n = [0.0f64; 3];
-    let (mut mean, mut count, mut size) = ([0.0; 3], 0.0, 0.0f64);
-    for l in scene.loops_of(polygon) {
+    // Of size 1, so that neither squares nor their squares leave the range of floating point.
+    let at = |i: i32| difference(&base, &scene.points[i as usize]).map(|c| c / size);
+    let corners: Vec<[f64; 3]> = scene.loops_of(polygon).flatten().map(|&i| at(i)).collect();
+    let normal = |t: &[usize; 3]| {
+        let [p, q, r] = t.map(|k| &corners[k]);
+        cross(&difference(p, q), &difference(p, r))
+    };
+    let square = |n: [f64; 3]| dot(&n, &n);
+    let far = (0..corners.len()).max_by(|&i, &k| square(corners[i]).total_cmp(&square(corners[k])))?;
+    let (mut best, mut largest, mut idle) = ([0, far, 0], 0.0, 0);
+    for k in (0..3).rev().cycle().take(3 * 16) {
+        let changed = |i: usize| {
+            let mut t = best;
+            t[k] = i;
+            t
+        };
+        let area = |i: usize| square(normal(&changed(i)));
+        let next = (0..corners.len()).max_by(|&i, &j| area(i).total_cmp(&area(j)))?;
+        if area(next) > largest {
+            (largest, best, idle) = (area(next), changed(next), 0);
+        } else {
+            idle += 1;
+        }
+        if idle == 3 {
+            break;
+        }
+    }
+    if largest <= 0.0 {
+        return None;
+    }
+    let newell = scene.loops_of(polygon).fold([0.0f64; 3], |mut sum, l| {
         let mut p = at(l[l.len() - 1]);
         for &i in l {
             let q = at(i);
-            n[0] += (p[1] - q[1]) * (p[2] + q[2]);
-            n[1] += (p[2] - q[2]) * (p[0] + q[0]);
-            n[2] += (p[0] - q[0]) * (p[1] + q[1]);
-            for k in 0..3 {
-                mean[k] += q[k];
-                size = size.max(q[k].abs());
-            }
-            count += 1.0;
+            let term = cross(&p, &q);
+            (0..3).for_each(|k| sum[k] += term[k]);
             p = q;
         }
-    }
-    if n.iter().all(|c| c.abs() <= FLAT * FLAT * size * size) {
-        n = largest(scene, polygon, &base);
-    }
-    let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
-    if !(length > 0.0 && length.is_finite()) {
-        return None;
-    }
-    let n = n.map(|c| c / length);
-    let offset = (0..3).map(|k| n[k] * (base[k] + mean[k] / count)).sum();
-    Some([n[0], n[1], n[2], offset])
-}
-
-/// The normal of the largest triangle at the first corner: for loops that cross themselves so that their halves cancel.
-fn largest(scene: &Scene, polygon: usize, base: &[f64; 3]) -> [f64; 3] {
-    let from: Vec<[f64; 3]> = scene
-        .loops_of(polygon)
-        .flatten()
-        .map(|&i| std::array::from_fn(|k| scene.points[i as usize][k] - base[k]))
-        .collect();
-    let mut best = ([0.0; 3], 0.0);
-    for (k, u) in from.iter().enumerate() {
-        for v in &from[k + 1..] {
-            let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-            let size = n.iter().map(|c| c * c).sum::<f64>();
-            if size > best.1 {
-                best = (n, size);
-            }
-        }
-    }
-    best.0
+        sum
+    });
+    let n = normal(&best);
+    let sign = if dot(&n, &newell) < 0.0 { -1.0 } else { 1.0 };
+    let base = scene.points[*scene.loops_of(polygon).flatten().nth(best[0])? as usize];
+    Some(Flat { base, normal: n.map(|c| sign * c / largest.sqrt()) })
 }
 
 fn is_warped(scene: &Scene, polygon: usize) -> bool {
@@ -105,12 +149,9 @@ fn is_warped(scene: &Scene, polygon: usize) -> bool {
     if corners.clone().count() <= 3 {
         return false;
     }
-    let Some([a, b, c, d]) = plane_of(scene, polygon) else { return false };
+    let Some(plane) = plane_of(scene, polygon) else { return false };
     let size = size_of_polygon(scene, polygon);
-    corners.any(|&i| {
-        let p = &scene.points[i as usize];
-        (a * p[0] + b * p[1] + c * p[2] - d).abs() > FLAT * size
-    })
+    corners.any(|&i| plane.height(&scene.points[i as usize]).abs() > FLAT * size)
 }
 
 fn size_of_polygon(scene: &Scene, polygon: usize) -> f64 {
@@ -124,8 +165,8 @@ fn size_of_polygon(scene: &Scene, polygon: usize) -> f64 {
 }
 
 /// Triangles of a polygon seen along its normal, as indices into the scene's points.
-fn triangles(scene: &Scene, polygon: usize) -> Option<Vec<[i32; 3]>> {
-    let normal = plane_of(scene, polygon)?;
+fn triangles(scene: &Scene, polygon: usize, watch: &Watch) -> Option<Vec<[i32; 3]>> {
+    let normal = plane_of(scene, polygon)?.normal;
     let axis = (0..3).max_by(|&i, &j| normal[i].abs().total_cmp(&normal[j].abs()))?;
     let size = size_of_polygon(scene, polygon);
     let (mut points, mut number, mut loops): (Vec<Point>, Vec<i32>, Vec<_>) = (vec![], vec![], vec![]);
@@ -134,12 +175,12 @@ fn triangles(scene: &Scene, polygon: usize) -> Option<Vec<[i32; 3]>> {
         let start = points.len();
         for &i in l {
             let p = &scene.points[i as usize];
-            let at = |k: usize| ((p[k] - base[k]) / size * GRID).round() as i32;
+            let at = |k: usize| ((p[k] - base[k]) / size * GRID).round() as i64;
             points.push([at((axis + 1) % 3), at((axis + 2) % 3), 0]);
             number.push(i);
         }
         loops.push(start..points.len());
     }
-    let found = triangulate(&points, &loops, scene.rule)?;
+    let found = triangulate(&points, &loops, scene.rule, watch)?;
     Some(found.into_iter().map(|t| t.map(|i| number[i])).collect())
 }

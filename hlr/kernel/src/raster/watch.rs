@@ -1,21 +1,61 @@
-//! When to give up: the caller interrupts, or the time is over.
+//! When to give up: the caller interrupts, the time is over, or too much memory is held.
 
+use super::stopwatch::Stopwatch;
+use crate::memory::held;
 use std::cell::Cell;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+/// What a piece of work may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    pub seconds: f64,
+    /// Seconds are those that the thread works, not those that pass.
+    pub worked: bool,
+    /// Bytes that the thread may hold beyond those that it holds at the beginning.
+    pub bytes: f64,
+}
+
+impl Limits {
+    pub const NONE: Limits = Limits { seconds: f64::INFINITY, worked: false, bytes: f64::INFINITY };
+}
+
+/// Why work was given up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    Stopped,
+    Time,
+    Memory,
+}
+
+/// Begins when it is made, on the thread that works.
 pub struct Watch<'a> {
     stopped: &'a (dyn Fn() -> bool + Sync),
-    deadline: Option<Instant>,
+    limits: Limits,
+    deadline: Cell<Option<Instant>>,
+    stopwatch: Stopwatch,
+    held: isize,
     countdown: Cell<u32>,
-    over: Cell<bool>,
+    why: Cell<Option<Why>>,
 }
 
 /// Looks at the clock are this many polls apart: a poll costs a few instructions, the clock many.
 const PATIENCE: u32 = 64;
 
+fn later(seconds: f64) -> Option<Instant> {
+    Duration::try_from_secs_f64(seconds).ok().and_then(|d| Instant::now().checked_add(d))
+}
+
 impl<'a> Watch<'a> {
-    pub fn new(stopped: &'a (dyn Fn() -> bool + Sync), deadline: Option<Instant>) -> Watch<'a> {
-        Watch { stopped, deadline, countdown: Cell::new(0), over: Cell::new(false) }
+    pub fn new(stopped: &'a (dyn Fn() -> bool + Sync), limits: Limits) -> Watch<'a> {
+        Watch {
+            stopped,
+            limits,
+            deadline: Cell::new(later(limits.seconds)),
+            stopwatch: Stopwatch::start(),
+            held: held(),
+            countdown: Cell::new(0),
+            why: Cell::new(None),
+        }
     }
 
     /// Poll: true once it is time to stop, and from then on.
@@ -29,13 +69,80 @@ impl<'a> Watch<'a> {
         self.look()
     }
 
+    /// Whether so many bytes more are within the limit; where not, it is time to stop.
+    pub fn has_room(&self, bytes: usize) -> bool {
+        if (held() - self.held) as f64 + bytes as f64 > self.limits.bytes {
+            self.give_up(Why::Memory);
+        }
+        self.why.get().is_none()
+    }
+
+    /// Why it was time to stop, if it was.
+    pub fn why(&self) -> Option<Why> {
+        self.why.get()
+    }
+
+    fn give_up(&self, why: Why) {
+        if self.why.get().is_none() {
+            self.why.set(Some(why));
+        }
+        self.countdown.set(0);
+    }
+
     #[cold]
     fn look(&self) -> bool {
-        if self.over.get() || (self.stopped)() || self.deadline.is_some_and(|d| Instant::now() >= d) {
-            self.over.set(true);
+        if self.why.get().is_none() {
+            if (self.stopped)() {
+                self.give_up(Why::Stopped);
+            } else if self.deadline.get().is_some_and(|d| Instant::now() >= d) && self.is_late() {
+                self.give_up(Why::Time);
+            } else if !self.has_room(0) {
+                return true;
+            } else {
+                self.countdown.set(PATIENCE);
+                return false;
+            }
+        }
+        true
+    }
+
+    /// At the deadline: the thread may have waited for others, and have time left.
+    fn is_late(&self) -> bool {
+        let left = self.limits.seconds - self.stopwatch.seconds();
+        if !self.limits.worked || left <= 0.0 {
             return true;
         }
-        self.countdown.set(PATIENCE);
+        self.deadline.set(later(left));
         false
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_ends_the_watch() {
+        let never = || false;
+        let watch = Watch::new(&never, Limits { bytes: 1e6, ..Limits::NONE });
+        assert!(!watch.over() && watch.has_room(900_000) && !watch.has_room(2_000_000));
+        assert!(watch.over() && watch.why() == Some(Why::Memory));
+        let watch = Watch::new(&never, Limits { bytes: 1e6, ..Limits::NONE });
+        let mut block = Vec::new();
+        while !watch.over() {
+            block.push([0u8; 1024]);
+        }
+        assert!(block.len() < 4096 && watch.why() == Some(Why::Memory));
+    }
+
+    #[test]
+    fn time_that_passes_is_not_time_worked() {
+        let never = || false;
+        let both = [false, true].map(|worked| Watch::new(&never, Limits { seconds: 0.05, worked, bytes: 1e9 }));
+        std::thread::sleep(Duration::from_millis(80));
+        assert_eq!(both[0].look(), true);
+        if std::fs::exists("/proc/thread-self/schedstat").unwrap_or(false) {
+            assert_eq!(both[1].look(), false);
+        }
     }
 }
