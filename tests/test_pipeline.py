@@ -65,7 +65,8 @@ PARALLEL = [(model, camera) for model in MODELS for camera in ("parallel", "half
 
 @pytest.mark.parametrize(("model", "camera"), [*PARALLEL, ("ball", "perspective"), ("ball", "eye"), ("mesh", "eye")])
 def test_points_on_paper_are_points_of_the_model(model, camera):
-    for drawing in hlr.draw_views(MODELS[model](), VIEWS, Options(**CAMERAS[camera])):
+    views = VIEWS[:1] if camera == "eye" else VIEWS
+    for drawing in hlr.draw_views(MODELS[model](), views, Options(**CAMERAS[camera])):
         assert drawing.lines
         expect_projected(drawing)
 
@@ -301,15 +302,17 @@ def test_saving_and_reading_back(tmp_path):
 
 
 def test_strict_turns_a_warning_into_an_error():
-    tiny = box((1, 1, 1))
-    assert hlr.draw(tiny, "front").notes
-    with pytest.raises(StrictError, match="the drawing is only"):
-        hlr.draw(tiny, "front", strict=True)
-    hlr.draw(tiny, "front", strict=True, scale=10.0)
+    opened = box((10, 10, 10))
+    opened.update_faces(opened.face_normals[:, 2] < 0.5)
+    assert hlr.draw(opened, "front").notes
+    with pytest.raises(StrictError, match="is drawn as it is: open"):
+        hlr.draw(opened, "front", strict=True)
+    hlr.draw(box((10, 10, 10)), "front", strict=True)
 
 
-def test_strict_minds_every_view():
-    # 3 mm seen from the front, 9 mm seen from above.
+def test_strict_minds_every_view(monkeypatch):
+    # 3 mm seen from the front, 9 mm seen from above. The remark about that stands for a warning.
+    monkeypatch.setattr("hlr.notes.REMARKS", frozenset())
     model = box((2, 9, 2))
     assert not hlr.draw(model, "top").notes
     with pytest.raises(StrictError):

@@ -117,19 +117,40 @@ def _check_ply(path: Path, head: bytes, size: int) -> None:
     if not head.startswith(b"ply") or end < 0:
         raise _refuse(path, "a PLY file", head)
     text = b"format ascii" in head[:end]
-    need = count = 0
+    need = count = rows = 0
+    last: list[bool] = []
     for line in head[:end].splitlines():
         words = line.split()
         if len(words) == 3 and words[0] == b"element" and words[2].isdigit():
-            count = int(words[2])
+            count, last = int(words[2]), []
+            rows += count
         elif len(words) >= 3 and words[0] == b"property":
             # A list takes at least its own length; a number in a text takes a digit and a blank.
             need += count * (2 if text else _PLY_SIZES.get(words[2] if words[1] == b"list" else words[1], 1))
+            last.append(words[1] == b"list")
     if need > size:
         raise SourceError(
             f"{path.name} is cut short: its header announces at least {need} bytes of data, the file has {size}: "
             "export or download it again."
         )
+    if text:
+        body = path.read_bytes()[end:].partition(b"\n")[2]
+        _check_rows(path, [row for row in body.splitlines() if row.strip()], rows, last if count else [])
+
+
+def _check_rows(path: Path, lines: list[bytes], rows: int, last: list[bool]) -> None:
+    """As many rows of numbers as were announced, and the last one whole; last: of its values, which are lists."""
+    if len(lines) < rows:
+        raise SourceError(
+            f"{path.name} is cut short: its header announces {rows} rows of numbers, the file has {len(lines)}: "
+            "export or download it again."
+        )
+    words = lines[rows - 1].split() if rows else []
+    at = 0
+    for is_list in last:
+        at += 1 + (int(words[at]) if is_list and at < len(words) and words[at].isdigit() else 0)
+    if at > len(words):
+        raise SourceError(f"{path.name} is cut short (its last row is not whole): export or download it again.")
 
 
 def _check_off(path: Path, head: bytes, size: int) -> None:
@@ -139,6 +160,13 @@ def _check_off(path: Path, head: bytes, size: int) -> None:
         raise _refuse(path, "an OFF file", head)
     if any(word.isdigit() and 2 * int(word) > size for word in words[1:3]):
         raise SourceError(f"{path.name} is cut short: its header announces more than the file holds.")
+    if len(words) < 3 or not (words[1].isdigit() and words[2].isdigit()):
+        return
+    every = (line.partition(b"#")[0].strip() for line in path.read_bytes().splitlines())
+    rows = [line for line in every if line]
+    start = 1 if len(rows[0].split()) > 1 else 2
+    faces = int(words[2])
+    _check_rows(path, rows[start:], int(words[1]) + faces, [True] if faces else [])
 
 
 def _check_glb(path: Path, head: bytes, size: int) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +48,24 @@ def open_iges(path: Path) -> BrepSource:
     ready()
     from OCP.IGESCAFControl import IGESCAFControl_Reader
 
-    return _read(path, "iges", IGESCAFControl_Reader())
+    notes = []
+    if head[72:73] != b"B" and not _is_whole(path):
+        text = f"{path.name} is cut short (its last record, T, is missing): some of it may be missing; export it again."
+        notes.append(Note("cut-short", text))
+    return _read(path, "iges", IGESCAFControl_Reader(), notes)
 
 
-def _read(path: Path, kind: str, reader: Any) -> BrepSource:
+def _is_whole(path: Path) -> bool:
+    """Whether the last record of an IGES file in text is that of its end."""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 400))
+        return _LAST.search(file.read()) is not None
+
+
+_LAST = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
+
+
+def _read(path: Path, kind: str, reader: Any, notes: Sequence[Note] = ()) -> BrepSource:
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.TCollection import TCollection_ExtendedString
     from OCP.TDocStd import TDocStd_Document
@@ -73,7 +89,7 @@ def _read(path: Path, kind: str, reader: Any) -> BrepSource:
         tree.leaves = [_sewn(leaf) for leaf in tree.leaves]
     if not tree.leaves:
         raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
-    return BrepSource(path.name, kind, tree.leaves, tree.notes)
+    return BrepSource(path.name, kind, tree.leaves, [*notes, *tree.notes])
 
 
 class _Tree:
