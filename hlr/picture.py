@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,8 @@ from hlr.values import ByValue
 
 if TYPE_CHECKING:
     from hlr.plan.effect import Decision
+
+File = str | os.PathLike[str]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -58,11 +61,24 @@ class Picture(ByValue):
             raise ValueError("ask for ids=True")
         return np.where(self.ids < 0, -1, np.searchsorted(self.first_face, self.ids, side="right") - 1).astype(np.int32)
 
-    def save(self, path: str | Path, depth: str | Path | None = None, ids: str | Path | None = None) -> Path:
+    @overload
+    def save(self, file: File, depth: File | IO[bytes] | None = None, ids: File | IO[bytes] | None = None) -> Path: ...
+    @overload
+    def save(
+        self, file: IO[bytes], depth: File | IO[bytes] | None = None, ids: File | IO[bytes] | None = None
+    ) -> None: ...
+    def save(self, file: Any, depth: Any = None, ids: Any = None) -> Path | None:
         """Write the picture as PNG, and its maps if they are named, all or none. `hlr/writers/PNG.md` describes them.
 
+        Each is a path, or a file object that is open for bytes. Returns the picture's path, or None for a file object.
         Raises WriteError where a file cannot be written, or a map that was not asked for is to be.
         """
         from hlr.writers.png import write_png
 
-        return write_png(self, path, depth, ids)
+        return write_png(self, file, depth, ids)
+
+    def _repr_png_(self) -> bytes:
+        """What a notebook shows."""
+        from hlr.writers.png import picture_png
+
+        return picture_png(self)

@@ -12,7 +12,7 @@ from writers.fakes import drawing, line, sample
 
 import hlr
 from hlr.curve import Arc, Bezier
-from hlr.drawing import Drawing, DrawnPart, Fill
+from hlr.drawing import Drawing, DrawnPart, Gradient
 from hlr.notes import Note
 
 POINTS = np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 2.0], [4.0, 0.0]])
@@ -24,7 +24,8 @@ MAKERS = [
     lambda: Bezier(3, POINTS.copy()),
     lambda: replace(line([[0, 0], [1, 1]]), curve=Bezier(3, POINTS.copy())),
     lambda: DrawnPart("a", None, np.eye(4)),
-    lambda: Fill(POINTS.copy(), *(np.arange(2, dtype=np.int32) for _ in "ab"), np.zeros((1, 3)), np.zeros(1)),
+    lambda: Gradient(np.zeros(2), np.ones(2), np.linspace(0, 1, 3), np.zeros((3, 3), np.uint8)),
+    lambda: hlr.draw(trimesh.creation.icosphere(2), "iso", scale=9, fill=True).fill,
     sample,
     lambda: hlr.preview(trimesh.creation.box((9, 9, 9)), size=(9, 9), depth=True, ids=True),
 ]
@@ -149,6 +150,18 @@ def test_what_cannot_be_written_is_refused_in_a_sentence(tmp_path, monkeypatch, 
 def test_a_notebook_shows_the_picture():
     shown = sample()._repr_svg_()
     assert shown.lstrip().startswith("<svg ") and shown.rstrip().endswith("</svg>")
+
+
+def test_a_picture_shows_itself_and_is_written_into_a_file_object(tmp_path):
+    picture = hlr.preview(trimesh.creation.box((9, 9, 9)), size=(9, 9), depth=True)
+    memory, depth = io.BytesIO(), io.BytesIO()
+    assert picture.save(memory, depth=depth) is None
+    path = picture.save(tmp_path / "a.png", depth=tmp_path / "b.png")
+    assert memory.getvalue() == picture._repr_png_() == path.read_bytes()
+    assert depth.getvalue() == (tmp_path / "b.png").read_bytes()
+    for file in (io.StringIO(), closed(), 7, None):
+        with pytest.raises(hlr.WriteError):
+            picture.save(file)
 
 
 def test_the_data_of_a_path_comes_first():

@@ -37,6 +37,7 @@ DRAWINGS = {
     "what was reached": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", report=True),
     "within a time": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", within=20.0),
     "filled faces": lambda: hlr.draw(trimesh.creation.box((10, 20, 30)), "iso", fill=True),
+    "filled curves": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", fill=True),
     "nothing at all": lambda: hlr.draw(
         trimesh.creation.box((9, 9, 9)), perspective=hlr.Perspective((0, -99, 0), (0, -200, 0), 40)
     ),

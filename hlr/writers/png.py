@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import json
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -69,18 +70,23 @@ def ids_png(picture: Picture) -> bytes:
     return _encoded(picture, rgb, {"Faces": json.dumps(faces)})
 
 
-def write_png(picture: Picture, path: str | Path, depth: str | Path | None, ids: str | Path | None) -> Path:
-    """All files or none; returns the picture's path."""
+def write_png(picture: Picture, file: Any, depth: Any, ids: Any) -> Path | None:
+    """All files or none, then what goes into file objects; returns the picture's path, or None for a file object."""
     from hlr.writers import files
 
-    target = check_png(path)
-    wanted = {check_png(p): make for p, make in ((depth, depth_png), (ids, ids_png)) if p is not None}
-    if target in wanted or len(wanted) < (depth is not None) + (ids is not None):
+    asked = [(file, picture_png), *((f, make) for f, make in ((depth, depth_png), (ids, ids_png)) if f is not None)]
+    targets = [(f if hasattr(f, "write") else check_png(files.path_of(f)), make) for f, make in asked]
+    if any(one == other for (one, _), (other, _) in combinations(targets, 2)):
         raise WriteError(
-            f"two maps would be written to one file; give picture, depth and ids a name each, not {target}"
+            f"two maps would be written to one file; give picture, depth and ids a name each, not {targets[0][0]}"
         )
-    files.place({target: picture_png(picture), **{p: make(picture) for p, make in wanted.items()}})
-    return target
+    made = [(target, make(picture)) for target, make in targets]
+    files.place({target: data for target, data in made if isinstance(target, Path)})
+    for target, data in made:
+        if not isinstance(target, Path):
+            files.put(target, data)
+    first = targets[0][0]
+    return first if isinstance(first, Path) else None
 
 
 def check_png(path: str | Path) -> Path:

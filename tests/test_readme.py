@@ -1,0 +1,27 @@
+"""The README's Python examples run, one after another, as a reader would run them."""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+EXAMPLES = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text("utf-8"), re.MULTILINE | re.DOTALL)
+
+
+def test_the_python_examples_run(tmp_path, monkeypatch):
+    cq = pytest.importorskip("cadquery")
+    shutil.copy(ROOT / "tests" / "data" / "as1-oc-214.stp", tmp_path / "part.step")
+    monkeypatch.chdir(tmp_path)
+    solid = cq.Workplane().box(30, 20, 10).faces(">Z").workplane().hole(8).val()
+    names = {}
+    assert len(EXAMPLES) >= 4
+    for text in EXAMPLES:
+        for piece in re.split(r"(?=^from )", text, flags=re.MULTILINE):
+            names["part"] = solid
+            if "build123d" in piece:
+                names["part"] = pytest.importorskip("build123d").Box(30, 20, 10)
+            exec(compile(piece, "README.md", "exec"), names)
+    for name in ("part.pdf", "part.json", "part-front.svg", "part-iso.svg", "part.png", "part-depth.png"):
+        assert (tmp_path / name).stat().st_size > 1000
