@@ -17,6 +17,7 @@ from hlr.plan.table import DRAWING
 from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, may_fold_into_itself, no_clashes
 from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, with_wires
+from hlr.scene.needles import supported
 from hlr.scene.repair import anything_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
 from hlr.scene.topology import (
@@ -64,7 +65,8 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     walks, loose = source_walks(parts, firsts, edges, len(points))
     kind = np.full(len(edges) + len(loose), INTERIOR, np.uint8)
     if bare.any():
-        kind[: len(edges)] = creases(mesh, bare, crease, len(points))
+        coarse = np.array([p.precision for p in parts])[part_of]
+        kind[: len(edges)] = creases(supported(mesh, points, triangles, coarse), bare, crease, len(points))
         walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part, bare))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]

@@ -255,7 +255,7 @@ class _Shared:
             reversed=meshes.face_reversed[g:h],
             surfaces=surfaces,
         )
-        self.brep = True
+        self.brep, self.precision = True, 0.0
         if len(self.triangles) and not len(self.edge_index):
             # Tessellated geometry: faces are loose triangles, and what they share must be found by position.
             joined = clean(self.points, self.triangles)
@@ -263,6 +263,7 @@ class _Shared:
             self.triangle_face = np.zeros(len(self.triangles), dtype=np.int32)
             self.face_planar = np.zeros(1, dtype=bool)
             self.brep = False
+            self.precision = joined.precision
             self.on_surfaces = None
 
     def placed(self, part: Part, points: Floats) -> PartMesh:
@@ -285,6 +286,7 @@ class _Shared:
             edge_class=self.edge_class,
             brep=self.brep,
             on_surfaces=on_surfaces,
+            precision=self.precision,
         )
 
 

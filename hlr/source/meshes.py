@@ -201,6 +201,7 @@ def _part(name: str, mesh: Clean, instance: Instance) -> PartMesh:
         edge_index=none,
         edge_class=np.empty(0, dtype=np.uint8),
         brep=False,
+        precision=mesh.precision * float(np.sqrt((instance.transform[:3, :3] ** 2).sum(axis=0).max())),
     )
 
 

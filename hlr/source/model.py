@@ -83,6 +83,7 @@ class PartMesh:
     edge_index        (e,)   int32: index of the edge in the part's TopExp edge map
     edge_class        (e,)   uint8: EdgeClass (SHARP, SMOOTH, SEAM or BOUNDARY)
     on_surfaces       where the triangles lie on their true surfaces; None where there are none
+    precision         how far the coordinates of a mesh may be off by what they were rounded to, in model units
 
     A mesh without B-rep leaves the four edge arrays empty and sets `brep` to False: creases and borders are then
     found by the scene. Free edges (belonging to no face) are edges of class SHARP whose nodes no triangle uses.
@@ -101,6 +102,7 @@ class PartMesh:
     edge_class: npt.NDArray[np.uint8]
     brep: bool
     on_surfaces: OnSurfaces | None = None
+    precision: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

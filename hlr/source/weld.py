@@ -8,13 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.source.model import Floats, Ints
+from hlr.source.precision import precision
 
 
 @dataclass(frozen=True, slots=True)
 class Clean:
     """points (n, 3), each used and each once; triangles (m, 3) without repeated corners; what was left out.
 
-    kept: of the triangles that were given (m,) which each of these was.
+    kept: of the triangles that were given (m,) which each of these was; precision: how far coordinates may be off.
     """
 
     points: Floats
@@ -23,6 +24,7 @@ class Clean:
     out_of_range: int
     degenerate: int
     kept: npt.NDArray[np.intp]
+    precision: float
 
 
 def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) -> Clean:
@@ -57,7 +59,8 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
     whole = (a != b) & (b != c) & (c != a)
     degenerate = int(len(faces) - whole.sum())
     whole_faces = np.ascontiguousarray(faces[whole], np.int32)
-    return Clean(points[first], whole_faces, not_finite, out_of_range, degenerate, given[whole])
+    points = points[first]
+    return Clean(points, whole_faces, not_finite, out_of_range, degenerate, given[whole], precision(points))
 
 
 def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:

@@ -1,0 +1,87 @@
+"""Triangles too low for their coordinates: the normal of a needle is rounding noise, and so are the folds at its edges.
+
+Exporters put needles where vertices of a neighbour lie on an edge; the third corner lies on the longest side but for
+what the file rounds:
+
+    ::
+
+              A                     the needle p q r, hardly higher than the coordinates are exact,
+       p ----------- q              goes with A: it has A's normal, no fold against A,
+         `--.. r ..--'              and against B and C the folds of A
+            B  |  C
+
+So an edge between two surfaces keeps its fold, and where all around is flat or smooth there is none.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.scene.topology import MeshFacts, keys
+from hlr.source.model import Floats, Ints
+
+Indices = npt.NDArray[np.intp]
+
+LOW = 64.0
+"""Times the precision of the coordinates: the normal of a higher triangle is off by less than four degrees."""
+
+MOST_STEPS = 32
+"""Needles side by side, of each the longest side on the next one, before what lies beyond is taken as not known."""
+
+
+def supported(mesh: MeshFacts, points: Floats, triangles: Ints, precision: Floats) -> MeshFacts:
+    """The mesh with the folds that its coordinates support.
+
+    precision (t,): how far the corners of each triangle may be off, in model units; 0 where they are exact
+    """
+    low = np.flatnonzero(precision > 0.0)
+    if not len(low):
+        return mesh
+    corner = points[triangles[low]]
+    sides = np.stack([corner[:, (k + 1) % 3] - corner[:, k] for k in range(3)], axis=1)
+    squares = (sides**2).sum(axis=2)
+    area = np.cross(sides[:, 0], sides[:, 1])
+    height = np.sqrt((area**2).sum(axis=1)) / np.sqrt(squares.max(axis=1))
+    needle = (height < LOW * precision[low]) & (height > 0.0)
+    low, longest = low[needle], squares[needle].argmax(axis=1)
+    if not len(low):
+        return mesh
+    beyond, sense = np.arange(len(triangles)), np.ones(len(triangles))
+    beyond[low], sense[low] = _across(mesh, triangles, low, longest)
+    target, turn = np.arange(len(triangles)), np.ones(len(triangles))
+    for _ in range(MOST_STEPS):
+        turn = turn * sense[target]
+        target = beyond[target]
+    is_low = np.zeros(len(triangles), bool)
+    is_low[low] = True
+    normals = mesh.normals.copy()
+    normals[low] = np.where(is_low[target[low]], 0.0, turn[low])[:, None] * mesh.normals[target[low]]
+    return replace(mesh, normals=normals, fold=_folds(mesh, normals, is_low))
+
+
+def _across(mesh: MeshFacts, triangles: Ints, low: Indices, longest: Indices) -> tuple[Indices, Floats]:
+    """The triangles beyond the longest sides, and -1 where they run the other way round; themselves at a border."""
+    n = int(triangles.max(initial=-1)) + 1
+    ends = np.stack([triangles[low, longest], triangles[low, (longest + 1) % 3]], axis=1)
+    edge = np.searchsorted(keys(mesh.edges, n), keys(np.sort(ends, axis=1), n))
+    first = mesh.offsets[edge]
+    two = mesh.offsets[edge + 1] - first == 2
+    one, other = mesh.incident[first], mesh.incident[np.where(two, first + 1, first)]
+    beyond = np.where(two, np.where(one == low, other, one), low)
+    return beyond, np.where(two & (mesh.balance[edge] != 0), -1.0, 1.0)
+
+
+def _folds(mesh: MeshFacts, normals: Floats, changed: npt.NDArray[np.bool_]) -> Floats:
+    """Cosines of all folds, those at the changed triangles anew."""
+    two = np.flatnonzero(np.diff(mesh.offsets) == 2)
+    one, other = mesh.incident[mesh.offsets[two]], mesh.incident[mesh.offsets[two] + 1]
+    mine = changed[one] | changed[other]
+    two, one, other = two[mine], one[mine], other[mine]
+    known = normals[one].any(axis=1) & normals[other].any(axis=1)
+    cosine = (normals[one] * normals[other]).sum(axis=1) * np.where(mesh.balance[two] == 0, 1.0, -1.0)
+    fold = mesh.fold.copy()
+    fold[two] = np.where(known, cosine, np.nan)
+    return fold

@@ -1,0 +1,82 @@
+"""Needles along the edges of a prism, as low as its coordinates are exact: their normals are noise, and no edges.
+
+An exporter splits the faces on one side of an edge and fills the gap with a triangle whose third corner lies on the
+edge but for the rounding of its single-precision numbers. A shaft of 36 sides has two rims and no other creases; a box
+has its twelve edges.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hard.shapes import rotation
+
+import hlr
+from hlr.scene import build
+from hlr.source.precision import precision
+
+HEIGHT, RADIUS = 60.0, 20.0
+
+
+def prism(sides, size=1.0, turn=(1, 2, 3), off=3.0):
+    """(points, triangles): every upright edge has a needle, its corner `off` roundings beside the edge's middle."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    ring = np.stack([RADIUS * np.cos(angle), RADIUS * np.sin(angle), np.zeros(sides)], axis=1)
+    rng = np.random.default_rng(5)
+    points = np.concatenate([ring, ring + (0, 0, HEIGHT), ring + (0, 0, HEIGHT / 2), [(0, 0, 0), (0, 0, HEIGHT)]])
+    points = size * points @ rotation(turn, 0.7).T
+    points[2 * sides : 3 * sides] += off * 2.0**-24 * 60.0 * size * rng.uniform(-1, 1, (sides, 3))
+    faces = []
+    for i in range(sides):
+        j = (i + 1) % sides
+        p, q, r, bottom, top = i, sides + i, 2 * sides + i, 3 * sides, 3 * sides + 1
+        s, t = j, sides + j
+        faces += [(p, q, r), (p, r, s), (r, q, s), (q, t, s), (bottom, p, s), (top, t, q)]
+    triangles = np.array(faces)[:, [0, 2, 1]]
+    triangles[4::6] = triangles[4::6][:, [0, 2, 1]]
+    triangles[5::6] = triangles[5::6][:, [0, 2, 1]]
+    return points.astype(np.float32).astype(np.float64), triangles
+
+
+def creases(drawing):
+    return [line for line in drawing.lines if line.kind == "sharp"]
+
+
+def length(lines):
+    return sum(float(np.sqrt((np.diff(line.points3, axis=0) ** 2).sum(axis=1)).sum()) for line in lines)
+
+
+@pytest.mark.parametrize("size", [0.01, 1.0, 1000.0])
+@pytest.mark.parametrize("off", [0.5, 3.0, 12.0])
+def test_a_shaft_has_its_two_rims(size, off):
+    drawing = hlr.draw(prism(36, size, off=off), "iso", fit=(150, 150))
+    rim = 36 * 2 * RADIUS * np.sin(np.pi / 36)
+    assert length(creases(drawing)) <= 2 * rim * size * 1.001
+
+
+@pytest.mark.parametrize("size", [0.01, 1.0, 1000.0])
+@pytest.mark.parametrize("off", [0.0, 0.5, 3.0, 12.0])
+def test_a_box_keeps_its_twelve_edges(size, off):
+    drawing = hlr.draw(prism(4, size, off=off), "iso", fit=(150, 150), accuracy=0.05)
+    whole = 8 * RADIUS * np.sqrt(2.0) + 4 * HEIGHT
+    assert length(creases(drawing)) == pytest.approx(whole * size, rel=2e-3)
+
+
+def test_without_the_look_at_heights_there_are_stray_lines(monkeypatch):
+    monkeypatch.setattr(build, "supported", lambda mesh, *_: mesh)
+    rim = 36 * 2 * RADIUS * np.sin(np.pi / 36)
+    assert length(creases(hlr.draw(prism(36), "iso", fit=(150, 150)))) > 2.5 * rim
+
+
+def test_precision_of_coordinates():
+    rng = np.random.default_rng(3)
+    points = rng.uniform(-50, 50, (40, 3))
+    points[0, 0] = 64.0
+    single = 2.0**-24 * 64.0
+    assert precision(points.astype(np.float32).astype(float)) == single
+    assert precision(np.round(points, 4)) == 0.5e-4
+    assert precision(np.round(points, 7)) == single
+    written = np.array([[float(f"{c:.7e}") for c in row] for row in points])
+    assert precision(written) == single
+    assert precision(points) < 1e-13
+    assert precision(np.zeros((0, 3))) == 0.0
