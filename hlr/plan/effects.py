@@ -96,6 +96,9 @@ class PreviewWishes(TypedDict, total=False):
     up: Vector | None
     perspective: Perspective | None
     threads: int
+    only: tuple[str, ...]
+    hide: tuple[str, ...]
+    var: str | None
     strict: bool
 
 

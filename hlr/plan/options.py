@@ -93,6 +93,9 @@ class Wishes(TypedDict, total=False):
     perspective: Perspective | None
     fill: bool
     threads: int
+    only: tuple[str, ...]
+    hide: tuple[str, ...]
+    var: str | None
     strict: bool
     report: bool
     within: float | None
