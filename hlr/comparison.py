@@ -9,8 +9,9 @@ from hlr.errors import OptionError
 from hlr.plan.options import Options, View
 from hlr.plan.request import checked_views
 from hlr.source.model import Progress
+from hlr.surfaces.methods import METHODS
 from hlr.surfaces.polygons import Polygons, polygons_of
-from hlr.surfaces.report import scene_name
+from hlr.surfaces.report import model_name, scene_name
 from hlr.surfaces.testbed import COUNTS, polygons
 from hlr.surfaces.timing import TRIALS, Scenery, Timing, Trial, label, measure
 from hlr.surfaces.viewport import SCREEN, Screen, checked_size, viewport
@@ -23,7 +24,7 @@ MOST = 10_000_000
 def compare_methods(
     source: Any = None,
     *,
-    counts: Sequence[int] = COUNTS,
+    counts: Sequence[int] | None = None,
     crossing: Sequence[int] = (),
     view: View = "iso",
     size: tuple[int, int] = (1024, 1024),
@@ -34,14 +35,18 @@ def compare_methods(
     """Time every method on every scene.
 
     source  a model as well, meshed at a two-thousandth of its size; None: none
-    counts  polygons of the scenes, crossing: of those in which polygons pass through one another
-    limit   seconds for each method and scene;  methods: names of the only ones to time
+    counts  polygons of the scenes; None: COUNTS without a source, nothing but the model with one
+    crossing  polygons of those scenes in which they pass through one another
+    limit   seconds of the processor for each method and scene
+    methods names of the only ones to time: a method, or "method, variant" with any of its variants
 
     Raises OptionError, SourceError, ViewError.
     """
     size = checked_size(size)
     if not limit > 0.0:
         raise OptionError(f"a limit of {limit!r} seconds leaves no time: give a positive number")
+    if counts is None:
+        counts = COUNTS if source is None else ()
     for count in (*counts, *crossing):
         if not 1 <= count <= MOST:
             raise OptionError(f"a scene of {count:,} polygons cannot be made: give 1 to {MOST:,}")
@@ -55,10 +60,13 @@ def compare_methods(
 
 
 def _trials(methods: Sequence[str]) -> Sequence[Trial]:
-    unknown = [m for m in methods if m not in map(label, TRIALS)]
+    if not methods:
+        return TRIALS
+    known = {label(t): t for t in (*((m, "") for m in METHODS), *((m, v) for m, vs in METHODS.items() for v in vs))}
+    unknown = [m for m in methods if m not in known]
     if unknown:
-        raise OptionError(f"no method is called {unknown[0]!r}: use {', '.join(map(label, TRIALS))}")
-    return [t for t in TRIALS if not methods or label(t) in methods]
+        raise OptionError(f"no method is called {unknown[0]!r}: use {'; '.join(known)}")
+    return [known[m] for m in dict.fromkeys(methods)]
 
 
 def _scenery(name: str, own: Polygons, camera: Camera | Screen, size: tuple[int, int]) -> Scenery:
@@ -80,4 +88,5 @@ def _of_model(source: Any, view: View, size: tuple[int, int], progress: Progress
     tell("tessellate", 0.0)
     deflection = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5) / SMALL_DRAWING
     scene = build(opened.mesh(deflection, ANGLE, progress), 30.0, deflection)
-    return _scenery(opened.name, polygons_of(scene), camera, size)
+    model = polygons_of(scene)
+    return _scenery(model_name(opened.name, len(model)), model, camera, size)

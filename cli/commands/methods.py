@@ -28,23 +28,30 @@ if TYPE_CHECKING:
     type=click.IntRange(min=1),
     metavar="N",
     multiple=True,
-    help="Polygons of a scene; may be repeated. Default: 100, 250, 550, 2500, 8000, 60000 and 1000000.",
+    help="Polygons of a scene; may be repeated. Default without SOURCE: 100, 250, 550, 2500, 8000, 60000 and 1000000.",
 )
 @click.option(
     "--crossing",
     type=click.IntRange(min=1),
     metavar="N",
     multiple=True,
-    help="Polygons of a scene in which they pass through one another; may be repeated. Default: 100, 2500 and 60000.",
+    help="Polygons of a scene in which they pass through one another; may be repeated. Default without SOURCE: 100, "
+    "2500 and 60000.",
 )
-@click.option("--method", "methods", metavar="NAME", multiple=True, help="Only this one; may be repeated.")
+@click.option(
+    "--method",
+    "methods",
+    metavar="NAME",
+    multiple=True,
+    help='Only this one, or a variant: "scan-line z-buffer, per polygon", "ray casting, flat"; may be repeated.',
+)
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="View of SOURCE. Default: iso.")
 @click.option(
     "--limit",
     type=click.FloatRange(min=0.0, min_open=True),
     metavar="S",
     default=10.0,
-    help="Seconds for each method and scene. Default: 10.",
+    help="Seconds of the processor, as in the tables, for each method and scene. Default: 10.",
 )
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def methods(
@@ -59,10 +66,11 @@ def methods(
     limit: float,
     quiet: bool,
 ) -> None:
-    """Time the visible-surface methods on scenes of many polygons, and on SOURCE if there is one.
+    """Time the visible-surface methods on SOURCE, or on scenes of many polygons, or on both.
 
     \b
       hlr methods
+      hlr methods part.step
       hlr methods part.step --polygons 100 --limit 2 -o figures
     """
     targets = [] if output is None else in_folder(output, ("methods.csv", "methods.md", "methods.png"), source)
@@ -71,13 +79,12 @@ def methods(
         with meter(quiet) as progress:
             from hlr.comparison import compare_methods
             from hlr.surfaces import report
-            from hlr.surfaces.testbed import COUNTS
 
-            # With a choice of scenes only those are measured; a model alone is a choice as well.
-            chosen = bool(counts or crossing)
+            # With a choice of scenes only those are measured; a model is a choice as well.
+            chosen = bool(counts or crossing or source)
             found = compare_methods(
                 source,
-                counts=counts if chosen else COUNTS,
+                counts=counts if chosen else None,
                 crossing=crossing if chosen else (100, 2_500, 60_000),
                 view=view,
                 size=size,

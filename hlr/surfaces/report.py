@@ -97,6 +97,11 @@ def scene_name(count: int, crossing: bool = False) -> str:
     return f"{count:,}" + (" crossing" if crossing else "")
 
 
+def model_name(name: str, count: int) -> str:
+    """What the scene of a model is called."""
+    return f"{name}: {count:,}"
+
+
 def _seconds(value: float | None) -> str:
     if value is None:
         return LATE

@@ -44,6 +44,8 @@ class Timing:
     method: str
     seconds: float | None
     statistics: Statistics | None
+    limit: float | None = None
+    """Seconds that it was given."""
 
 
 def label(trial: Trial) -> str:
@@ -58,7 +60,7 @@ def measure(
     trials: Sequence[Trial] = TRIALS,
     progress: Callable[[str, float], None] | None = None,
 ) -> list[Timing]:
-    """Each trial on each scene. limit: seconds for each; Ctrl-C stops at once."""
+    """Each trial on each scene. limit: seconds that each may work, on what clock ever; Ctrl-C stops at once."""
     out: list[Timing] = []
     tell = progress or (lambda _stage, _done: None)
     for i, scenery in enumerate(sceneries):
@@ -78,9 +80,9 @@ def _one(scenery: Scenery, trial: Trial, limit: float) -> Timing:
             with within.over(label(trial)):
                 answer = scenery.make().render(scenery.viewport.kernel(), trial, within.kernel(), "", False)
         except NotFinishedError:
-            return Timing(scenery.name, scenery.count, label(trial), None, None)
+            return Timing(scenery.name, scenery.count, label(trial), None, None, limit)
         found.append(Statistics(**answer["statistics"]))
         if found[0].seconds > QUICK:
             break
     seconds = statistics.median(s.prepared + s.seconds for s in found)
-    return Timing(scenery.name, scenery.count, label(trial), seconds, found[0])
+    return Timing(scenery.name, scenery.count, label(trial), seconds, found[0], limit)

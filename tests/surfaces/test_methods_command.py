@@ -46,10 +46,66 @@ def test_on_a_model(tmp_path):
     assert code == 0 and "one.stl" in out and "warnock" not in out
 
 
+def box(path):
+    """A box of twelve triangles as an STL."""
+    import trimesh
+
+    trimesh.creation.box((3, 2, 1)).export(path)
+
+
+def test_a_model_alone(tmp_path):
+    box(tmp_path / "box.stl")
+    chosen = ["--method", "ray casting, flat", "--method", "scan-line z-buffer, per polygon", "--method", "scan line"]
+    code, out, err = run("box.stl", "--size", "32x32", *chosen, "-o", "figures", cwd=tmp_path)
+    assert (code, err) == (0, "")
+    rows = list(csv.DictReader((tmp_path / "figures" / "methods.csv").open()))
+    assert [row["method"] for row in rows] == chosen[1::2]
+    assert {(row["scene"], row["polygons"]) for row in rows} == {("box.stl: 12", "12")}
+    assert "box.stl: 12" in out and "1,000,000" not in out
+
+
+def axes_of(timings, monkeypatch):
+    """The plot as matplotlib has it."""
+    from matplotlib.figure import Figure
+
+    made = []
+    add = Figure.add_subplot
+
+    def kept(self, *args, **options):
+        made.append(add(self, *args, **options))
+        return made[-1]
+
+    monkeypatch.setattr(Figure, "add_subplot", kept)
+    png(timings, (32, 32))
+    return made[0]
+
+
+def test_the_plot_shows_models_and_what_is_not_finished(monkeypatch):
+    statistics = render([], SCREEN, (1, 1)).statistics
+    found = [
+        Timing(report.scene_name(100), 100, "z-buffer", 0.01, statistics, 2.0),
+        Timing(report.model_name("part.step", 1234), 1234, "z-buffer", 0.02, statistics, 2.0),
+        Timing(report.model_name("part.step", 1234), 1234, "depth sort", None, None, 2.0),
+    ]
+    axes = axes_of(found, monkeypatch)
+    points = {(float(x), float(y)) for line in axes.lines for x, y in zip(*line.get_data(), strict=True)}
+    assert {(100.0, 0.01), (1234.0, 0.02), (1234.0, 2.0)} <= points
+    assert "part.step: 1,234" in " ".join(text.get_text() for text in axes.texts)
+    labels = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert labels == ["z-buffer", "depth sort", "not finished"]
+
+
+def test_the_limit_counts_what_the_table_shows():
+    # Many limits of time that passes may end before the thread has worked as long.
+    found = compare_methods(counts=(60_000,), size=(1024, 1024), limit=0.02, methods=["ray casting, flat"])
+    assert found[0].seconds is None and found[0].limit == 0.02
+
+
 @pytest.mark.parametrize(
     "arguments",
     [
         ["--method", "raytrace"],
+        ["--method", "warnock, fast"],
         ["--size", "0x4"],
         ["--size", "99999x4"],
         ["--polygons", "0"],

@@ -5,7 +5,7 @@ use super::clip::{Corner, Wall, clip_loop, walls};
 use super::depth_grid::{DepthGrid, Noise};
 use super::plane::{LIMIT, Plane, Point, STEPS, centre, turn, widest};
 use super::scene::{Camera, Scene};
-use super::screen::{Facet, NEAR_TIE, ROUNDING, STEEP, Screen, first_centre};
+use super::screen::{Facet, NEAR_TIE, STEEP, Screen, first_centre};
 use super::statistics::Statistics;
 use super::triangulate::triangulate;
 use super::watch::Watch;
@@ -13,6 +13,8 @@ use std::ops::Range;
 
 /// A corner this many steps off the plane of a polygon is on it.
 const LEVEL: i128 = 4;
+/// Of the depths that a facet's plane reaches: how far off a plane a corner may be that was cut out by it, cut after cut.
+const CUT: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// What becomes of polygons whose corners rounding has moved out of their plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -261,7 +263,7 @@ impl Screen {
             worst = worst.max((self.depths.number(z) - there).abs() + blurred);
         }
         // Twice, for the planes of two facets of one polygon that is not quite planar; without a slope nothing is trusted.
-        let slack = 2.0 * worst + NEAR_TIE + reach * ROUNDING;
+        let slack = 2.0 * worst + NEAR_TIE + reach * CUT;
         if slack.is_finite() { slack } else { f64::INFINITY }
     }
 

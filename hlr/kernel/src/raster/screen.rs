@@ -16,7 +16,7 @@ pub const NEAR_TIE: f64 = 16.0;
 /// Facets so steep that floating point might be off by more have no depth in floating point.
 pub const STEEP: f64 = (1u64 << 51) as f64;
 /// What a sum in floating point is off by, of its terms.
-pub const ROUNDING: f64 = 1.0 / (1u64 << 48) as f64;
+const ROUNDING: f64 = 1.0 / (1u64 << 48) as f64;
 
 /// A planar polygon on the screen.
 #[derive(Clone, Debug)]
