@@ -24,6 +24,7 @@ FAULT = 1
 def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoReturn:
     """Run a command and leave the process."""
     signals.at_once(own=arguments is None)
+    _Asked.json = "--json" in (sys.argv[1:] if arguments is None else arguments)
     # Absurd coordinates overflow on their way to an error or a drawing: arithmetic's own remarks help nobody.
     warnings.filterwarnings("ignore", category=RuntimeWarning, module=r"(hlr|numpy|trimesh)\b")
     try:
@@ -34,16 +35,15 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
         _leave(REFUSED)
     except click.UsageError as error:
         path = error.ctx.command_path if error.ctx else "hlr"
-        _refuse(f"{_sentence(error.format_message())} (see {path} --help)")
+        _refuse(f"{_sentence(error.format_message())} (see {path} --help)", "UsageError")
     except click.ClickException as error:
-        _refuse(error.format_message())
+        _refuse(error.format_message(), "UsageError")
     except KernelError as error:
         _debug()
-        _say(f"hlr: {error}")
-        _leave(FAULT)
+        _refuse(str(error), "KernelError", FAULT)
     except HlrError as error:
         _debug()
-        _refuse(str(error))
+        _refuse(str(error), type(error).__name__)
     except signals.Stopped as stopped:
         signals.die_by(stopped.number)
     except (KeyboardInterrupt, click.Abort):
@@ -52,7 +52,7 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
         _broken_pipe()
     except MemoryError:
         _debug()
-        _refuse("out of memory; a larger --accuracy needs less")
+        _refuse("out of memory; a larger --accuracy needs less", "MemoryError")
     except SystemExit:
         raise
     except BaseException as error:
@@ -62,26 +62,42 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
 
 def warn(message: str) -> None:
     """A warning on standard error."""
-    _say(f"hlr: warning: {_one_line(message)}")
+    _say(f"hlr: warning: {_full(message)}")
 
 
 def remark(message: str) -> None:
     """Something worth knowing that is nothing to warn of, on standard error."""
-    _say(f"hlr: note: {_one_line(message)}")
+    _say(f"hlr: note: {_full(message)}")
 
 
-def _refuse(message: str) -> NoReturn:
-    _say(f"hlr: {_one_line(message)}")
-    _leave(REFUSED)
+def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
+    """One sentence on standard error; for machines that asked for JSON, the same on standard output."""
+    text = _full(message)
+    _say(f"hlr: {text}")
+    if _Asked.json and sys.stdout is not None:
+        import json
+
+        document = {"error": {"kind": kind, "message": text, "exit_code": code}}
+        with contextlib.suppress(OSError):
+            sys.stdout.write(json.dumps(document, indent=2) + "\n")
+    _leave(code)
+
+
+class _Asked:
+    """What the arguments ask of errors, which may come before they are understood."""
+
+    json = False
 
 
 def _report(error: BaseException) -> NoReturn:
     text = _one_line(str(error)) or "no message"
-    _say(
-        f"hlr: internal error: {type(error).__name__}: {text}; this is a fault of hlr, please report it with the "
-        "command and, if you may share it, the model (HLR_DEBUG=1 shows the traceback)"
+    kind = type(error).__name__
+    _refuse(
+        f"internal error: {kind}: {text}; this is a fault of hlr, please report it with the command and, if you may "
+        "share it, the model (HLR_DEBUG=1 shows the traceback)",
+        kind,
+        FAULT,
     )
-    _leave(FAULT)
 
 
 def _debug() -> None:
@@ -121,6 +137,12 @@ def _sentence(message: str) -> str:
     """A message of click in the style of ours: it starts small and has no full stop."""
     text = message.rstrip(".")
     return text[:1].lower() + text[1:]
+
+
+def _full(message: str) -> str:
+    """A message as one line that ends as a sentence does."""
+    text = _one_line(message)
+    return text if text.endswith((".", "!", "?", "\u2026")) else text + "."
 
 
 def _one_line(message: str) -> str:

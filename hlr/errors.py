@@ -39,3 +39,8 @@ class StrictError(HlrError):
 
 class KernelError(HlrError):
     """A fault of hlr itself, in its kernel: worth a report. The command line ends with exit code 1."""
+
+
+def counted(number: int, what: str) -> str:
+    """A number with its noun: 1 edge, 2 edges."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"

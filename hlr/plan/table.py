@@ -16,6 +16,12 @@ DEEP_GROUPS, DEEP_EDGES = 400, 8000
 Answer = tuple[bool, str]
 
 
+def _a(word: str) -> str:
+    """A word with its article."""
+    named = {"step": "a STEP file", "iges": "an IGES file", "brep": "a BREP file", "script": "a script"}
+    return named.get(word, f"{'an' if word[:1] in 'aeiou' else 'a'} {word}")
+
+
 def _count(number: int, what: str, plural: str = "") -> str:
     return f"{number:,} {what if number == 1 else plural or what + 's'}"
 
@@ -35,12 +41,12 @@ def _wish(name: str, on: str, off: str) -> Effect:
 
 def _brep(f: Facts, _o: Options) -> Answer:
     on = f.kind in BREP_KINDS
-    return on, f"the source is a {f.kind}" if on else f"the source is a mesh ({f.kind})"
+    return on, f"the source is {_a(f.kind)}" if on else f"the source is a mesh ({f.kind})"
 
 
 def _mesh(f: Facts, _o: Options) -> Answer:
     on = f.kind not in BREP_KINDS
-    return on, f"the source is a mesh ({f.kind})" if on else f"the source is a {f.kind}"
+    return on, f"the source is a mesh ({f.kind})" if on else f"the source is {_a(f.kind)}"
 
 
 def _curved(f: Facts, _o: Options) -> Answer:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from hlr.errors import SourceError
+from hlr.errors import SourceError, counted
 from hlr.notes import Note
 from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
@@ -61,7 +61,7 @@ class BrepSource:
             raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
         if not self._parts:
             raise SourceError(
-                f"{name} holds {edges} edges but no faces: a hidden-line drawing needs surfaces "
+                f"{name} holds {counted(edges, 'edge')} but no faces: a hidden-line drawing needs surfaces "
                 "(export solids or shells instead of wires)."
             )
         # In a file, wires under the name of a part that is drawn are its annotation, sketches or axes, which no drawing
@@ -71,7 +71,7 @@ class BrepSource:
         wires = [part for part in wires if part.product not in drawn]
         if wires:
             edges = sum(self._counts[part.root][1] for part in wires)
-            text = f"{_some(wires)} without faces ({edges} edges) left out."
+            text = f"{_some(wires)} without faces ({counted(edges, 'edge')}) left out."
             self._notes.append(Note("wires-left-out", text))
         self.choice: Choice | None = None
         self._hold(self._roots, self._counts)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.errors import SourceError
+from hlr.errors import SourceError, counted
 from hlr.notes import Note
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved
@@ -93,13 +93,14 @@ class MeshSource:
         checked(name, self.bounds())
 
     def _report(self, cleaned: list[Clean]) -> None:
-        for count, what in (
-            (sum(mesh.not_finite for mesh in cleaned), "triangles with coordinates that are no numbers"),
-            (sum(mesh.out_of_range for mesh in cleaned), "triangles with corners that do not exist"),
-            (sum(mesh.degenerate for mesh in cleaned), "degenerate triangles (two corners in one place)"),
+        for count, what, why in (
+            (sum(mesh.not_finite for mesh in cleaned), "triangle", " with coordinates that are no numbers"),
+            (sum(mesh.out_of_range for mesh in cleaned), "triangle", " with corners that do not exist"),
+            (sum(mesh.degenerate for mesh in cleaned), "degenerate triangle", " (two corners in one place)"),
         ):
             if count:
-                self._notes.append(Note("triangles-left-out", f"{count} {what} were left out."))
+                left = "was" if count == 1 else "were"
+                self._notes.append(Note("triangles-left-out", f"{counted(count, what)}{why} {left} left out."))
 
     def _refusal(self, cleaned: list[Clean]) -> str:
         if any(mesh.not_finite for mesh in cleaned):

@@ -10,7 +10,7 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from hlr.errors import SourceError
+from hlr.errors import SourceError, counted
 from hlr.source.files import looks_like
 from hlr.source.meshes import UNITS, Y_UP, MeshSource, from_trimesh
 from hlr.source.model import Frame
@@ -90,8 +90,8 @@ def _check_stl(path: Path, head: bytes, size: int) -> None:
     if b"\0" in head[:84] and len(head) >= 84:
         held = max(0, (size - 84) // 50)
         raise SourceError(
-            f"{path.name} is cut short or no STL file: it announces {count} triangles and has room for {held}: "
-            "export or download it again."
+            f"{path.name} is cut short or no STL file: it announces {counted(count, 'triangle')} and has room for "
+            f"{held}: export or download it again."
         )
     raise _refuse(path, "an STL file", head)
 
@@ -142,8 +142,8 @@ def _check_rows(path: Path, lines: list[bytes], rows: int, last: list[bool]) -> 
     """As many rows of numbers as were announced, and the last one whole; last: of its values, which are lists."""
     if len(lines) < rows:
         raise SourceError(
-            f"{path.name} is cut short: its header announces {rows} rows of numbers, the file has {len(lines)}: "
-            "export or download it again."
+            f"{path.name} is cut short: its header announces {counted(rows, 'row')} of numbers, the file has "
+            f"{len(lines)}: export or download it again."
         )
     words = lines[rows - 1].split() if rows else []
     at = 0

@@ -1,3 +1,4 @@
+import json
 import os
 import re
 import signal
@@ -38,14 +39,14 @@ def test_the_traceback_is_there_for_those_who_ask(hlr_command, monkeypatch, sour
 
 def test_out_of_memory_is_said(hlr_command):
     result = hlr_command("draw", "memory.step")
-    assert (result.code, result.err) == (2, "hlr: out of memory; a larger --accuracy needs less\n")
+    assert (result.code, result.err) == (2, "hlr: out of memory; a larger --accuracy needs less.\n")
 
 
 def test_an_unknown_verb(hlr_command):
     result = hlr_command("drow")
     assert result.code == 2
     assert result.err.startswith("hlr: no such command 'drow'")
-    assert result.err.endswith("(see hlr --help)\n")
+    assert result.err.endswith("(see hlr --help).\n")
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["-h"], ["draw", "--help"], ["info", "-h"], ["--version"]])
@@ -144,11 +145,54 @@ def test_a_full_standard_output_is_said(child):
     with open("/dev/full", "wb") as full:
         process = child("draw", "a.step", "-o", "-", stdout=full, stderr=subprocess.PIPE)
         assert process.wait(timeout=20) == 2
-    assert process.stderr.read() == b"hlr: cannot write to standard output: no space left on device\n"
+    assert process.stderr.read() == b"hlr: cannot write to standard output: no space left on device.\n"
 
 
 @posix
 def test_a_closed_standard_output_is_said(child):
     process = child("draw", "a.step", "-o", "-", stderr=subprocess.PIPE, preexec_fn=lambda: os.close(1))
     assert process.wait(timeout=20) == 2
-    assert process.stderr.read() == b"hlr: cannot write to standard output: it is closed\n"
+    assert process.stderr.read() == b"hlr: cannot write to standard output: it is closed.\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "kind", "words"),
+    [
+        (["draw", "missing.step", "--json"], 2, "SourceError", "there is no such file."),
+        (["info", "missing.step", "--json"], 2, "SourceError", "there is no such file."),
+        (["plan", "missing.step", "--json"], 2, "SourceError", "missing.step does not exist"),
+        (["draw", "a.step", "--json", "--scale", "0"], 2, "UsageError", "is not a scale"),
+        (["draw", "a.step", "--json", "-o", "a.dwg"], 2, "WriteError", "use .svg, .pdf or .json."),
+        (["draw", "bug.step", "--json"], 1, "ZeroDivisionError", "division by zero"),
+        (["draw", "memory.step", "--json"], 2, "MemoryError", "out of memory"),
+        (["draw", "notes.step", "--json", "--strict"], 2, "StrictError", "because of --strict."),
+    ],
+)
+def test_where_json_was_asked_for_errors_are_json_too(hlr_command, arguments, code, kind, words):
+    result = hlr_command(*arguments)
+    assert result.code == code
+    found = json.loads(result.out)["error"]
+    assert (found["kind"], found["exit_code"]) == (kind, code)
+    assert words in found["message"]
+    assert result.err == f"hlr: {found['message']}\n"
+
+
+@posix
+def test_a_crash_is_json_too(child):
+    process = child("draw", "crash.step", "--json", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+    out, _ = process.communicate(timeout=30)
+    assert process.returncode == 1
+    assert json.loads(out)["error"]["kind"] == "CrashError"
+
+
+def test_every_message_is_a_sentence(hlr_command):
+    """The end of a sentence, but only one."""
+    for arguments in (
+        ["draw"],
+        ["drow"],
+        ["draw", "missing.step"],
+        ["draw", "memory.step"],
+        ["draw", "--fit", "x", "a.step"],
+    ):
+        err = hlr_command(*arguments).err
+        assert err.endswith(".\n") and not err.endswith("..\n"), err

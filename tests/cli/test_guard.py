@@ -67,7 +67,7 @@ def test_a_reader_that_crashes(patched, tmp_path, verb, body, reason):
     assert (code, out) == (2, b"")
     assert err == (
         f"hlr: part.step crashed OpenCASCADE ({reason}) while it was read; nothing was written; the file is probably "
-        "broken: export it again, or in another format\n"
+        "broken: export it again, or in another format.\n"
     )
     assert (tmp_path / "a.svg").read_bytes() == OLD
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.svg", "part.step"]
@@ -83,7 +83,7 @@ def test_a_full_stack(patched):
 def test_killed_for_want_of_memory(patched, tmp_path):
     code, _, err = finished(patched("os.kill(os.getpid(), signal.SIGKILL)"))
     assert code == 2
-    assert err == "hlr: part.step: the work was killed, most likely for want of memory; nothing was written\n"
+    assert err == "hlr: part.step: the work was killed, most likely for want of memory; nothing was written.\n"
     assert (tmp_path / "a.svg").read_bytes() == OLD
 
 
@@ -95,7 +95,7 @@ def test_a_script_that_crashes(tmp_path, body):
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (2, "")
     assert re.fullmatch(
-        r"hlr: part\.py crashed \((segmentation fault|abort)\) in compiled code that it uses; nothing was written\n",
+        r"hlr: part\.py crashed \((segmentation fault|abort)\) in compiled code that it uses; nothing was written\.\n",
         done.stderr,
     )
     assert (tmp_path / "a.svg").read_bytes() == OLD
@@ -134,7 +134,7 @@ def test_exit_codes_and_output_pass_through(child, tmp_path):
 
     code, out, err = run("draw", "a.step", "-o", "-")
     assert (code, out[:5], err) == (0, b"<?xml", "")
-    assert run("draw", "missing.step")[::2] == (2, "hlr: cannot read missing.step: there is no such file\n")
+    assert run("draw", "missing.step")[::2] == (2, "hlr: cannot read missing.step: there is no such file.\n")
     assert run("draw", "bug.step")[0] == 1
     assert run("draw", "a.step", "--nonsense")[0] == 2
 
@@ -189,7 +189,7 @@ def test_a_script_that_leaves_is_refused(started, tmp_path, code):
         2,
         b"",
         f"hlr: part.py ended the program (exit code {code}) before anything was drawn; nothing was written; "
-        "take os._exit out of it\n",
+        "take os._exit out of it.\n",
     )
     assert [path.name for path in tmp_path.iterdir()] == ["part.py"]
 

@@ -6,7 +6,7 @@ LONG = "a name so long that no terminal could s…"
 def test_table(hlr_command):
     result = hlr_command("info", "a.step")
     assert result.code == 0
-    assert result.err == "hlr: warning: part 9 could not be read\n"
+    assert result.err == "hlr: warning: part 9 could not be read.\n"
     assert result.out == (
         "a.step: step, 25.4 x 50.8 x 88.9 mm, 1 unit = 25.4 mm\n"
         "\n"
@@ -40,4 +40,5 @@ def test_json(hlr_command):
 
 def test_a_source_that_cannot_be_read(hlr_command):
     result = hlr_command("info", "missing.step", "--json")
-    assert result == (2, "", "hlr: cannot read missing.step: there is no such file\n")
+    assert (result.code, result.err) == (2, "hlr: cannot read missing.step: there is no such file.\n")
+    assert json.loads(result.out)["error"]["message"] == "cannot read missing.step: there is no such file."

@@ -44,7 +44,7 @@ class Result:
         if "Traceback" in self.err or self.code not in (0, 2):
             return f"fault {lines[-1] if lines else self.code}"
         own = [line for line in lines if line.startswith("hlr: ")]
-        said = [line for line in own if not line.startswith("hlr: warning: ")]
+        said = [line for line in own if not line.startswith(("hlr: warning: ", "hlr: note: "))]
         strays = set(self.files) - {name, "out.svg", "__pycache__"}
         if strays:
             return f"strays {sorted(strays)}"

@@ -89,7 +89,7 @@ def test_inches_become_millimetres(tmp_path):
 
 def test_edges_without_faces_are_refused(tmp_path):
     cq.exporters.export(cq.Workplane().circle(3), str(tmp_path / "ring.brep"), exportType="BREP")
-    with pytest.raises(SourceError, match=r"ring\.brep holds 1 edges but no faces"):
+    with pytest.raises(SourceError, match=r"ring\.brep holds 1 edge but no faces"):
         open_source(tmp_path / "ring.brep")
 
 
@@ -99,7 +99,7 @@ def test_wires_beside_solids_are_noted(tmp_path):
     )
     source = open_source(tmp_path / "mixed.step")
     assert len(source.mesh(0.1, 0.3).parts) == 1
-    assert any("without faces (1 edges) left out" in note.text for note in source.notes)
+    assert any("without faces (1 edge) left out" in note.text for note in source.notes)
 
 
 def test_annotation_of_a_drawn_part_is_no_warning(data, tmp_path):

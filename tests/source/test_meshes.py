@@ -195,7 +195,7 @@ def test_what_is_left_of_a_damaged_mesh_is_drawn(tmp_path):
     (tmp_path / "hole.off").write_bytes(b"OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\nnan 0 0\n3 0 1 2\n3 0 1 3\n")
     source = open_source(tmp_path / "hole.off")
     assert len(source.mesh(0.1, 0.3).parts[0].triangles) == 1
-    assert list(map(str, source.notes)) == ["1 triangles with coordinates that are no numbers were left out."]
+    assert list(map(str, source.notes)) == ["1 triangle with coordinates that are no numbers was left out."]
 
 
 def test_a_byte_order_mark_is_no_obstacle(tmp_path):
