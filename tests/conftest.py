@@ -10,7 +10,7 @@ examples: pytest --hypothesis-profile=explore
 import sys
 from pathlib import Path
 
-from hypothesis import settings
+from hypothesis import Phase, settings
 
 HERE = str(Path(__file__).resolve().parent)
 if HERE not in sys.path:
@@ -18,4 +18,6 @@ if HERE not in sys.path:
 
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)
+# Without looking for the smallest example of what fails.
+settings.register_profile("unshrunk", derandomize=True, deadline=None, phases=[Phase.explicit, Phase.generate])
 settings.load_profile("same")

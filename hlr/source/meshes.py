@@ -331,7 +331,10 @@ def open_arrays(vertices: Any, faces: Any) -> MeshSource:
         SourceError: other shapes, or no triangles.
     """
     try:
-        points: npt.NDArray[Any] = np.asarray(vertices, dtype=np.float64)
+        given: npt.NDArray[Any] = np.asarray(vertices)
+        if given.dtype.kind not in "iufbO":  # an imaginary part would be lost, and text is no coordinate
+            raise TypeError
+        points = given.astype(np.float64, copy=False)
         corners: npt.NDArray[Any] = np.asarray(faces)
     except (TypeError, ValueError):
         raise SourceError("(vertices, faces) must be arrays of numbers: (n, 3) and (m, 3).") from None
