@@ -46,7 +46,9 @@ def png(timings: Sequence[Timing], size: tuple[int, int]) -> bytes:
         )
     for name, count in dict.fromkeys((t.scene, t.count) for t in timings if _kind(t) == "model"):
         axes.axvline(count, color="0.7", linewidth=0.8, zorder=0)
-        axes.text(count, 0.99, f" {name}", transform=axes.get_xaxis_transform(), va="top", fontsize=8, color="0.3")
+        axes.text(
+            count, 0.99, f"{name} ", transform=axes.get_xaxis_transform(), va="top", ha="right", fontsize=8, color="0.3"
+        )
     axes.set_xscale("log")
     axes.set_yscale("log")
     crossing = any(_kind(t) == "crossing" for t in timings)
