@@ -16,7 +16,7 @@ from hlr.plan.options import Options
 from hlr.plan.table import DRAWING
 from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, may_fold_into_itself, no_clashes
 from hlr.scene.defects import notes, reports
-from hlr.scene.groups import checked, grouped, with_wires
+from hlr.scene.groups import checked, grouped, welded, with_wires
 from hlr.scene.needles import supported
 from hlr.scene.repair import anything_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
@@ -85,7 +85,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
     found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, crossed_parts(met, group_part))
-    groups = distrusted(groups, met.through)
+    groups = distrusted(groups, met.through | welded(offsets, incident, group_of, groups))
 
     edge_group = group_of[incident[offsets[:-1]]]
     if len(loose):

@@ -287,9 +287,9 @@ def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
     return np.asarray(np.union1d(a[a == b], part_of_group[np.flatnonzero(met.through)]), np.int32)
 
 
-def distrusted(groups: Groups, through: npt.NDArray[np.bool_]) -> Groups:
-    """Groups that pass through themselves are looked at from both sides, and searched for where."""
-    return replace(groups, sound=groups.sound & ~through, cull=groups.cull & ~through)
+def distrusted(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
+    """Groups that pass through or touch themselves are looked at from both sides, and searched for where."""
+    return replace(groups, sound=groups.sound & ~which, cull=groups.cull & ~which)
 
 
 def may_fold_into_itself(

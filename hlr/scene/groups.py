@@ -86,6 +86,15 @@ def checked(
     )
 
 
+def welded(offsets: Ints, incident: Ints, group_of: Ints, groups: Groups) -> npt.NDArray[np.bool_]:
+    """(g,) bool: pieces of a mesh with more than two triangles at an edge.
+
+    Bodies that were welded there are one connected piece, and still touch one another as strangers do.
+    """
+    shared = group_of[incident[offsets[:-1][np.diff(offsets) > 2]]]
+    return np.asarray(groups.bare & (np.bincount(shared, minlength=len(groups.bare)) > 0))
+
+
 def with_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: bool) -> tuple[Groups, Ints]:
     """Open groups more for mesh edges that have no triangles: one per distinct owner; and the group of each wire.
 

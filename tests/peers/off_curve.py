@@ -29,7 +29,7 @@ def off_curve(drawing: Exchange, true: Callable[[str, int], Any], slack: Callabl
     """Lines of edges that lie farther off their own curves than they may, worst first.
 
     true: from a part's name and an edge's number to points (n, 3) of its curve in the model
-    slack: the tolerance that the file itself states for that edge, model units
+    slack: the tolerance that the file itself states for that edge and its vertices, model units
     """
     found = []
     for number, line in enumerate(drawing.lines):
@@ -75,6 +75,7 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
     """Both functions for an opened B-rep source; its own numbering of parts and edges, OpenCASCADE's curves."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
     from peers.curves import true_curves
 
@@ -92,7 +93,10 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
 
     def slack(name: str, edge: int) -> float:
         part = parts[name]
-        size = abs(float(np.linalg.det(part.transform[:3, :3]))) ** (1 / 3)
-        return size * float(BRep_Tool.Tolerance_s(TopoDS.Edge_s(edges[part.root][edge])))
+        own = TopoDS.Edge_s(edges[part.root][edge])
+        ends = [end for end in (TopExp.FirstVertex_s(own), TopExp.LastVertex_s(own)) if not end.IsNull()]
+        # A curve need not end at its vertices, and there neighbours meet: lines go to the vertex.
+        stated = max(BRep_Tool.Tolerance_s(own), *map(BRep_Tool.Tolerance_s, ends), 0.0)
+        return abs(float(np.linalg.det(part.transform[:3, :3]))) ** (1 / 3) * stated
 
     return true, slack
