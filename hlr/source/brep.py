@@ -207,9 +207,7 @@ class BrepSource:
         places = _placed_points([(part, shared[part.root].points) for part in self._parts])
         for part, points in zip(self._parts, places, strict=True):
             mesh = shared[part.root]
-            if mesh.missing:
-                count = f"{mesh.missing} of {self._counts[part.root][0]} faces"
-                meshed.notes.append(Note("not-meshed", f'Part "{part.name}": {count} could not be meshed.'))
+            meshed.notes += self._tessellator.faults.notes(part.name, mesh.face_shape)
             if len(mesh.triangles):
                 meshed.parts.append(mesh.placed(part, points))
                 kept.append(part)
@@ -245,7 +243,7 @@ class _Shared:
         self.edge_offsets = offsets - offsets[0]
         self.edge_index = meshes.edge_index[e:f]
         self.edge_class = meshes.edge_class[e:f]
-        self.missing = int(meshes.missing_faces[number])
+        self.face_shape = meshes.face_shape[g:h]
         i, j = meshes.node_start[number : number + 2]
         self.on_surfaces: OnSurfaces | None = OnSurfaces(
             corner=meshes.corner[c:d] - i,

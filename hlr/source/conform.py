@@ -35,7 +35,7 @@ def edge_polygons(tables: Tables, topo: Topology, node_base: Ints) -> Polygons:
     wanted = tri >= 0
     edge, face, tri = edge[wanted], face[wanted], tri[wanted]
     shape = topo.edge_shape[edge]
-    rep = _representation(tables, shape, tri, tables.locations.quotients(topo.edge_loc[edge], topo.face_loc[face]))
+    rep = representation(tables, shape, tri, tables.locations.quotients(topo.edge_loc[edge], topo.face_loc[face]))
     edge, face, rep = edge[rep >= 0], face[rep >= 0], rep[rep >= 0]
     second = tables.rep_poly2[rep] >= 0
     poly = np.concatenate((tables.rep_poly[rep], tables.rep_poly2[rep][second]))
@@ -47,7 +47,7 @@ def edge_polygons(tables: Tables, topo: Topology, node_base: Ints) -> Polygons:
     return Polygons(edge, face, starts(counts), nodes)
 
 
-def _representation(tables: Tables, shape: Ints, tri: Ints, loc: Ints) -> Ints:
+def representation(tables: Tables, shape: Ints, tri: Ints, loc: Ints) -> Ints:
     """Which rep_* entry belongs to an edge's underlying shape on a triangulation seen at a location; -1: none.
 
     The location matters where one underlying edge bounds one face in several places, as the rims of patterned holes do.

@@ -112,7 +112,7 @@ class _Mesh:
         points = np.array([(p.X(), p.Y(), p.Z()) for p in places])
         parameters = (triangulation.UVNode(i) for i in numbers)
         uv = np.array([(p.X(), p.Y()) for p in parameters])
-        _, normals, idle = _evaluated(surface, uv)
+        _, normals, idle = _with_normals(surface, uv)
         # Both sides of a seam, and all nodes of a pole, are one place.
         _, same = np.unique(points, axis=0, return_inverse=True)
         triangles = triangles.copy()
@@ -208,7 +208,7 @@ class _Mesh:
         # A parameter that means nothing at a pole is the other end's.
         first, second = self.uv[a], self.uv[b]
         uv = 0.5 * (np.where(self.idle[a], second, first) + np.where(self.idle[b], first, second))
-        points, normals, idle = _evaluated(surface, uv)
+        points, normals, idle = _with_normals(surface, uv)
         count = len(self.points)
         self.same = np.concatenate((self.same, self.same.max() + 1 + np.arange(len(high))))
         self.points = np.concatenate((self.points, points))
@@ -267,8 +267,8 @@ def _keys(pairs: Ints) -> Any:
     return ordered[:, 0] << 32 | ordered[:, 1]
 
 
-def _evaluated(surface: Any, uv: Floats) -> tuple[Floats, Floats, Bools]:
-    """Points, unit normals (0 at poles), and which parameters mean nothing there."""
+def evaluated(surface: Any, uv: Floats) -> tuple[Floats, Floats, Floats]:
+    """Points, and derivatives along u and v, of a BRepAdaptor_Surface at (n, 2) parameters; (n, 3) each."""
     from OCP.gp import gp_Pnt, gp_Vec
 
     place, along, across = gp_Pnt(), gp_Vec(), gp_Vec()
@@ -280,13 +280,19 @@ def _evaluated(surface: Any, uv: Floats) -> tuple[Floats, Floats, Bools]:
             *(along.X(), along.Y(), along.Z()),
             *(across.X(), across.Y(), across.Z()),
         )
-    d = values[:, 3:].reshape(-1, 2, 3)
+    return values[:, :3], values[:, 3:6], values[:, 6:]
+
+
+def _with_normals(surface: Any, uv: Floats) -> tuple[Floats, Floats, Bools]:
+    """Points, unit normals (0 at poles), and which parameters mean nothing there."""
+    points, along, across = evaluated(surface, uv)
+    d = np.stack((along, across), axis=1)
     size = np.sqrt((d**2).sum(axis=2))
-    normals = np.cross(d[:, 0], d[:, 1])
+    normals = np.cross(along, across)
     area = np.sqrt((normals**2).sum(axis=1))
     sound = area > 1e-9 * size.max(initial=0.0, axis=0).prod()
     normals[~sound] = 0.0
     normals[sound] /= area[sound, None]
     # Where both derivatives are there but parallel, neither parameter is to blame.
     idle = ~sound[:, None] & (size <= 1e-9 * size.max(initial=0.0, axis=0))
-    return values[:, :3], normals, idle
+    return points, normals, idle

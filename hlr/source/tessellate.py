@@ -11,17 +11,25 @@ import numpy as np
 from hlr.notes import Note
 from hlr.source.delabella import treacherous, without
 from hlr.source.dump import DumpError, read_dump
+from hlr.source.faults import Faults
+from hlr.source.filled import unfilled
 from hlr.source.freeform import FreeEdges, is_free, with_nodes
-from hlr.source.model import Progress
+from hlr.source.mesher import run_mesher
+from hlr.source.model import Ints, Progress
+from hlr.source.outlines import periods
 from hlr.source.parts import compound, explored
 from hlr.source.quality import FINE, coarse_faces, edge_pairs, lapped_faces, tightened
 from hlr.source.refine import refine
+from hlr.source.rescue import rescue
 from hlr.source.surfaces import FaceSurfaces
 from hlr.source.tables import FACE, Tables
 from hlr.source.topology import Meshes, build
 
 BATCH_FACES = 3000
 """So many faces are meshed in one call: enough to fill the cores, few enough to report progress in between."""
+
+MOST_TRIES = 200
+"""After so many faces that could not be rescued, a few milliseconds each, the others are given up, too."""
 
 FLAT = 1e-7
 """A free-form surface is planar where it departs from a plane by less than this share of the model's size."""
@@ -56,6 +64,10 @@ class Tessellator:
         self._flat = [_is_flat(face, FLAT * size) for face in self._faces]
         self.surfaces = FaceSurfaces(self._faces)
         self._free_edges: FreeEdges | None = None
+        self.faults = Faults()
+        straight = (np.inf, np.inf)
+        turning = [straight if flat else periods(f) for f, flat in zip(self._faces, self._flat, strict=True)]
+        self._periods = np.array(turning).reshape(-1, 2)
         kept = zip(self._faces, self._flat, strict=True)
         self._kept_back = {face.TShape() for face, flat in kept if flat and treacherous(face)}
 
@@ -84,7 +96,7 @@ class Tessellator:
                 notes.append(failed)
         # With their neighbours, so that their common edges keep their polygons.
         self._retry([r for r in self._roots if self._for_delabella(r) is not r], deflection, angle)
-        self._retry(self._lost(), deflection, angle)
+        self._retry([self._faces[i] for i in self._lost()], deflection, angle)
         tables, first = self._sound(deflection, angle)
         faces = np.flatnonzero(tables.kind == FACE)[first:]
         planar = np.zeros(len(tables.kind), dtype=bool)
@@ -98,7 +110,7 @@ class Tessellator:
 
     def _mesh_batch(self, batch: list[int], deflection: float, angle: float) -> Iterator[Note]:
         try:
-            _run_mesher(compound([self._for_delabella(self._roots[i]) for i in batch]), deflection, angle)
+            run_mesher(compound([self._for_delabella(self._roots[i]) for i in batch]), deflection, angle)
         except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
             if len(batch) == 1:
                 text = f"Part {batch[0]} could not be meshed completely ({type(error).__name__})."
@@ -116,22 +128,31 @@ class Tessellator:
         return read_tables(compound([compound(carriers), *self._roots])), len(carriers)
 
     def _sound(self, deflection: float, angle: float) -> tuple[Tables, int]:
-        """The tables of `_tables`, after faces that came out coarse were meshed again and what is left was refined."""
+        """The tables of `_tables`, after faces that came out coarse or incomplete were meshed again.
+
+        What is then still empty or incomplete is rescued, and what is left coarse is refined.
+        """
         from OCP.BRepTools import BRepTools
 
         tables, first = self._tables()
-        lapped = lapped_faces(tables, deflection)
-        if not len(lapped) and not len(coarse_faces(tables, deflection, FINE)):
+        lapped, partly = lapped_faces(tables, deflection), unfilled(tables, deflection, self._periods)
+        lost = bool(self._lost())
+        self.faults = Faults()
+        if not (len(lapped) or len(partly) or lost or len(coarse_faces(tables, deflection, FINE))):
             return tables, first
-        coarse = np.union1d(lapped, coarse_faces(tables, deflection))
-        coarse = coarse[coarse >= first] - first
-        if len(coarse):
-            with tightened([self._faces[i] for i in coarse]) as faces:
+        again = np.unique(np.concatenate((lapped, partly, coarse_faces(tables, deflection))))
+        again = again[again >= first] - first
+        if len(again):
+            with tightened([self._faces[i] for i in again]) as faces:
                 for face in faces:
                     BRepTools.Clean_s(face)
                 # With all the others, which keep their triangulation: alone, a face would get edges cut anew.
                 self._retry(self._roots, deflection, angle)
             tables, first = self._tables()
+        if len(again) or lost:
+            self.faults = self._rescued(unfilled(tables, deflection, self._periods) - first, deflection, angle)
+            if self.faults.rescued:
+                tables, first = self._tables()
         triangulation = tables.face_tri[tables.kind == FACE]
         changed = False
         for i in coarse_faces(tables, deflection, FINE).tolist():
@@ -141,19 +162,32 @@ class Tessellator:
                 changed |= refine(self._faces[i - first], triangles, edge_pairs(tables, number), deflection)
         return self._tables() if changed else (tables, first)
 
-    def _lost(self) -> list[Any]:
-        """Faces that nothing has triangulated so far."""
+    def _lost(self) -> list[int]:
+        """Numbers of the faces that nothing has triangulated so far."""
         from OCP.BRep import BRep_Tool
         from OCP.TopLoc import TopLoc_Location
 
         place = TopLoc_Location()
-        return [face for face in self._faces if BRep_Tool.Triangulation_s(face, place) is None]
+        return [i for i, face in enumerate(self._faces) if BRep_Tool.Triangulation_s(face, place) is None]
+
+    def _rescued(self, partly: Ints, deflection: float, angle: float) -> Faults:
+        """What became of the faces that are lost, or filled only in part (numbers), after a last try."""
+        faults = Faults()
+        for i in sorted({*self._lost(), *partly.tolist()}):
+            hopeless = len(faults.lost) + len(faults.unfilled) >= MOST_TRIES
+            if not hopeless and rescue(self._faces[i], deflection, angle):
+                faults.rescued.append(i)
+            elif i in partly:
+                faults.unfilled.append(i)
+            else:
+                faults.lost.append(i)
+        return faults
 
     def _retry(self, shapes: list[Any], deflection: float, angle: float) -> None:
         """What has no triangulation in these shapes goes to the older Watson algorithm; edges keep their polygons."""
         if shapes:
             with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the faces are counted
-                _run_mesher(compound(shapes), deflection, angle, delabella=False)
+                run_mesher(compound(shapes), deflection, angle, delabella=False)
 
     def _normal_carriers(self) -> list[Any]:
         """Bare faces that make the dump hold surface normals beside the nodes of curved faces.
@@ -189,19 +223,6 @@ def read_tables(everything: Any) -> Tables:
         from hlr.source.walk import walk
 
         return walk(everything)
-
-
-def _run_mesher(shape: Any, deflection: float, angle: float, delabella: bool = True) -> None:
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.IMeshTools import IMeshTools_MeshAlgoType, IMeshTools_Parameters
-
-    parameters = IMeshTools_Parameters()
-    kinds = IMeshTools_MeshAlgoType
-    parameters.MeshAlgo = kinds.IMeshTools_MeshAlgoType_Delabella if delabella else kinds.IMeshTools_MeshAlgoType_Watson
-    parameters.Deflection = deflection
-    parameters.Angle = angle
-    parameters.InParallel = True
-    BRepMesh_IncrementalMesh(shape, parameters)
 
 
 _CURVED = {"Geom_CylindricalSurface", "Geom_ConicalSurface", "Geom_SphericalSurface", "Geom_ToroidalSurface"}

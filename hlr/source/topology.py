@@ -46,7 +46,6 @@ class Meshes:
     edge_nodes: Ints
     edge_index: Ints
     edge_class: Bytes
-    missing_faces: Ints
     node_start: Ints
     corner: Ints
     uv: Floats
@@ -106,7 +105,6 @@ def build(tables: Tables, planar: Bools, judged: Mapping[tuple[int, int], Tangen
     number[kept] = np.arange(len(kept), dtype=np.int32)
     face_start = np.searchsorted(topo.face_part, np.arange(parts + 1)).astype(np.int32)
     drawn_part = topo.edge_part[lines.edge]
-    missing = np.bincount(topo.face_part[~meshed], minlength=parts)
     of_faces = np.flatnonzero(tables.kind == FACE)
     return Meshes(
         point_start=np.searchsorted(node_part[kept], np.arange(parts + 1)).astype(np.int32),
@@ -121,7 +119,6 @@ def build(tables: Tables, planar: Bools, judged: Mapping[tuple[int, int], Tangen
         edge_nodes=number[lines.nodes],
         edge_index=lines.edge - edge_start[drawn_part],
         edge_class=line_class,
-        missing_faces=missing.astype(np.int32),
         node_start=np.searchsorted(topo.face_part[face_of_node], np.arange(parts + 1)).astype(np.int32),
         corner=raw,
         uv=tables.uv[source],

@@ -15,7 +15,7 @@ from hard.expected import expect
 import hlr
 from hlr.notes import Note
 
-NOTE = Note("not-meshed", 'Part "part": 1 of 7 faces could not be meshed.')
+NOTE = Note("not-meshed", 'Part "part": 1 of 7 faces could not be meshed (face 6).')
 
 
 def sliver():

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from hlr.source import open_source
+from hlr.source import open_source, rescue
 from hlr.source import tessellate as t
 from hlr.source.quality import FINE, coarse_faces, heights
 from hlr.source.refine import refine
@@ -104,7 +104,7 @@ SURFACES = {
 def test_refining_keeps_the_border_and_reaches_the_surface(name):
     make, off = SURFACES[name]
     face = make().wrapped
-    t._run_mesher(face, 1.0, 0.7)
+    t.run_mesher(face, 1.0, 0.7)
     points, triangles = arrays(face)
     border, inside = borders(triangles)
     fixed = inside[:1]
@@ -125,7 +125,7 @@ def test_refining_is_the_same_every_time():
     results = []
     for _ in range(2):
         face = SURFACES["sphere"][0]().wrapped
-        t._run_mesher(face, 1.0, 0.7)
+        t.run_mesher(face, 1.0, 0.7)
         refine(face, arrays(face)[1], np.empty((0, 2), dtype=np.int32), 0.05)
         results.append(arrays(face))
     assert all(np.array_equal(a, b) for a, b in zip(*results, strict=True))
@@ -133,7 +133,7 @@ def test_refining_is_the_same_every_time():
 
 def test_faces_that_need_nothing_are_left_alone():
     face = SURFACES["sphere"][0]().wrapped
-    t._run_mesher(face, 0.05, 0.3)
+    t.run_mesher(face, 0.05, 0.3)
     assert not refine(face, arrays(face)[1], np.empty((0, 2), dtype=np.int32), 1.0)
 
 
@@ -147,6 +147,7 @@ def test_heights_at_a_node_without_normal_are_those_of_the_other_end():
 def test_nothing_that_can_be_meshed_is_an_error_of_ours(monkeypatch):
     from hlr.errors import SourceError
 
-    monkeypatch.setattr(t, "_run_mesher", lambda *_, **__: None)
+    for module in (t, rescue):
+        monkeypatch.setattr(module, "run_mesher", lambda *_, **__: None)
     with pytest.raises(SourceError, match="could be meshed"):
         open_source(cq.Solid.makeCone(10, 2, 20)).mesh(0.1, 0.5)

@@ -1,0 +1,49 @@
+"""What went wrong with the faces of a model when they were triangulated, and the notes that say so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hlr.notes import Note
+from hlr.source.model import Ints
+
+NAMED = 5
+"""So many faces are named in one note."""
+
+
+@dataclass(slots=True)
+class Faults:
+    """Numbers of underlying faces: without triangles; meshed on a mended copy; filled wrongly all the same."""
+
+    lost: list[int] = field(default_factory=list)
+    rescued: list[int] = field(default_factory=list)
+    unfilled: list[int] = field(default_factory=list)
+
+    def notes(self, part: str, face_shape: Ints) -> list[Note]:
+        """Notes on a part; face_shape: the number of the underlying face of each of its faces."""
+        lost, rescued, unfilled = (
+            np.flatnonzero(np.isin(face_shape, numbers)).tolist()
+            for numbers in (self.lost, self.rescued, self.unfilled)
+        )
+        of = f'Part "{part}": {{}} of {len(face_shape)} faces'
+        notes = []
+        if lost:
+            notes.append(Note("not-meshed", f"{of.format(len(lost))} could not be meshed ({_named(lost)})."))
+        if unfilled:
+            text = f"{of.format(len(unfilled))} were meshed only in part, or folded ({_named(unfilled)})."
+            notes.append(Note("not-meshed", text))
+        if rescued:
+            text = f"{of.format(len(rescued))} were meshed only after their outlines were mended ({_named(rescued)})."
+            notes.append(Note("faces-mended", text))
+        return notes
+
+
+def _named(faces: list[int]) -> str:
+    """ "face 3", "faces 3, 4 and 7", "faces 3, 4, 5, 6, 7 and 12 more"; counted from 0, as in ids of lines."""
+    if len(faces) == 1:
+        return f"face {faces[0]}"
+    last = f"{len(faces) - NAMED} more" if len(faces) > NAMED else str(faces[-1])
+    shown = faces[:NAMED] if len(faces) > NAMED else faces[:-1]
+    return f"faces {', '.join(map(str, shown))} and {last}"
