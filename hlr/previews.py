@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.clock import Clock, lap
-from hlr.drawing import DrawnPart
+from hlr.drawing import Drawing, DrawnPart
 from hlr.finished import drawn_view
 from hlr.fitting import Staged, meshed_scene
 from hlr.keywords import record_of, shown
@@ -37,12 +37,14 @@ from hlr.plan.request import checked_views
 from hlr.plan.table import DRAWING
 from hlr.scene.scene import Scene
 from hlr.shading.lens import Lens, frame_scale, lens, light_lens, toward_light
-from hlr.shading.lines import pieces
+from hlr.shading.lines import cues, pieces, pieces_by_depth
 from hlr.shading.scene import ShadedScene, shaded_scene
+from hlr.shading.through import without_glass
 from hlr.source.chosen import open_chosen
 from hlr.source.model import Progress, Source
 from hlr.view.camera import NEAR, Camera, resolve
 from hlr.view.scale import Placed, place
+from hlr.view.silhouettes import with_silhouettes
 from hlr.writers.png import parse_color
 from hlr.writers.style import width
 
@@ -50,6 +52,9 @@ MARGIN = 0.04
 """Of the picture's smaller side: what is left empty around the model."""
 
 INK = (0, 0, 0, 255)
+
+BEHIND = (0, 0, 0, 100)
+"""Ink of lines behind glass."""
 
 
 @shown(PreviewOptions)
@@ -100,17 +105,22 @@ def preview_views(
         effects = decide_effects(options, shaded.opacity, _facts(scene, camera), planner)
         eye = lens(camera, shaded.points, at.per_model * PIXELS_PER_MM, options.size)
         started = lap(own, "prepare", started)
-        pixels = _shaded(shaded, camera, eye, effects, background, options.threads)
+        pixels = _empty(options.size, background)
+        if effects.faces:
+            pixels = _shaded(shaded, camera, eye, effects, background, options.threads)
         depth, ids = _maps(scene, shaded, eye, options, opened.frame.unit)
         started = lap(own, "picture", started)
         if effects.lines:
             lines = line_options(options, None, at.scale)
-            drawing = drawing_of(opened, scene, curves, Staged(camera, at, Planner(DRAWING, lines)), lines, {})
-            visible = [line for line in drawing.lines if line.visible]
-            for wide in sorted({width(line.kind, True) for line in visible}):
-                these = [line for line in visible if width(line.kind, True) == wide]
-                strokes = pieces(these, drawing.origin, PIXELS_PER_MM, eye[5])
-                _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, INK, options.threads)
+            staged = Staged(camera, at, Planner(DRAWING, lines))
+            if effects.behind:
+                outlined = with_silhouettes(scene, camera, at.tolerances, options.threads)
+                behind = replace(staged, outlined=without_glass(outlined, shaded.glass))
+                through = drawing_of(opened, scene, curves, behind, lines, {})
+                _ink(pixels, through, eye, [BEHIND], options.threads)
+                staged = replace(staged, planner=Planner(DRAWING, lines))
+            drawing = drawing_of(opened, scene, curves, staged, lines, {})
+            _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK], options.threads)
             lap(own, "edges", started)
         own["total"] = sum(own.values())
         notes = tuple(dict.fromkeys((*opened.notes, *scene.notes, *(n for n in at.notes if n.code == "stray-parts"))))
@@ -132,6 +142,24 @@ def preview_views(
             )
         )
     return out
+
+
+def _empty(size: tuple[int, int], background: tuple[int, ...]) -> npt.NDArray[np.uint8]:
+    """A picture of nothing."""
+    return np.full((size[1], size[0], 4), background, np.uint8)
+
+
+def _ink(
+    pixels: npt.NDArray[np.uint8], drawing: Drawing, eye: Lens, inks: Sequence[tuple[int, int, int, int]], threads: int
+) -> None:
+    """The lines over a picture, in place: in one ink, or in as many as tell depths apart, the farthest first."""
+    for wide in sorted({width(line.kind, True) for line in drawing.lines}):
+        these = [line for line in drawing.lines if width(line.kind, True) == wide]
+        levels = [pieces(these, drawing.origin, PIXELS_PER_MM, eye[5])]
+        if len(inks) > 1:
+            levels = pieces_by_depth(these, drawing.origin, PIXELS_PER_MM, eye, len(inks))
+        for ink, strokes in zip(inks, levels, strict=True):
+            _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, ink, threads)
 
 
 def _facts(scene: Scene, camera: Camera) -> Facts:

@@ -36,7 +36,13 @@ if TYPE_CHECKING:
 @VIEW
 @options(*CHOICE)
 @click.option("--size", type=Pixels(), metavar="WxH", default="1920x1080", help="In pixels. Default: 1920x1080.")
-@click.option("--edges", is_flag=True, help="The visible lines of the drawing on top.")
+@click.option(
+    "--look",
+    type=click.Choice(["shaded", "wireframe", "depth-cued"]),
+    default="shaded",
+    help="Faces; or all lines, hidden or not, and no faces; or these lines, paler with distance. Default: shaded.",
+)
+@click.option("--edges", is_flag=True, help="The visible lines of the drawing on top; behind glass, lighter.")
 @click.option("--smooth", is_flag=True, help="With --edges: also tangent edges, thin.")
 @click.option(
     "--background", metavar="COLOUR", default="white", help="A CSS name, #rrggbb or transparent. Default: white."

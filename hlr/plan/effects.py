@@ -39,10 +39,16 @@ LEAST_TEXELS, MOST_TEXELS = 1024, 4096
 """Along a side of what the light sees; else one for each pixel along the picture's longer side."""
 
 
+LOOKS = ("shaded", "wireframe", "depth-cued")
+"""Faces; all lines and no faces; the same lines, the paler the farther away."""
+
+
 @dataclass(frozen=True, slots=True)
 class PreviewOptions:
     """What is asked of a shaded picture.
 
+    look         shaded: faces; wireframe: all lines, hidden or not, and no faces; depth-cued: a wireframe whose lines
+                 are the paler the farther away
     size         (width, height) in pixels
     background   a CSS colour name, #rrggbb, or transparent
     edges        the drawing's own visible lines on top
@@ -57,6 +63,7 @@ class PreviewOptions:
     up, perspective, threads, strict, only, hide, var   as of a drawing (`Options`)
     """
 
+    look: str = "shaded"
     size: tuple[int, int] = (1920, 1080)
     background: str = "white"
     edges: bool = False
@@ -81,6 +88,7 @@ class PreviewOptions:
 class PreviewWishes(TypedDict, total=False):
     """The fields of `PreviewOptions` as the keywords of `hlr.preview`: none has to be given."""
 
+    look: str
     size: tuple[int, int]
     background: str
     edges: bool
@@ -106,7 +114,10 @@ class PreviewWishes(TypedDict, total=False):
 class Effects:
     """The kernel's instructions.
 
+    faces      are shaded
     lines      the line drawing is made as well
+    behind     lines that only glass hides are drawn too, lighter
+    cued       lines fade with their distance
     antialias  sixteen samples a pixel
     shadows    the light sees the scene too, in a map of so many texels a side; 0: no shadows
     occlusion  radius in pixels; 0: none
@@ -114,7 +125,10 @@ class Effects:
     glass      some of what is shown is transparent: its back is seen through its front
     """
 
+    faces: bool
     lines: bool
+    behind: bool
+    cued: bool
     antialias: bool
     shadows: int
     occlusion: float
@@ -139,6 +153,26 @@ def _glass(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
     return f.opacity < 1.0, f"the least opacity is {f.opacity:g}" if f.opacity < 1.0 else "all is opaque"
 
 
+def _faces(_f: Facts, o: PreviewOptions) -> tuple[bool, str]:
+    return o.look == "shaded", f"the look is {o.look}"
+
+
+def _lines(_f: Facts, o: PreviewOptions) -> tuple[bool, str]:
+    if o.look != "shaded":
+        return True, f"the look is {o.look}: all lines, whatever lies before them"
+    return (True, "asked for") if o.edges else (False, "not asked for")
+
+
+def _behind(f: Facts, o: PreviewOptions) -> tuple[bool, str]:
+    if not o.edges or o.look != "shaded":
+        return False, "no lines that something could hide"
+    return f.opacity < 1.0, "through glass they are seen, lighter" if f.opacity < 1.0 else "all is opaque"
+
+
+def _cued(_f: Facts, o: PreviewOptions) -> tuple[bool, str]:
+    return o.look == "depth-cued", f"the look is {o.look}"
+
+
 def _eye(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
     return f.perspective, "the camera has an eye" if f.perspective else "a parallel view: nothing is magnified"
 
@@ -147,7 +181,10 @@ PREVIEW: tuple[Effect, ...] = (
     Effect("smooth normals", SCENE, _smooth),
     Effect("transparency", SCENE, _glass),
     Effect("perspective divide", SCENE, _eye),
-    _wish("lines", "edges"),
+    Effect("faces", ASKED, _faces),
+    Effect("lines", ASKED, _lines),
+    Effect("lines behind glass", SCENE, _behind),
+    Effect("depth cueing", ASKED, _cued),
     _wish("antialiasing", "antialias"),
     _wish("shadows", "shadows"),
     _wish("ambient occlusion", "occlusion"),
@@ -166,7 +203,10 @@ def decide_effects(
     facts = replace(facts or Facts(), opacity=opacity)
     on = {effect.name: planner.on(effect.name, facts) for effect in PREVIEW}
     return Effects(
+        faces=on["faces"],
         lines=on["lines"],
+        behind=on["lines behind glass"],
+        cued=on["depth cueing"],
         antialias=on["antialiasing"],
         shadows=min(MOST_TEXELS, max(LEAST_TEXELS, *options.size)) if on["shadows"] else 0,
         occlusion=max(4.0, OCCLUSION * min(options.size)) if on["ambient occlusion"] else 0.0,
@@ -181,6 +221,11 @@ def checked_preview(options: PreviewOptions) -> PreviewOptions:
         value = getattr(options, name)
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
+    if options.look not in LOOKS:
+        raise OptionError(f"no look is called {options.look!r}: use {', '.join(LOOKS)}")
+    light = [name for name in ("shadows", "occlusion", "specular") if getattr(options, name)]
+    if light and options.look != "shaded":
+        raise OptionError(f"a {options.look} look has no faces, so no {light[0]}: leave out one of them")
     check_size(options.size)
     if not isinstance(options.background, str):
         raise OptionError(f"background {options.background!r} is no colour: give a name, #rrggbb or transparent")
@@ -204,7 +249,7 @@ def check_size(size: Any) -> None:
 def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale: float = 1.0) -> Options:
     """The request for the drawing under the same camera; fit in millimetres of paper."""
     return Options(
-        hidden=False,
+        hidden=options.look != "shaded",
         smooth=options.smooth,
         scale=scale,
         fit=fit,

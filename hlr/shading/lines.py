@@ -8,6 +8,7 @@ import numpy as np
 
 from hlr.curve import Arc, Bezier, raised
 from hlr.drawing import Line, Points
+from hlr.shading.lens import Lens
 
 FLATNESS = 0.02
 """Pixels: how far a chord may be off its curve."""
@@ -23,6 +24,51 @@ def pieces(lines: list[Line], origin: tuple[float, float], per_mm: float, centre
         at = np.stack([x, y], axis=1)
         found.append(np.concatenate([at[:-1], at[1:]], axis=1))
     return np.ascontiguousarray(np.concatenate([np.zeros((0, 4)), *found]))
+
+
+CUES = 24
+"""Inks between near and far."""
+
+PALEST = 0.22
+"""Share of its ink that the farthest line has."""
+
+
+def cues(background: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
+    """Inks from far to near, opaque: black that fades toward the background, or toward white where that is clear."""
+    ground = background[:3] if background[3] == 255 else (255, 255, 255)
+    ink = 255 if sum(ground) < 300 else 0
+    shares = [PALEST + (1.0 - PALEST) * k / (CUES - 1) for k in range(CUES)]
+    r, g, b = ([round(share * ink + (1.0 - share) * c) for share in shares] for c in ground)
+    return [(r[k], g[k], b[k], 255) for k in range(CUES)]
+
+
+def pieces_by_depth(
+    lines: list[Line], origin: tuple[float, float], per_mm: float, eye: Lens, levels: int
+) -> list[Points]:
+    """The pieces in so many lists, from far to near; each is divided where it goes from one level to the next."""
+    centre, ahead, at_eye = eye[5], np.array(eye[2]), np.array(eye[3])
+    found, depths = [], []
+    for line in lines:
+        x = (line.points[:, 0] + origin[0]) * per_mm + centre[0]
+        y = centre[1] - (line.points[:, 1] + origin[1]) * per_mm
+        at = np.stack([x, y], axis=1)
+        depth = (line.points3 - at_eye) @ ahead
+        found.append(np.concatenate([at[:-1], at[1:]], axis=1))
+        depths.append(np.stack([depth[:-1], depth[1:]], axis=1))
+    if not found:
+        return [np.zeros((0, 4))] * levels
+    piece, depth = np.concatenate(found), np.concatenate(depths)
+    low, high = float(depth.min()), float(depth.max())
+    nearness = (high - depth) / (high - low if high > low else 1.0) * levels
+    count = np.floor(np.abs(nearness[:, 1] - nearness[:, 0])).astype(np.int64) + 1
+    which = np.repeat(np.arange(len(count)), count)
+    within = np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+    start, end = within / count[which], (within + 1) / count[which]
+    way = piece[which, 2:] - piece[which, :2]
+    cut = np.concatenate([piece[which, :2] + start[:, None] * way, piece[which, :2] + end[:, None] * way], axis=1)
+    middle = nearness[which, 0] + 0.5 * (start + end) * (nearness[which, 1] - nearness[which, 0])
+    level = np.clip(middle.astype(np.int64), 0, levels - 1)
+    return [np.ascontiguousarray(cut[level == k]) for k in range(levels)]
 
 
 def flattened(line: Line, per_mm: float) -> Points:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.scene.scene import Scene
@@ -16,11 +17,12 @@ from hlr.source.model import Floats, Look
 
 @dataclass(frozen=True, slots=True)
 class ShadedScene:
-    """model: the kernel's; points (n, 3) of all that is shown; opacity: the least of all."""
+    """model: the kernel's; points (n, 3) of all that is shown; opacity: the least of all; glass (t,) bool."""
 
     model: _kernel.ShadedModel
     points: Floats
     opacity: float
+    glass: npt.NDArray[np.bool_]
 
 
 def shaded_scene(scene: Scene, looks: Mapping[str, Look], near: Floats | None = None, threads: int = 0) -> ShadedScene:
@@ -32,7 +34,7 @@ def shaded_scene(scene: Scene, looks: Mapping[str, Look], near: Floats | None = 
     normals, corner = corner_normals(scene, threads)
     colours, paint = corner_paint(scene, looks)
     opened = np.zeros(len(scene.groups.cull), bool)
-    glass = (colours[:, 3] < 1.0)[paint].any(axis=1)
+    glass = np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
     opened[scene.triangle_group[glass]] = True
     if near is not None:
         behind = (near[scene.triangles] <= 0.0).any(axis=1)
@@ -41,4 +43,4 @@ def shaded_scene(scene: Scene, looks: Mapping[str, Look], near: Floats | None = 
     used = np.zeros(len(scene.points), bool)
     used[scene.triangles] = True
     model = _kernel.ShadedModel(scene.points, scene.triangles, corner, normals, paint, colours, cull)
-    return ShadedScene(model, scene.points[used], float(colours[paint, 3].min(initial=1.0)))
+    return ShadedScene(model, scene.points[used], float(colours[paint, 3].min(initial=1.0)), glass)

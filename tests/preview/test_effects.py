@@ -133,6 +133,26 @@ def test_a_post_casts_a_shadow_where_the_light_says():
     assert (darker[:80, :80] == 0).all()
 
 
+def test_glass_casts_the_shadow_that_its_opacity_says():
+    def floor_under(*opacities):
+        panes = [colored((wall(0)[0][:, [0, 2, 1]] * (1, 1, 0) + (0, 0, 2 + k), wall(0)[1]), (90, 90, 200, o))
+                 for k, o in enumerate(opacities)]  # fmt: skip
+        ground = sheet([(-20, -20, 0), (20, -20, 0), (20, 20, 0), (-20, 20, 0)])
+        scene = trimesh.Scene([colored(ground, (200, 200, 200, 255)), *panes])
+        picture = hlr.preview(scene, view="top", size=(400, 400), antialias=False, shadows=True, ids=True)
+        bare = picture.pixels[picture.part_ids == 0][:, 0]
+        return linear(np.array([bare.max(), bare.min()]))
+
+    lit, dark = floor_under(255)
+    assert dark < 0.3 * lit
+    # Of the light that is not everywhere a pane lets through what its opacity leaves.
+    for opacities in ((64,), (128,), (128, 128)):
+        passed = np.prod([1 - o / 255 for o in opacities])
+        brightest, darkest = floor_under(*opacities)
+        assert brightest == pytest.approx(lit, abs=0.005)
+        assert darkest == pytest.approx(dark + passed * (lit - dark), abs=0.02)
+
+
 def test_without_anything_in_the_way_there_are_no_shadows():
     ball = cq.Workplane().sphere(10)
     plain, shadowed = (hlr.preview(ball, size=(200, 200), shadows=s).pixels.astype(int) for s in (False, True))

@@ -238,3 +238,15 @@ def test_a_gradient_in_the_files():
     assert 'fill="url(#gradient-0)" stroke="url(#gradient-0)"' in svg
     data = written(drawing, "pdf")
     assert b"/ShadingType 2" in data and b"/Pattern" in data
+
+
+def test_glass_that_stands_on_a_floor_has_an_even_bottom():
+    import cadquery as cq
+
+    assembly = cq.Assembly()
+    assembly.add(cq.Workplane().circle(30).extrude(-0.5), name="floor", color=cq.Color(0.9, 0.9, 0.8, 1.0))
+    case = cq.Workplane().box(20, 20, 20, centered=(True, True, False))
+    assembly.add(case, name="case", color=cq.Color(0.6, 0.7, 0.9, 0.35))
+    filled = hlr.draw(assembly, fill=True, scale=2).fill
+    # The floor alone and through two walls, its rim, and the glass before nothing.
+    assert len(filled.loops) - 1 < 16

@@ -35,3 +35,77 @@ def test_lines_are_as_wide_as_iso_says():
     bare, inked = (hlr.preview(block, view="front", edges=e, **options).pixels[200, :60, 3] / 255.0 for e in (0, 1))
     # Half a millimetre at four pixels a millimetre: of two pixels one lies beyond the border.
     assert (inked - bare).sum() == pytest.approx(1.0, abs=0.05)
+
+
+def boxed(opacity):
+    """A red cube in a box of glass."""
+    assembly = cq.Assembly()
+    assembly.add(cq.Workplane().box(8, 8, 8), name="cube", color=cq.Color(0.8, 0.1, 0.1, 1.0))
+    assembly.add(cq.Workplane().box(20, 20, 20), name="case", color=cq.Color(0.6, 0.7, 0.9, opacity))
+    return assembly
+
+
+def test_lines_behind_glass_are_seen_through_it_and_lighter():
+    """The cube's square from the front, and of the case's own far side nothing that its near side does not show."""
+
+    def darker(opacity):
+        options = {"view": "front", "size": (240, 240)}
+        bare, inked = (hlr.preview(boxed(opacity), edges=e, **options).pixels[:, :, 0].astype(int) for e in (0, 1))
+        return (bare - inked)[40:200, 40:200]
+
+    assert (darker(1.0) == 0).all()
+    through = darker(0.3)
+    # The border of the cube: 4 x 88 pixels long, two wide.
+    assert 500 < (through > 20).sum() < 1200
+    # Not as dark as what nothing lies before.
+    whole = hlr.preview(boxed(0.3), view="front", size=(240, 240), edges=True).pixels[:, :, 0]
+    assert whole[120, :40].min() < 20 < whole[40:200, 40:200].min()
+
+
+def test_opaque_parts_hide_lines_behind_glass():
+    """The cube's far edges are hidden by the cube, the case's far edges before nothing are not."""
+    from hlr.plan.effects import PreviewOptions
+
+    picture = hlr.preview(boxed(0.3), view="iso", size=(240, 240), edges=True)
+    assert {d.name: d.on for d in picture.plan}["lines behind glass"]
+    far = hlr.preview(boxed(0.3), view="iso", size=(240, 240)).pixels.astype(int)[:, :, 0] - picture.pixels[:, :, 0]
+    # Downward from the middle runs the near edge, upward from the cube the far one.
+    assert far[50:70, 118:123].max() > 20
+    solid = hlr.preview(boxed(1.0), view="iso", size=(240, 240), edges=True)
+    assert not {d.name: d.on for d in solid.plan}["lines behind glass"]
+    assert PreviewOptions().look == "shaded"
+
+
+def test_a_wireframe_has_all_lines_and_no_faces():
+    block, options = cq.Workplane().box(20, 20, 20), {"view": "iso", "size": (300, 300), "background": "transparent"}
+    shaded = hlr.preview(block, edges=True, **options).pixels
+    wires = hlr.preview(block, look="wireframe", **options).pixels
+    assert (wires[:, :, :3][wires[:, :, 3] > 0] == 0).all()
+    # The three far edges meet in the middle, under the near corner: where the top is, one runs straight up.
+    column = wires[60:100, 148:153, 3].max(axis=1)
+    assert (column > 200).all() and shaded[60:100, 148:153, :3].min() > 60
+    plan = {d.name: d.on for d in hlr.preview(block, look="wireframe", **options).plan}
+    assert plan["lines"] and not plan["faces"] and not plan["depth cueing"]
+
+
+def test_depth_cued_lines_are_paler_with_distance():
+    frame = cq.Workplane().box(20, 60, 20)
+    pixels = hlr.preview(frame, look="depth-cued", view=(0.4, -1, 0.3), size=(300, 300), background="white").pixels
+    ink = 255 - pixels[:, :, 0].astype(int)
+    assert ink.max() == 255
+    used = np.unique(ink[ink > 0])
+    assert len(used) > 20 and ink[ink > 40].min() < 80
+    dark = hlr.preview(frame, look="depth-cued", view=(0.4, -1, 0.3), size=(300, 300), background="black").pixels
+    assert dark[:, :, 0].max() == 255 and dark[0, 0, 0] == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"look": "pretty"}, "no look is called 'pretty': use shaded, wireframe, depth-cued"),
+        ({"look": "wireframe", "shadows": True}, "a wireframe look has no faces, so no shadows"),
+    ],
+)
+def test_looks_that_cannot_be_had_are_refused(options, sentence):
+    with pytest.raises(hlr.OptionError, match=sentence):
+        hlr.preview(cq.Workplane().box(1, 1, 1), **options)

@@ -14,12 +14,15 @@ pub struct Layer {
     pub triangle: u32,
 }
 
+/// Of the depth's range: glass that lies this near on something opaque is not told apart from it, by whatever rounding.
+const APART: f32 = 2e-6;
+
 /// All layers of a tile, by sample; of a sample the farthest first. At equal depths the first triangle lies in front.
 pub fn layers(tile: &Tile, faces: &[&Face], first: [usize; 2], sampling: &Sampling, out: &mut Vec<Layer>) {
     out.clear();
     for face in faces {
         owned(face, first.map(|c| c as i32), sampling, |i, j, depth| {
-            if depth < tile.depth(i, j) {
+            if depth < tile.depth(i, j) - APART {
                 out.push(Layer { sample: (j * TILE_WIDTH + i) as u16, depth, triangle: face.triangle });
             }
         });

@@ -3,11 +3,18 @@
 //! L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978, with the edges softened after W. T. Reeves,
 //! D. H. Salesin, R. L. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: not depths are averaged but
 //! the answers of neighbouring texels.
+//!
+//! Glass takes the share of the light that its opacity says. A texel holds where its first layer lies and where its last:
+//! between them a point has the first one before it, beyond them all.
 
-use super::Model;
+use super::faces::faces;
+use super::glass::{Layer, layers};
 use super::lens::Lens;
 use super::maps::seen;
+use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
+use super::tiles::each_tile;
 use super::workspace::Workspace;
+use super::{Model, NOTHING};
 use crate::geometry::vector::{Vector, along, dot};
 
 /// In texels: how far along its normal a point is moved before it is looked up, so that no surface shades itself.
@@ -15,9 +22,37 @@ const LIFT: f64 = 3.0;
 /// Texels along a side of the square over which answers are averaged: about two pixels of the picture.
 const WIDE: usize = 5;
 
+/// The layers of glass that the light goes through in a texel, before it meets what is opaque.
+#[derive(Clone, Copy)]
+struct Glass {
+    /// Depth of the first layer, and of the last; 2 for none.
+    first: f32,
+    last: f32,
+    /// What of the light is left behind the first, and behind all.
+    left: f32,
+    rest: f32,
+}
+
+impl Glass {
+    const NONE: Glass = Glass { first: 2.0, last: 2.0, left: 1.0, rest: 1.0 };
+
+    fn through(&self, depth: f32) -> f32 {
+        if depth <= self.first {
+            1.0
+        } else if depth <= self.last {
+            self.left
+        } else {
+            self.rest
+        }
+    }
+}
+
 pub struct Shadow {
     lens: Lens,
+    /// Of what is opaque.
     depth: Vec<f32>,
+    /// Empty where all is opaque.
+    glass: Vec<Glass>,
     /// Of a texel, in the model.
     texel: f64,
 }
@@ -30,9 +65,46 @@ impl Shadow {
         space: &mut Workspace,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Option<Shadow> {
-        let depth = seen(model, &lens, space, stopped)?.iter().map(|s| s.depth).collect();
         let texel = 1.0 / lens.scale;
-        Some(Shadow { lens, depth, texel })
+        if !model.glass.contains(&true) {
+            let depth = seen(model, &lens, space, stopped)?.iter().map(|s| s.depth).collect();
+            return Some(Shadow { lens, depth, glass: Vec::new(), texel });
+        }
+        let sampling = Sampling::CENTRES;
+        if !faces(model, &lens, &sampling, space, stopped) {
+            return None;
+        }
+        let [width, height] = lens.size;
+        let nothing = (2.0f32, Glass::NONE);
+        let mut found = vec![nothing; width * height];
+        let done = each_tile(
+            space,
+            lens.size,
+            &sampling,
+            model.glass,
+            &mut found,
+            nothing,
+            stopped,
+            Vec::new,
+            |over: &mut Vec<Layer>, filled, rows| {
+                layers(filled.tile, filled.glass, filled.first, &sampling, over);
+                let left = filled.first[0];
+                for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
+                    for (i, texel) in row[left..].iter_mut().take(TILE_WIDTH).enumerate() {
+                        if filled.tile.triangle(i, j) != NOTHING {
+                            texel.0 = filled.tile.depth(i, j);
+                        }
+                    }
+                }
+                for own in over.chunk_by(|a, b| a.sample == b.sample) {
+                    let at = own[0].sample as usize;
+                    rows[at / TILE_WIDTH * width + left + at % TILE_WIDTH].1 = through(model, own);
+                }
+            },
+        );
+        let glass = found.iter().map(|f| f.1).collect();
+        let depth = found.into_iter().map(|f| f.0).collect();
+        done.then_some(Shadow { lens, depth, glass, texel })
     }
 
     /// How much of the light reaches a point, 0 to 1; n is its unit normal on the viewer's side.
@@ -60,15 +132,30 @@ impl Shadow {
         let mut lit = 0.0;
         for row in 0..=WIDE {
             for column in 0..=WIDE {
-                let free = self.at(i as i64 + column as i64, j as i64 + row as i64) >= depth;
-                lit += weight(column, u) * weight(row, t) * f32::from(u8::from(free));
+                let free = self.at(i as i64 + column as i64, j as i64 + row as i64, depth);
+                lit += weight(column, u) * weight(row, t) * free;
             }
         }
         lit / (WIDE * WIDE) as f32
     }
 
-    fn at(&self, i: i64, j: i64) -> f32 {
+    /// What of the light comes down to a depth in a texel.
+    fn at(&self, i: i64, j: i64, depth: f32) -> f32 {
         let [width, height] = self.lens.size.map(|c| c as i64);
-        if (0..width).contains(&i) && (0..height).contains(&j) { self.depth[(j * width + i) as usize] } else { 2.0 }
+        if !(0..width).contains(&i) || !(0..height).contains(&j) {
+            return 1.0;
+        }
+        let at = (j * width + i) as usize;
+        if self.depth[at] < depth {
+            return 0.0;
+        }
+        self.glass.get(at).map_or(1.0, |g| g.through(depth))
     }
+}
+
+/// `own`: the layers of one texel, the farthest first.
+fn through(model: &Model, own: &[Layer]) -> Glass {
+    let left = |l: &Layer| 1.0 - model.colours[model.paint[l.triangle as usize][0] as usize][3];
+    let (last, first) = (&own[0], &own[own.len() - 1]);
+    Glass { first: first.depth, last: last.depth, left: left(first), rest: own.iter().map(left).product() }
 }

@@ -1,0 +1,39 @@
+"""What is seen through glass: the scene without its transparent triangles, but with all of its lines."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.scene.scene import Scene
+
+
+def without_glass(scene: Scene, glass: npt.NDArray[np.bool_]) -> Scene:
+    """The scene in which the triangles of glass (t,) hide nothing; edges stay, those of glass alone as wires."""
+    kept = ~glass
+    number = np.cumsum(kept, dtype=np.int32) - 1
+    held = kept[scene.incident]
+    per_edge = np.add.reduceat(np.append(held, False), scene.offsets[:-1]) if len(scene.edges) else np.zeros(0, int)
+    # Of an edge without triangles reduceat gives what comes next.
+    per_edge = np.where(np.diff(scene.offsets) > 0, per_edge, 0)
+    opened = np.zeros(len(scene.groups.cull), bool)
+    opened[scene.triangle_group[glass]] = True
+    silhouettes = scene.silhouettes
+    if silhouettes is not None:
+        silhouettes = replace(silhouettes, hidden=silhouettes.hidden & ~opened[scene.edge_group])
+    on = scene.true_surfaces
+    return replace(
+        scene,
+        triangles=np.ascontiguousarray(scene.triangles[kept]),
+        triangle_part=scene.triangle_part[kept],
+        triangle_group=np.ascontiguousarray(scene.triangle_group[kept]),
+        triangle_face=scene.triangle_face[kept],
+        offsets=np.concatenate([[0], np.cumsum(per_edge)]).astype(np.int32),
+        incident=np.ascontiguousarray(number[scene.incident[held]], np.int32),
+        groups=replace(scene.groups, closed=scene.groups.closed & ~opened, cull=scene.groups.cull & ~opened),
+        true_surfaces=None if on is None else replace(on, corner=on.corner[kept]),
+        silhouettes=silhouettes,
+        convex=False,
+    )
