@@ -141,7 +141,7 @@ def test_a_crack_is_no_jump() -> None:
     """Two unjoined sheets before a wall: less than an accuracy apart nothing need be drawn, farther apart it is."""
     document = {
         "format": "hlr-drawing",
-        "version": 1,
+        "version": 2,
         "accuracy": {"used": 0.05},
         "view": {
             "name": "front",
