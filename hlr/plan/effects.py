@@ -63,7 +63,6 @@ class PreviewOptions:
     up, perspective, threads, strict, only, hide, var   as of a drawing (`Options`)
     """
 
-    look: str = "shaded"
     size: tuple[int, int] = (1920, 1080)
     background: str = "white"
     edges: bool = False
@@ -83,12 +82,12 @@ class PreviewOptions:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+    look: str = "shaded"
 
 
 class PreviewWishes(TypedDict, total=False):
     """The fields of `PreviewOptions` as the keywords of `hlr.preview`: none has to be given."""
 
-    look: str
     size: tuple[int, int]
     background: str
     edges: bool
@@ -108,6 +107,7 @@ class PreviewWishes(TypedDict, total=False):
     hide: tuple[str, ...]
     var: str | None
     strict: bool
+    look: str
 
 
 @dataclass(frozen=True, slots=True)
