@@ -135,7 +135,7 @@ NO_OBJECT = "of type {} cannot be drawn"
         (hlr, NO_OBJECT.format("module")),
         (lambda: None, NO_OBJECT.format("function")),
     ],
-    ids=lambda s: repr(s)[:24],
+    ids=lambda s: s if isinstance(s, str) else type(s).__name__,
 )
 def test_what_is_no_model(source, reason):
     assert not drawn_or_refused(source)
