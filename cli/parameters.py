@@ -93,6 +93,21 @@ class Size(click.ParamType[tuple[float, float]]):
         self.fail(f"{value!r} is not a size in millimetres such as 200x150, A4 or A4-landscape", param, ctx)
 
 
+class Window(click.ParamType[tuple[float, float, float, float]]):
+    """Two corners of a rectangle on paper: X0,Y0,X1,Y1."""
+
+    name = "X0,Y0,X1,Y1"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float, float, float]:
+        """Four finite numbers; whether they make a rectangle the request's own check says."""
+        match [number_of(part) for part in str(value).split(",")]:
+            case [float(x0), float(y0), float(x1), float(y1)]:
+                return (x0, y0, x1, y1)
+        self.fail(f"{value!r} is not four numbers such as 0,0,100,80", param, ctx)
+
+
 class Duration(click.ParamType[float]):
     """A time: 2s, 500ms, 1min; a number alone is seconds."""
 

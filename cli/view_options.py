@@ -10,7 +10,7 @@ import click
 from hlr.errors import OptionError
 from hlr.view.names import EYE
 
-from .parameters import Scale, Size, Vector, Vector3, ViewName
+from .parameters import Scale, Size, Vector, Vector3, ViewName, Window
 
 if TYPE_CHECKING:
     from hlr.plan.options import Perspective, View
@@ -35,6 +35,13 @@ SIZE = (
         metavar="WxH|A4",
         help="Instead of a scale: fit into so many millimetres, or a sheet less margins of 10 mm: A4, A4-landscape.",
     ),
+)
+
+WINDOW = click.option(
+    "--window",
+    type=Window(),
+    metavar="X0,Y0,X1,Y1",
+    help="Only this rectangle of the drawing, millimetres from its lower left corner. What lies outside still hides.",
 )
 
 CHOICE = (

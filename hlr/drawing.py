@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Literal, NamedTuple, overload
@@ -171,6 +171,20 @@ class DrawnView:
     distance: float | None = None
 
 
+def bounds_of(lines: Sequence[Line]) -> Bounds:
+    """Around all lines; all zero where there are none."""
+    if not lines:
+        return Bounds(0.0, 0.0, 0.0, 0.0)
+    boxes = [line.points for line in lines if line.curve is None]
+    arcs = [line.curve for line in lines if isinstance(line.curve, Arc)]
+    chains = [line.curve for line in lines if isinstance(line.curve, Bezier)]
+    boxes += [arc_bounds(arcs)] if arcs else []
+    boxes += [bezier_bounds(chains)] if chains else []
+    points = np.concatenate(boxes)
+    low, high = points.min(axis=0), points.max(axis=0)
+    return Bounds(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Drawing(ByValue):
     """Visible and hidden lines of one view. points = (P.right, P.up) * unit * scale - origin.
@@ -186,6 +200,7 @@ class Drawing(ByValue):
     request   what was asked for; None for drawings that were made otherwise
     reached   the errors that were measured; None unless asked for
     plan      what was decided of each effect, why, and what it cost
+    window    the rectangle on paper that lines and fill were cut by; None: nothing was cut off
     """
 
     source: str
@@ -204,6 +219,7 @@ class Drawing(ByValue):
     request: Request | None = field(default=None, compare=False)
     reached: Reached | None = None
     plan: tuple[Decision, ...] = ()
+    window: Bounds | None = None
 
     def __repr__(self) -> str:
         from hlr.writers.style import ratio
@@ -228,16 +244,12 @@ class Drawing(ByValue):
     @property
     def bounds(self) -> Bounds:
         """Around all lines; all zero for an empty drawing."""
-        if not self.lines:
-            return Bounds(0.0, 0.0, 0.0, 0.0)
-        boxes = [line.points for line in self.lines if line.curve is None]
-        arcs = [line.curve for line in self.lines if isinstance(line.curve, Arc)]
-        chains = [line.curve for line in self.lines if isinstance(line.curve, Bezier)]
-        boxes += [arc_bounds(arcs)] if arcs else []
-        boxes += [bezier_bounds(chains)] if chains else []
-        points = np.concatenate(boxes)
-        low, high = points.min(axis=0), points.max(axis=0)
-        return Bounds(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+        return bounds_of(self.lines)
+
+    @property
+    def page(self) -> Bounds:
+        """What SVG and PDF show, with a margin around it: the window, or else the bounds."""
+        return self.bounds if self.window is None else self.window
 
     @overload
     def save(self, file: str | os.PathLike[str], format: Format | None = None) -> Path: ...

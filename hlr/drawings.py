@@ -49,11 +49,16 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
 
 
 def with_report(source: Any, drawing: Drawing, progress: Progress | None = None) -> Drawing:
-    """The drawing with `reached`, measured."""
+    """The drawing with `reached`, measured; of a window, what the whole drawing reached."""
     from hlr.measure import measured
 
     if progress is not None:
         progress("measure", 0.0)
     threads = drawing.request.options.threads if drawing.request is not None else 0
-    reached = measured(source, drawing, threads=threads)
+    whole = drawing
+    if drawing.window is not None and drawing.request is not None:
+        # What lies outside the window is no loss: the drawing is measured before anything was cut off.
+        asked = replace(drawing.request.options, window=None, within=None, accuracy=drawing.accuracy.used)
+        whole = drawn_once(source, [drawing.request.view], asked)[0]
+    reached = measured(source, whole, threads=threads)
     return replace(drawing, reached=reached)

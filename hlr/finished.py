@@ -6,7 +6,7 @@ from collections import Counter
 from time import perf_counter
 
 from hlr.clock import Clock, lap
-from hlr.drawing import Accuracy, Drawing, DrawnPart, DrawnView, Fill, Line
+from hlr.drawing import Accuracy, Bounds, Drawing, DrawnPart, DrawnView, Fill, Line
 from hlr.fitting import Staged
 from hlr.notes import Note
 from hlr.plan.options import Options
@@ -15,6 +15,8 @@ from hlr.scene.scene import Scene
 from hlr.source.model import Source
 from hlr.view.camera import Camera
 from hlr.visibility.segments import Segments
+from hlr.window.cut import cut
+from hlr.window.frame import Frame
 
 Lines = tuple[tuple[Line, ...], tuple[float, float], int]
 """Lines, their origin, and how many curves were sought: as `hlr.linework.lines.draw_lines` gives them."""
@@ -44,6 +46,10 @@ def finished(
         )
         planner.spent("fill", perf_counter() - started)
         planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
+    stated = drawn_view(camera)
+    window = None if options.window is None else Bounds(*map(float, options.window))
+    frame = None if window is None else Frame(window, stated, at.per_model)
+    lines, fill, empty = cut(lines, fill, frame, planner)
     lap(clock, "linework", started)
     clock["total"] = sum(clock.values())
     counters = _counters(seen, segments, lines, fill, sought, plan)
@@ -56,7 +62,7 @@ def finished(
     cuts = {d.name: sum(d.counts.values()) for d in decisions if d.name.endswith("clipping")}
     return Drawing(
         source=opened.name,
-        view=drawn_view(camera),
+        view=stated,
         scale=at.scale,
         origin=origin,
         accuracy=Accuracy(
@@ -69,11 +75,12 @@ def finished(
         up_axis=opened.frame.up,
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),
         lines=lines,
-        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *_empty(lines)))),
+        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *(empty or _empty(lines, fill))))),
         counters={**counters, "clipping_planes": sum(cuts.values())},
         timings=clock,
         fill=fill,
         plan=decisions,
+        window=window,
     )
 
 
@@ -114,8 +121,9 @@ def _counters(
 _CREASES = ("sharp", "boundary")
 
 
-def _empty(lines: tuple[Line, ...]) -> tuple[Note, ...]:
-    return () if lines else (Note("nothing-in-view", "nothing of the model lies in this view"),)
+def _empty(lines: tuple[Line, ...], fill: Fill | None) -> tuple[Note, ...]:
+    painted = fill is not None and len(fill.part) > 0
+    return () if lines or painted else (Note("nothing-in-view", "nothing of the model lies in this view"),)
 
 
 def drawn_view(camera: Camera) -> DrawnView:

@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 
 from hlr.curve import Arc, Bezier, Curve
-from hlr.drawing import Accuracy, Drawing, DrawnPart, DrawnView, Fill, Kind, Line
+from hlr.drawing import Accuracy, Bounds, Drawing, DrawnPart, DrawnView, Fill, Kind, Line
 from hlr.errors import SourceError
 from hlr.notes import Note
 from hlr.plan.effect import Decision
@@ -20,6 +20,9 @@ from hlr.writers.json import FORMAT, VERSION
 
 if TYPE_CHECKING:
     from hlr.measure.reached import Reached
+
+
+Box = tuple[float, float, float, float]
 
 
 def load(file: str | os.PathLike[str] | IO[Any]) -> Drawing:
@@ -90,6 +93,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         timings=revived(Mapping[str, float], timings, "timings"),
         fill=revived(Fill | None, document.get("fill"), "fill"),
         reached=_reached(document["accuracy"].get("reached"), accuracy),
+        window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
         plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(document["plan"])),
     )
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hlr.drawing import Bounds
 from hlr.fitting import staged
 from hlr.plan.effect import Decision, Planner
 from hlr.plan.options import Options, View
@@ -18,6 +19,7 @@ from hlr.view.camera import resolve
 from hlr.view.clip import clipped
 from hlr.view.scale import place
 from hlr.view.silhouettes import with_silhouettes
+from hlr.window.cut import foreseen
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +54,14 @@ def plan_views(
         outlined = view.outlined or with_silhouettes(
             scene, view.camera, view.at.tolerances, options.threads, view.planner
         )
-        cut = clipped(outlined, view.camera, view.at.aspect, view.planner)
-        out.append(
-            ViewPlan(view.camera.name, decide(cut, view.camera, options, view.at.tolerances, view.planner).decisions)
-        )
+        seen_of = clipped(outlined, view.camera, view.at.aspect, view.planner)
+        view.planner.on("window")
+        if options.window is not None:
+            with view.planner.deciding():
+                flat = view.camera.project(seen_of.points)[:, :2] * view.at.per_model
+            foreseen(flat, Bounds(*options.window), view.planner)
+        plan = decide(seen_of, view.camera, options, view.at.tolerances, view.planner)
+        out.append(ViewPlan(view.camera.name, plan.decisions))
     return out
 
 

@@ -133,6 +133,18 @@ def _fit(value: Any) -> bool | None:
     return True if all(1.0 <= v <= 1e4 for v in value) else None
 
 
+def _window(value: Any) -> bool | None:
+    if value is None:
+        return True
+    if isinstance(value, np.ndarray):
+        return None
+    if not _vector(value, 4) or not all(math.isfinite(v) for v in value):
+        return False
+    if value[2] <= value[0] or value[3] <= value[1]:
+        return False
+    return True if max(map(abs, value)) <= 1e6 and value[2] - value[0] > 1 and value[3] - value[1] > 1 else None
+
+
 def _threads(value: Any) -> bool | None:
     if not isinstance(value, int) or isinstance(value, bool):
         return None if isinstance(value, np.integer) else False
@@ -160,6 +172,7 @@ _JUDGES: dict[str, Any] = {
     "crease": _between(0.0, 180.0, 0.0, 180.0, False),
     "within": _between(1.0, 100.0, 5e-324, math.inf, True),
     "fit": _fit,
+    "window": _window,
     "up": _up,
     "threads": _threads,
     "perspective": _perspective,

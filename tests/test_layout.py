@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 
 # The order in which a drawing passes through the stages: each imports only those before it.
-STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework", "shading", "writers")
+STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework", "shading", "window", "writers")
 
 # What every stage may import: no stage, and none of them imports one.
 COMMON = ("endings", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")

@@ -17,7 +17,7 @@ from ..parameters import Duration, Vector3
 from ..streams import Output, result_only
 from ..telling import summary, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, names_of, options, perspective_of
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.drawing import Drawing
@@ -53,7 +53,7 @@ LINES = (
 )
 @VIEW
 @options(*CHOICE, *LINES)
-@options(*SIZE)
+@options(*SIZE, WINDOW)
 @click.option(
     "--circles",
     is_flag=True,

@@ -10,7 +10,7 @@ from ..guard import start
 from ..meter import meter
 from ..streams import result_only
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, names_of, options
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, names_of, options
 from .draw import LINES, request_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @click.command(cls=Verb)
 @click.argument("source")
 @VIEW
-@options(*CHOICE, *LINES, *SIZE, *CARE, *CAMERA, *RUN)
+@options(*CHOICE, *LINES, *SIZE, WINDOW, *CARE, *CAMERA, *RUN)
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:

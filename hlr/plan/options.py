@@ -40,6 +40,8 @@ class Options:
     intersections  draw the lines in which surfaces pass through one another
     scale        paper : model; 0.5 is 1:2
     fit          (width, height) to fit the drawing into instead of a scale
+    window       (x0, y0, x1, y1): only this rectangle of the drawing, in the coordinates that it has without a window:
+                 its lower left corner is 0, 0; lines are cut at the sides, and what lies outside still hides
     accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
     crease       degrees: where a mesh without B-rep folds more than this, an edge is drawn
     circles      creases and borders of a mesh become circles where every vertex lies on one within the accuracy, and
@@ -62,6 +64,7 @@ class Options:
     intersections: bool = True
     scale: float = 1.0
     fit: tuple[float, float] | None = None
+    window: tuple[float, float, float, float] | None = None
     accuracy: float | None = None
     crease: float = 30.0
     circles: bool = False
@@ -86,6 +89,7 @@ class Wishes(TypedDict, total=False):
     intersections: bool
     scale: float
     fit: tuple[float, float] | None
+    window: tuple[float, float, float, float] | None
     accuracy: float | None
     crease: float
     circles: bool

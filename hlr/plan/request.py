@@ -41,6 +41,8 @@ def checked(options: Options) -> Options:
         raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
     if options.fit is not None and options.scale != 1.0:
         raise OptionError("scale and fit contradict one another: give one of them")
+    if options.window is not None:
+        _window(options.window)
     for name in ("only", "hide"):
         patterns = getattr(options, name)
         if isinstance(patterns, str) or not _is_strings(patterns):
@@ -95,6 +97,20 @@ class Looking(Protocol):
     @property
     def perspective(self) -> Perspective | None:
         """None: orthographic."""
+
+
+def _window(window: Any) -> None:
+    if not _is_vector(window, 4) or max(map(abs, window)) > LARGEST_FIT:
+        raise OptionError(
+            f"window needs x0,y0,x1,y1 in millimetres, four numbers of at most {LARGEST_FIT:g}, not {window!r}"
+        )
+    x0, y0, x1, y1 = window
+    if x1 - x0 < SMALLEST_FIT or y1 - y0 < SMALLEST_FIT:
+        shown = ",".join(f"{value:g}" for value in window)
+        raise OptionError(
+            f"the window {shown} holds nothing: give its lower left corner first, x0 < x1 and y0 < y1, "
+            f"at least {SMALLEST_FIT:g} mm apart"
+        )
 
 
 def _perspective(camera: Any) -> None:

@@ -145,6 +145,14 @@ def _exact(f: Facts, _o: Options) -> Answer:
     return f.bent > 0, f"{_count(f.bent, 'line')} may be curved" if f.bent else "every line is straight, or a mesh's"
 
 
+def _window(f: Facts, options: Options) -> Answer:
+    if options.window is None:
+        return False, "no window was asked for"
+    if f.crossed:
+        return True, f"something lies beyond {_count(f.crossed, 'side')} of the window"
+    return False, "all lies within the window"
+
+
 def _colours(_f: Facts, options: Options) -> Answer:
     return (True, "faces are filled") if options.fill else (False, "lines are black")
 
@@ -172,5 +180,6 @@ DRAWING: tuple[Effect, ...] = (
     _wish("circles", "asked for", "not asked for"),
     Effect("exact curves", SCENE, _exact, ("curves_sought",)),
     _wish("fill", "asked for", "not asked for"),
+    Effect("window", ASKED, _window, ("window_cuts",)),
     Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),
 )

@@ -30,6 +30,7 @@ def document(drawing: Drawing) -> bytes:
         "view": _view(drawing.view),
         "scale": float(drawing.scale),
         "origin": _numbers(drawing.origin),
+        **({} if drawing.window is None else {"window": _numbers(drawing.window)}),
         "model": {"unit": float(drawing.unit), "up_axis": _numbers(drawing.up_axis)},
     }
     parts = [{"name": part.name, "color": part.color, "transform": _numbers(part.transform)} for part in drawing.parts]

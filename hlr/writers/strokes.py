@@ -98,7 +98,7 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     groups: dict[tuple[bool, str], list[Line]] = {(v, k): [] for v in (False, True) for k in style.KINDS}
     for line in drawing.lines:
         groups[line.visible, line.kind].append(line)
-    bounds = drawing.bounds
+    bounds = drawing.page
     accuracy, places = drawing.accuracy.used, places_of(drawing, bounds)
     layers = [_layer(*key, lines, rows_of(lines, places, accuracy, cubic)) for key, lines in groups.items() if lines]
     corners = number.grid(np.array(bounds).reshape(2, 2), places)

@@ -130,7 +130,14 @@ TETRAHEDRON = (
 # With the usual values, beside one that is tried.
 USUAL = {field.name: field.default for field in fields(Options)}
 SOUND: dict[str, Any] = {"view": "top", "scale": 2, "fit": (30, 40), "accuracy": 0.1, "crease": 20, "up": (1, 2, 0.5)}
-SOUND |= {"threads": 1, "perspective": Perspective(fov=40.0), "within": 5.0, "only": ("*",), "hide": ("nothing*",)}
+SOUND |= {
+    "threads": 1,
+    "perspective": Perspective(fov=40.0),
+    "within": 5.0,
+    "window": (0, 0, 5, 5),
+    "only": ("*",),
+    "hide": ("nothing*",),
+}
 
 
 def with_option(name: str, thing: Any, right: bool | None = None) -> None:

@@ -1,0 +1,126 @@
+"""Lines cut at the sides of a window: straight ones, arcs and Bezier chains, each exactly where it passes a side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.curve import Arc, Bezier, Curve
+from hlr.drawing import Line
+from hlr.window.frame import Frame
+from hlr.window.tracks import Track, track_of
+
+Floats = npt.NDArray[np.float64]
+
+SLACK = 1e-6
+"""Millimetres: what lies beyond a side by less than this lies on it. A line along the side is drawn, whatever the last
+digit of its coordinates."""
+
+
+def cut_lines(lines: Sequence[Line], frame: Frame) -> tuple[tuple[Line, ...], int]:
+    """What of the lines lies in the window, in their order, and how many were cut or left out.
+
+    A line that lies in the window wholly stays the same object.
+    """
+    if not lines:
+        return (), 0
+    boxes = _boxes(lines)
+    low, high = frame.low, frame.high
+    inside = np.all((boxes[:, :2] >= low - SLACK) & (boxes[:, 2:] <= high + SLACK), axis=1).tolist()
+    outside = np.any((boxes[:, 2:] < low - SLACK) | (boxes[:, :2] > high + SLACK), axis=1).tolist()
+    out: list[Line] = []
+    cuts = 0
+    for i, line in enumerate(lines):
+        if inside[i]:
+            out.append(line)
+            continue
+        pieces = [] if outside[i] else _cut(line, frame)
+        cuts += not (len(pieces) == 1 and pieces[0] is line)
+        out += pieces
+    return tuple(out), cuts
+
+
+def _boxes(lines: Sequence[Line]) -> Floats:
+    """(n, 4) low and high corner around each line, a little too large for curves."""
+    held = [_around(line.curve, line.points) for line in lines]
+    starts = np.cumsum([0, *map(len, held)])[:-1]
+    every = np.concatenate(held)
+    return np.concatenate([np.minimum.reduceat(every, starts), np.maximum.reduceat(every, starts)], axis=1)
+
+
+def _around(curve: Curve | None, points: Floats) -> Floats:
+    """Points whose box holds the line."""
+    if isinstance(curve, Bezier):
+        return np.concatenate([points, curve.points])
+    if isinstance(curve, Arc):
+        reach = np.hypot(curve.axes[0], curve.axes[1])
+        return np.concatenate([points, [curve.centre - reach, curve.centre + reach]])
+    return points
+
+
+def _cut(line: Line, frame: Frame) -> list[Line]:
+    track = track_of(line)
+    breaks = np.unique(np.concatenate([track.breaks, *(track.crossings(*side) for side in frame.sides)]))
+    # Between two breaks it lies on one side of each side: its middle tells.
+    middle = track.at(0.5 * (breaks[:-1] + breaks[1:]))
+    kept = np.all((middle >= frame.low - SLACK) & (middle <= frame.high + SLACK), axis=1).tolist()
+    if all(kept):
+        return [line]
+    change = np.flatnonzero(np.diff(np.concatenate([[False], kept, [False]])))
+    runs = [(float(breaks[a]), float(breaks[b])) for a, b in zip(change[::2], change[1::2], strict=True)]
+    pieces = [piece for a, b in runs if (piece := _piece(line, track, a, b, frame)) is not None]
+    closed = bool((line.points[0] == line.points[-1]).all()) or (isinstance(line.curve, Arc) and line.curve.whole)
+    if closed and len(pieces) > 1 and kept[0] and kept[-1]:
+        return [*pieces[1:-1], _joined(pieces[-1], pieces[0])]
+    return pieces
+
+
+def _piece(line: Line, track: Track, a: float, b: float, frame: Frame) -> Line | None:
+    """From parameter a to b; None where that is a single place."""
+    between = (track.params > a) & (track.params < b)
+    ends = [_end(line, track, t, frame) for t in (a, b)]
+    points = np.clip(np.stack([ends[0][0], *line.points[between], ends[1][0]]), frame.low, frame.high)
+    if (points == points[0]).all():
+        return None
+    space = np.stack([ends[0][1], *line.points3[between], ends[1][1]])
+    points.flags.writeable = space.flags.writeable = False
+    curve = track.between(a, b)
+    if isinstance(curve, Bezier):
+        for which, t in ((0, a), (-1, b)):
+            if t != track.params[which]:  # the last bit: the end lies on the side
+                curve.points[which] = points[which]
+    return replace(line, points=points, points3=space, curve=curve)
+
+
+def _end(line: Line, track: Track, t: float, frame: Frame) -> tuple[Floats, Floats]:
+    """Where the piece ends, on paper and in the model."""
+    for which in (0, -1):
+        if t == track.params[which]:
+            return line.points[which], line.points3[which]
+    place = track.at(np.array([t]))[0]
+    for axis, value in frame.sides:
+        if abs(place[axis] - value) <= 1e-9 * (1.0 + abs(value)):
+            place[axis] = value
+    i = int(np.clip(np.searchsorted(track.params, t, side="right") - 1, 0, len(track.params) - 2))
+    width = track.params[i + 1] - track.params[i]
+    s = float((t - track.params[i]) / width) if width > 0.0 else 0.0
+    (p, q), (u, v) = line.points[i : i + 2], line.points3[i : i + 2]
+    return place, frame.lifted(u, v, s, place - (p + (q - p) * s))
+
+
+def _joined(first: Line, second: Line) -> Line:
+    """Two pieces of a closed line, the second beginning where the first ends."""
+    points = np.concatenate([first.points, second.points[1:]])
+    space = np.concatenate([first.points3, second.points3[1:]])
+    points.flags.writeable = space.flags.writeable = False
+    curve: Curve | None = None
+    if isinstance(first.curve, Arc) and isinstance(second.curve, Arc):
+        start, end = first.curve.angles.tolist()
+        further = second.curve.angles.tolist()
+        curve = replace(first.curve, angles=np.array([start, end + further[1] - further[0]]))
+    elif isinstance(first.curve, Bezier) and isinstance(second.curve, Bezier):
+        curve = Bezier(first.curve.degree, np.concatenate([first.curve.points, second.curve.points[1:]]))
+    return replace(first, points=points, points3=space, curve=curve)
