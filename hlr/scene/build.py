@@ -64,9 +64,12 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     bare = ~brep[edge_part]
     walks, loose = source_walks(parts, firsts, edges, len(points))
     kind = np.full(len(edges) + len(loose), INTERIOR, np.uint8)
+    facets = None
     if bare.any():
         coarse = np.array([p.precision for p in parts])[part_of]
-        kind[: len(edges)] = creases(supported(mesh, points, triangles, coarse), bare, crease, len(points))
+        sure = supported(mesh, points, triangles, coarse)
+        facets = sure.normals
+        kind[: len(edges)] = creases(sure, bare, crease, len(points))
         walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part, bare))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]
@@ -135,6 +138,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         notes=(*meshed.notes, *notes(found)),
         true_surfaces=_true_surfaces(parts),
         convex=len(suspect) == 1 and not suspect.any(),
+        facets=facets,
     )
 
 

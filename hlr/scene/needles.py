@@ -33,19 +33,21 @@ MOST_STEPS = 32
 
 
 def supported(mesh: MeshFacts, points: Floats, triangles: Ints, precision: Floats) -> MeshFacts:
-    """The mesh with the folds that its coordinates support.
+    """The mesh with the normals and folds that its coordinates support; a triangle without area is a needle, too.
 
     precision (t,): how far the corners of each triangle may be off, in model units; 0 where they are exact
     """
-    low = np.flatnonzero(precision > 0.0)
+    flat = ~mesh.normals.any(axis=1)
+    low = np.flatnonzero((precision > 0.0) | flat)
     if not len(low):
         return mesh
     corner = points[triangles[low]]
     sides = np.stack([corner[:, (k + 1) % 3] - corner[:, k] for k in range(3)], axis=1)
     squares = (sides**2).sum(axis=2)
     area = np.cross(sides[:, 0], sides[:, 1])
-    height = np.sqrt((area**2).sum(axis=1)) / np.sqrt(squares.max(axis=1))
-    needle = (height < LOW * precision[low]) & (height > 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = np.sqrt((area**2).sum(axis=1)) / np.sqrt(squares.max(axis=1))
+    needle = (height < LOW * precision[low]) | flat[low]
     low, longest = low[needle], squares[needle].argmax(axis=1)
     if not len(low):
         return mesh

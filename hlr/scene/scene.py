@@ -129,6 +129,7 @@ class Scene:
     edge_curved tells the edges at which a curved surface may show its outline; convex: all there is is one convex body,
     as far as floating point tells. Edges without triangles are wires, or
     intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
+    facets (t, 3): the normals that the coordinates of bare meshes support, zero where none is known; None: all is B-rep.
     """
 
     points: Floats
@@ -150,3 +151,4 @@ class Scene:
     true_surfaces: TrueSurfaces | None = None
     silhouettes: Silhouettes | None = None
     convex: bool = False
+    facets: Floats | None = None

@@ -121,10 +121,6 @@ def creases(mesh: MeshFacts, bare: npt.NDArray[np.bool_], crease: float, n_point
     kind[bare & (mesh.fold < limit)] = EdgeClass.SHARP
     clear = ~(mesh.fold >= math.cos(math.radians(min(CLEAR_FOLD * crease, 180.0))))
     kind[_lone_folds(kind, mesh.edges, clear, n_points)] = 255
-    # A triangle without area has no normal: its edges are judged by what lies beyond it.
-    flat = np.abs(mesh.normals).max(axis=1, initial=0.0) == 0.0
-    if flat.any():
-        _across_flat(kind, mesh, flat, bare, limit)
     return kind
 
 
@@ -137,29 +133,6 @@ def _lone_folds(kind: npt.NDArray[np.uint8], edges: Ints, clear: npt.NDArray[np.
     slight = (np.bincount(figure) < LONE_EDGES) & (np.bincount(figure, weights=clear[chosen]) == 0)
     lone: Ints = chosen[slight[figure]]
     return lone
-
-
-def _across_flat(
-    kind: npt.NDArray[np.uint8],
-    mesh: MeshFacts,
-    flat: npt.NDArray[np.bool_],
-    bare: npt.NDArray[np.bool_],
-    limit: float,
-) -> None:
-    """Creases along triangles without area, which fill T-junctions: the fold is that between the faces around them."""
-    incident, offsets, normals = mesh.incident, mesh.offsets, mesh.normals
-    edge_of = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
-    at_flat = flat[incident] & bare[edge_of]
-    around: dict[int, list[int]] = {}
-    for t, e in zip(incident[at_flat].tolist(), edge_of[at_flat].tolist(), strict=True):
-        around.setdefault(t, []).append(e)
-    for edges in around.values():
-        faces = {e: [t for t in incident[offsets[e] : offsets[e + 1]].tolist() if not flat[t]] for e in edges}
-        for e in edges:
-            others = [t for f in edges if f != e for t in faces[f]]
-            folds = [abs(float((normals[s] * normals[t]).sum())) < limit for s in faces[e] for t in others]
-            if any(folds) and kind[e] == 255:
-                kind[e] = EdgeClass.SHARP
 
 
 def crease_walks(

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.scene.scene import INTERIOR, Scene
-from hlr.source.model import EdgeClass, Ints
+from hlr.source.model import EdgeClass, Floats, Ints
 
 Normals = npt.NDArray[np.float32]
 
@@ -19,9 +19,9 @@ def corner_normals(scene: Scene, threads: int = 0) -> tuple[Normals, Ints]:
     """Unit normals (k, 3), and (t, 3) which of them each corner has; FLAT where the triangle has its own."""
     true, of_true = _of_surfaces(scene, threads)
     bare = scene.groups.bare[scene.triangle_group]
-    if not bare.any():
+    if scene.facets is None or not bare.any():
         return true, of_true
-    averaged, of_averaged = _up_to_creases(scene, bare)
+    averaged, of_averaged = _up_to_creases(scene, scene.facets, bare)
     corner = np.where(bare[:, None], of_averaged + np.int32(len(true)), of_true).astype(np.int32)
     return np.concatenate([true, averaged]), np.ascontiguousarray(corner)
 
@@ -56,10 +56,10 @@ def _of_surfaces(scene: Scene, threads: int) -> tuple[Normals, Ints]:
     return normals, np.where(sound[:, None], on.corner, none)
 
 
-def _up_to_creases(scene: Scene, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
+def _up_to_creases(scene: Scene, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
     """Of the facets around a vertex, those that hang together without a crease share one normal.
 
-    Each counts with its angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets",
+    Where a vertex lies on a side of a larger facet, a needle between them counts for that facet. Each counts with its angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets",
     Journal of Graphics Tools 3, 1998): how a fan is triangulated makes no difference.
     """
     triangles = scene.triangles
@@ -82,19 +82,13 @@ def _up_to_creases(scene: Scene, bare: npt.NDArray[np.bool_]) -> tuple[Normals, 
     _, fan = np.unique(component, return_inverse=True)
 
     p = scene.points[triangles]
-    facet = _cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-    facet = _unit(facet)
     sums = np.zeros((int(fan.max(initial=-1)) + 1, 3))
     for k in range(3):
         a, b = _unit(p[:, (k + 1) % 3] - p[:, k]), _unit(p[:, (k + 2) % 3] - p[:, k])
         angle = np.arccos(np.clip((a * b).sum(axis=1), -1.0, 1.0))
         for axis in range(3):
-            sums[:, axis] += np.bincount(fan[k::3], weights=angle * facet[:, axis], minlength=len(sums))
+            sums[:, axis] += np.bincount(fan[k::3], weights=angle * facets[:, axis], minlength=len(sums))
     return _unit(sums).astype(np.float32), fan.reshape(-1, 3).astype(np.int32)
-
-
-def _cross(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    return np.asarray(np.cross(a, b))
 
 
 def _unit(v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
