@@ -35,7 +35,7 @@ LINES = (
         default=True,
         help="Lines where surfaces pass through each other. Default: on.",
     ),
-    click.option("--fill", is_flag=True, help="Paint the visible faces under the lines, in SVG and PDF."),
+    click.option("--fill", is_flag=True, help="Paint the visible faces under the lines."),
 )
 """What is drawn."""
 
@@ -97,8 +97,6 @@ def draw(
     views = views or ("iso",)
     request = request_of(**wishes)
     targets = targets_of(outputs, source, names, format, as_json)
-    if request.fill and all(target.format == "json" for row in targets for target in row):
-        raise OptionError("--fill paints SVG and PDF; JSON holds lines only")
 
     start(source)
     # While anything runs that is not ours, standard output is out of its reach.

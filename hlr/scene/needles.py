@@ -37,7 +37,7 @@ def supported(mesh: MeshFacts, points: Floats, triangles: Ints, precision: Float
 
     precision (t,): how far the corners of each triangle may be off, in model units; 0 where they are exact
     """
-    flat = ~mesh.normals.any(axis=1)
+    flat = np.asarray(~mesh.normals.any(axis=1))
     low = np.flatnonzero((precision > 0.0) | flat)
     if not len(low):
         return mesh

@@ -129,7 +129,7 @@ class Scene:
     edge_curved tells the edges at which a curved surface may show its outline; convex: all there is is one convex body,
     as far as floating point tells. Edges without triangles are wires, or
     intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
-    facets (t, 3): the normals that the coordinates of bare meshes support, zero where none is known; None: all is B-rep.
+    facets (t, 3): normals of bare meshes as far as their coordinates support any, zero where none; None: all is B-rep.
     """
 
     points: Floats

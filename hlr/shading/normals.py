@@ -59,8 +59,9 @@ def _of_surfaces(scene: Scene, threads: int) -> tuple[Normals, Ints]:
 def _up_to_creases(scene: Scene, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
     """Of the facets around a vertex, those that hang together without a crease share one normal.
 
-    Where a vertex lies on a side of a larger facet, a needle between them counts for that facet. Each counts with its angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets",
-    Journal of Graphics Tools 3, 1998): how a fan is triangulated makes no difference.
+    Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each counts with its
+    angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets", Journal of Graphics
+    Tools 3, 1998): how a fan is triangulated makes no difference.
     """
     triangles = scene.triangles
     count = np.diff(scene.offsets)

@@ -8,15 +8,12 @@ from typing import Any
 
 from hlr.errors import OptionError
 from hlr.source.model import Floats, Ints
-from hlr.surfaces.limits import NotFinishedError, limits
+from hlr.surfaces.limits import limits
 from hlr.surfaces.polygons import polygons_of
 from hlr.surfaces.viewport import Screen, Window, viewport
 from hlr.view.camera import Camera
 
 PAINTERS = ("depth sort", "bsp")
-
-MOST = 2**63 - 1
-"""Comparisons, where nothing else is said."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,12 +49,10 @@ def painters_list(
     space: str = "image",
     time_limit: float | None = None,
     memory_limit: float | None = None,
-    most_comparisons: int = MOST,
 ) -> PaintersList:
     """The polygons of a scene in the order of drawing, split where they overlap in a cycle or pass through one another.
 
-    method is "depth sort", which may be given up after so many comparisons, or "bsp"; all else as in
-    `render`. Raises OptionError, NotFinishedError.
+    method is "depth sort" or "bsp"; all else as in `render`. Raises OptionError, NotFinishedError.
     """
     if method not in PAINTERS:
         raise OptionError(f"{method!r} has no order of drawing: use {' or '.join(PAINTERS)}")
@@ -65,9 +60,7 @@ def painters_list(
     polygons = polygons_of(scene, rule, cull)
     port = viewport(camera, polygons.points, size, window=window, space=space)
     with within.over(method):
-        found = polygons.kernel(within=within).painters_list(port.kernel(), method, within.kernel(), most_comparisons)
-    if found is None:
-        raise NotFinishedError(f"{method} did not finish within {most_comparisons:,} comparisons")
+        found = polygons.kernel(within=within).painters_list(port.kernel(), method, within.kernel())
     return PaintersList(
         found["ids"], found["polygons"], found["loops"], found["points"], int(found["statistics"]["splits"])
     )

@@ -10,7 +10,6 @@ import numpy as np
 from hlr.errors import OptionError
 from hlr.source.model import Floats, Ints
 from hlr.surfaces.limits import limits
-from hlr.surfaces.painters import MOST
 from hlr.surfaces.polygons import Polygons, polygons_of
 from hlr.surfaces.render import Rendering, rendering
 from hlr.surfaces.viewport import Screen, Window, viewport
@@ -67,8 +66,8 @@ class BspTree:
         port = viewport(camera, self.polygons.points, size)
         within = limits(*self._limits)
         with within.over("the BSP tree"):
-            found = self._scene.painters_list(port.kernel(), "bsp", within.kernel(), MOST)
-        return found["ids"] if found is not None else np.zeros(0, np.int32)
+            found = self._scene.painters_list(port.kernel(), "bsp", within.kernel())
+        return np.asarray(found["ids"], np.int32)
 
     def render(self, camera: Camera | Screen, size: tuple[int, int], *, window: Window | None = None) -> Rendering:
         """The picture from this viewpoint; the tree stays as it is."""

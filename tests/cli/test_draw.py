@@ -188,7 +188,6 @@ def test_a_failure_to_write_leaves_the_earlier_file(hlr_command, tmp_path, monke
     assert (tmp_path / "a.svg").read_text() == "old"
 
 
-def test_fill_is_for_pictures_only(hlr_command):
+def test_fill_is_for_every_format(hlr_command):
     assert options(hlr_command, "--fill", "-o", "a.svg").fill
-    result = hlr_command("draw", "a.step", "--fill", "-o", "a.json")
-    assert result.code == 2 and "SVG and PDF" in result.err
+    assert options(hlr_command, "--fill", "-o", "a.json").fill

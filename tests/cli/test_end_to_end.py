@@ -94,6 +94,11 @@ def test_the_isometric_view_of_a_box_hides_three_edges(run, tmp_path):
     assert all(line["visible"] for line in read(tmp_path, "box.json")["lines"])
 
 
+def test_json_holds_the_filled_faces(run, tmp_path):
+    run("draw", "box.off", "-o", "box.json", "--fill")
+    assert len(read(tmp_path, "box.json")["fill"]["part"]) == 3
+
+
 def test_points_on_paper_are_the_projected_model_points(run, tmp_path):
     run("draw", "box.off", "-o", "box.json", "--view", "-1,2,.5", "--scale", "2")
     drawn = read(tmp_path, "box.json")

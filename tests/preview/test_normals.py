@@ -37,7 +37,7 @@ def test_vertices_on_a_side_of_a_larger_facet_leave_no_wedges(off: float) -> Non
 
 
 def test_a_crease_that_ends_in_a_smooth_surface_fades() -> None:
-    """A sheet folded at one end and flat at the other: no jump of light where the fold is less than the crease angle."""
+    """A sheet folded at one end and flat at the other: no jump of light where it folds less than 30 degrees."""
     n = 8
     x, y = np.meshgrid(np.linspace(-1, 1, 2 * n + 1), np.linspace(0, 2, n + 1), indexing="ij")
     z = -np.abs(x) * np.maximum(0.0, 1.0 - y)

@@ -18,9 +18,9 @@ use crate::raster::{depth_sort, quadric};
 /// Polygons in the order of drawing, each with its loops in pixels.
 pub type Listed = Vec<(u32, Vec<Vec<[f64; 2]>>)>;
 
-pub fn sorted_list(on: &Screen, most: u64, watch: &Watch, statistics: &mut Statistics) -> Option<Listed> {
+pub fn sorted_list(on: &Screen, watch: &Watch, statistics: &mut Statistics) -> Option<Listed> {
     let pixels = |p: &[f64; 3]| [p[0] / STEPS as f64, p[1] / STEPS as f64];
-    let ordered = depth_sort::order(on, most, watch, statistics)?;
+    let ordered = depth_sort::order(on, watch, statistics)?;
     let listed = ordered.pieces.iter().map(|piece| {
         let loops = piece.loops.iter().map(|l| l.iter().map(pixels).collect()).collect();
         (on.facets[piece.facet as usize].id, loops)

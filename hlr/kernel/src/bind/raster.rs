@@ -233,16 +233,14 @@ impl RasterScene {
     }
 
     /// The painter's list of depth sort or of the BSP tree: ids, where each one's loops and points begin, points in pixels.
-    /// None where depth sort takes more than `most` comparisons.
-    #[pyo3(signature = (camera, method, limits, most))]
+    #[pyo3(signature = (camera, method, limits))]
     fn painters_list<'py>(
         &self,
         py: Python<'py>,
         camera: CameraTuple,
         method: &str,
         limits: LimitsTuple,
-        most: u64,
-    ) -> PyResult<Option<Bound<'py, PyDict>>> {
+    ) -> PyResult<Bound<'py, PyDict>> {
         let camera = camera_of(camera);
         let by_tree = matches!(method_of(method, "")?, Method::Bsp);
         let found = within(py, limits, |watch| {
@@ -251,11 +249,11 @@ impl RasterScene {
                 with_tree(&self.scene(), &self.tree, watch, &mut statistics, |tree, _| tree_list(tree, &camera, watch))
             } else {
                 screen(&self.scene(), &camera, Bent::Whole, watch, &mut statistics)
-                    .and_then(|on| sorted_list(&on, most, watch, &mut statistics))
+                    .and_then(|on| sorted_list(&on, watch, &mut statistics))
             };
             listed.map(|l| (l, statistics))
         })?;
-        let Some((list, statistics)) = found else { return Ok(None) };
+        let (list, statistics) = found.unwrap_or_default();
         let out = PyDict::new(py);
         let (mut ids, mut polygons, mut loops, mut points) = (vec![], vec![0i32], vec![0i32], Vec::<[f64; 2]>::new());
         for (polygon, pieces) in list {
@@ -272,7 +270,7 @@ impl RasterScene {
         out.set_item("loops", loops.into_pyarray(py))?;
         out.set_item("points", points.into_flattened().into_pyarray(py).reshape([count, 2])?)?;
         out.set_item("statistics", counted(py, &statistics, 0.0, 0.0)?)?;
-        Ok(Some(out))
+        Ok(out)
     }
 
     /// One row as the scan line sees it: active edges (polygon, edge, x) and spans (from, to, polygons that are in).

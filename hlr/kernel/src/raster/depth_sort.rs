@@ -64,7 +64,7 @@ impl Slope {
 
 pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
     let started = Stopwatch::start();
-    let ordered = order(screen, u64::MAX, watch, statistics)?;
+    let ordered = order(screen, watch, statistics)?;
     statistics.setup = started.seconds();
     let bytes: usize = ordered.pieces.iter().map(Piece::bytes).sum();
     statistics.holds(bytes + ordered.wary.len() + canvas.bytes());
@@ -81,15 +81,12 @@ pub struct Ordered {
     pub wary: Vec<bool>,
 }
 
-/// None where there was no time, or where it takes more than `most` comparisons.
-pub fn order(screen: &Screen, most: u64, watch: &Watch, statistics: &mut Statistics) -> Option<Ordered> {
+/// None where there was no time.
+pub fn order(screen: &Screen, watch: &Watch, statistics: &mut Statistics) -> Option<Ordered> {
     let mut sort = Sort::new(screen);
     let mut out = Ordered { pieces: Vec::with_capacity(sort.pieces.len()), wary: vec![false; screen.facets.len()] };
     while let Some(&last) = sort.list.last() {
         let next = sort.next(last, &mut out.wary, watch, statistics)?;
-        if statistics.comparisons > most {
-            return None;
-        }
         sort.list.remove(sort.place(next));
         out.pieces.push(std::mem::replace(&mut sort.pieces[next as usize], Piece::gone()));
     }
