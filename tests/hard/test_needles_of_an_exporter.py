@@ -78,5 +78,11 @@ def test_precision_of_coordinates():
     assert precision(np.round(points, 7)) == single
     written = np.array([[float(f"{c:.7e}") for c in row] for row in points])
     assert precision(written) == single
+    # Nine digits tell a single number, nine decimals are still rounded ones; what has more is exact.
+    for digits, expected in [(9, single), (10, 2.0**-53 * 64.0)]:
+        written = np.array([[float(f"{c:.{digits - 1}e}") for c in row] for row in points])
+        assert precision(written) == expected
+    assert precision(np.round(points * 1e-4, 9)) == 0.5e-9
+    assert precision(np.round(points, 10)) < 1e-13
     assert precision(points) < 1e-13
     assert precision(np.zeros((0, 3))) == 0.0

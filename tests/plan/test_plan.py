@@ -19,8 +19,9 @@ from hlr.scene.build import build
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
 from hlr.source.model import EdgeClass
-from hlr.tolerance import DEFAULT_ACCURACY, choose, derive
+from hlr.tolerance import DEFAULT_ACCURACY, FINEST_BREP, FINEST_MESH, choose, derive, under
 from hlr.view.camera import resolve
+from hlr.writers.style import WIDE
 
 
 def test_options_are_frozen_and_their_defaults_pass():
@@ -75,6 +76,28 @@ def test_the_accuracy_of_those_who_do_not_ask():
     assert choose(None, 1e6) == DEFAULT_ACCURACY
     assert choose(None, 10.0) == 10.0 / 2000
     assert choose(None, 0.0) == DEFAULT_ACCURACY
+
+
+@pytest.mark.parametrize("diagonal", [1e-3, 0.5, 1.0, 300.0])
+@pytest.mark.parametrize("brep", [False, True])
+def test_an_accuracy_that_the_drawing_cannot_show_is_refused(diagonal, brep):
+    """However small the drawing is: coarser than a quarter of it, or finer than its grid."""
+    with pytest.raises(OptionError, match="too coarse"):
+        derive(0.26 * diagonal, 1.0, diagonal, brep=brep)
+    derive(0.24 * diagonal, 1.0, diagonal, brep=brep)
+    with pytest.raises(OptionError, match="too fine"):
+        derive(1e-9 * diagonal, 1.0, diagonal, brep=brep)
+
+
+def test_the_finest_accuracies_are_four_and_a_hundred_steps_of_the_grid():
+    assert 4.0 <= FINEST_MESH * 2.0**30 < 5.0
+    assert 100.0 <= FINEST_BREP * 2.0**30 < 125.0
+
+
+def test_what_lies_under_ink_is_no_farther_than_half_a_wide_line():
+    for accuracy in (1e-4, 0.01, 0.05, 0.2, 3.0):
+        assert accuracy <= under(accuracy) <= max(accuracy, WIDE / 2)
+    assert under(0.2) == WIDE / 2
 
 
 def planned(thing, view="iso", **options):

@@ -13,7 +13,7 @@ from scene.invariants import check
 
 from hlr import SourceError
 from hlr.scene.build import build
-from hlr.scene.repair import without_duplicates
+from hlr.scene.repair import anything_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
 from hlr.source.model import EdgeClass, Meshed
@@ -172,6 +172,34 @@ def test_repeated_triangles_are_dropped_and_counted():
     scene = scene_of((mesh.vertices, faces))
     assert scene.parts[0].defects == ("9 duplicated triangles",)
     assert scene.groups.cull.all()
+
+
+@pytest.mark.parametrize("again", range(12))
+def test_a_repetition_is_noticed_wherever_it_is(again):
+    mesh = box((10, 20, 30))
+    plain, other = part_of((mesh.vertices, mesh.faces)), part_of((mesh.vertices + 50.0, mesh.faces))
+    assert not anything_repeated([plain, other, plain]), "equal parts are no repetition in any of them"
+    for corners in (mesh.faces[again], np.roll(mesh.faces[again], 1), mesh.faces[again][::-1]):
+        twice = replace(plain, triangles=np.concatenate([plain.triangles, corners[None].astype(np.int32)]))
+        assert anything_repeated([other, twice])
+    where = again % len(plain.points)
+    assert anything_repeated(
+        [other, replace(plain, points=np.concatenate([plain.points, plain.points[where : where + 1]]))]
+    )
+
+
+@pytest.mark.parametrize("far", [(0, 0, 0), (30, -40, 50), (-1e7, 2e7, 1e7)])
+def test_a_body_has_the_same_thickness_and_outside_wherever_it_is(far):
+    inside, outside = scene_of(box((2, 4, 8))).groups, scene_of(turned_over(box((2, 4, 8), far))).groups
+    there = scene_of(box((2, 4, 8), far)).groups
+    # By volume and area it is no thinner than its smallest side.
+    assert there.extent == pytest.approx([2.0]) and there.extent == pytest.approx(inside.extent)
+    assert there.cull.all() and not outside.cull.any()
+
+
+def turned_over(mesh):
+    mesh.faces = mesh.faces[:, ::-1]
+    return mesh
 
 
 def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():

@@ -25,6 +25,10 @@ def shuffled(triangles, rng):
     return np.stack([np.roll(t, rng.integers(3)) for t in out]).astype(np.int32)
 
 
+def test_of_no_triangles_none_stays():
+    assert len(kept(np.zeros((4, 3)), np.zeros((0, 3), np.int32))) == 0
+
+
 def kept(points, triangles):
     return triangles[one_of_each(points, triangles, np.zeros(len(triangles), np.int32))]
 

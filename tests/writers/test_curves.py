@@ -92,3 +92,22 @@ def test_curves_that_are_not_finite_are_refused():
     broken = arc((math.nan, 5), 3, 3, (0, 1))
     with pytest.raises(WriteError):
         svg(drawing([replace(broken, points=np.array([[0.0, 0.0], [1.0, 1.0]]))]))
+
+
+def test_a_line_keeps_its_place_among_arcs():
+    """One layer of lines and arcs holds the rows of each as if it were alone, one after another."""
+    lines = [
+        line([[0, 0], [1, 2], [3, 1]], edge=0),
+        arc((5, 5), 3, 3, (0, 1), edge=1),
+        line([[9, 9], [8, 7]], edge=2),
+        arc((20, 5), 3, 2, (0, math.tau), edge=3),
+        arc((30, 5), 4, 4, (2, 1), edge=4),
+        line([[40, 0], [41, 2], [43, 1], [44, 4]], edge=5),
+    ]
+    (layer,) = strokes(drawing(lines)).layers
+    alone = [strokes(drawing([each])).layers[0] for each in lines]
+    assert layer.edge == [0, 1, 2, 3, 4, 5]
+    assert layer.points.tolist() == [row for each in alone for row in each.points.tolist()]
+    assert layer.op.tolist() == [op for each in alone for op in each.op.tolist()]
+    turns = [layer.shapes[i].tolist() for i in layer.arc.tolist() if i >= 0]
+    assert turns == [each.shapes[i].tolist() for each in alone for i in each.arc.tolist() if i >= 0]

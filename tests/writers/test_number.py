@@ -65,3 +65,5 @@ def test_an_accuracy_that_is_none_is_refused(accuracy):
 def test_points_that_are_not_finite_are_refused(bad):
     with pytest.raises(WriteError, match="not finite"):
         grid(np.array([[0.0, bad]]), 3)
+    with pytest.raises(WriteError, match="not finite"):
+        decimals(0.05, bad)

@@ -70,6 +70,8 @@ fn compare(mesh: &Mesh, outcome: &Outcome) {
     assert!(outcome.facing.iter().zip(&facing).all(|(&a, &b)| i128::from(a) == b), "facing");
     let counted = |t: usize| facing[t] > 0 || (facing[t] < 0 && !mesh.parts[mesh.triangle_part[t] as usize].cull);
     let lied = unsound(mesh, &counted);
+    // What the sweep finds is right by itself: the search polygon by polygon must not be what makes it so.
+    assert!(outcome.counters.failed_checks == 0 || lied.contains(&true), "{:?}", outcome.counters);
 
     let mut pieces = outcome.pieces.iter().peekable();
     for e in 0..mesh.edges.len() {

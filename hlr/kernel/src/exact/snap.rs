@@ -136,6 +136,28 @@ mod tests {
     }
 
     #[test]
+    fn a_tolerance_takes_no_more_room_than_it_needs() {
+        for (deep, depth) in [(1e-16, 1e-3), (1.0, 1e-3), (1e3, 1e-2), (1e3, 1e4), (1e-6, 40.0)] {
+            let grid = Grid::around(&[[0.0, 0.0, 0.0], [1.0, 1.0, deep]]).unwrap();
+            let roomy = grid.with_room(depth);
+            assert!(depth * roomy.scale_z <= DELTA_LIMIT, "{deep} {depth}");
+            assert!(roomy.scale_z == grid.scale_z || 2.0 * depth * roomy.scale_z > DELTA_LIMIT, "{deep} {depth}");
+        }
+    }
+
+    #[test]
+    fn the_grid_is_as_fine_wherever_the_scene_lies() {
+        for far in [0.0, 1e6, -1e6] {
+            let (low, high) = ([far, far, far], [far + 2.0, far + 1.0, far + 0.5]);
+            let grid = Grid::around(&[low, high]).unwrap();
+            let (a, b) = (grid.snap(&low), grid.snap(&high));
+            // With steps twice as fine the corners would lie off the grid.
+            assert!(b[0] >= 1 << 29 && b[2] >= 1 << 28, "{far} {b:?}");
+            assert!(a[0] <= -(1 << 29) && a[2] <= -(1 << 28), "{far} {a:?}");
+        }
+    }
+
+    #[test]
     fn limits_hold_at_the_corners() {
         let grid = Grid::around(&[[-1e9, -1e-9, 5.0], [1e9, 1e-9, 5.0]]).unwrap();
         let s = grid.snap(&[1e9, 1e-9, 5.0]);

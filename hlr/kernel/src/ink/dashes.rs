@@ -310,6 +310,27 @@ mod tests {
     }
 
     #[test]
+    fn stairs_with_no_room_for_dashes_on_each_step_are_dashed_all_the_same() {
+        let steps = |i: usize| if i % 2 == 0 { straight(1.0, 0.0) } else { straight(1.0, 90.0) };
+        let rows: Vec<Measured> = (0..14).map(steps).chain([straight(20.0, 0.0)]).collect();
+        let drawn = ink(&USUAL.fitted(&rows, false, [false; 2]), 34.0);
+        // Around a corner two dashes are one.
+        let longest = drawn.iter().map(|d| d[1] - d[0]).fold(0.0, f64::max);
+        assert!(longest < 2.5 * USUAL.dash, "{longest} {drawn:?}");
+    }
+
+    #[test]
+    fn every_dash_has_its_gap() {
+        // A renderer goes through a list of an odd count twice, dashes and gaps exchanged.
+        for legs in 1..6 {
+            for gaps in [[false, false], [true, false], [false, true], [true, true]] {
+                let rows: Vec<Measured> = (0..legs).map(|i| straight(17.0, f64::from(i) * 90.0)).collect();
+                assert_eq!(USUAL.fitted(&rows, false, gaps).lengths.len() % 2, 0, "{legs} {gaps:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_jagged_line_is_dashed_all_the_same() {
         let rows: Vec<Measured> = (0..100).map(|i| straight(1.0, f64::from(i % 2) * 60.0)).collect();
         let drawn = ink(&USUAL.fitted(&rows, false, [false; 2]), 100.0);

@@ -293,6 +293,65 @@ mod tests {
         found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
     }
 
+    /// Lines around a closed chain whose edges have these lengths and states, begun at edge `first`, as stretches
+    /// (visible, from, to) of its perimeter.
+    fn around(edges: &[(State, f64)], first: usize, limits: &Limits) -> Vec<(bool, f64, f64)> {
+        let n = edges.len();
+        // Out along one side and back along the other: places on the perimeter are told apart by their height.
+        let total: f64 = edges.iter().map(|e| e.1).sum();
+        let starts: Vec<f64> = (0..n).map(|i| edges[..i].iter().map(|e| e.1).sum()).collect();
+        let corner = (0..n).find(|&i| (starts[i] - 0.5 * total).abs() < 1e-9).expect("a vertex halfway");
+        let flat: Vec<[f64; 2]> =
+            (0..n).map(|i| if i <= corner { [starts[i], 0.0] } else { [total - starts[i], 1e-6] }).collect();
+        let space: Vec<[f64; 3]> = flat.iter().map(|p| [p[0], p[1], 0.0]).collect();
+        let of = |i: usize| (first + i) % n;
+        let ends: Vec<[i32; 2]> = (0..n).map(|i| [of(i) as i32, of(i + 1) as i32]).collect();
+        let pieces: Vec<Piece> = (0..n).map(|i| Piece { start: 0.0, end: 1.0, state: edges[of(i)].0 }).collect();
+        let piece_offsets: Vec<u32> = (0..=n as u32).collect();
+        let view = &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+        let (edges, pieces, piece_offsets) = (&ends[..], &pieces[..], &piece_offsets[..]);
+        let g = Geometry { flat: &flat, space: &space, view, edges, pieces, piece_offsets };
+        let ids: Vec<i32> = (0..n as i32).collect();
+        let place = |p: &[f64; 2]| ((if p[1] > 0.0 { total - p[0] } else { p[0] }) * 1e3).round() * 1e-3;
+        let found = cut(&g, &ids, &vec![false; n], 0, limits);
+        let mut lines: Vec<_> =
+            found.iter().map(|l| (l.visible, place(&l.flat[0]), place(&l.flat[l.flat.len() - 1]))).collect();
+        lines.sort_by(|a, b| a.1.total_cmp(&b.1));
+        lines
+    }
+
+    #[test]
+    fn lines_around_a_closed_chain_do_not_depend_on_where_it_begins() {
+        use State::{Hidden as H, Visible as V};
+        // Of a whole of 12: a hidden run of 0.3 is too short; what is visible around it is not, cut or not.
+        let short_gap = [(V, 0.1), (H, 2.9), (V, 3.0), (V, 1.0), (H, 3.0), (V, 1.25), (H, 0.3), (V, 0.45)];
+        // A visible run of 0.2, here or there in two.
+        let short_run = [(V, 0.1), (H, 2.9), (H, 0.1), (V, 2.9), (H, 3.0), (H, 2.9), (V, 0.1)];
+        let noisy = Limits { noise: 0.45, ..LIMITS };
+        for first in 0..short_gap.len() {
+            let found = around(&short_gap, first, &noisy);
+            assert_eq!(found, [(false, 0.1, 3.0), (true, 3.0, 7.0), (false, 7.0, 10.0), (true, 10.0, 0.1)], "{first}");
+        }
+        for first in 0..short_run.len() {
+            let found = around(&short_run, first, &LIMITS);
+            assert_eq!(found, [(true, 3.1, 6.0), (false, 6.0, 3.1)], "{first}");
+        }
+    }
+
+    #[test]
+    fn noise_is_a_few_edges_long_within_bounds() {
+        let noise = |edge: f64| {
+            let flat = [[0.0, 0.0], [edge, 0.0], [edge, edge]];
+            let view = &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+            let edges = &[[0, 1], [1, 2]];
+            let g = Geometry { flat: &flat, space: &[[0.0; 3]; 3], view, edges, pieces: &[], piece_offsets: &[0; 3] };
+            g.noise(&[0, 1], 0.5)
+        };
+        assert_eq!(noise(0.001), 0.5, "never less than what is too short anyway");
+        assert_eq!(noise(0.4), 1.0, "two edges and a half");
+        assert_eq!(noise(100.0), 3.0, "six times what is too short");
+    }
+
     #[test]
     fn equal_states_join_across_mesh_edges() {
         use State::{Hidden as H, Visible as V};

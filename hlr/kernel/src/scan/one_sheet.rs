@@ -92,6 +92,8 @@ mod tests {
         assert!(ring(&[[0, 0], [4, 0], [4, 3]]));
         assert!(ring(&[[0, 0], [2, 0], [4, 0], [4, 3], [0, 3]]));
         assert!(ring(&[[4, 3], [0, 3], [0, 0], [2, 0], [4, 0]]));
+        assert!(ring(&[[0, 0], [1, 0], [1, 1], [0, 1]]), "steps of one unit");
+        assert!(ring(&[[0, 0], [4, 0], [4, 1], [0, 1]]), "steps of one unit upward");
         let m = (1 << 30) - 1;
         assert!(ring(&[[-m, -m], [m, -m], [m, m], [-m, m]]));
     }
