@@ -15,6 +15,7 @@ from hlr.plan.effect import Facts, Planner
 from hlr.plan.options import Options
 from hlr.plan.table import DRAWING
 from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, may_fold_into_itself, no_clashes
+from hlr.scene.creases import creases
 from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, welded, with_wires
 from hlr.scene.needles import supported
@@ -24,7 +25,6 @@ from hlr.scene.topology import (
     MeshFacts,
     between_planes,
     crease_walks,
-    creases,
     folded_back,
     joined,
     mesh_facts,
@@ -69,7 +69,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         coarse = np.array([p.precision for p in parts])[part_of]
         sure = supported(mesh, points, triangles, coarse)
         facets = sure.normals
-        kind[: len(edges)] = creases(sure, bare, crease, len(points))
+        kind[: len(edges)] = creases(sure, bare, crease, points)
         walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part, bare))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,10 +10,6 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.scene.scene import Chains
 from hlr.source.model import EdgeClass, Floats, Ints, PartMesh
-
-LONE_EDGES = 4
-CLEAR_FOLD = 1.5
-"""Fewer connected crease edges than this, none folded by more than so many crease angles, are not drawn."""
 
 STRAIGHT_ON = 30.0
 """Degrees: where more than two creases meet, a line goes on along the straightest if it turns by no more than this, and
@@ -109,30 +104,6 @@ def folded_back(mesh: MeshFacts) -> npt.NDArray[np.bool_]:
     tessellation laps over itself in slivers. Such an edge is a contour to be counted, but not an outline to be drawn.
     """
     return np.asarray((mesh.fold < 0.0) & (mesh.balance == 0))
-
-
-def creases(mesh: MeshFacts, bare: npt.NDArray[np.bool_], crease: float, n_points: int) -> npt.NDArray[np.uint8]:
-    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
-    kind = np.full(len(mesh.edges), 255, np.uint8)
-    count = np.diff(mesh.offsets)
-    kind[bare & (count == 1)] = EdgeClass.BOUNDARY
-    kind[bare & (count > 2)] = EdgeClass.SHARP
-    limit = math.cos(math.radians(crease))
-    kind[bare & (mesh.fold < limit)] = EdgeClass.SHARP
-    clear = ~(mesh.fold >= math.cos(math.radians(min(CLEAR_FOLD * crease, 180.0))))
-    kind[_lone_folds(kind, mesh.edges, clear, n_points)] = 255
-    return kind
-
-
-def _lone_folds(kind: npt.NDArray[np.uint8], edges: Ints, clear: npt.NDArray[np.bool_], n: int) -> Ints:
-    """Edges of figures of a few slight folds that begin and end nowhere: a scan's roughness, no edge of the shape."""
-    chosen = np.flatnonzero(kind != 255).astype(np.int32)
-    if len(chosen) == 0:
-        return chosen
-    figure = _kernel.edge_components(np.ascontiguousarray(edges[chosen]), n)
-    slight = (np.bincount(figure) < LONE_EDGES) & (np.bincount(figure, weights=clear[chosen]) == 0)
-    lone: Ints = chosen[slight[figure]]
-    return lone
 
 
 def crease_walks(

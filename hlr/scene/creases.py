@@ -1,0 +1,103 @@
+"""Which edges of a bare mesh are creases: by the fold there, and by what the edge continues.
+
+A limit alone makes lines that come and go where the fold is near it. As in Canny's edge detector there are two: a line
+that folds by more than the crease angle goes on while the fold stays near it, and what is nowhere clearly a crease and
+ends within smooth surfaces is none.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.scene.topology import STRAIGHT_ON, MeshFacts
+from hlr.source.model import EdgeClass, Floats, Ints
+
+Bools = npt.NDArray[np.bool_]
+Kinds = npt.NDArray[np.uint8]
+
+SLACK = 0.05
+"""Degrees: a fold of the crease angle itself is a crease, however its coordinates were rounded."""
+
+NEAR_FOLD = 0.8
+"""Of the crease angle: an edge that folds by more goes on with a crease that would end at it."""
+
+CLEAR_FOLD = 1.5
+"""Crease angles: what folds by more is an edge of the shape, wherever it ends."""
+
+LONE_EDGES = 4
+"""Fewer connected edges than this, none of them clear, are a scan's roughness even if they close."""
+
+
+def creases(mesh: MeshFacts, bare: Bools, crease: float, points: Floats) -> Kinds:
+    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
+    kind = np.full(len(mesh.edges), 255, np.uint8)
+    count = np.diff(mesh.offsets)
+    kind[bare & (count == 1)] = EdgeClass.BOUNDARY
+    kind[bare & (count > 2)] = EdgeClass.SHARP
+    kind[bare & (mesh.fold < _cosine(crease - SLACK))] = EdgeClass.SHARP
+    near = np.flatnonzero(bare & (kind == 255) & (mesh.fold < _cosine(NEAR_FOLD * crease)))
+    kind[_continuing(kind, mesh.edges, near, points)] = EdgeClass.SHARP
+    # Also where there is no fold, at a border.
+    clear = ~(mesh.fold >= _cosine(CLEAR_FOLD * crease))
+    kind[_slight(kind, mesh.edges, clear, len(points))] = 255
+    return kind
+
+
+def _cosine(degrees: float) -> float:
+    return math.cos(math.radians(min(max(degrees, 0.0), 180.0)))
+
+
+def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Floats) -> list[int]:
+    """Of the edges `near`, those that go straight on where a crease would end, one after another.
+
+    What branches off a crease does not: the sides of a prism of 14 faces end at its rims, and stay smooth.
+    """
+    chosen = np.flatnonzero(kind != 255)
+    degree = np.bincount(edges[chosen].ravel(), minlength=len(points))
+    at_end = (degree[edges[chosen]] == 1).any(axis=1)
+    ends = [
+        (before, end) for a, b in edges[chosen[at_end]].tolist() for before, end in ((a, b), (b, a)) if degree[end] == 1
+    ]
+    around: dict[int, list[int]] = {}
+    for e, (a, b) in zip(near.tolist(), edges[near].tolist(), strict=True):
+        around.setdefault(a, []).append(e)
+        around.setdefault(b, []).append(e)
+    straight = math.cos(math.radians(STRAIGHT_ON))
+    found: list[int] = []
+    taken: set[int] = set()
+    for first, last in ends:
+        before, end = first, last
+        while degree[end] == 1:
+            ahead = _unit(points[end] - points[before])
+            on = [(e, int(edges[e].sum()) - end) for e in around.get(end, []) if e not in taken]
+            turns = [float((ahead * _unit(points[other] - points[end])).sum()) for _, other in on]
+            if not turns or max(turns) < straight:
+                break
+            edge, other = on[int(np.argmax(turns))]
+            taken.add(edge)
+            found.append(edge)
+            degree[[end, other]] += 1
+            before, end = end, other
+    return found
+
+
+def _slight(kind: Kinds, edges: Ints, clear: Bools, n: int) -> Ints:
+    """Edges of figures of which none is clear, and which are short or end within smooth surfaces."""
+    chosen = np.flatnonzero(kind != 255).astype(np.int32)
+    if len(chosen) == 0:
+        return chosen
+    ends = edges[chosen]
+    figure = _kernel.edge_components(np.ascontiguousarray(ends), n)
+    single = (np.bincount(ends.ravel(), minlength=n) == 1)[ends].sum(axis=1)
+    open_ended = np.bincount(figure, weights=single) >= 2
+    slight = (open_ended | (np.bincount(figure) < LONE_EDGES)) & (np.bincount(figure, weights=clear[chosen]) == 0)
+    lone: Ints = chosen[slight[figure]]
+    return lone
+
+
+def _unit(v: Floats) -> Floats:
+    return np.asarray(v / (math.sqrt(float((v * v).sum())) or 1.0))

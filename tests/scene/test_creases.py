@@ -1,0 +1,72 @@
+"""Creases of meshes near the crease angle: lines that neither come and go, nor begin and end in smooth surfaces."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hard.shapes import rotation
+
+import hlr
+
+
+def prism(sides: int) -> tuple[np.ndarray, np.ndarray]:
+    """A prism, turned, in single precision; each of its upright edges is three long."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    ring = np.stack([20 * np.cos(angle), 20 * np.sin(angle)], axis=1)
+    points = np.concatenate([np.column_stack([ring, np.full(sides, z)]) for z in (0, 20, 40, 60)])
+    points = np.concatenate([points, [(0, 0, 0), (0, 0, 60)]]) @ rotation((1, 2, 3), 0.7).T
+    faces = []
+    for i in range(sides):
+        j = (i + 1) % sides
+        for k in range(3):
+            p, s, q, t = k * sides + i, k * sides + j, (k + 1) * sides + i, (k + 1) * sides + j
+            faces += [(p, s, q), (s, t, q)]
+        faces += [(4 * sides, j, i), (4 * sides + 1, 3 * sides + i, 3 * sides + j)]
+    return points.astype(np.float32).astype(float), np.array(faces)
+
+
+def ridge(folds: list[float]) -> tuple[np.ndarray, np.ndarray]:
+    """A sheet with a ridge along the middle, that folds by so many degrees at each of its places."""
+    x = np.array([-40.0, -20.0, 0.0, 20.0, 40.0])
+    y = 10.0 * np.arange(len(folds))
+    # Only the middle strip is bent; the outer ones level out gently.
+    slope = np.tan(np.radians(np.array(folds) / 2))
+    z = np.stack([-0.9 * 20 * slope - 20 * 0.5 * slope, -20 * slope, 0 * slope, -20 * slope, -1.4 * 20 * slope], axis=0)
+    points = np.stack([np.repeat(x, len(y)), np.tile(y, 5), z.ravel()], axis=1)
+    at = np.arange(len(points)).reshape(5, len(y))
+    a, b, c, d = at[:-1, :-1].ravel(), at[1:, :-1].ravel(), at[1:, 1:].ravel(), at[:-1, 1:].ravel()
+    return points, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+
+
+def sharp(source: object, **options: object) -> float:
+    """Millimetres of creases."""
+    drawing = hlr.draw(source, "iso", **options)
+    steps = (np.diff(line.points3, axis=0) for line in drawing.lines if line.kind == "sharp")
+    return sum(float(np.sqrt((step**2).sum(axis=1)).sum()) for step in steps)
+
+
+def rims(sides: int) -> float:
+    return 2 * sides * 2 * 20 * np.sin(np.pi / sides)
+
+
+@pytest.mark.parametrize("sides", [6, 8, 12])
+def test_a_nut_keeps_all_its_edges(sides: int) -> None:
+    assert sharp(prism(sides)) == pytest.approx(rims(sides) + sides * 60, rel=1e-3)
+
+
+@pytest.mark.parametrize("sides", [13, 14, 15, 16])
+def test_near_the_limit_a_cylinder_is_still_smooth(sides: int) -> None:
+    assert sharp(prism(sides)) == pytest.approx(rims(sides), rel=1e-3)
+
+
+def test_a_crease_near_the_limit_goes_on() -> None:
+    waver = [60, 60, 45, 31, 28, 31, 28, 27, 32, 28, 31, 29, 45, 60, 60]
+    assert sharp(ridge(waver)) == pytest.approx(10.0 * (len(waver) - 1), rel=0.01)
+
+
+def test_what_is_hardly_a_crease_and_ends_in_smooth_surfaces_is_none() -> None:
+    assert sharp(ridge([0, 0, 10, 28, 33, 36, 35, 36, 33, 35, 28, 10, 0, 0])) == 0.0
+
+
+def test_what_is_clearly_a_crease_may_end_there() -> None:
+    assert sharp(ridge([0, 0, 10, 28, 33, 50, 55, 50, 33, 35, 28, 10, 0, 0])) > 60.0
