@@ -19,6 +19,7 @@ from hlr.scene.creases import creases
 from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, welded, with_wires
 from hlr.scene.needles import supported
+from hlr.scene.outward import inside_out, surfaces_turned, turned_outward
 from hlr.scene.repair import anything_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
 from hlr.scene.topology import (
@@ -78,6 +79,10 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     whole = brep & (np.bincount(edge_part[balance != 0], minlength=len(parts)) == 0)
     group_of, group_part = grouped(whole, triangles, part_of, len(points))
     groups = checked(points, triangles, group_of, group_part, edges, offsets, incident, balance, brep, curved)
+    inward = inside_out(groups, group_part)
+    turned = inward[group_of]
+    if inward.any():
+        groups = turned_outward(groups, inward, triangles, mesh, turned)
     suspect = may_fold_into_itself(points, triangles, mesh, group_of, groups)
     with plan.deciding():
         meeting = _kernel.boxes_meet(groups.low, groups.high)
@@ -87,7 +92,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     else:
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
-    found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, crossed_parts(met, group_part))
+    found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, inward, crossed_parts(met, group_part))
     groups = distrusted(groups, met.through | welded(offsets, incident, group_of, groups))
 
     edge_group = group_of[incident[offsets[:-1]]]
@@ -117,6 +122,9 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     edge_curved[:faced] = np.logical_or.reduceat(curved[incident], offsets[:-1]) if faced else False
     edge_curved[:faced] &= ~folded_back(mesh)
     offsets = np.concatenate([offsets, np.full(len(edges) - faced, offsets[-1], np.int32)])
+    on = _true_surfaces(parts)
+    if on is not None and turned.any():
+        on = surfaces_turned(on, turned, part_of, face)
     if len(points) == 0 or len(edges) == 0:
         raise SourceError("nothing to draw: no part has a face or an edge")
     return Scene(
@@ -125,6 +133,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         triangle_part=part_of,
         triangle_group=group_of,
         triangle_face=face,
+        turned=turned,
         edges=np.ascontiguousarray(edges),
         offsets=offsets,
         incident=incident,
@@ -136,7 +145,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         chains=walks,
         parts=found,
         notes=(*meshed.notes, *notes(found)),
-        true_surfaces=_true_surfaces(parts),
+        true_surfaces=on,
         convex=len(suspect) == 1 and not suspect.any(),
         facets=facets,
     )

@@ -22,12 +22,13 @@ def reports(
     part_of: Ints,
     groups: Groups,
     group_part: Ints,
+    inward: npt.NDArray[np.bool_],
     crossed: Ints,
 ) -> tuple[ScenePart, ...]:
     """Per part what it is and what is wrong with it.
 
     doubled: triangles already left out as duplicates; kind: of all mesh edges; part_of (t,); group_part (g,);
-    crossed: numbers of parts whose surfaces pass through one another.
+    inward: (g,) bool, what had to be turned outward; crossed: numbers of parts whose surfaces pass through one another.
     """
     n = len(parts)
     uses = np.diff(mesh.offsets)
@@ -44,7 +45,7 @@ def reports(
     def groups_of_part(chosen: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
         return np.bincount(group_part[chosen], minlength=n)
 
-    unclosed, outside_in = groups_of_part(~groups.closed), groups_of_part(_inside_out(groups, group_part))
+    unclosed, outside_in = groups_of_part(~groups.closed), groups_of_part(inward)
     triangles = np.bincount(part_of, minlength=n)
     through = set(crossed.tolist())
     out = []
@@ -89,16 +90,6 @@ def notes(parts: tuple[ScenePart, ...]) -> list[Note]:
         more = len(bad) - MOST_NOTES
         text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
         out.append(Note("more-defects", text))
-    return out
-
-
-def _inside_out(groups: Groups, group_part: Ints) -> npt.NDArray[np.bool_]:
-    """(g,) bool: closed and turned inward, but no cavity, which lies within an outer surface of its part."""
-    out = groups.closed & ~groups.cull
-    for g in np.flatnonzero(out):
-        around = groups.cull & (group_part == group_part[g])
-        around &= ((groups.low < groups.low[g]) & (groups.high > groups.high[g])).all(axis=1)
-        out[g] = not around.any()
     return out
 
 

@@ -76,6 +76,7 @@ def checked(
     return Groups(
         closed=closed,
         cull=closed & (volume > 0.0),
+        inward=closed & (volume < 0.0),
         sound=closed & brep[group_part],
         bare=~brep[group_part],
         tight=np.zeros(count, bool),
@@ -111,6 +112,7 @@ def with_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: 
     more = Groups(
         closed=np.concatenate([groups.closed, no]),
         cull=np.concatenate([groups.cull, no]),
+        inward=np.concatenate([groups.inward, no]),
         sound=np.concatenate([groups.sound, ~no]),
         bare=np.concatenate([groups.bare, no]),
         tight=np.concatenate([groups.tight, np.full(m, tight)]),

@@ -20,6 +20,7 @@ class Groups:
 
     closed   (g,) bool: every edge is used as often in one direction as in the other
     cull     (g,) bool: closed, and turned outward: faces turned away need not be looked at
+    inward   (g,) bool: closed, and turned inward, as a cavity is
     sound    (g,) bool: does not pass through itself, as far as its source vouches for it
     bare     (g,) bool: a piece of a mesh without B-rep
     tight    (g,) bool: lines that lie exactly on other groups' triangles
@@ -30,6 +31,7 @@ class Groups:
 
     closed: npt.NDArray[np.bool_]
     cull: npt.NDArray[np.bool_]
+    inward: npt.NDArray[np.bool_]
     sound: npt.NDArray[np.bool_]
     bare: npt.NDArray[np.bool_]
     tight: npt.NDArray[np.bool_]
@@ -130,6 +132,7 @@ class Scene:
     as far as floating point tells. Edges without triangles are wires, or
     intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
     facets (t, 3): normals of bare meshes as far as their coordinates support any, zero where none; None: all is B-rep.
+    turned (t,) bool: listed the other way round by the source, which had the surface inside out.
     """
 
     points: Floats
@@ -137,6 +140,7 @@ class Scene:
     triangle_part: Ints
     triangle_group: Ints
     triangle_face: Ints
+    turned: npt.NDArray[np.bool_]
     edges: Ints
     offsets: Ints
     incident: Ints

@@ -31,8 +31,12 @@ def corner_paint(scene: Scene, looks: Mapping[str, Look]) -> tuple[Colours, Ints
         if look.corners is not None and look.points is not None and look.triangles is not None:
             # Numbers from the end on, until it is known how many others there are.
             first = sum(map(len, painted))
-            kept = _kept(scene.points[scene.triangles[a:b]], look.points[look.triangles])
-            painted.append(look.corners[kept].reshape(-1, 4))
+            corners = scene.triangles[a:b].copy()
+            turned = scene.turned[a:b]
+            corners[turned] = corners[turned][:, [0, 2, 1]]
+            own = look.corners[_kept(scene.points[corners], look.points[look.triangles])]
+            own[turned] = own[turned][:, [0, 2, 1]]
+            painted.append(own.reshape(-1, 4))
             paint[a:b] = -1 - first - np.arange(3 * (b - a), dtype=np.int32).reshape(-1, 3)
     plain = np.array(list(table), np.float32).reshape(-1, 4)
     paint = np.where(paint < 0, len(plain) - 1 - paint, paint).astype(np.int32)

@@ -111,6 +111,8 @@ def shape_diagonal(shape: Any) -> float:
 
     box = Bnd_Box()
     BRepBndLib.AddOptimal_s(shape, box, False, False)
+    if box.IsVoid():  # nothing but triangles without surfaces
+        BRepBndLib.Add_s(shape, box, True)
     if box.IsVoid():
         raise ValueError("the shape is empty")
     return float(np.sqrt(box.SquareExtent()))

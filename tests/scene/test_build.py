@@ -118,7 +118,7 @@ def flags(scene):
         ("box", [(True, True, False)]),
         ("face", [(False, False, False)]),
         ("mesh box", [(True, True, True)]),
-        ("turned", [(True, False, True)]),
+        ("turned", [(True, True, True)]),
         ("hollow", [(True, False, True), (True, True, True)]),
         ("lidless", [(False, False, True)]),
         ("mesh parts", [(True, True, True)] * 3),
@@ -279,8 +279,12 @@ def test_a_part_that_is_not_finite_is_refused():
         build(Meshed([replace(part, points=broken)]), 30.0, 0.05)
 
 
-def test_a_solid_turned_inside_out_is_reported():
+def test_a_solid_turned_inside_out_is_turned_and_reported():
     solid = cq.Shape.cast(cq.Solid.makeBox(5, 5, 5).wrapped.Reversed())
     scene = scene_of(solid)
-    assert not scene.groups.cull.any()
+    assert scene.groups.cull.all() and not scene.groups.inward.any()
+    assert scene.turned.all()
+    p, q, r = np.moveaxis(scene.points[scene.triangles], 1, 0)
+    assert np.einsum("ij,ij->", p, np.cross(q, r)) / 6 == pytest.approx(125)
     assert scene.parts[0].defects
+    assert not scene_of(cq.Workplane().box(5, 5, 5)).turned.any()

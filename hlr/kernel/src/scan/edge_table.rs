@@ -72,9 +72,19 @@ fn jump(mesh: &Mesh, table: &PolygonTable, edge: usize) -> i32 {
     sum
 }
 
+/// Between a triangle that is all but edge-on and one that is not, both turned the same way. Such a strip is nothing on
+/// paper, but what is left and right of it may be far apart: its borders are outlines, as they were if it were edge-on.
+fn beside_edge_on(mesh: &Mesh, table: &PolygonTable, edge: usize) -> bool {
+    let &[s, t] = mesh.incident(edge) else {
+        return false;
+    };
+    let (s, t) = (s as usize, t as usize);
+    table.almost[s] != table.almost[t] && table.facing[s] == table.facing[t]
+}
+
 fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
     let role = mesh.role[edge];
-    if role & DRAWN == 0 && (role & OUTLINE == 0 || jump == 0) {
+    if role & DRAWN == 0 && (role & OUTLINE == 0 || (jump == 0 && !beside_edge_on(mesh, table, edge))) {
         return Fate::Ignored;
     }
     let (a, b) = mesh.ends(edge);

@@ -3,12 +3,18 @@
 use rayon::prelude::*;
 
 use super::mesh::Mesh;
+use crate::exact::Point;
 use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::orient2d;
+
+/// Radians to the line of sight up to which a triangle is seen edge-on but for what its file has rounded.
+const ALMOST: f64 = 2e-5;
 
 pub struct PolygonTable {
     /// +1 toward the viewer, -1 away, 0 edge-on.
     pub facing: Vec<i8>,
+    /// Seen edge-on but for what its file has rounded, though `facing` says toward or away.
+    pub almost: Vec<bool>,
     pub culled: usize,
 }
 
@@ -23,7 +29,11 @@ impl PolygonTable {
             .collect();
         let culled =
             facing.par_iter().zip(mesh.triangle_part).filter(|&(&f, &p)| f < 0 && mesh.parts[p as usize].cull).count();
-        PolygonTable { facing, culled }
+        let almost = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|t| facing[t] != 0 && almost_edge_on(mesh.corners(t)))
+            .collect();
+        PolygonTable { facing, almost, culled }
     }
 
     /// Counted in front of others: not edge-on, and facing the viewer where its part allows culling. A line of sight
@@ -34,4 +44,11 @@ impl PolygonTable {
         let f = self.facing[triangle];
         f > 0 || (f < 0 && !mesh.parts[mesh.triangle_part[triangle] as usize].cull)
     }
+}
+
+fn almost_edge_on((p, q, r): (&Point, &Point, &Point)) -> bool {
+    let way = |a: &Point| [0, 1, 2].map(|k| f64::from(a[k]) - f64::from(p[k]));
+    let (u, v) = (way(q), way(r));
+    let [x, y, z] = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    z * z <= ALMOST * ALMOST * (x * x + y * y)
 }
