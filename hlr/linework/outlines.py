@@ -77,14 +77,15 @@ def _noise(scene: Scene, found: Ints) -> npt.NDArray[np.bool_]:
 
 
 def _chained(scene: Scene, contour: Ints, owner: Ints) -> LineChains:
-    """The face toward the viewer owns the outline; it is chained within that face."""
-    part, face = scene.triangle_part[owner], scene.triangle_face[owner]
-    _, key = np.unique(part.astype(np.int64) << 32 | face.astype(np.int64), return_inverse=True)
+    """The face toward the viewer owns the outline; it is chained within that face, of a mesh within the part."""
+    has_faces = np.array([p.faces > 0 for p in scene.parts], bool)
+    part = scene.triangle_part[owner]
+    face = np.where(has_faces[part], scene.triangle_face[owner], -1)
+    _, key = np.unique((part.astype(np.int64) << 32) + face, return_inverse=True)
     offsets, order, backward = _kernel.chain(
         np.ascontiguousarray(scene.edges[contour]), np.ascontiguousarray(key.ravel().astype(np.int32))
     )
     head = order[offsets[:-1]]
-    has_faces = np.array([p.faces > 0 for p in scene.parts], bool)
     return LineChains(
         offsets=offsets,
         edges=contour[order],
@@ -92,7 +93,7 @@ def _chained(scene: Scene, contour: Ints, owner: Ints) -> LineChains:
         kind=np.full(len(head), EdgeClass.OUTLINE, np.uint8),
         part=part[head].astype(np.int32),
         edge=np.full(len(head), -1, np.int32),
-        face=np.where(has_faces[part[head]], face[head], -1).astype(np.int32),
+        face=face[head].astype(np.int32),
         other=np.full(len(head), -1, np.int32),
         noisy=np.ones(len(head), bool),
         straight=np.zeros(len(head), bool),

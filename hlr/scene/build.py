@@ -82,6 +82,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     inward = inside_out(groups, group_part)
     turned = inward[group_of]
     if inward.any():
+        facets = None if facets is None else np.where(turned[:, None], -facets, facets)
         groups = turned_outward(groups, inward, triangles, mesh, turned)
     suspect = may_fold_into_itself(points, triangles, mesh, group_of, groups)
     with plan.deciding():

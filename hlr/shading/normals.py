@@ -14,6 +14,9 @@ Normals = npt.NDArray[np.float32]
 FLAT = np.int32(-1)
 """In place of a number: the triangle's own normal."""
 
+LEVEL = 1e-3
+"""Radians between the triangles of a face up to which it is a plane, and shaded as one."""
+
 
 def corner_normals(scene: Scene, threads: int = 0) -> tuple[Normals, Ints]:
     """Unit normals (k, 3), and (t, 3) which of them each corner has; FLAT where the triangle has its own."""
@@ -61,7 +64,8 @@ def _up_to_creases(scene: Scene, facets: Floats, bare: npt.NDArray[np.bool_]) ->
 
     Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each counts with its
     angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets", Journal of Graphics
-    Tools 3, 1998): how a fan is triangulated makes no difference.
+    Tools 3, 1998): how a fan is triangulated makes no difference. Where a file's face is a plane, that has one normal
+    up to its border, which is also that of the rounds that run into it.
     """
     triangles = scene.triangles
     count = np.diff(scene.offsets)
@@ -83,13 +87,32 @@ def _up_to_creases(scene: Scene, facets: Floats, bare: npt.NDArray[np.bool_]) ->
     _, fan = np.unique(component, return_inverse=True)
 
     p = scene.points[triangles]
-    sums = np.zeros((int(fan.max(initial=-1)) + 1, 3))
+    face, level = _faces(scene, facets)
+    plane = level[face]
+    touched = np.zeros(int(fan.max(initial=-1)) + 1, bool)
+    touched[fan.reshape(-1, 3)[plane]] = True
+    sums = np.zeros((len(touched), 3))
     for k in range(3):
         a, b = _unit(p[:, (k + 1) % 3] - p[:, k]), _unit(p[:, (k + 2) % 3] - p[:, k])
         angle = np.arccos(np.clip((a * b).sum(axis=1), -1.0, 1.0))
+        angle[touched[fan[k::3]] & ~plane] = 0.0
         for axis in range(3):
             sums[:, axis] += np.bincount(fan[k::3], weights=angle * facets[:, axis], minlength=len(sums))
-    return _unit(sums).astype(np.float32), fan.reshape(-1, 3).astype(np.int32)
+    mean = _mean(face, facets)
+    shared = np.where(plane[:, None], len(sums) + face[:, None], fan.reshape(-1, 3)).astype(np.int32)
+    return np.concatenate([_unit(sums), mean]).astype(np.float32), shared
+
+
+def _faces(scene: Scene, facets: Floats) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
+    """(t,) number of the file's face that a triangle belongs to, and (f,) bool: all its triangles have one normal."""
+    _, face = np.unique((scene.triangle_part.astype(np.int64) << 32) + scene.triangle_face, return_inverse=True)
+    off = np.abs(facets - _mean(face, facets)[face]).max(axis=1) > LEVEL
+    off &= np.abs(facets).max(axis=1) > 0.0
+    return face, np.asarray(np.bincount(face, off) == 0)
+
+
+def _mean(face: npt.NDArray[np.intp], facets: Floats) -> Floats:
+    return _unit(np.stack([np.bincount(face, facets[:, axis]).astype(np.float64) for axis in range(3)], axis=1))
 
 
 def _unit(v: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

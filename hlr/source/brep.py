@@ -258,8 +258,9 @@ class _Shared:
             # Tessellated geometry: faces are loose triangles, and what they share must be found by position.
             joined = clean(self.points, self.triangles)
             self.points, self.triangles = joined.points, joined.triangles
-            self.triangle_face = np.zeros(len(self.triangles), dtype=np.int32)
-            self.face_planar = np.zeros(1, dtype=bool)
+            self.triangle_face = self.triangle_face[joined.kept]
+            # Of a round of few facets a face may be one: it may show an outline though it is flat.
+            self.face_planar = np.zeros(len(self.face_planar), dtype=bool)
             self.brep = False
             self.precision = joined.precision
             self.on_surfaces = None

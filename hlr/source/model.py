@@ -76,7 +76,7 @@ class PartMesh:
 
     points            (n, 3) float64; a node on an edge is one node, shared by the faces that meet there
     triangles         (m, 3) int32 into points; counter-clockwise seen from outside
-    triangle_face     (m,)   int32: index of the face in the part's TopExp face map; 0 for meshes
+    triangle_face     (m,)   int32: index of the face in the part's TopExp face map; 0 where a file knows no faces
     face_planar       (k,)   bool per face of that map (a planar face has no outline of its own)
     edge_nodes        (p,)   int32 into points: the polylines of all edges, one after another
     edge_offsets      (e+1,) int32 into edge_nodes
