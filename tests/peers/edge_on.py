@@ -112,7 +112,7 @@ def judge(drawing: hlr.Drawing, truth: Truth) -> Faults:
     assert view.projection == "orthographic"
     right, up, toward = (np.array(v) for v in (view.right, view.up, view.direction))
     per_model = drawing.scale * drawing.unit
-    used = float(drawing.accuracy["used"])
+    used = drawing.accuracy.used
     step = used / per_model
     frame = np.stack([right, up], axis=1)
     origin = np.array(drawing.origin)
