@@ -7,10 +7,12 @@
 
 from __future__ import annotations
 
+from hlr.surfaces.memory import frame_memory, method_memory, peak_memory
 from hlr.surfaces.methods import METHODS
 from hlr.surfaces.painters import PaintersList, painters_list
 from hlr.surfaces.polygons import Polygons
 from hlr.surfaces.quadric import quadric_depths
+from hlr.surfaces.ray import Hit, ray_hits
 from hlr.surfaces.render import NotFinishedError, Rendering, Statistics, render
 from hlr.surfaces.rows import active_edges, crossing_pairs, spans
 from hlr.surfaces.trace import trace_svg
@@ -21,6 +23,7 @@ __all__ = [
     "METHODS",
     "SCREEN",
     "BspTree",
+    "Hit",
     "NotFinishedError",
     "PaintersList",
     "Polygons",
@@ -29,8 +32,12 @@ __all__ = [
     "Statistics",
     "active_edges",
     "crossing_pairs",
+    "frame_memory",
+    "method_memory",
     "painters_list",
+    "peak_memory",
     "quadric_depths",
+    "ray_hits",
     "render",
     "spans",
     "trace_svg",

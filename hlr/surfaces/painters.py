@@ -11,13 +11,14 @@ from hlr.source.model import Floats, Ints
 from hlr.surfaces.limits import limits
 from hlr.surfaces.polygons import polygons_of
 from hlr.surfaces.viewport import Screen, Window, viewport
+from hlr.values import ByValue
 from hlr.view.camera import Camera
 
 PAINTERS = ("depth sort", "bsp")
 
 
-@dataclass(frozen=True, slots=True)
-class PaintersList:
+@dataclass(frozen=True, slots=True, eq=False)
+class PaintersList(ByValue):
     """Pieces of polygons, far to near.
 
     ids (p,) int32 polygon of each piece; polygons (p + 1,), loops (l + 1,): where pieces and loops begin;

@@ -14,12 +14,13 @@ from hlr.errors import OptionError
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
 from hlr.surfaces.limits import Limits, limits
+from hlr.values import ByValue
 
 RULES = ("even-odd", "non-zero")
 
 
-@dataclass(frozen=True, slots=True)
-class Polygons:
+@dataclass(frozen=True, slots=True, eq=False)
+class Polygons(ByValue):
     """Polygons with holes, concave or crossing themselves; the id of a polygon is its number.
 
     points    (n, 3) coordinates

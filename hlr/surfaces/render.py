@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.methods import checked
 from hlr.surfaces.polygons import Polygons, polygons_of
 from hlr.surfaces.viewport import Screen, Viewport, Window, viewport
+from hlr.values import ByValue
 from hlr.view.camera import Camera
 
 __all__ = ["SHADING", "NotFinishedError", "Rendering", "Statistics", "render", "rendering"]
@@ -34,7 +35,8 @@ class Statistics:
     rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
     memory: bytes of the method's own tables and buffers, its frame included, at their largest
     prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else;
-              of the thread's own work where the system tells it (Linux), else as they passed
+              of the thread's own work where the system tells it (Linux), else as they passed; equal statistics may
+              differ in these three
     """
 
     polygons: int
@@ -56,13 +58,13 @@ class Statistics:
     swaps: int
     settled: int
     memory: int
-    prepared: float
-    setup: float
-    seconds: float
+    prepared: float = field(compare=False)
+    setup: float = field(compare=False)
+    seconds: float = field(compare=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Rendering:
+@dataclass(frozen=True, slots=True, eq=False)
+class Rendering(ByValue):
     """A picture; unpacks as ids, depth, statistics.
 
     ids      (height, width) int32: the nearest polygon at each pixel's centre, -1 where there is none
