@@ -44,6 +44,10 @@ WINDOW = click.option(
     help="Only this rectangle of the drawing, millimetres from its lower left corner. What lies outside still hides.",
 )
 
+ANNOTATIONS = click.option(
+    "--annotations", is_flag=True, help="STEP: also faces of annotation, hidden or supplemental in the file."
+)
+
 CHOICE = (
     click.option(
         "--only",
@@ -53,6 +57,7 @@ CHOICE = (
     ),
     click.option("--hide", metavar="PART", multiple=True, help="Leave these parts out. May be repeated."),
     click.option("--var", metavar="NAME", help="Scripts: the variable to draw, instead of what the script shows."),
+    ANNOTATIONS,
 )
 """Which parts are drawn."""
 

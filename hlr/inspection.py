@@ -12,15 +12,22 @@ from hlr.source.model import Progress
 from hlr.tolerance import ANGLE, SMALL_DRAWING
 
 
-def info(source: Any, *, crease: float = 30.0, progress: Progress | None = None, var: str | None = None) -> ModelInfo:
+def info(
+    source: Any,
+    *,
+    crease: float = 30.0,
+    progress: Progress | None = None,
+    var: str | None = None,
+    annotations: bool = False,
+) -> ModelInfo:
     """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size.
 
-    var: the variable of a script, instead of what it shows.
+    var: the variable of a script, instead of what it shows; annotations: with faces of annotation in STEP files.
     """
     check_crease(crease)
     tell = progress or (lambda _stage, _done: None)
     tell("source", 0.0)
-    opened = open_source(source, var)
+    opened = open_source(source, var, annotations)
     bounds = opened.bounds()
     size = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5)
     tell("tessellate", 0.0)

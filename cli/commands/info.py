@@ -12,6 +12,7 @@ from ..meter import meter
 from ..streams import result_only
 from ..telling import tell_notes
 from ..verb import Verb
+from ..view_options import ANNOTATIONS
 
 if TYPE_CHECKING:
     from hlr.scene.report import ModelInfo, PartReport
@@ -30,9 +31,10 @@ _LONGEST_NAME = 40
     help="Meshes: fold that counts as an edge. Default: 30.",
 )
 @click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
+@ANNOTATIONS
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def info(source: str, crease: float, var: str | None, as_json: bool, quiet: bool) -> None:
+def info(source: str, crease: float, var: str | None, annotations: bool, as_json: bool, quiet: bool) -> None:
     """Say what SOURCE consists of, part by part, and what is wrong with it.
 
     closed: every edge has a face on both sides, and the faces agree on what is outside.
@@ -43,7 +45,8 @@ def info(source: str, crease: float, var: str | None, as_json: bool, quiet: bool
         with meter(quiet) as progress:
             import hlr
 
-            model = hlr.info(source, crease=crease, progress=progress, **({} if var is None else {"var": var}))
+            chosen = {} if var is None else {"var": var}
+            model = hlr.info(source, crease=crease, progress=progress, annotations=annotations, **chosen)
         if as_json:
             import json
 

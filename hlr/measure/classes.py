@@ -46,7 +46,7 @@ def measured(
     if drawing.request is None:
         raise OptionError("this drawing does not know what it was asked for: measure one that hlr.draw has made")
     started = perf_counter()
-    opened = open_source(source)
+    opened = open_source(source, annotations=drawing.request.options.annotations)
     paper = Paper.of(drawing)
     forms = (written(drawing), written(drawing, cubic=True))
     meshes = Errors(None, why="the model is no mesh")

@@ -60,7 +60,7 @@ class PreviewOptions:
     smooth       with edges: also tangent edges, thin
     crease       degrees: a mesh without B-rep is smooth where it folds less than this
     accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
-    up, perspective, threads, strict, only, hide, var   as of a drawing (`Options`)
+    up, perspective, threads, strict, only, hide, var, annotations   as of a drawing (`Options`)
     """
 
     size: tuple[int, int] = (1920, 1080)
@@ -82,6 +82,7 @@ class PreviewOptions:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+    annotations: bool = False
     look: str = "shaded"
 
 
@@ -106,6 +107,7 @@ class PreviewWishes(TypedDict, total=False):
     only: tuple[str, ...]
     hide: tuple[str, ...]
     var: str | None
+    annotations: bool
     strict: bool
     look: str
 
@@ -262,4 +264,5 @@ def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale
         only=options.only,
         hide=options.hide,
         var=options.var,
+        annotations=options.annotations,
     )

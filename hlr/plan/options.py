@@ -54,6 +54,7 @@ class Options:
     only, hide   patterns of parts: only those are drawn, or all but those; letters of any case, * and ? as in file
                  names; a name without its number means all of that name, that of an assembly all that is in it
     var          the variable of a script to draw, instead of what it shows
+    annotations  draw the faces of annotation in STEP files: those that the file hides, or calls supplemental geometry
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
     within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
     """
@@ -78,6 +79,7 @@ class Options:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+    annotations: bool = False
 
 
 class Wishes(TypedDict, total=False):
@@ -100,6 +102,7 @@ class Wishes(TypedDict, total=False):
     only: tuple[str, ...]
     hide: tuple[str, ...]
     var: str | None
+    annotations: bool
     strict: bool
     report: bool
     within: float | None

@@ -23,7 +23,7 @@ NARROWEST, WIDEST = 0.01, 170.0
 
 def checked(options: Options) -> Options:
     """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
-    for name in ("hidden", "smooth", "seam", "intersections", "fill", "circles", "strict", "report"):
+    for name in ("hidden", "smooth", "seam", "intersections", "fill", "circles", "strict", "report", "annotations"):
         value = getattr(options, name)
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")

@@ -13,7 +13,7 @@ from hlr.source.model import Source
 __all__ = ["ENDINGS", "open_source"]
 
 
-def open_source(thing: Any, var: str | None = None) -> Source:
+def open_source(thing: Any, var: str | None = None, annotations: bool = False) -> Source:
     """Open anything that can be drawn.
 
     Args:
@@ -21,13 +21,14 @@ def open_source(thing: Any, var: str | None = None) -> Source:
             list of CAD objects, or a pair (vertices (n, 3), faces (m, 3)). A source that is open already stays as it
             is.
         var: the variable of a script to draw, instead of what it shows.
+        annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
 
     Raises:
         SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
         OptionError: it has no such variable.
     """
     if isinstance(thing, str | os.PathLike):
-        return _open_path(Path(os.fspath(thing)), var)
+        return _open_path(Path(os.fspath(thing)), var, annotations)
     from hlr.source.objects import family
 
     if type(thing).__module__.startswith("hlr.source."):
@@ -69,7 +70,7 @@ def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
     return bool(item) and all(isinstance(row, list | tuple) or hasattr(row, "dtype") for row in item)
 
 
-def _open_path(path: Path, var: str | None) -> Source:
+def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
     from hlr.source.files import check_readable
 
     kind = ENDINGS.get(path.suffix.lower())
@@ -87,7 +88,7 @@ def _open_path(path: Path, var: str | None) -> Source:
     if kind in ("step", "iges"):
         from hlr.source.step import open_iges, open_step
 
-        return open_step(path) if kind == "step" else open_iges(path)
+        return open_step(path, annotations) if kind == "step" else open_iges(path)
     if kind == "brep":
         from hlr.source.brepfile import open_brep
 

@@ -31,13 +31,17 @@ class Choosing(Protocol):
     def var(self) -> str | None:
         """Variable of a script."""
 
+    @property
+    def annotations(self) -> bool:
+        """Also faces of annotation."""
+
 
 def open_chosen(thing: Any, options: Choosing) -> Source:
     """Open whatever `open_source` opens, and leave out what the options leave out.
 
     Raises SourceError; OptionError for a pattern that matches no part, and where no part would be left.
     """
-    source = open_source(thing, options.var)
+    source = open_source(thing, options.var, options.annotations)
     only, hide = tuple(options.only), tuple(options.hide)
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source

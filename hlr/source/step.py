@@ -9,6 +9,8 @@ from typing import Any
 
 from hlr.errors import SourceError
 from hlr.notes import Note
+from hlr.source.annotation import Annotation, entry, may_hold
+from hlr.source.annotation import note as left_out
 from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
 from hlr.source.model import Color, Rgba
@@ -19,8 +21,8 @@ _DEPTH = 200
 """Assemblies nest no deeper than this; a file that refers to itself would never end."""
 
 
-def open_step(path: Path) -> BrepSource:
-    """A STEP file.
+def open_step(path: Path, annotations: bool = False) -> BrepSource:
+    """A STEP file; annotations: with its faces of annotation.
 
     Raises:
         SourceError: not a STEP file, broken, empty, or holding nothing to draw.
@@ -33,7 +35,7 @@ def open_step(path: Path) -> BrepSource:
     reader.SetGDTMode(False)
     reader.SetMatMode(False)
     reader.SetPropsMode(False)
-    return _read(path, "step", reader)
+    return _read(path, "step", reader, annotated=not annotations and may_hold(path))
 
 
 def open_iges(path: Path) -> BrepSource:
@@ -65,7 +67,8 @@ def _is_whole(path: Path) -> bool:
 _LAST = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
 
 
-def _read(path: Path, kind: str, reader: Any, notes: Sequence[Note] = ()) -> BrepSource:
+def _read(path: Path, kind: str, reader: Any, notes: Sequence[Note] = (), annotated: bool = False) -> BrepSource:
+    """annotated: there may be annotation, which is left out."""
     from OCP.IFSelect import IFSelect_ReturnStatus
     from OCP.TCollection import TCollection_ExtendedString
     from OCP.TDocStd import TDocStd_Document
@@ -73,7 +76,7 @@ def _read(path: Path, kind: str, reader: Any, notes: Sequence[Note] = ()) -> Bre
 
     reader.SetNameMode(True)
     reader.SetColorMode(True)
-    reader.SetLayerMode(False)
+    reader.SetLayerMode(annotated)
     document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
     try:
         with quiet():
@@ -84,7 +87,7 @@ def _read(path: Path, kind: str, reader: Any, notes: Sequence[Note] = ()) -> Bre
     if not read:
         raise SourceError(f"{path.name} cannot be read as {kind.upper()}: the file is broken or incomplete.")
     tree = _Tree(XCAFDoc_DocumentTool.ShapeTool_s(document.Main()), XCAFDoc_DocumentTool.ColorTool_s(document.Main()))
-    tree.walk(path.stem)
+    tree.walk(path.stem, Annotation(reader, document) if annotated else None)
     if kind == "iges":
         tree.leaves = [_sewn(leaf) for leaf in tree.leaves]
     if not tree.leaves:
@@ -99,18 +102,30 @@ class _Tree:
         self.shapes, self.colors = shapes, colors
         self.leaves: list[Leaf] = []
         self.notes: list[Note] = []
+        self._annotation: Annotation | None = None
+        self._left_out = 0
         self._details: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
 
-    def walk(self, fallback: str) -> None:
+    def walk(self, fallback: str, annotation: Annotation | None = None) -> None:
+        """Collect the leaves; annotation: what is left out of them, unless nothing else would be left."""
         from OCP.TDF import TDF_LabelSequence
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopLoc import TopLoc_Location
 
         free = TDF_LabelSequence()
         self.shapes.GetFreeShapes(free)
+        self._annotation, self._left_out = annotation, 0
+        self.leaves, self.notes = [], []
         for i in range(1, free.Length() + 1):
-            self._visit(free.Value(i), TopLoc_Location(), None, fallback, 0)
+            self._visit(free.Value(i), TopLoc_Location(), None, fallback, [])
+        if not self._left_out:
+            return
+        if any(explored(leaf.shape, Kind.TopAbs_FACE) for leaf in self.leaves):
+            self.notes.append(left_out(self._left_out))
+        else:
+            self.walk(fallback)
 
-    def _visit(self, label: Any, place: Any, inherited: Rgba | None, fallback: str, depth: int) -> None:
+    def _visit(self, label: Any, place: Any, inherited: Rgba | None, fallback: str, above: list[Any]) -> None:
         from OCP.TDF import TDF_Label, TDF_LabelSequence
 
         product, color = label, self._color(label)
@@ -120,17 +135,23 @@ class _Tree:
             place = place.Multiplied(self.shapes.GetLocation_s(label))
         # A colour set on the instance wins over the assembly's, which wins over the product's own.
         color = color or inherited or (self._color(product) if product is not label else None)
+        under = [*above, label]
         name = _name(product) or _name(label) or fallback
-        if self.shapes.IsAssembly_s(product) and depth < _DEPTH:
+        if self.shapes.IsAssembly_s(product) and len(above) < _DEPTH:
             children = TDF_LabelSequence()
             self.shapes.GetComponents_s(product, children)
             for i in range(1, children.Length() + 1):
-                self._visit(children.Value(i), place, color, name, depth + 1)
+                self._visit(children.Value(i), place, color, name, under)
             return
         shape = self.shapes.GetShape_s(product)
         if shape is None or shape.IsNull():
             self.notes.append(Note("part-left-out", f'Part "{name}" is empty and was left out.'))
             return
+        if self._annotation is not None:
+            shape, faces = self._annotation.without(product, under)
+            self._left_out += faces
+            if shape is None:
+                return
         # A free shape carries its own placement; a product's stands in the reference.
         colors, opacities = self._detail(product)
         leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities)
@@ -140,14 +161,12 @@ class _Tree:
 
     def _detail(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
         """Colours, and opacities below one, of the solids and faces of a product, by underlying shape."""
-        from OCP.TCollection import TCollection_AsciiString
-        from OCP.TDF import TDF_LabelSequence, TDF_Tool
+        from OCP.TDF import TDF_LabelSequence
 
-        entry = TCollection_AsciiString()
-        TDF_Tool.Entry_s(product, entry)
-        known = self._details.get(entry.ToCString())
+        key = entry(product)
+        known = self._details.get(key)
         if known is None:
-            known = self._details[entry.ToCString()] = ({}, {})
+            known = self._details[key] = ({}, {})
             children = TDF_LabelSequence()
             self.shapes.GetSubShapes_s(product, children)
             for i in range(1, children.Length() + 1):

@@ -22,7 +22,7 @@ PATCHED = """
 import ctypes, os, signal, sys
 sys.path.insert(0, {tests!r})
 import hlr.source.step
-def reader(path):
+def reader(path, annotations=False):
     {body}
 hlr.source.step.open_step = reader
 from hlr.cli import main
