@@ -54,6 +54,16 @@ def test_a_shaft_has_its_two_rims(size, off):
     assert length(creases(drawing)) <= 2 * rim * size * 1.001
 
 
+@pytest.mark.parametrize("sides", [4, 36])
+def test_triangles_turned_over_have_the_same_folds(sides):
+    points, triangles = prism(sides)
+    turned = triangles.copy()
+    turned[::5] = turned[::5, ::-1]
+    one, other = (length(creases(hlr.draw((points, t), "iso", fit=(150, 150)))) for t in (triangles, turned))
+    # Every upright edge has a needle, and a line too many or too few there is as long as the prism is high.
+    assert abs(other - one) < HEIGHT / 4
+
+
 @pytest.mark.parametrize("size", [0.01, 1.0, 1000.0])
 @pytest.mark.parametrize("off", [0.0, 0.5, 3.0, 12.0])
 def test_a_box_keeps_its_twelve_edges(size, off):
@@ -82,6 +92,10 @@ def test_precision_of_coordinates():
     for digits, expected in [(9, single), (10, 2.0**-53 * 64.0)]:
         written = np.array([[float(f"{c:.{digits - 1}e}") for c in row] for row in points])
         assert precision(written) == expected
+    # Small numbers have more decimals, and no more digits.
+    small = points * 10.0 ** rng.uniform(-6, 0, points.shape)
+    written = np.array([[float(f"{c:.8e}") for c in row] for row in small])
+    assert precision(written) == 2.0**-24 * np.abs(written).max()
     assert precision(np.round(points * 1e-4, 9)) == 0.5e-9
     assert precision(np.round(points, 10)) < 1e-13
     assert precision(points) < 1e-13

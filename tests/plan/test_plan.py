@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from linework.models import box, parts
 
-from hlr.errors import OptionError
+from hlr.errors import OptionError, ViewError
 from hlr.plan.options import Options, Perspective
 from hlr.plan.plan import DRAWN, OUTLINE, decide
-from hlr.plan.request import checked
+from hlr.plan.request import checked, checked_views
 from hlr.scene.build import build
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
@@ -50,6 +50,11 @@ def test_options_are_frozen_and_their_defaults_pass():
         ({"crease": 180.5}, "crease 180.5"),
         ({"crease": math.nan}, "crease nan"),
         ({"threads": -1}, "-1 threads"),
+        ({"threads": True}, "True threads"),
+        ({"threads": 1025}, "1025 threads.* up to 1024"),
+        ({"within": 0.0}, "0 s leave no time"),
+        ({"within": math.inf}, "inf s leave no time"),
+        ({"within": "2s"}, "'2s' s leave no time"),
     ],
 )
 def test_options_out_of_range(wish, words):
@@ -76,6 +81,18 @@ def test_the_accuracy_of_those_who_do_not_ask():
     assert choose(None, 1e6) == DEFAULT_ACCURACY
     assert choose(None, 10.0) == 10.0 / 2000
     assert choose(None, 0.0) == DEFAULT_ACCURACY
+
+
+@pytest.mark.parametrize("wish", [{"within": 2.5}, {"within": 1}, {"threads": 1024}, {"up": (0, 0, 1)}])
+def test_options_within_range_pass(wish):
+    asked = replace(Options(), **wish)
+    assert checked(asked) is asked
+
+
+@pytest.mark.parametrize("views", [["iso", (0.0, 0.0, 0.0)], [(0, 0, 0)], [(math.nan, 0, 1)], ["sideways"]])
+def test_a_view_from_nowhere_is_refused_before_the_model_is_read(views):
+    with pytest.raises(ViewError):
+        checked_views(views, Options())
 
 
 @pytest.mark.parametrize("diagonal", [1e-3, 0.5, 1.0, 300.0])

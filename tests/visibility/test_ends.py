@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import cadquery as cq
 import numpy as np
 import pytest
@@ -83,3 +85,38 @@ def test_a_chord_is_seen_as_its_probe_up_to_the_outline(asked, expected):
     )
     drawn = list(zip(found.edge.tolist(), found.t0.tolist(), found.t1.tolist(), found.state.tolist(), strict=True))
     assert drawn == [known[0], *expected, known[2]]
+
+
+V, H = VISIBLE, HIDDEN
+
+
+@pytest.mark.parametrize("backward", [False, True])
+@pytest.mark.parametrize(
+    ("states", "met", "expected"),
+    [
+        ([[V], [H], [H], [H], [V]], [], [V, V, V, V, V]),
+        ([[V], [H], [H], [H], [H]], [], [V, H, H, H, H]),
+        ([[V], [H], [H], [H], [H]], [4], [V, V, V, V, H]),
+        ([[H], [H], [H], [H], [V]], [0], [H, V, V, V, V]),
+        ([[H], [H], [H], [H], [H]], [0, 4], [H, H, H, H, H]),
+        # What counts is the end toward the run: hidden here, visible there.
+        ([[V, H], [H], [H], [H], [V]], [], [V, H, H, H, H, V]),
+        ([[V], [H], [H], [H], [V, H]], [], [V, V, V, V, V, H]),
+    ],
+)
+def test_a_face_does_not_hide_its_own_dented_border(states, met, expected, backward):
+    """Edges 1 and 3 of a chain of five are doubtful, and so is 2 between them; another chain follows."""
+    ends_of = np.array([[i, i + 1] for i in range(5)] + [[10, 11]], np.int32)
+    order = np.arange(5)[::-1] if backward else np.arange(5)
+    chains = SimpleNamespace(
+        offsets=np.array([0, 5, 6], np.int32),
+        edges=np.append(order, 5).astype(np.int32),
+        reversed=np.array([backward] * 5 + [False]),
+    )
+    pieces = []
+    for edge, known in enumerate([*states, [H]]):
+        at = np.linspace(0.0, 1.0, len(known) + 1)
+        pieces += [(edge, at[i], at[i + 1], state) for i, state in enumerate(known)]
+    scene = SimpleNamespace(edges=ends_of, chains=chains)
+    found = ends._undented(scene, np.array([1, 3]), np.array(met, int), segments(pieces))
+    assert found.state.tolist() == [*expected, H]

@@ -325,12 +325,17 @@ mod tests {
         use State::{Hidden as H, Visible as V};
         // Of a whole of 12: a hidden run of 0.3 is too short; what is visible around it is not, cut or not.
         let short_gap = [(V, 0.1), (H, 2.9), (V, 3.0), (V, 1.0), (H, 3.0), (V, 1.25), (H, 0.3), (V, 0.45)];
+        let mirrored: Vec<(State, f64)> = short_gap.iter().rev().copied().collect();
         // A visible run of 0.2, here or there in two.
         let short_run = [(V, 0.1), (H, 2.9), (H, 0.1), (V, 2.9), (H, 3.0), (H, 2.9), (V, 0.1)];
         let noisy = Limits { noise: 0.45, ..LIMITS };
         for first in 0..short_gap.len() {
             let found = around(&short_gap, first, &noisy);
             assert_eq!(found, [(false, 0.1, 3.0), (true, 3.0, 7.0), (false, 7.0, 10.0), (true, 10.0, 0.1)], "{first}");
+        }
+        for first in 0..mirrored.len() {
+            let found = around(&mirrored, first, &noisy);
+            assert_eq!(found, [(false, 2.0, 5.0), (true, 5.0, 9.0), (false, 9.0, 11.9), (true, 11.9, 2.0)], "{first}");
         }
         for first in 0..short_run.len() {
             let found = around(&short_run, first, &LIMITS);
