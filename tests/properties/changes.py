@@ -28,6 +28,7 @@ def moved(model: Frozen, matrix: np.ndarray, offset: Sequence[float] = (0.0, 0.0
             points=points,
             triangles=np.ascontiguousarray(part.triangles[:, turn]),
             transform=placed @ part.transform,
+            precision=part.precision * float(np.abs(matrix).max()),
             on_surfaces=_corners(part, lambda corner: corner[:, turn]),
         )
 
