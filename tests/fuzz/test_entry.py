@@ -136,7 +136,7 @@ SOUND |= {
     "within": 5.0,
     "window": (0, 0, 5, 5),
     "only": ("*",),
-    "hide": ("nothing*",),
+    "hide": (),
 }
 
 

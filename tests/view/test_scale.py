@@ -101,9 +101,9 @@ def test_a_tiny_and_a_huge_drawing_say_so():
 def test_the_accuracy_follows_the_size_unless_given():
     assert hlr.draw(box((300, 300, 400)), "right").accuracy.used == 0.05
     small = hlr.draw(box((3, 3, 4)), "right").accuracy
-    assert (small["asked"], small["used"]) == (None, pytest.approx(5 / 2000))
+    assert (small.asked, small.used) == (None, pytest.approx(5 / 2000))
     given = hlr.draw(box((3, 3, 4)), "right", accuracy=0.01).accuracy
-    assert (given["asked"], given["used"]) == (0.01, 0.01)
+    assert (given.asked, given.used) == (0.01, 0.01)
 
 
 @pytest.mark.parametrize("accuracy", [1.0, 0.1, 0.01])
