@@ -9,6 +9,7 @@ NoteCode = Literal[
     "part-left-out",
     "triangles-left-out",
     "wires-left-out",
+    "free-edges-left-out",
     "annotation-left-out",
     "not-meshed",
     "faces-mended",
@@ -27,6 +28,7 @@ CODES: dict[NoteCode, str] = {
     "part-left-out": "a part holds nothing that could be drawn",
     "triangles-left-out": "triangles of a mesh are degenerate, or their corners are no numbers or do not exist",
     "wires-left-out": "edges without faces were given, which a hidden-line drawing has no use of",
+    "free-edges-left-out": "a part of a file has edges without faces beside it: construction lines, axes, sketches",
     "annotation-left-out": "faces that a STEP file hides, or calls supplemental geometry, were left out as annotation",
     "not-meshed": "faces or a whole part could not be triangulated, or not all of a face",
     "faces-mended": "outlines of faces are broken in the model; they were mended to be triangulated",
@@ -41,7 +43,9 @@ CODES: dict[NoteCode, str] = {
 }
 """What each code means. A code keeps its meaning; new ones may be added."""
 
-REMARKS: frozenset[NoteCode] = frozenset({"annotation-left-out", "paper-size", "script-shape", "stray-parts"})
+REMARKS: frozenset[NoteCode] = frozenset(
+    {"annotation-left-out", "free-edges-left-out", "paper-size", "script-shape", "stray-parts"}
+)
 """Codes of what is worth knowing, though the drawing is what was asked for: `strict` makes no errors of them."""
 
 

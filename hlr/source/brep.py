@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from hlr.errors import SourceError, counted
-from hlr.notes import Note
+from hlr.notes import Note, NoteCode
 from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
@@ -64,17 +64,22 @@ class BrepSource:
                 f"{name} holds {counted(edges, 'edge')} but no faces: a hidden-line drawing needs surfaces "
                 "(export solids or shells instead of wires)."
             )
-        # In a file, wires under the name of a part that is drawn are its annotation, sketches or axes, which no drawing
-        # misses: a warning would make every file with dimensions fail where warnings are errors. Wires under a name of
-        # their own, and those that a caller put there, may be something that the reader of the drawing looks for.
+        # In a file, wires under the name of a part that is drawn are its construction lines, axes or sketches. Few
+        # drawings miss them: a remark. Wires under a name of their own, and those that a caller put there, may be
+        # something that the reader of the drawing looks for: a warning.
         drawn = {part.product for part in self._parts if kind not in ("object", "script")}
-        wires = [part for part in wires if part.product not in drawn]
-        if wires:
-            edges = sum(self._counts[part.root][1] for part in wires)
-            text = f"{_some(wires)} without faces ({counted(edges, 'edge')}) left out."
-            self._notes.append(Note("wires-left-out", text))
+        self._note_wires("free-edges-left-out", [part for part in wires if part.product in drawn])
+        self._note_wires("wires-left-out", [part for part in wires if part.product not in drawn])
         self.choice: Choice | None = None
         self._hold(self._roots, self._counts)
+
+    def _note_wires(self, code: NoteCode, wires: list[Part]) -> None:
+        if wires:
+            edges = sum(self._counts[part.root][1] for part in wires)
+            names = sorted({part.product for part in wires})
+            beside = f' beside "{names[0]}"' if code == "free-edges-left-out" and len(names) == 1 else ""
+            text = f"{_some(wires)} without faces ({counted(edges, 'edge')}){beside} left out."
+            self._notes.append(Note(code, text))
 
     @property
     def name(self) -> str:

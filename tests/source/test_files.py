@@ -102,16 +102,20 @@ def test_wires_beside_solids_are_noted(tmp_path):
     assert any("without faces (1 edge) left out" in note.text for note in source.notes)
 
 
-def test_annotation_of_a_drawn_part_is_no_warning(data, tmp_path):
+def test_free_edges_of_a_drawn_part_are_a_remark(data, tmp_path):
+    """Construction lines and axes: counted and named, and no error where warnings are errors."""
     cube, ring = cq.Workplane().box(1, 1, 1).val(), cq.Workplane().circle(3).val()
     cq.exporters.export(cq.Workplane(obj=cq.Compound.makeCompound([cube, ring])), str(tmp_path / "sketched.brep"))
     source = open_source(tmp_path / "sketched.brep")
     assert len(source.mesh(0.1, 0.3).parts) == 1
-    assert source.notes == []
-    # This file holds an empty product for its dimensions, named like the part.
+    (note,) = source.notes
+    assert (note.code, note.is_warning) == ("free-edges-left-out", False)
+    assert "sketched" in note.text and "without faces (1 edge)" in note.text
+    # A part without free edges has no such note.
     assert open_source(data / "nist_ctc_01_asme1_ap242-e1.stp").notes == []
     # What a caller passes is meant.
-    assert open_source([cube, ring]).notes != []
+    (given,) = open_source([cube, ring]).notes
+    assert (given.code, given.is_warning) == ("wires-left-out", True)
 
 
 def test_tessellated_shapes_are_meshes(tmp_path, gaps):
