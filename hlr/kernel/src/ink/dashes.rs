@@ -311,7 +311,7 @@ mod tests {
 
     #[test]
     fn stairs_with_no_room_for_dashes_on_each_step_are_dashed_all_the_same() {
-        let steps = |i: usize| if i % 2 == 0 { straight(1.0, 0.0) } else { straight(1.0, 90.0) };
+        let steps = |i: usize| if i.is_multiple_of(2) { straight(1.0, 0.0) } else { straight(1.0, 90.0) };
         let rows: Vec<Measured> = (0..14).map(steps).chain([straight(20.0, 0.0)]).collect();
         let drawn = ink(&USUAL.fitted(&rows, false, [false; 2]), 34.0);
         // Around a corner two dashes are one.
