@@ -4,7 +4,6 @@ pub mod bind;
 pub mod clash;
 pub mod exact;
 pub mod fill;
-pub mod geometry;
 pub mod ink;
 pub mod lines;
 pub mod measure;

@@ -8,14 +8,14 @@ use rayon::prelude::*;
 
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
-use crate::geometry::curve::Curve;
-use crate::geometry::curve::Vec3;
-use crate::geometry::surface::Surface;
 use crate::lines::View;
 use crate::paper::arc::grow;
 use crate::paper::junction::{Border, Goal, Move, Route, junctions};
 use crate::paper::project::{Projection, Vec2};
 use crate::paper::{Drawn, Form, Placed, located, piece};
+use hlr_brep::geometry::curve::Curve;
+use hlr_brep::geometry::curve::Vec3;
+use hlr_brep::geometry::surface::Surface;
 
 /// Curves from packed records; None where a record makes none.
 pub fn curves(kind: &[u8], offsets: &[i32], values: &[f64]) -> PyResult<Vec<Option<Curve>>> {

@@ -10,7 +10,6 @@ use pyo3::prelude::*;
 use super::guard::caught;
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
-use crate::geometry::surface::Surface;
 use crate::preview::faces::MOST_PIXELS;
 use crate::preview::lens::Lens;
 use crate::preview::maps::seen;
@@ -23,6 +22,7 @@ use crate::preview::shadow::Shadow;
 use crate::preview::stroke::{Piece, stroke};
 use crate::preview::workspace::Workspace;
 use crate::preview::{Model, NOTHING};
+use hlr_brep::geometry::surface::Surface;
 
 /// right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: see `preview/lens.rs`.
 pub type LensTuple = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, [f64; 2], f64, [f64; 2], [usize; 2]);

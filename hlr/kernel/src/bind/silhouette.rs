@@ -7,11 +7,11 @@ use pyo3::types::PyDict;
 
 use super::running::run;
 use super::scan::{check_incidence, expect_below, expect_len, flat, rows};
-use crate::geometry::curve::Curve;
-use crate::geometry::surface::Surface;
 use crate::lines::View;
 use crate::silhouette::trace::{Traced, trace};
 use crate::silhouette::{FaceRecord, Model};
+use hlr_brep::geometry::curve::Curve;
+use hlr_brep::geometry::surface::Surface;
 
 const TURN: [f64; 2] = [0.0, std::f64::consts::TAU];
 

@@ -1,7 +1,7 @@
 //! Ellipses on paper: principal axes from conjugate ones, and the image of a circle under a central projection.
 
 use super::project::Vec2;
-use crate::geometry::curve::Vec3;
+use hlr_brep::geometry::curve::Vec3;
 
 /// centre + cos s axes[0] + sin s axes[1], the axes perpendicular, the longer one first.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use super::arc::grow;
 use super::project::{Paper, Vec2};
-use crate::geometry::nurbs::find_span;
+use hlr_brep::geometry::nurbs::find_span;
 
 /// degree k + 1 points for k pieces; degree 2 or 3.
 #[derive(Clone, Debug, PartialEq)]

@@ -16,8 +16,8 @@ use rayon::prelude::*;
 use super::Placed;
 use super::fit::{length, minus};
 use super::project::Vec2;
-use crate::geometry::curve::Vec3;
 use crate::lines::View;
+use hlr_brep::geometry::curve::Vec3;
 
 /// In accuracies: how far the other line's polyline may be from the change, where one of the two is an outline: outlines
 /// are compared with the tessellation beside it, not on it.

@@ -3,7 +3,7 @@
 use super::Placed;
 use super::fit::{dot, length, minus};
 use super::project::Vec2;
-use crate::geometry::curve::{Curve, Vec3};
+use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Places looked at per span of a B-spline before Newton's method begins.
 const PLACES: usize = 8;

@@ -24,7 +24,7 @@ use bezier::Chain;
 use locate::Track;
 use project::{Paper, Projection, Vec2};
 
-use crate::geometry::curve::{Curve, Vec3};
+use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Of the accuracy: what a fitted curve may be off. Lines that end on another's true curve are as far from what is drawn.
 const FIT: f64 = 0.1;

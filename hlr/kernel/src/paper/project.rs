@@ -1,8 +1,8 @@
 //! Curves projected to paper: the same affine forms with homogeneous plane vectors, so that parallel and central
 //! projection differ in nothing but a third coordinate that is constant or not.
 
-use crate::geometry::curve::{Curve, Vec3};
-use crate::geometry::nurbs::{basis, find_span};
+use hlr_brep::geometry::curve::{Curve, Vec3};
+use hlr_brep::geometry::nurbs::{basis, find_span};
 
 pub type Vec2 = [f64; 2];
 

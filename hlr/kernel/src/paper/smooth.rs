@@ -17,9 +17,9 @@ use super::bezier::{Chain, at};
 use super::contour_fit::Fitting;
 use super::fit::{dot, length, minus};
 use super::project::Vec2;
-use crate::geometry::curve::Vec3;
 use crate::lines::simplify::off;
 use crate::lines::{Polyline, View, distance};
+use hlr_brep::geometry::curve::Vec3;
 
 /// Of the accuracy: how far a vertex may move.
 const MOVE: f64 = 0.5;

@@ -7,7 +7,7 @@ use super::lens::Lens;
 use super::near::cut;
 use super::raster::Sampling;
 use super::workspace::Workspace;
-use crate::geometry::vector::Vector;
+use hlr_brep::geometry::vector::Vector;
 
 /// Steps of the grid in a pixel.
 pub const GRID: i32 = 256;

@@ -1,6 +1,6 @@
 //! From the model into the picture: x right, y down, in pixels; depth grows away from the viewer.
 
-use crate::geometry::vector::{Vector, dot, sub};
+use hlr_brep::geometry::vector::{Vector, dot, sub};
 
 #[derive(Clone, Debug)]
 pub struct Lens {

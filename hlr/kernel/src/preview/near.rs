@@ -11,7 +11,7 @@
 //! Always from the inner to the outer point: two triangles with one edge cut it in the same bits.
 
 use super::lens::Lens;
-use crate::geometry::vector::{Vector, along, sub};
+use hlr_brep::geometry::vector::{Vector, along, sub};
 
 /// How far beyond the border, in widths and heights of the picture, faces may reach uncut.
 const BEYOND: f64 = 0.25;

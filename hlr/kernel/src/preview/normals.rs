@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::geometry::surface::Surface;
-use crate::geometry::vector::{Vector, cross, dot, sub, unit};
+use hlr_brep::geometry::surface::Surface;
+use hlr_brep::geometry::vector::{Vector, cross, dot, sub, unit};
 
 /// The mesh, and where its corners lie on the surfaces of its faces.
 pub struct OnSurfaces<'a> {

@@ -17,7 +17,7 @@ use super::lens::Lens;
 use super::maps::Seen;
 use super::surface::Surface;
 use super::{Model, NOTHING};
-use crate::geometry::vector::{Vector, along, dot, sub};
+use hlr_brep::geometry::vector::{Vector, along, dot, sub};
 
 const SAMPLES: usize = 20;
 const TURNS: f64 = 7.0;

@@ -6,7 +6,7 @@ use super::occlusion::Occlusion;
 use super::resolve::Encoder;
 use super::shadow::Shadow;
 use super::surface::{Surface, normals};
-use crate::geometry::vector::{add, dot, sub, unit};
+use hlr_brep::geometry::vector::{add, dot, sub, unit};
 
 pub struct Light {
     /// Unit vector from the model toward the light, in the model.

@@ -15,7 +15,7 @@ use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
 use super::tiles::each_tile;
 use super::workspace::Workspace;
 use super::{Model, NOTHING};
-use crate::geometry::vector::{Vector, along, dot};
+use hlr_brep::geometry::vector::{Vector, along, dot};
 
 /// In texels: how far along its normal a point is moved before it is looked up, so that no surface shades itself.
 const LIFT: f64 = 3.0;

@@ -7,7 +7,7 @@
 
 use super::Model;
 use super::lens::Lens;
-use crate::geometry::vector::{Vector, cross, dot, sub, unit};
+use hlr_brep::geometry::vector::{Vector, cross, dot, sub, unit};
 
 #[derive(Clone, Debug)]
 pub struct Surface {

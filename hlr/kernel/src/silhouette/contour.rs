@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::face::{Face, Place, mean, root};
 use super::refine::{outward, rise};
 use super::{Model, TIE};
-use crate::geometry::vector::{Vector, cross, dot, length, sub, unit};
+use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub, unit};
 
 /// Sine: a triangle seen at less is edge-on, and rounding decides what it hides.
 const EDGE_ON: f64 = 1e-6;

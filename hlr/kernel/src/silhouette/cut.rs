@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Model;
 use super::refine::Stretch;
-use crate::geometry::vector::{Vector, along, cross, dot, length, sub};
+use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub};
 
 /// Cosine of the turn that is one back.
 const BACK: f64 = 0.7;

@@ -2,9 +2,9 @@
 //! the tangents there.
 
 use super::face::{Face, Place};
-use crate::geometry::curve::Curve;
-use crate::geometry::nurbs::Nurbs;
-use crate::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
+use hlr_brep::geometry::curve::Curve;
+use hlr_brep::geometry::nurbs::Nurbs;
+use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 
 /// Of the chord tolerance: how far a point of a circle may be from it.
 const ON: f64 = 1e-3;

@@ -1,8 +1,8 @@
 //! One face as the tracer sees it: f = N . v on its surface, in model coordinates.
 
 use super::Model;
-use crate::geometry::surface::Surface;
-use crate::geometry::vector::{Vector, along, cross, dot, length, scaled, sub, unit};
+use hlr_brep::geometry::surface::Surface;
+use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, scaled, sub, unit};
 
 pub struct Face<'a> {
     surface: &'a Surface,

@@ -26,8 +26,8 @@ pub mod refine;
 pub mod trace;
 pub mod wrinkle;
 
-use crate::geometry::surface::Surface;
 use crate::lines::View;
+use hlr_brep::geometry::surface::Surface;
 
 /// |N . v| up to here counts as nothing: a view along an axis that the file rounds.
 pub const TIE: f64 = 5e-7;

@@ -3,7 +3,7 @@
 use super::Model;
 use super::exact::tangent;
 use super::face::{Face, Place, between};
-use crate::geometry::vector::{Vector, dot, from_line, length, sub};
+use hlr_brep::geometry::vector::{Vector, dot, from_line, length, sub};
 
 /// A stretch of a silhouette over one face between two points of it.
 #[derive(Clone, Copy, Debug)]

@@ -11,8 +11,8 @@ use super::exact::{circle, through};
 use super::face::Face;
 use super::refine::{Stretch, outward, rise, stretches};
 use super::wrinkle::flatten;
-use crate::geometry::curve::Curve;
-use crate::geometry::vector::{Vector, dot, length, sub};
+use hlr_brep::geometry::curve::Curve;
+use hlr_brep::geometry::vector::{Vector, dot, length, sub};
 
 /// A curve over one face along which the surface curves in one way.
 #[derive(Clone, Debug)]

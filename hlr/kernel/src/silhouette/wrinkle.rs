@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::face::{Face, root};
 use super::{Model, TIE};
-use crate::geometry::vector::{length, sub};
+use hlr_brep::geometry::vector::{length, sub};
 
 /// In chord tolerances, of which an accuracy has ten: what has risen by an accuracy while N . v fell, and some.
 const HEIGHT: f64 = 15.0;
