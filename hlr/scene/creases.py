@@ -1,8 +1,8 @@
 """Which edges of a bare mesh are creases: by the fold there, and by what the edge continues.
 
-A limit alone makes lines that come and go where the fold is near it. As in Canny's edge detector there are two: a line
-that folds by more than the crease angle goes on while the fold stays near it, and what is nowhere clearly a crease and
-ends within smooth surfaces is none.
+A limit alone makes lines that come and go where the fold is near it. As in Canny's edge detector there are two: a gap
+in a crease is closed where the fold stays near the crease angle, and what is nowhere clearly a crease and ends within
+smooth surfaces is none.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ SLACK = 0.05
 """Degrees: a fold of the crease angle itself is a crease, however its coordinates were rounded."""
 
 NEAR_FOLD = 0.8
-"""Of the crease angle: an edge that folds by more goes on with a crease that would end at it."""
+"""Of the crease angle: edges that fold by more close a gap between two creases."""
 
 CLEAR_FOLD = 1.5
 """Crease angles: what folds by more is an edge of the shape, wherever it ends."""
@@ -52,9 +52,11 @@ def _cosine(degrees: float) -> float:
 
 
 def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Floats) -> list[int]:
-    """Of the edges `near`, those that go straight on where a crease would end, one after another.
+    """Of the edges `near`, those that go straight on from where a crease would end to where another begins.
 
-    What branches off a crease does not: the sides of a prism of 14 faces end at its rims, and stay smooth.
+    A gap is no longer, in edges, than the longer of the two creases. A crease that fades ends where it fades: to go on
+    would draw the facets of a smooth surface. What branches off a crease is not part of it: the sides of a prism of 14
+    faces end at its rims, and stay smooth.
     """
     chosen = np.flatnonzero(kind != 255)
     degree = np.bincount(edges[chosen].ravel(), minlength=len(points))
@@ -67,21 +69,31 @@ def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Fl
         around.setdefault(a, []).append(e)
         around.setdefault(b, []).append(e)
     straight = math.cos(math.radians(STRAIGHT_ON))
+    figure = _kernel.edge_components(np.ascontiguousarray(edges[chosen]), len(points))
+    size = np.zeros(len(points), np.int64)
+    size[edges[chosen]] = np.bincount(figure)[figure][:, None]
+    longest = size.max(initial=0)
     found: list[int] = []
     taken: set[int] = set()
     for first, last in ends:
         before, end = first, last
-        while degree[end] == 1:
+        way: list[int] = []
+        while degree[last] == 1 and len(way) < longest:
             ahead = _unit(points[end] - points[before])
-            on = [(e, int(edges[e].sum()) - end) for e in around.get(end, []) if e not in taken]
+            on = [(e, int(edges[e].sum()) - end) for e in around.get(end, []) if e not in taken and e not in way]
             turns = [float((ahead * _unit(points[other] - points[end])).sum()) for _, other in on]
             if not turns or max(turns) < straight:
                 break
             edge, other = on[int(np.argmax(turns))]
-            taken.add(edge)
-            found.append(edge)
-            degree[[end, other]] += 1
+            way.append(edge)
             before, end = end, other
+            if degree[end] > 0:
+                if len(way) > max(size[last], size[end]):
+                    break
+                taken.update(way)
+                found += way
+                np.add.at(degree, edges[way], 1)
+                break
     return found
 
 

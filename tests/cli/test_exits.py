@@ -70,7 +70,7 @@ def test_no_arguments_show_the_help(hlr_command):
 
 
 def test_as_a_module(tmp_path):
-    shown = subprocess.check_output([sys.executable, "-m", "hlr", "--help"], cwd=tmp_path, text=True)
+    shown = subprocess.check_output([sys.executable, "-P", "-m", "hlr", "--help"], cwd=tmp_path, text=True)
     assert shown.startswith("Usage: hlr ")
 
 

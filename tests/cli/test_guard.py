@@ -163,7 +163,7 @@ time.sleep(60)
 @pytest.mark.parametrize("how", ["plain", "nohup"])
 def test_the_command_ends_with_its_parent_but_for_nohup(started, how):
     parent = started(
-        [sys.executable, "-c", PARENT, how],
+        [sys.executable, "-P", "-c", PARENT, how],
         sys.executable,
         fake.__file__,
         "draw",
@@ -183,7 +183,13 @@ def test_the_command_ends_with_its_parent_but_for_nohup(started, how):
 def test_a_script_that_leaves_is_refused(started, tmp_path, code):
     (tmp_path / "part.py").write_text(f"import os\nos._exit({code})\n")
     process = started(
-        [sys.executable, "-m", "hlr"], "draw", "part.py", "-o", "a.svg", stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [sys.executable, "-P", "-m", "hlr"],
+        "draw",
+        "part.py",
+        "-o",
+        "a.svg",
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
     )
     assert finished(process) == (
         2,
@@ -198,7 +204,7 @@ def test_a_script_may_do_at_exit_what_it_likes(started, tmp_path):
     (tmp_path / "part.py").write_text(
         "import atexit, os\nimport cadquery as cq\nresult = cq.Workplane().box(1, 1, 1)\natexit.register(os._exit, 7)\n"
     )
-    process = started([sys.executable, "-m", "hlr"], "draw", "part.py", "-o", "a.svg", "-q")
+    process = started([sys.executable, "-P", "-m", "hlr"], "draw", "part.py", "-o", "a.svg", "-q")
     assert process.wait(60) == 0
     assert (tmp_path / "a.svg").exists()
 

@@ -70,3 +70,18 @@ def test_what_is_hardly_a_crease_and_ends_in_smooth_surfaces_is_none() -> None:
 
 def test_what_is_clearly_a_crease_may_end_there() -> None:
     assert sharp(ridge([0, 0, 10, 28, 33, 50, 55, 50, 33, 35, 28, 10, 0, 0])) > 60.0
+
+
+RISE = [0, 15, 33, 45, 60, 60, 45, 33]
+"""Folds of a ridge that begins in a smooth surface;"""
+
+
+def test_a_crease_that_fades_ends_there() -> None:
+    # Beyond the clear part the fold stays near the limit for a while: no other crease begins there.
+    assert sharp(ridge([*RISE, *[28] * 6, 15, 0])) == pytest.approx(sharp(ridge([*RISE, 28, 15, 0])), rel=0.01)
+
+
+@pytest.mark.parametrize(("gap", "closed"), [(3, True), (12, False)])
+def test_a_gap_longer_than_its_creases_stays_open(gap: int, closed: bool) -> None:
+    drawn, creases = sharp(ridge([*RISE, *[28] * gap, *RISE[::-1]])), 2 * sharp(ridge([*RISE, 28, 15, 0]))
+    assert drawn == pytest.approx(creases + 10.0 * (gap - 1) * closed, rel=0.1)

@@ -71,7 +71,7 @@ for deflection in (0.05, 0.004):
 
 def run(body):
     return subprocess.run(
-        [sys.executable, "-c", SHAPES + body], capture_output=True, text=True, check=False, timeout=120
+        [sys.executable, "-P", "-c", SHAPES + body], capture_output=True, text=True, check=False, timeout=120
     )
 
 

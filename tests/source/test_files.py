@@ -199,7 +199,7 @@ def test_nothing_is_printed(folder, tmp_path):
     )
     names = [folder / "block.step", folder / "block.igs", folder / "block.brep", tmp_path / "cut.brep"]
     run = subprocess.run(
-        [sys.executable, "-c", code, *map(str, names)], capture_output=True, text=True, check=True, timeout=60
+        [sys.executable, "-P", "-c", code, *map(str, names)], capture_output=True, text=True, check=True, timeout=60
     )
     assert run.stdout == ""
     assert run.stderr.split() == ["SourceError"]

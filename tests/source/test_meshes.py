@@ -213,12 +213,12 @@ def test_a_mesh_never_loads_a_cad_kernel(kind, tmp_path, data):
         "import sys; from hlr.source import open_source; open_source(sys.argv[1]).mesh(1, 1)\n"
         "print(*sorted({m.split('.')[0] for m in sys.modules} & {'OCP', 'cadquery', 'build123d'}))"
     )
-    run = subprocess.run([sys.executable, "-c", code, str(path)], capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-P", "-c", code, str(path)], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == ""
     assert run.stderr == ""
 
 
 def test_opening_nothing_loads_nothing():
     code = "import sys, hlr.source; print(*sorted({'numpy.linalg', 'trimesh', 'OCP', 'cadquery'} & set(sys.modules)))"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True)
     assert not {"trimesh", "OCP", "cadquery"} & set(run.stdout.split())

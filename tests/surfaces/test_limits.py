@@ -81,7 +81,7 @@ def test_memory_does_not_abort_the_process():
     """
     if sys.platform != "linux":
         pytest.skip("asks Linux for its memory")
-    command = [sys.executable, "-c", textwrap.dedent(program)]
+    command = [sys.executable, "-P", "-c", textwrap.dedent(program)]
     done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=200)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("refused: bsp needs more than")

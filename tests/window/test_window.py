@@ -318,7 +318,7 @@ def test_the_command(tmp_path):
     box((10, 10, 10)).export(tmp_path / "a.stl")
 
     def run(*arguments):
-        command = [sys.executable, "-m", "hlr", *arguments]
+        command = [sys.executable, "-P", "-m", "hlr", *arguments]
         return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
 
     assert run("draw", "a.stl", "-o", "a.json", "--view", "top", "--window", "-2,-2,5,5").returncode == 0
