@@ -33,6 +33,8 @@ class Statistics:
     spans: runs of pixels looked at; written: pixels, some more than once; settled: near ties in a painter's order
     splits of polygons or spans; recursion: areas or nodes visited, deepest: how deep
     rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
+    edge_starts, edge_ends: events of the active edge list, row after row; span_starts, span_ends: of the active span
+              list, column after column; their third kind, crossings, are the swaps
     memory: bytes of the method's own tables and buffers, its frame included, at their largest
     prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else;
               of the thread's own work where the system tells it (Linux), else as they passed; equal statistics may
@@ -56,6 +58,10 @@ class Statistics:
     box_tests: int
     polygon_tests: int
     swaps: int
+    edge_starts: int
+    edge_ends: int
+    span_starts: int
+    span_ends: int
     settled: int
     memory: int
     prepared: float = field(compare=False)

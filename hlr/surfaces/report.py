@@ -17,14 +17,20 @@ Table = list[list[str]]
 
 
 def tables(timings: Sequence[Timing]) -> list[tuple[str, Table]]:
-    """Titles and tables: the textbook's beside today's, then time, memory and comparisons."""
+    """Titles and tables: the textbook's beside today's, then time, memory, comparisons and events."""
     out = [("Relative cost, depth sort at 100 polygons = 1: the textbook's estimate | today", _relative(timings))]
     shown: list[tuple[str, Callable[[Timing], str]]] = [
         ("Time", lambda t: _seconds(t.seconds)),
         ("Memory of the method, with its frame", lambda t: _bytes(t.statistics)),
         ("Comparisons of depth", lambda t: LATE if t.statistics is None else _count(t.statistics.comparisons)),
     ]
-    return [table for table in out if len(table[1]) > 1] + [(title, _grid(timings, cell)) for title, cell in shown]
+    out += [(title, _grid(timings, cell)) for title, cell in shown]
+    listing = [t for t in timings if t.statistics is not None and t.statistics.edge_starts]
+    if listing:
+        names = {t.method for t in listing}
+        grid = _grid([t for t in timings if t.method in names], _events)
+        out.append(("Events of the active lists: starts and ends + crossings", grid))
+    return [table for table in out if len(table[1]) > 1]
 
 
 def text(timings: Sequence[Timing]) -> str:
@@ -106,6 +112,14 @@ def _seconds(value: float | None) -> str:
     if value is None:
         return LATE
     return f"{value * 1e3:.3g} ms" if value < 1.0 else f"{value:.3g} s"
+
+
+def _events(t: Timing) -> str:
+    found = t.statistics
+    if found is None:
+        return LATE
+    own = found.edge_starts + found.edge_ends + found.span_starts + found.span_ends
+    return f"{_count(own)} + {_count(found.swaps)}"
 
 
 def _bytes(found: Statistics | None) -> str:

@@ -23,7 +23,7 @@ def run(*arguments, cwd):
 def test_tables_and_files(tmp_path):
     code, out, err = run("--polygons", "100", "--crossing", "40", "--size", "48x32", "-o", "figures", cwd=tmp_path)
     assert (code, err) == (0, "")
-    for title in ("Relative cost", "Time", "Memory", "Comparisons"):
+    for title in ("Relative cost", "Time", "Memory", "Comparisons", "Events of the active lists"):
         assert title in out
     folder = tmp_path / "figures"
     assert sorted(p.name for p in folder.iterdir()) == ["methods.csv", "methods.md", "methods.png"]
@@ -158,6 +158,16 @@ def test_the_scenes_are_as_deep_whatever_their_number():
             assert (splits > 100) == crossing
     again = testbed.polygons(100, (200, 150))
     assert np.array_equal(again.points, testbed.polygons(100, (200, 150)).points)
+
+
+def test_events_are_shown_of_methods_that_have_lists():
+    found = compare_methods(counts=(30,), size=(32, 32), methods=["z-buffer", "span list"])
+    title, rows = report.tables(found)[-1]
+    own = found[1].statistics
+    assert title.startswith("Events") and [row[0] for row in rows] == ["method", "span list"]
+    total = own.edge_starts + own.edge_ends + own.span_starts + own.span_ends
+    assert rows[1][1] == f"{total} + {own.swaps}" and own.edge_starts == own.edge_ends > 0 < own.span_starts
+    assert not any(title.startswith("Events") for title, _ in report.tables(found[:1]))
 
 
 def test_absurd_requests():

@@ -74,6 +74,10 @@ pub fn counted<'py>(py: Python<'py>, s: &Statistics, prepared: f64, seconds: f64
         ("box_tests", s.box_tests),
         ("polygon_tests", s.polygon_tests),
         ("swaps", s.swaps),
+        ("edge_starts", s.edge_starts),
+        ("edge_ends", s.edge_ends),
+        ("span_starts", s.span_starts),
+        ("span_ends", s.span_ends),
         ("settled", s.settled),
         ("memory", s.memory),
     ] {

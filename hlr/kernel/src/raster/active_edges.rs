@@ -5,6 +5,8 @@
 //! 3. x of each edge goes on by 1 / m; where edges cross, the list is nearly sorted, and insertion sort repairs it at the
 //!    cost of one swap per crossing
 //!
+//! Where an edge starts, where it ends and where two cross, the list changes, and nowhere else: these events are counted.
+//!
 //! Done when the active list and the edge table both are empty; in a gap between rows it goes on at the next edge.
 
 use super::coverage::{Edge, insertion_sort};
@@ -27,13 +29,17 @@ impl<'a> ActiveEdges<'a> {
     pub fn next_row(&mut self, statistics: &mut Statistics) -> Option<i64> {
         self.row += 1;
         let row = self.row as i32;
+        let before = self.edges.len();
         self.edges.retain(|e| e.end > row);
+        statistics.edge_ends += (before - self.edges.len()) as u64;
         if self.edges.is_empty() {
             self.row = self.table.next_start(self.row)?;
         }
         self.edges.iter_mut().for_each(Edge::advance);
         statistics.swaps += insertion_sort(&mut self.edges);
-        self.merge(self.table.starting(self.row));
+        let starting = self.table.starting(self.row);
+        statistics.edge_starts += starting.len() as u64;
+        self.merge(starting);
         statistics.holds(self.table.bytes() + bytes_of(&self.edges) + bytes_of(&self.merged));
         Some(self.row)
     }

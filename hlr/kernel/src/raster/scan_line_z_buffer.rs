@@ -104,7 +104,11 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
     let mut active: Vec<Active> = Vec::new();
     let mut buffer = Row::new(screen);
     for row in 0..screen.height {
-        active.retain(|a| i64::from(screen.facets[a.facet as usize].rows[1]) > row);
+        active.retain(|a| {
+            let stays = i64::from(screen.facets[a.facet as usize].rows[1]) > row;
+            statistics.edge_ends += if stays { 0 } else { a.edges.len() as u64 };
+            stays
+        });
         while let Some(facet) = waiting.pop_if(|f| i64::from(screen.facets[*f as usize].rows[0]) <= row) {
             active.push(Active::new(screen, facet, row));
         }
@@ -119,7 +123,7 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
             if watch.over() {
                 return None;
             }
-            a.enter(row);
+            a.enter(row, statistics);
             statistics.swaps += insertion_sort(&mut a.edges);
             intervals(&a.edges, screen.rule, |from, to| buffer.fill(a.facet, row, from, to, canvas, statistics));
             a.edges.iter_mut().for_each(Edge::advance);
@@ -127,6 +131,8 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
         let edges: usize = active.iter().map(|a| bytes_of(&a.edges) + bytes_of(&a.waiting)).sum();
         statistics.holds(buffer.bytes() + bytes_of(&waiting) + bytes_of(&active) + edges + canvas.bytes());
     }
+    // Those that reach the last row end there.
+    statistics.edge_ends += active.iter().map(|a| a.edges.len() as u64).sum::<u64>();
     Some(())
 }
 
@@ -145,10 +151,13 @@ impl Active {
         Active { facet, edges: Vec::new(), waiting }
     }
 
-    fn enter(&mut self, row: i64) {
+    fn enter(&mut self, row: i64, statistics: &mut Statistics) {
+        let before = self.edges.len();
         self.edges.retain(|e| i64::from(e.end) > row);
+        statistics.edge_ends += (before - self.edges.len()) as u64;
         while let Some((_, edge)) = self.waiting.pop_if(|(start, _)| i64::from(*start) <= row) {
             self.edges.push(edge);
+            statistics.edge_starts += 1;
         }
     }
 }

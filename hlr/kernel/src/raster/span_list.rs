@@ -87,7 +87,7 @@ impl Spans<'_> {
                         started.pop();
                     }
                     Toggle::Left if started.contains(&f) => started.retain(|&s| s != f),
-                    Toggle::Left => self.end(f, column),
+                    Toggle::Left => self.end(f, column, statistics),
                     Toggle::Nothing => {}
                 }
                 k += 1;
@@ -110,15 +110,17 @@ impl Spans<'_> {
         }
     }
 
-    fn end(&mut self, facet: u32, column: i64) {
+    fn end(&mut self, facet: u32, column: i64, statistics: &mut Statistics) {
         let Some(at) = self.order.iter().position(|&f| f == facet) else { return };
         self.order.remove(at);
+        statistics.span_ends += 1;
         if at > 0 {
             self.meet(at - 1, column);
         }
     }
 
     fn start(&mut self, facet: u32, column: i64, statistics: &mut Statistics) {
+        statistics.span_starts += 1;
         let (screen, row) = (self.screen, self.row);
         let before = |&f: &u32| screen.compare(f, facet, column, row, statistics) == Ordering::Less;
         let at = self.order.partition_point(before);
