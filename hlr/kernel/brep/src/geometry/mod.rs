@@ -1,6 +1,7 @@
 //! Curves and surfaces of a B-rep, as their records say: evaluated with derivatives, without OpenCASCADE.
 
 pub mod curve;
+pub mod jet;
 pub mod nurbs;
 pub mod spline_surface;
 pub mod surface;

@@ -3,7 +3,9 @@
 //! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.3 (basis functions and derivatives, here the first
 //! only), A3.6 and A4.4 (surface points and derivatives).
 
-use super::vector::{Vector, scaled, sub};
+use super::jet::Jet;
+use super::nurbs::{basis, find_span};
+use super::vector::{Vector, along, scaled, sub};
 
 pub const MAX_DEGREE: usize = 25;
 
@@ -70,11 +72,66 @@ impl SplineSurface {
         (point, derived(pu), derived(pv))
     }
 
+    /// The point with first and second derivatives.
+    pub fn jet(&self, u: f64, v: f64) -> Jet {
+        let at = [u, v];
+        let [a, b] = [0, 1].map(|k| {
+            let x = self.inside(k, at[k]);
+            let span = find_span(&self.knots[k], self.degree[k], self.count[k], x);
+            (span - self.degree[k], basis(&self.knots[k], self.degree[k], span, x))
+        });
+        // By u, v: 00, 10, 01, 20, 11, 02.
+        let mut sums = [[0.0f64; 4]; 6];
+        for i in 0..=self.degree[0] {
+            let row = &self.poles[(a.0 + i) * self.count[1] + b.0..][..=self.degree[1]];
+            let mut inner = [[0.0f64; 4]; 3];
+            for (j, pole) in row.iter().enumerate() {
+                for (sum, values) in inner.iter_mut().zip(&b.1) {
+                    for k in 0..4 {
+                        sum[k] += values[j] * pole[k];
+                    }
+                }
+            }
+            for (sum, (m, n)) in sums.iter_mut().zip([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]) {
+                for k in 0..4 {
+                    sum[k] += a.1[m][i] * inner[n][k];
+                }
+            }
+        }
+        let [p, pu, pv, puu, puv, pvv] = sums;
+        let over = 1.0 / p[3];
+        let point = scaled(&[p[0], p[1], p[2]], over);
+        // (P - w_a S_b - ...) / w, for one derivative after the other.
+        let derived = |q: [f64; 4], less: &[(f64, Vector)]| {
+            let start = along(&[q[0], q[1], q[2]], &point, -q[3]);
+            scaled(&less.iter().fold(start, |sum, (w, s)| along(&sum, s, -w)), over)
+        };
+        let (du, dv) = (derived(pu, &[]), derived(pv, &[]));
+        Jet {
+            point,
+            du,
+            dv,
+            duu: derived(puu, &[(2.0 * pu[3], du)]),
+            duv: derived(puv, &[(pu[3], dv), (pv[3], du)]),
+            dvv: derived(pvv, &[(2.0 * pv[3], dv)]),
+        }
+    }
+
+    /// All knots of u (0) or v (1), the domain, and the period, 0 where there is none.
+    pub fn knots(&self, side: usize) -> (&[f64], [f64; 2], f64) {
+        let (p, knots) = (self.degree[side], &self.knots[side]);
+        (knots, [knots[p], knots[self.count[side]]], self.period[side])
+    }
+
+    /// The parameter within the domain that means the same, on a periodic side.
+    fn inside(&self, side: usize, x: f64) -> f64 {
+        let (_, [low, high], period) = self.knots(side);
+        if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x }
+    }
+
     fn basis(&self, side: usize, x: f64) -> Basis {
         let (p, knots) = (self.degree[side], &self.knots[side]);
-        let (low, high) = (knots[p], knots[self.count[side]]);
-        let period = self.period[side];
-        let x = if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x };
+        let x = self.inside(side, x);
         // The span of non-zero length that holds x; beyond the ends the outermost polynomial goes on.
         let span = knots.partition_point(|&k| k <= x).clamp(p + 1, self.count[side]) - 1;
         let mut value = [0.0; MAX_DEGREE + 1];

@@ -137,8 +137,16 @@ fn upright(du: &Vector, dv: &Vector) -> Option<Vector> {
 }
 
 impl Frame {
+    pub(super) fn origin(&self) -> Vector {
+        self.origin
+    }
+
+    pub(super) fn axis(&self) -> Vector {
+        self.z
+    }
+
     /// Outward and onward directions at the angle u about z.
-    fn around(&self, u: f64) -> (Vector, Vector) {
+    pub(super) fn around(&self, u: f64) -> (Vector, Vector) {
         let (sin, cos) = u.sin_cos();
         (along(&scaled(&self.x, cos), &self.y, sin), along(&scaled(&self.y, cos), &self.x, -sin))
     }

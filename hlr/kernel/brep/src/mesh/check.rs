@@ -1,0 +1,52 @@
+//! The proof of a face's triangles in the parameter plane.
+
+use super::outline::Outline;
+use super::plane::area;
+
+/// Of the largest parameter times the triangle's width and height: what rounding makes of an area of nothing.
+const ROUNDING: f64 = 4e-15;
+
+/// Whether each chord has one triangle beside it, every other edge two that run along it in opposite senses, and no
+/// triangle is turned over. The triangles then fill exactly what the loops enclose, in (u, v).
+///
+/// `uv`: places of all vertices; `stand_in`: of points of the outline at one place, the one that is used.
+pub fn is_sound(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles: &[[u32; 3]]) -> bool {
+    let [low, high] = outline.bounds();
+    let size = low.iter().chain(&high).fold(0.0f64, |m, x| m.max(x.abs()));
+    let upright = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| uv[i as usize]);
+        let spread: f64 = [0, 1].iter().map(|&k| a[k].max(b[k]).max(c[k]) - a[k].min(b[k]).min(c[k])).sum();
+        area(&a, &b, &c) >= -ROUNDING * size * spread
+    };
+    triangles.iter().all(upright) && is_filled(outline, uv.len(), stand_in, triangles)
+}
+
+fn is_filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 3]]) -> bool {
+    let chords = (0..outline.len() as u32).map(|c| [c, outline.after(c)].map(|p| stand_in[p as usize]));
+    let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    // Sorted by the lower end: a place for each, then within it by the upper one.
+    let mut first = vec![0u32; count + 1];
+    for [a, b] in edges.clone().chain(chords.clone()) {
+        first[a.min(b) as usize + 1] += 1;
+    }
+    for i in 0..count {
+        first[i + 1] += first[i];
+    }
+    let mut next = first.clone();
+    let mut sorted = vec![(0u32, 0u8); first[count] as usize];
+    let mut put = |[a, b]: [u32; 2], chord: u8| {
+        let place = &mut next[a.min(b) as usize];
+        sorted[*place as usize] = (a.max(b), 2 * chord + u8::from(a < b));
+        *place += 1;
+    };
+    edges.for_each(|e| put(e, 0));
+    chords.for_each(|e| put(e, 1));
+    first.windows(2).all(|w| {
+        let part = &mut sorted[w[0] as usize..w[1] as usize];
+        part.sort_unstable();
+        // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit.
+        part.chunk_by(|a, b| a.0 == b.0).all(|group| {
+            matches!(group, [(_, 0), (_, 1)] | [(_, 0 | 1), (_, 2 | 3)] | [(_, 0), (_, 1), (_, 2), (_, 3)])
+        })
+    })
+}

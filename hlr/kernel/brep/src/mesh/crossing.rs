@@ -1,0 +1,74 @@
+//! Chords that cross or touch where they should not, by exact signs. Only asked where a face has failed.
+
+use super::outline::Outline;
+use super::plane::side;
+
+/// More pairs than that say no more.
+const MOST: usize = 1000;
+
+/// Pairs of chords, as points that they begin at, that have more in common than ends.
+pub fn crossings(outline: &Outline) -> Vec<[u32; 2]> {
+    let count = outline.len() as u32;
+    let ends = |c: u32| [outline.uv[c as usize], outline.uv[outline.after(c) as usize]];
+    let range = |c: u32, k: usize| {
+        let [a, b] = ends(c);
+        (a[k].min(b[k]), a[k].max(b[k]))
+    };
+    let mut order: Vec<u32> = (0..count).collect();
+    order.sort_by(|&a, &b| range(a, 0).0.total_cmp(&range(b, 0).0).then(a.cmp(&b)));
+    let mut found = Vec::new();
+    for (k, &one) in order.iter().enumerate() {
+        let (right, (low, high)) = (range(one, 0).1, range(one, 1));
+        for &other in order[k + 1..].iter().take_while(|&&c| range(c, 0).0 <= right) {
+            let (from, to) = range(other, 1);
+            if from <= high && to >= low && meet(ends(one), ends(other)) {
+                found.push([one.min(other), one.max(other)]);
+                if found.len() == MOST {
+                    return found;
+                }
+            }
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Whether two chords whose boxes overlap have points in common that are not ends of both. The two sides of a slit, one
+/// chord to and fro, have not.
+fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    if (a == d && b == c) || (a == c && b == d) {
+        return a == c;
+    }
+    let of = |p: &[f64; 2]| side(&a, &b, p);
+    let to = |p: &[f64; 2]| side(&c, &d, p);
+    let (s, t, u, v) = (of(&c), of(&d), to(&a), to(&b));
+    if s == 0.0 && t == 0.0 {
+        // On one line: an end strictly between the others' ends.
+        let k = usize::from((b[0] - a[0]).abs() < (b[1] - a[1]).abs());
+        let between = |x: f64, e: f64, f: f64| (e < x && x < f) || (f < x && x < e);
+        return between(c[k], a[k], b[k])
+            || between(d[k], a[k], b[k])
+            || between(a[k], c[k], d[k])
+            || between(b[k], c[k], d[k]);
+    }
+    let shared = a == c || a == d || b == c || b == d;
+    !shared && s * t <= 0.0 && u * v <= 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_touches_at_its_ends_does_not_meet() {
+        let (o, x, y) = ([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]);
+        assert!(!meet([o, x], [x, y]));
+        assert!(!meet([o, x], [x, o]));
+        assert!(meet([o, x], [o, x]));
+        assert!(!meet([o, x], [x, [2.0, 0.0]]));
+        assert!(meet([o, x], [[0.5, 0.0], [2.0, 0.0]]));
+        assert!(meet([o, x], [[0.5, 0.0], y]));
+        assert!(meet([o, x], [[0.5, -1.0], [0.4, 1.0]]));
+        assert!(!meet([o, x], [[1.5, -1.0], [1.4, 1.0]]));
+    }
+}

@@ -1,0 +1,129 @@
+//! Constrained Delaunay triangles of loops and inner points.
+
+use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
+
+use super::outline::Outline;
+
+struct Corner {
+    place: Point2<f64>,
+    number: u32,
+}
+
+impl HasPosition for Corner {
+    type Scalar = f64;
+
+    fn position(&self) -> Point2<f64> {
+        self.place
+    }
+}
+
+pub struct Delaunay {
+    mesh: ConstrainedDelaunayTriangulation<Corner>,
+    /// Of points of the outline at one place, the first one.
+    pub stand_in: Vec<u32>,
+    /// Chords that run to and fro, lower point first: the same is on either side.
+    slits: Vec<[u32; 2]>,
+}
+
+impl Delaunay {
+    /// Inner points are numbered after those of the outline. None where chords cross or points are out of range.
+    pub fn new(outline: &Outline, inner: &[[f64; 2]]) -> Option<Delaunay> {
+        let stand_in = stand_ins(&outline.uv);
+        let count = outline.len();
+        let mut corners = Vec::with_capacity(count + inner.len());
+        let mut place = vec![0usize; count];
+        for i in 0..count {
+            place[i] = corners.len();
+            if stand_in[i] as usize == i {
+                let [x, y] = outline.uv[i];
+                corners.push(Corner { place: Point2::new(x, y), number: i as u32 });
+            } else {
+                place[i] = place[stand_in[i] as usize];
+            }
+        }
+        for (&[x, y], number) in inner.iter().zip(count as u32..) {
+            corners.push(Corner { place: Point2::new(x, y), number });
+        }
+        let chords: Vec<_> = (0..count).map(|i| [place[i], place[outline.after(i as u32) as usize]]).collect();
+        if chords.iter().any(|[a, b]| a == b) {
+            return None;
+        }
+        let mut slits = Vec::new();
+        if stand_in.iter().zip(0..).any(|(&a, i)| a != i) {
+            let named = |i: usize| {
+                let (a, b) = (stand_in[i], stand_in[outline.after(i as u32) as usize]);
+                [a.min(b), a.max(b)]
+            };
+            let mut all: Vec<_> = (0..count).map(named).collect();
+            all.sort_unstable();
+            slits = all.chunk_by(|a, b| a == b).filter(|g| g.len() == 2).map(|g| g[0]).collect();
+        }
+        let mut crossed = false;
+        let mesh = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(corners, chords, |_| crossed = true).ok()?;
+        (!crossed).then_some(Delaunay { mesh, stand_in, slits })
+    }
+
+    /// One more inner point. False where it is no new one, or lies on a chord.
+    pub fn insert(&mut self, [x, y]: [f64; 2], number: u32) -> bool {
+        use spade::PositionInTriangulation::{OnEdge, OnFace};
+        let place = Point2::new(x, y);
+        let free = match self.mesh.locate(place) {
+            OnFace(_) => true,
+            OnEdge(edge) => !self.mesh.directed_edge(edge).is_constraint_edge(),
+            _ => false,
+        };
+        free && self.mesh.insert(Corner { place, number }).is_ok()
+    }
+
+    /// The triangles inside the loops, counterclockwise: those with an odd number of chords between them and the outside.
+    pub fn inside(&self) -> Vec<[u32; 3]> {
+        const UNKNOWN: u8 = 2;
+        let mut state = vec![UNKNOWN; self.mesh.num_all_faces()];
+        let mut stack = Vec::new();
+        for hull in self.mesh.convex_hull() {
+            // The hull's edges have the outside on one hand.
+            let edge = if hull.is_outer_edge() { hull.rev() } else { hull };
+            let index = edge.face().fix().index();
+            if !edge.is_outer_edge() && state[index] == UNKNOWN {
+                state[index] = u8::from(self.toggles(edge));
+                stack.push(edge.face());
+            }
+        }
+        while let Some(face) = stack.pop() {
+            let Some(face) = face.as_inner() else { continue };
+            let here = state[face.fix().index()];
+            for edge in face.adjacent_edges() {
+                let beyond = edge.rev().face();
+                let index = beyond.fix().index();
+                if !beyond.is_outer() && state[index] == UNKNOWN {
+                    state[index] = here ^ u8::from(self.toggles(edge));
+                    stack.push(beyond);
+                }
+            }
+        }
+        let inner = self.mesh.inner_faces().filter(|f| state[f.fix().index()] == 1);
+        inner.map(|f| f.vertices().map(|v| v.data().number)).collect()
+    }
+
+    fn toggles(&self, edge: spade::handles::DirectedEdgeHandle<Corner, (), spade::CdtEdge<()>, ()>) -> bool {
+        if !edge.is_constraint_edge() {
+            return false;
+        }
+        let [a, b] = edge.vertices().map(|v| v.data().number);
+        self.slits.binary_search(&[a.min(b), a.max(b)]).is_err()
+    }
+}
+
+/// For each place the first point there.
+pub fn stand_ins(places: &[[f64; 2]]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..places.len() as u32).collect();
+    let at = |i: u32| places[i as usize];
+    order.sort_unstable_by(|&a, &b| at(a)[0].total_cmp(&at(b)[0]).then(at(a)[1].total_cmp(&at(b)[1])).then(a.cmp(&b)));
+    let mut out = vec![0; places.len()];
+    for group in order.chunk_by(|&a, &b| at(a) == at(b)) {
+        for &i in group {
+            out[i as usize] = group[0];
+        }
+    }
+    out
+}

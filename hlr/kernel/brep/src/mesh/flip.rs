@@ -1,0 +1,92 @@
+//! Inner edges turned into the other diagonal of their two triangles.
+
+use super::plane::side;
+
+/// Rounds over all edges.
+const ROUNDS: usize = 16;
+
+/// Turn edges that cost more than the limit, where the other diagonal costs less. Whether any was.
+pub fn flip(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], cost: &impl Fn(u32, u32) -> f64, limit: f64) -> bool {
+    let mut twins = twins(triangles);
+    let mut changed = false;
+    for _ in 0..ROUNDS {
+        let mut turned = false;
+        for edge in 0..3 * triangles.len() {
+            let twin = twins[edge] as usize;
+            if twins[edge] == NONE || twin < edge {
+                continue;
+            }
+            let (a, b) = (start(triangles, edge), start(triangles, twin));
+            let before = cost(a, b);
+            if before <= limit {
+                continue;
+            }
+            let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
+            let at = |i: u32| &uv[i as usize];
+            // Strictly convex: a d b c is counterclockwise.
+            if c != d && side(at(d), at(b), at(c)) > 0.0 && side(at(c), at(a), at(d)) > 0.0 && cost(c, d) < before {
+                turn(triangles, &mut twins, edge, twin);
+                turned = true;
+            }
+        }
+        changed |= turned;
+        if !turned {
+            break;
+        }
+    }
+    changed
+}
+
+const NONE: u32 = u32::MAX;
+
+fn start(triangles: &[[u32; 3]], edge: usize) -> u32 {
+    triangles[edge / 3][edge % 3]
+}
+
+fn after_in(edge: usize) -> usize {
+    edge - edge % 3 + (edge + 1) % 3
+}
+
+fn before_in(edge: usize) -> usize {
+    edge - edge % 3 + (edge + 2) % 3
+}
+
+/// a b c and b a d become c d b and d c a.
+fn turn(triangles: &mut [[u32; 3]], twins: &mut [u32], edge: usize, twin: usize) {
+    let (a, b) = (start(triangles, edge), start(triangles, twin));
+    let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
+    let outer = [after_in(edge), before_in(edge), after_in(twin), before_in(twin)].map(|e| twins[e]);
+    let (one, other) = (edge / 3, twin / 3);
+    triangles[one] = [c, d, b];
+    triangles[other] = [d, c, a];
+    let mut join = |e: usize, t: u32| {
+        twins[e] = t;
+        if t != NONE {
+            twins[t as usize] = e as u32;
+        }
+    };
+    // b-c, c-a, a-d, d-b.
+    join(3 * one + 2, outer[0]);
+    join(3 * other + 1, outer[1]);
+    join(3 * other + 2, outer[2]);
+    join(3 * one + 1, outer[3]);
+    join(3 * one, 3 * other as u32);
+}
+
+/// For each edge of each triangle the one that runs along it in the other sense.
+fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut keyed: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * triangles.len());
+    for edge in 0..3 * triangles.len() {
+        let (a, b) = (start(triangles, edge), start(triangles, after_in(edge)));
+        keyed.push((a.min(b), a.max(b), edge as u32));
+    }
+    keyed.sort_unstable();
+    let mut twins = vec![NONE; keyed.len()];
+    for pair in keyed.windows(2) {
+        if (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1) {
+            twins[pair[0].2 as usize] = pair[1].2;
+            twins[pair[1].2 as usize] = pair[0].2;
+        }
+    }
+    twins
+}
