@@ -141,7 +141,7 @@ SOUND |= {
 
 
 def with_option(name: str, thing: Any, right: bool | None = None) -> None:
-    if name == "threads" and isinstance(thing, int):
+    if name == "threads" and isinstance(thing, int) and not isinstance(thing, bool):
         thing %= 4
     if name in ("within", "report"):
         # What takes long: whether it is taken is asked, and not how it is done.

@@ -26,7 +26,7 @@ pub fn clashes<'py>(
     expect_len("triangle_part", group.len(), triangles.len())?;
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
     expect_below("triangle_part", group.iter().copied(), itself.len())?;
-    let result = run(py, 0, |stopped| {
+    let result = run(py, 0, triangles.len(), |stopped| {
         let grid = Grid::around(points)?.uniform();
         let snapped: Vec<_> = points.iter().map(|p| grid.snap(p)).collect();
         let found = Surfaces { points: &snapped, triangles, group, itself }.clashes(stopped);

@@ -37,7 +37,7 @@ pub fn filled_areas<'py>(
     if label.iter().any(|&l| l < 0) || fine.is_nan() || fine < 1.0 {
         return Err(PyValueError::new_err("labels are not negative, and a band is a pixel wide at least"));
     }
-    let found = run(py, threads, |stopped| {
+    let found = run(py, threads, usize::MAX, |stopped| {
         model.with_space(|space| {
             let light = Light { toward: light, ambient, diffuse, specular: 0.0 };
             let scene = Scene { model: &model.model(), lens: &lens, light, shadow: None, occlusion: None };

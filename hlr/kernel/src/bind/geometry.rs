@@ -46,7 +46,7 @@ pub fn curve_points<'py>(
     let (which, parameters) = (flat(&which, "which")?, flat(&parameters, "parameters")?);
     expect_len("parameters", parameters.len(), which.len())?;
     expect_below("which", which.iter().copied(), curves.len())?;
-    let found = run(py, 0, |_| {
+    let found = run(py, 0, which.len(), |_| {
         let at = |(&i, &t): (&i32, &f64)| curves[i as usize].as_ref().map_or([[f64::NAN; 3]; 3], |c| c.derivatives(t));
         which.par_iter().zip(parameters).map(at).collect::<Vec<_>>()
     })?;
@@ -69,7 +69,7 @@ pub fn surface_points<'py>(
     let (which, uv) = (flat(&which, "which")?, rows::<f64, 2>(&uv, "uv")?);
     expect_len("uv", uv.len(), which.len())?;
     expect_below("which", which.iter().copied(), kind.len())?;
-    let found = run(py, 0, |_| {
+    let found = run(py, 0, which.len(), |_| {
         let read = |i: usize| Surface::read(kind[i], &values[offsets[i] as usize..offsets[i + 1] as usize]);
         let surfaces: Vec<Option<Surface>> = (0..kind.len()).into_par_iter().map(read).collect();
         let at = |(&i, &place): (&i32, &[f64; 2])| {
@@ -149,7 +149,7 @@ pub fn true_lines<'py>(
         return Err(PyValueError::new_err("line_offsets must ascend"));
     }
     let points = |i: usize| line_offsets[i] as usize..line_offsets[i + 1] as usize;
-    let found = run(py, threads, |_| {
+    let found = run(py, threads, flat_points.len(), |_| {
         let projection = Projection(projection);
         // Lines of one curve in one place share its search table.
         let mut order: Vec<u32> = (0..n as u32).filter(|&i| line_curve[i as usize] >= 0).collect();

@@ -27,7 +27,7 @@ pub fn take_fault() -> String {
 pub fn provoke_fault(py: Python<'_>, on_worker: bool) -> PyResult<usize> {
     let nothing: &[usize] = &[];
     let index = nothing.len() + 1;
-    if on_worker { super::running::run(py, 1, |_| nothing[index]) } else { Ok(nothing[index]) }
+    if on_worker { super::running::run(py, 1, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
 }
 
 /// For constructors: a panic as the exception that `hlr.faults` makes of one.

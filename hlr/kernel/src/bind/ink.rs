@@ -24,7 +24,7 @@ pub fn arc_rows<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let (arcs, ends) = (rows::<f64, 8>(&arcs, "arcs")?, rows::<f64, 4>(&ends, "ends")?);
     expect_len("ends", ends.len(), arcs.len())?;
-    let found = run(py, 0, |_| {
+    let found = run(py, 0, arcs.len(), |_| {
         let one = |(a, e): (&[f64; 8], &[f64; 4])| {
             let arc = Arc { centre: [a[0], a[1]], axes: [[a[2], a[3]], [a[4], a[5]]], angles: [a[6], a[7]] };
             let (ends, mut out) = ([[e[0], e[1]], [e[2], e[3]]], Rows::default());
@@ -133,6 +133,6 @@ pub fn dashes<'py>(
         let shapes = shapes_of(layer)?;
         ends.add(&strokes_of(layer, &shapes, places)?);
     }
-    let found = py.detach(|| fitted_dashes(&strokes, &Pattern { dash, gap }, &ends));
+    let found = run(py, 0, strokes.points.len(), |_| fitted_dashes(&strokes, &Pattern { dash, gap }, &ends))?;
     Ok(found.iter().map(Fitted::text).collect())
 }

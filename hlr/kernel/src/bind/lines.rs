@@ -120,7 +120,7 @@ pub fn linework<'py>(
     for e in 0..edges.len() {
         piece_offsets[e + 1] += piece_offsets[e];
     }
-    let lines = run(py, threads, |stopped| {
+    let lines = run(py, threads, flat_points.len(), |stopped| {
         let view = View { origin: eye, away, perspective };
         let geometry = Geometry {
             flat: flat_points,

@@ -28,7 +28,7 @@ pub fn nearest<'py>(
     let ends = rows::<f64, 4>(&segments, "segments")?;
     let owner = flat(&segment_key, "segment_key")?;
     expect_len("segment_key", owner.len(), ends.len())?;
-    let (distance, number) = run(py, threads, |stopped| {
+    let (distance, number) = run(py, threads, usize::MAX, |stopped| {
         let mut order: Vec<u32> = (0..ends.len() as u32).collect();
         order.sort_by_key(|&i| (owner[i as usize], i));
         let sorted: Vec<Segment> =
@@ -75,7 +75,7 @@ pub fn blocked<'py>(
     expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
     let (origins, ways) = (rows::<f64, 3>(&origins, "origins")?, rows::<f64, 3>(&ways, "ways")?);
     expect_len("ways", ways.len(), origins.len())?;
-    let found: Vec<bool> = run(py, threads, |stopped| {
+    let found: Vec<bool> = run(py, threads, usize::MAX, |stopped| {
         let caster = Caster::new(points, triangles);
         origins.par_iter().zip(ways).map(|(o, w)| !stopped() && caster.is_blocked(o, w)).collect()
     })?;

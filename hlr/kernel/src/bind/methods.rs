@@ -69,7 +69,7 @@ pub fn within<T: Send>(
     (seconds, worked, bytes): LimitsTuple,
     work: impl FnOnce(&Watch) -> Option<T> + Send,
 ) -> PyResult<Option<T>> {
-    let (done, why) = run(py, 1, |stopped| {
+    let (done, why) = run(py, 1, usize::MAX, |stopped| {
         let watch = Watch::new(stopped, Limits { seconds, worked, bytes });
         (work(&watch), watch.why())
     })?;

@@ -154,7 +154,7 @@ impl ShadedModel {
             return Err(PyValueError::new_err("out must be (height, width, 4)"));
         }
         let (pixels, _) = pixels.as_chunks_mut::<4>();
-        let done = run(py, threads, |stopped| {
+        let done = run(py, threads, usize::MAX, |stopped| {
             self.with_space(|space| {
                 let model = self.model();
                 let shadow = match shadow {
@@ -189,8 +189,10 @@ impl ShadedModel {
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>)> {
         let lens = lens_of(lens)?;
         let [width, height] = lens.size;
-        let found = run(py, threads, |stopped| self.with_space(|space| seen(&self.model(), &lens, space, stopped)))?
-            .ok_or_else(stopped_error)?;
+        let found = run(py, threads, usize::MAX, |stopped| {
+            self.with_space(|space| seen(&self.model(), &lens, space, stopped))
+        })?
+        .ok_or_else(stopped_error)?;
         let ahead = |s: &crate::preview::maps::Seen| {
             if s.triangle == NOTHING { f64::INFINITY } else { lens.ahead_at(f64::from(s.depth)) }
         };
@@ -222,7 +224,7 @@ pub fn stroke_picture(
         .filter(|p| p.iter().all(|c| c.is_finite()))
         .map(|p| Piece { from: [p[0], p[1]], to: [p[2], p[3]], half: 0.5 * width })
         .collect();
-    let done = run(py, threads, |stopped| stroke(pixels, shape[1], &pieces, colour, stopped))?;
+    let done = run(py, threads, usize::MAX, |stopped| stroke(pixels, shape[1], &pieces, colour, stopped))?;
     if done { Ok(()) } else { Err(stopped_error()) }
 }
 
@@ -268,7 +270,7 @@ pub fn surface_normals<'py>(
     let surfaces: Vec<Option<Surface>> =
         (0..kind.len()).map(|i| Surface::read(kind[i], &data[at[i] as usize..at[i + 1] as usize])).collect();
     let on = OnSurfaces { points, triangles, face, corner, uv, surface, place, surfaces: &surfaces };
-    let found = run(py, threads, |_| normals(&on))?;
+    let found = run(py, threads, usize::MAX, |_| normals(&on))?;
     let n = found.len();
     found.into_flattened().into_pyarray(py).reshape([n, 3])
 }

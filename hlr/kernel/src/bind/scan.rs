@@ -60,7 +60,7 @@ pub fn edge_table<'py>(
 ) -> PyResult<EdgeArrays<'py>> {
     let triangles = rows::<i32, 3>(&triangles, "triangles")?;
     expect_below("triangles", triangles.iter().flatten().copied(), n_points)?;
-    let t = py.detach(|| topology::topology(triangles, n_points));
+    let t = run(py, 0, triangles.len(), |_| topology::topology(triangles, n_points))?;
     let n = t.edges.len();
     let edges = t.edges.into_flattened().into_pyarray(py).reshape([n, 2])?;
     Ok((edges, t.offsets.into_pyarray(py), t.incident.into_pyarray(py)))
@@ -77,7 +77,7 @@ pub fn edge_balance<'py>(
     let (triangles, edges) = (rows::<i32, 3>(&triangles, "triangles")?, rows::<i32, 2>(&edges, "edges")?);
     let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
     check_incidence(edges.len(), offsets, incident, triangles.len())?;
-    Ok(run(py, 0, |_| topology::balance(triangles, edges, offsets, incident))?.into_pyarray(py))
+    Ok(run(py, 0, triangles.len(), |_| topology::balance(triangles, edges, offsets, incident))?.into_pyarray(py))
 }
 
 #[pyfunction]
@@ -94,7 +94,7 @@ pub fn edge_folds<'py>(
     let balance = flat(&balance, "balance")?;
     check_incidence(balance.len(), offsets, incident, triangles.len())?;
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-    let (folds, normals) = run(py, 0, |_| {
+    let (folds, normals) = run(py, 0, triangles.len(), |_| {
         let normals = topology::normals(points, triangles);
         (topology::folds(&normals, offsets, incident, balance), normals)
     })?;
@@ -186,7 +186,7 @@ pub fn visibility<'py>(
     expect_below("triangle_part", triangle_part.iter().copied(), cull.len())?;
     expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
     check_incidence(edges.len(), offsets, incident, triangles.len())?;
-    let outcome = run(py, threads, |stopped| {
+    let outcome = run(py, threads, triangles.len(), |stopped| {
         let grid = Grid::around(points)?.with_room(delta.iter().copied().fold(0.0, f64::max));
         let mesh = Mesh {
             points: points.iter().map(|p| grid.snap(p)).collect(),

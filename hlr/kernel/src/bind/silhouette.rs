@@ -116,7 +116,8 @@ pub fn silhouettes<'py>(
         chord,
     };
     let Traced { silhouettes: found, meetings, dents } =
-        run(py, threads, |stopped| trace(&model, stopped))?.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+        run(py, threads, model.triangles.len(), |stopped| trace(&model, stopped))?
+            .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     let mut starts = vec![0i32];
     let (mut flat_points, mut normals, mut rise) = (Vec::<f64>::new(), Vec::<f64>::new(), Vec::<f64>::new());
     for s in &found {

@@ -1,0 +1,55 @@
+"""How the kernel runs its work: where it is called if it is small, else on threads that are kept."""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+from hlr import _kernel
+
+
+def lengths(count: int) -> float:
+    """Points of a straight line, by a kernel function that runs in parallel; their sum."""
+    line = np.array([0.0, 0, 0, 1, 0, 0, 0, 0, 0])
+    found = _kernel.curve_points(
+        np.array([1], np.uint8), np.array([0, 9], np.int32), line, np.zeros(count, np.int32), np.arange(count) * 1.0
+    )
+    return float(found[:, 0, 0].sum())
+
+
+SMALL, LARGE = 10, 100_000
+
+
+def expected(count: int) -> float:
+    return count * (count - 1) / 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no fork there")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_fork_of_a_process_that_has_drawn_can_draw() -> None:
+    assert lengths(LARGE) == expected(LARGE)
+    child = os.fork()
+    if child == 0:
+        # A child that waits for threads it does not have would wait for ever.
+        os._exit(0 if (lengths(SMALL), lengths(LARGE)) == (expected(SMALL), expected(LARGE)) else 1)
+    done = threading.Event()
+    timer = threading.Timer(60.0, lambda: None if done.is_set() else os.kill(child, 9))
+    timer.start()
+    _, status = os.waitpid(child, 0)
+    done.set()
+    timer.cancel()
+    assert status == 0
+
+
+def test_threads_of_python_may_all_call() -> None:
+    found: list[float] = []
+    threads = [threading.Thread(target=lambda: found.extend((lengths(SMALL), lengths(LARGE)))) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert sorted(found) == [expected(SMALL)] * 8 + [expected(LARGE)] * 8
