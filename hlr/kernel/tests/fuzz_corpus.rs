@@ -49,6 +49,11 @@ fn topology() {
     replay("topology", fuzz::topology::run);
 }
 
+#[test]
+fn brep() {
+    replay("brep", fuzz::brep::run);
+}
+
 /// The comparison can fail: the same answer held against a scene seen from behind.
 #[test]
 fn a_wrong_answer_would_be_noticed() {

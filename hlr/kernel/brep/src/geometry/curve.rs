@@ -125,6 +125,20 @@ impl Curve {
     pub fn point(&self, t: f64) -> Vec3 {
         self.derivatives(t)[0]
     }
+
+    /// Where t may be; `size` stands for what has no end.
+    pub fn domain(&self, size: f64) -> [f64; 2] {
+        match self {
+            Curve::Ellipse { .. } => [0.0, std::f64::consts::TAU],
+            Curve::Spline(n) => n.domain().into(),
+            _ => [-size, size],
+        }
+    }
+
+    /// After how much t the curve comes back to itself; 0 where it does not, or where nobody says so.
+    pub fn period(&self) -> f64 {
+        if matches!(self, Curve::Ellipse { .. }) { std::f64::consts::TAU } else { 0.0 }
+    }
 }
 
 #[cfg(test)]

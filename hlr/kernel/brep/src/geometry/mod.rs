@@ -2,7 +2,10 @@
 
 pub mod curve;
 pub mod jet;
+pub mod moved_surface;
 pub mod nurbs;
+pub mod offset_curve;
 pub mod spline_surface;
 pub mod surface;
+pub mod unrolled;
 pub mod vector;

@@ -47,6 +47,16 @@ impl SplineSurface {
         Some(SplineSurface { degree, count, period: [head[4], head[5]], knots: [u.to_vec(), v.to_vec()], poles })
     }
 
+    /// Of u and v; 0 where it is not periodic.
+    pub fn period(&self) -> [f64; 2] {
+        self.period
+    }
+
+    /// Lower and upper ends of u and v.
+    pub fn domain(&self) -> [[f64; 2]; 2] {
+        [0, 1].map(|k| [self.knots[k][self.degree[k]], self.knots[k][self.count[k]]])
+    }
+
     /// The point, and the derivatives by u and v.
     pub fn d1(&self, u: f64, v: f64) -> (Vector, Vector, Vector) {
         let (a, b) = (self.basis(0, u), self.basis(1, v));

@@ -2,6 +2,8 @@
 //!
 //! The records are those of `hlr/source/surfaces.py`.
 
+use std::f64::consts::TAU;
+
 use super::curve::Curve;
 use super::spline_surface::SplineSurface;
 use super::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
@@ -98,6 +100,38 @@ impl Surface {
             }
             Surface::Spline(s) => s.d1(u, v),
             Surface::Offset(basis, distance) => offset(basis, *distance, [u, v]),
+        }
+    }
+
+    pub fn point(&self, uv: [f64; 2]) -> Vector {
+        self.d1(uv).0
+    }
+
+    /// After how much u and v the surface comes back to itself; 0 where it does not.
+    pub fn periods(&self) -> [f64; 2] {
+        match self {
+            Surface::Plane(_) => [0.0; 2],
+            Surface::Cylinder(..) | Surface::Cone(..) | Surface::Sphere(..) => [TAU, 0.0],
+            Surface::Torus(..) => [TAU, TAU],
+            Surface::Revolution(_, _, curve) => [TAU, curve.period()],
+            Surface::Extrusion(_, curve) => [curve.period(), 0.0],
+            Surface::Spline(s) => s.period(),
+            Surface::Offset(basis, _) => basis.periods(),
+        }
+    }
+
+    /// Where u and v may be; `size` stands for what has no end.
+    pub fn domain(&self, size: f64) -> [[f64; 2]; 2] {
+        let (turn, open) = ([0.0, TAU], [-size, size]);
+        match self {
+            Surface::Plane(_) => [open, open],
+            Surface::Cylinder(..) | Surface::Cone(..) => [turn, open],
+            Surface::Sphere(..) => [turn, [-0.25 * TAU, 0.25 * TAU]],
+            Surface::Torus(..) => [turn, turn],
+            Surface::Revolution(_, _, curve) => [turn, curve.domain(size)],
+            Surface::Extrusion(_, curve) => [curve.domain(size), open],
+            Surface::Spline(s) => s.domain(),
+            Surface::Offset(basis, _) => basis.domain(size),
         }
     }
 

@@ -1,0 +1,92 @@
+//! The polyline of an edge of a model.
+
+use super::chords::chords;
+use super::hull::from_chord;
+use crate::geometry::curve::Vec3;
+use crate::geometry::vector::{length, sub};
+use crate::model::{Edge, Model};
+
+/// Corners of an edge's polyline, in the edge's frame; parameters ascend. The ends are the vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Polyline {
+    pub parameters: Vec<f64>,
+    pub points: Vec<Vec3>,
+}
+
+/// Of a turn about a pole: the parts of its line in (u, v).
+const POLE_PARTS: f64 = 16.0;
+/// Of the deflection: what is left for places that were not looked at.
+const SAMPLED: f64 = 0.5;
+const MOST_HALVINGS: u32 = 14;
+
+/// The polyline of an edge at a chord error and a turning angle.
+///
+/// None: it has no curve at all.
+pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Option<Polyline> {
+    let on = edge.only_on.as_ref().and_then(|(curve, surface)| Some((model.curves2[*curve].as_ref()?, surface)));
+    let [first, last] = edge.range;
+    if !(deflection > 0.0 && angle > 0.0) {
+        return None;
+    }
+    if edge.degenerate {
+        let point = edge.end_points[0].or(edge.end_points[1])?;
+        if first.partial_cmp(&last) != Some(std::cmp::Ordering::Less) {
+            return None;
+        }
+        let count = ((last - first) / std::f64::consts::TAU * POLE_PARTS).ceil().clamp(1.0, POLE_PARTS) as usize;
+        let parameters: Vec<f64> = (0..=count).map(|i| first + (last - first) * i as f64 / count as f64).collect();
+        return Some(Polyline { points: vec![point; parameters.len()], parameters });
+    }
+    let (parameters, mut points) = match (&edge.curve, on) {
+        (Some(curve), _) => {
+            let parameters = chords(curve, edge.range, deflection, angle);
+            let points = parameters.iter().map(|&t| curve.point(t)).collect::<Vec<_>>();
+            (parameters, points)
+        }
+        (None, Some((curve, surface))) if first < last => {
+            let at = |t: f64| {
+                let [u, v, _] = curve.point(t);
+                surface.point([u, v])
+            };
+            let mut rows = vec![(first, at(first))];
+            const PARTS: u32 = 4;
+            for i in 0..PARTS {
+                let t = first + (last - first) * f64::from(i + 1) / f64::from(PARTS);
+                sampled(&at, t, at(t), deflection * SAMPLED, 0, &mut rows);
+            }
+            rows.into_iter().unzip()
+        }
+        _ => return None,
+    };
+    let end = points.len() - 1;
+    for (place, vertex) in [(0, edge.end_points[0]), (end, edge.end_points[1])] {
+        if let Some(vertex) = vertex {
+            points[place] = vertex;
+        }
+    }
+    if edge.end_points == [None, None] && length(&sub(&points[0], &points[end])) <= edge.tolerance {
+        points[end] = points[0];
+    }
+    let finite = points.iter().flatten().all(|c| c.is_finite());
+    // A closed edge of one chord would be none.
+    if finite && end == 1 && points[0] == points[end] {
+        let middle = 0.5 * (first + last);
+        let curve = edge.curve.as_ref()?;
+        let inner = [0.5 * (first + middle), middle, 0.5 * (middle + last)];
+        let points = [points[0], curve.point(inner[0]), curve.point(inner[1]), curve.point(inner[2]), points[end]];
+        return Some(Polyline { parameters: vec![first, inner[0], inner[1], inner[2], last], points: points.to_vec() });
+    }
+    finite.then_some(Polyline { parameters, points })
+}
+
+fn sampled(at: &dyn Fn(f64) -> Vec3, to: f64, end: Vec3, most: f64, depth: u32, rows: &mut Vec<(f64, Vec3)>) {
+    let (from, begin) = rows[rows.len() - 1];
+    let off = |share: f64| from_chord(&at(from + share * (to - from)), &begin, &end);
+    if depth < MOST_HALVINGS && [0.5, 0.25, 0.75].iter().any(|&share| off(share) > most) {
+        let middle = 0.5 * (from + to);
+        sampled(at, middle, at(middle), most, depth + 1, rows);
+        sampled(at, to, end, most, depth + 1, rows);
+    } else {
+        rows.push((to, end));
+    }
+}

@@ -1,0 +1,129 @@
+//! The tree of every part, expanded into faces, edges and their uses.
+//!
+//! The order is that of TopExp::MapShapes, so that a number here is an index in a part's face or edge map.
+
+use std::collections::HashMap;
+
+use crate::format::{Damaged, Dump, Kind, Orientation, Sub};
+
+/// A face of a part: number of the underlying face, location, how it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlacedFace {
+    pub face: u32,
+    pub location: u32,
+    pub reversed: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlacedEdge {
+    pub edge: u32,
+    pub location: u32,
+}
+
+/// An edge in a wire of a face: numbers within the part. A face that stands there twice uses its edges twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlacedUse {
+    pub edge: u32,
+    pub face: u32,
+    pub orientation: Orientation,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Part {
+    pub faces: Vec<PlacedFace>,
+    pub edges: Vec<PlacedEdge>,
+    pub uses: Vec<PlacedUse>,
+}
+
+pub struct Explored {
+    /// Underlying faces and edges, in the order in which they are met.
+    pub faces: Vec<u32>,
+    pub edges: Vec<u32>,
+    pub parts: Vec<Part>,
+}
+
+/// Faces, edges and what holds them, in all parts: what is nested so that it makes more is damage.
+const MOST: usize = 200_000_000;
+
+/// A shape on its way: with the face it belongs to, and location and orientation from the part on.
+#[derive(Clone, Copy)]
+struct Item {
+    shape: u32,
+    location: u32,
+    orientation: Orientation,
+    face: Option<u32>,
+}
+
+/// # Errors
+/// The root is no compound, or the parts hold more than can be.
+pub fn explore(dump: &mut Dump) -> Result<Explored, Damaged> {
+    let root = &dump.shapes[dump.root.shape as usize];
+    if root.kind != Kind::Compound {
+        return Err(Damaged { what: "the root is no compound", at: 0 });
+    }
+    let mut found = Explored { faces: Vec::new(), edges: Vec::new(), parts: Vec::new() };
+    let (mut faces, mut edges) = (HashMap::new(), HashMap::new());
+    let (mut left, mut stack) = (MOST, Vec::new());
+    for child in root.subs.clone() {
+        let mut part = Part::default();
+        let (mut placed_faces, mut placed_edges) = (HashMap::new(), HashMap::new());
+        stack.push(Item {
+            shape: child.shape,
+            location: dump.locations.written(child.location),
+            orientation: child.orientation,
+            face: None,
+        });
+        while let Some(item) = stack.pop() {
+            left = left.checked_sub(1).ok_or(Damaged { what: "shapes nested beyond measure", at: 0 })?;
+            let mut face = item.face;
+            match dump.shapes[item.shape as usize].kind {
+                Kind::Vertex { .. } => continue,
+                Kind::Edge { .. } => {
+                    let edge = numbered(&mut edges, &mut found.edges, item.shape);
+                    let placed = PlacedEdge { edge, location: item.location };
+                    let number = *placed_edges.entry(placed_key(edge, item.location)).or_insert_with(|| {
+                        part.edges.push(placed);
+                        part.edges.len() as u32 - 1
+                    });
+                    if let Some(face) = item.face {
+                        part.uses.push(PlacedUse { edge: number, face, orientation: item.orientation });
+                    }
+                    continue;
+                }
+                Kind::Face { .. } => {
+                    let number = numbered(&mut faces, &mut found.faces, item.shape);
+                    let reversed = item.orientation == Orientation::Reversed;
+                    let placed = PlacedFace { face: number, location: item.location, reversed };
+                    face = Some(*placed_faces.entry(placed_key(number, item.location)).or_insert_with(|| {
+                        part.faces.push(placed);
+                        part.faces.len() as u32 - 1
+                    }));
+                }
+                _ => {}
+            }
+            let subs: &[Sub] = &dump.shapes[item.shape as usize].subs;
+            for sub in subs.iter().rev() {
+                let within = dump.locations.written(sub.location);
+                stack.push(Item {
+                    shape: sub.shape,
+                    location: dump.locations.product(item.location, within),
+                    orientation: item.orientation.compose(sub.orientation),
+                    face,
+                });
+            }
+        }
+        found.parts.push(part);
+    }
+    Ok(found)
+}
+
+fn placed_key(number: u32, location: u32) -> u64 {
+    u64::from(number) << 32 | u64::from(location)
+}
+
+fn numbered(known: &mut HashMap<u32, u32>, all: &mut Vec<u32>, shape: u32) -> u32 {
+    *known.entry(shape).or_insert_with(|| {
+        all.push(shape);
+        all.len() as u32 - 1
+    })
+}

@@ -1,0 +1,128 @@
+//! The border of a face as closed loops in the parameter plane of its surface.
+
+use std::collections::HashMap;
+
+use super::chain::{NEAR, chained};
+use super::uses::{Run, run};
+use crate::edges::Polyline;
+use crate::mesh::{FaceLoops, Fault, LoopPoint};
+use crate::model::{Face, Model, Vertex};
+
+/// A place that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    Vertex(Vertex),
+    /// Edge, location, corner.
+    Edge(u32, u32, u32),
+}
+
+#[derive(Clone, Debug)]
+pub struct Border {
+    pub loops: FaceLoops,
+    /// What the numbers of nodes in `loops` stand for.
+    pub nodes: Vec<Node>,
+    /// For each chord of each loop its edge and chord along the edge; None between the ends of two edges.
+    pub chords: Vec<Vec<Option<(u32, u32)>>>,
+    /// Some edges lie inside the face and bound nothing.
+    pub inner_edges: bool,
+}
+
+/// # Errors
+/// An edge has no place on the surface, or the edges make no closed loops.
+pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflection: f64) -> Result<Border, Fault> {
+    let Some(surface) = &face.surface else { return Err(Fault::Degenerate) };
+    let periods = surface.periods();
+    let mut inner_edges = false;
+    let mut wires: Vec<Vec<Run>> = Vec::new();
+    for wire in &face.wires {
+        let mut runs = Vec::with_capacity(wire.len());
+        for used in wire {
+            match run(model, surface, used, polylines, face.tolerance, deflection)? {
+                Some(run) => runs.push(run),
+                None => inner_edges = true,
+            }
+        }
+        wires.push(runs);
+    }
+    let all = || wires.iter().flatten().flat_map(|run| &run.uv);
+    let extent = [0, 1].map(|k| {
+        let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), uv| (l.min(uv[k]), h.max(uv[k])));
+        high - low
+    });
+    let mut out =
+        Border { loops: FaceLoops { loops: Vec::new(), periods }, nodes: Vec::new(), chords: Vec::new(), inner_edges };
+    let mut numbers: HashMap<Node, u32> = HashMap::new();
+    for runs in &wires {
+        for order in chained(runs, extent, periods)? {
+            let (mut points, mut chords) = (Vec::new(), Vec::new());
+            let count = order.len();
+            for (k, &(i, shift)) in order.iter().enumerate() {
+                let run = &runs[i];
+                let last = run.uv.len() - 1;
+                let (next, next_shift) = order[(k + 1) % count];
+                let at = |uv: [f64; 2], shift: [f64; 2]| [uv[0] + shift[0], uv[1] + shift[1]];
+                // The end is where the next edge begins; at a pole that may be another place in (u, v).
+                let (end, begin) = (at(run.uv[last], shift), at(runs[next].uv[0], next_shift));
+                let turns = if k + 1 < count { [0.0; 2] } else { whole_turns(end, begin, periods) };
+                let joined = (0..2).all(|k| (end[k] - begin[k] - turns[k]).abs() <= NEAR * extent[k]);
+                for corner in 0..if joined { last } else { last + 1 } {
+                    let node = node(run, corner, last);
+                    let number = *numbers.entry(node).or_insert_with(|| {
+                        out.nodes.push(node);
+                        out.nodes.len() as u32 - 1
+                    });
+                    points.push(LoopPoint { uv: at(run.uv[corner], shift), point: run.points[corner], node: number });
+                    let chord = if run.backward { last.wrapping_sub(corner + 1) } else { corner };
+                    chords.push((corner < last && !run.degenerate).then_some((run.edge, chord as u32)));
+                }
+            }
+            out.loops.loops.push(points);
+            out.chords.push(chords);
+        }
+    }
+    together(&mut out.loops);
+    if out.loops.loops.is_empty() { Err(Fault::Open) } else { Ok(out) }
+}
+
+/// From `begin` to `end`, as far as that is whole periods.
+fn whole_turns(end: [f64; 2], begin: [f64; 2], periods: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|k| if periods[k] > 0.0 { ((end[k] - begin[k]) / periods[k]).round() * periods[k] } else { 0.0 })
+}
+
+fn node(run: &Run, corner: usize, last: usize) -> Node {
+    if run.degenerate || corner == 0 {
+        Node::Vertex(run.ends[0])
+    } else if corner == last {
+        Node::Vertex(run.ends[1])
+    } else {
+        Node::Edge(run.edge, run.location, if run.backward { last - corner } else { corner } as u32)
+    }
+}
+
+/// Loops of a periodic surface moved by whole turns to where the largest one is.
+fn together(loops: &mut FaceLoops) {
+    let bounds = |points: &Vec<LoopPoint>, k: usize| {
+        points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.uv[k]), h.max(p.uv[k])))
+    };
+    for k in 0..2 {
+        let period = loops.periods[k];
+        if period <= 0.0 || loops.loops.len() < 2 {
+            continue;
+        }
+        let ranges: Vec<(f64, f64)> = loops.loops.iter().map(|points| bounds(points, k)).collect();
+        let widest = ranges.iter().copied().fold((0.0, 0.0), |a, b| if b.1 - b.0 > a.1 - a.0 { b } else { a });
+        for (points, range) in loops.loops.iter_mut().zip(ranges) {
+            let middle = 0.5 * (range.0 + range.1);
+            let turns = if middle < widest.0 {
+                ((widest.0 - middle) / period).ceil()
+            } else if middle > widest.1 {
+                -((middle - widest.1) / period).ceil()
+            } else {
+                continue;
+            };
+            for point in points {
+                point.uv[k] += turns * period;
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The edges of a wire put in order: each begins in the vertex where the one before it ends, and near it in (u, v).
+//!
+//! Wires of modellers are in no order. Where a seam, a pole or two loops meet in one vertex, (u, v) decides.
+
+use super::uses::Run;
+use crate::mesh::Fault;
+
+/// Of the face's extent in (u, v): ends that are nearer than that are one.
+pub const NEAR: f64 = 1e-3;
+
+/// Numbers of runs in order, and by how much each is to be moved in (u, v).
+pub type Loop = Vec<(usize, [f64; 2])>;
+
+/// Loops of the runs of one wire.
+///
+/// extent: of the face in u and v; periods: 0 where there is none.
+pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<Loop>, Fault> {
+    let gap = |a: [f64; 2], b: [f64; 2]| {
+        (0..2).map(|k| (b[k] - a[k]).abs() / extent[k].max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
+    };
+    let turns = |a: [f64; 2], b: [f64; 2]| {
+        [0, 1].map(|k| if periods[k] > 0.0 { ((a[k] - b[k]) / periods[k]).round() * periods[k] } else { 0.0 })
+    };
+    let plus = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+    let mut left: Vec<usize> = (0..runs.len()).collect();
+    let mut loops = Vec::new();
+    while !left.is_empty() {
+        let begin = left.iter().position(|&i| !runs[i].degenerate).unwrap_or(0);
+        let first = left.remove(begin);
+        let [start, mut end] = runs[first].uv_ends();
+        let (start_vertex, mut vertex) = (runs[first].ends[0], runs[first].ends[1]);
+        let mut found: Loop = vec![(first, [0.0; 2])];
+        loop {
+            let here = vertex == start_vertex;
+            let before = &runs[found[found.len() - 1].0];
+            // Back along the same edge only where nothing else goes on; then what is near, if need be a turn away.
+            let choice = left
+                .iter()
+                .enumerate()
+                .filter(|&(_, &i)| runs[i].ends[0] == vertex)
+                .map(|(k, &i)| {
+                    let at = runs[i].uv_ends()[0];
+                    let shift = turns(end, at);
+                    let back = runs[i].edge == before.edge && runs[i].location == before.location;
+                    let far = gap(end, at);
+                    let near = gap(end, plus(at, shift));
+                    // Steps of the tolerance: what is near is equally near.
+                    let step = |g: f64| if g <= NEAR { 0.0 } else { g };
+                    ((step(near), back, step(far)), (k, i, shift))
+                })
+                .min_by(|(a, _), (b, _)| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+            let closed = here && gap(end, start) <= NEAR;
+            let Some(((near, ..), (k, i, shift))) = choice else {
+                if here {
+                    break;
+                }
+                return Err(Fault::Open);
+            };
+            // It may come round to where it began, whole turns away: a band without a seam.
+            if closed || (here && near > NEAR && gap(end, plus(start, turns(end, start))) <= NEAR) {
+                break;
+            }
+            left.remove(k);
+            end = plus(runs[i].uv_ends()[1], shift);
+            vertex = runs[i].ends[1];
+            found.push((i, shift));
+        }
+        loops.push(found);
+    }
+    Ok(loops)
+}

@@ -1,0 +1,11 @@
+//! Faces of a model: their borders from their edges' polylines.
+
+mod border;
+mod chain;
+mod invert;
+mod uses;
+
+pub use border::{Border, Node, border};
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,118 @@
+//! An edge as a wire of a face runs through it: places in space and in (u, v).
+
+use super::invert::{anywhere, near};
+use crate::edges::Polyline;
+use crate::format::{Orientation, moved};
+use crate::geometry::curve::Curve;
+use crate::geometry::surface::Surface;
+use crate::geometry::vector::{Vector, dot, length, sub};
+use crate::mesh::Fault;
+use crate::model::{Model, Use, Vertex};
+
+/// Of the deflection: how far a curve in (u, v) may be from its edge before the edge is asked itself.
+const OFF: f64 = 0.1;
+
+/// In the sense of the wire; the polyline's chords are numbered along the edge.
+pub struct Run {
+    pub edge: u32,
+    pub location: u32,
+    pub backward: bool,
+    pub degenerate: bool,
+    pub ends: [Vertex; 2],
+    pub uv: Vec<[f64; 2]>,
+    pub points: Vec<Vector>,
+}
+
+impl Run {
+    /// First and last (u, v).
+    pub fn uv_ends(&self) -> [[f64; 2]; 2] {
+        [self.uv[0], self.uv[self.uv.len() - 1]]
+    }
+}
+
+/// None for an edge inside the face, which bounds nothing.
+pub fn run(
+    model: &Model,
+    surface: &Surface,
+    used: &Use,
+    polylines: &[Option<Polyline>],
+    tolerance: f64,
+    deflection: f64,
+) -> Result<Option<Run>, Fault> {
+    let backward = match used.orientation {
+        Orientation::Forward => false,
+        Orientation::Reversed => true,
+        _ => return Ok(None),
+    };
+    let edge = &model.edges[used.edge as usize];
+    let Some(line) = &polylines[used.edge as usize] else { return Err(Fault::Degenerate) };
+    let place = |p: &Vector| used.place.as_ref().map_or(*p, |m| moved(m, p));
+    let mut points: Vec<Vector> = line.points.iter().map(place).collect();
+    let curve = used.curve2.and_then(|(curve, range)| Some((model.curves2[curve].as_ref()?, range)));
+    let mut uv = match (surface, curve) {
+        (Surface::Plane(_), _) => {
+            let (origin, x, y) = surface.d1([0.0; 2]);
+            points.iter().map(|p| sub(p, &origin)).map(|d| [dot(&d, &x), dot(&d, &y)]).collect()
+        }
+        (_, Some((curve, range))) => {
+            let limit = (OFF * deflection).min(tolerance.max(edge.tolerance)).max(1e-9 * extent(&points));
+            by_curve(surface, curve, range, edge.range, line, &points, limit)
+        }
+        (_, None) if edge.degenerate => return Err(Fault::Degenerate),
+        (_, None) => by_points(surface, &points).ok_or(Fault::Degenerate)?,
+    };
+    if !uv.iter().flatten().all(|c| c.is_finite()) {
+        return Err(Fault::Degenerate);
+    }
+    let mut ends = used.ends;
+    if backward {
+        uv.reverse();
+        points.reverse();
+        ends.reverse();
+    }
+    Ok(Some(Run { edge: used.edge, location: used.location, backward, degenerate: edge.degenerate, ends, uv, points }))
+}
+
+fn extent(points: &[Vector]) -> f64 {
+    points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()))
+}
+
+/// From the curve in (u, v) at the edge's parameters; where that is off the edge, from the edge's own places.
+fn by_curve(
+    surface: &Surface,
+    curve: &Curve,
+    [first, last]: [f64; 2],
+    range: [f64; 2],
+    line: &Polyline,
+    points: &[Vector],
+    limit: f64,
+) -> Vec<[f64; 2]> {
+    let same = first == range[0] && last == range[1];
+    let scale = (last - first) / (range[1] - range[0]);
+    let mut out = Vec::with_capacity(points.len());
+    for (&t, point) in line.parameters.iter().zip(points) {
+        let [u, v, _] = curve.point(if same { t } else { first + (t - range[0]) * scale });
+        let mut uv = [u, v];
+        let off = length(&sub(point, &surface.point(uv)));
+        if off > limit
+            && let Some(better) = near(surface, point, uv)
+            && length(&sub(point, &surface.point(better))) < 0.5 * off
+        {
+            uv = better;
+        }
+        out.push(uv);
+    }
+    out
+}
+
+fn by_points(surface: &Surface, points: &[Vector]) -> Option<Vec<[f64; 2]>> {
+    let size = extent(points);
+    let domain = surface.domain(size);
+    let mut out: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+    for point in points {
+        let found = out.last().and_then(|before| near(surface, point, *before));
+        let close = |uv: &[f64; 2]| length(&sub(point, &surface.point(*uv))) <= 1e-4 * size;
+        out.push(found.filter(close).or_else(|| anywhere(surface, point, domain))?);
+    }
+    Some(out)
+}

@@ -1,0 +1,222 @@
+//! Placements of sub-shapes: composed, compared and cancelled exactly as TopLoc_Location does.
+//!
+//! OpenCASCADE says that two sub-shapes are the same when their underlying shape and their *location* agree, and a
+//! location is not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may
+//! differ; a chain times its inverse vanishes. The index maps of a part depend on this, so chains are composed here.
+
+use std::collections::HashMap;
+
+use super::bytes::{Bytes, Read};
+
+/// Elementary transformations with their powers, from the outermost to the innermost.
+type Chain = Vec<(u32, i32)>;
+pub type Matrix = [[f64; 4]; 3];
+
+/// Of a chain, and of one power: more is damage.
+const LONGEST: usize = 1000;
+
+/// A growing table of locations; number 0 is the identity. Equal chains have equal numbers.
+#[derive(Clone, Debug)]
+pub struct Locations {
+    datums: Vec<Matrix>,
+    chains: Vec<Chain>,
+    numbers: HashMap<Chain, u32>,
+    products: HashMap<(u32, u32), u32>,
+    matrices: HashMap<u32, Matrix>,
+    /// From the dump's numbers to ours.
+    written: Vec<u32>,
+}
+
+pub fn read(bytes: &mut Bytes) -> Read<Locations> {
+    let count = bytes.header("Locations", 5)?;
+    let mut all = Locations {
+        datums: Vec::new(),
+        chains: vec![Vec::new()],
+        numbers: HashMap::from([(Vec::new(), 0)]),
+        products: HashMap::new(),
+        matrices: HashMap::new(),
+        written: vec![0],
+    };
+    for _ in 0..count {
+        let chain = match bytes.byte()? {
+            1 => {
+                let mut matrix = [[0.0; 4]; 3];
+                for row in &mut matrix {
+                    *row = bytes.reals()?;
+                }
+                all.datums.push(matrix);
+                vec![(all.datums.len() as u32 - 1, 1)]
+            }
+            2 => {
+                let mut chain = Chain::new();
+                loop {
+                    let number = bytes.integer()?;
+                    if number == 0 {
+                        break;
+                    }
+                    let power = bytes.integer()?;
+                    // Factors stand from the innermost to the outermost; each is a location written earlier.
+                    let factor = match usize::try_from(number) {
+                        Ok(number) if number < all.written.len() => &all.chains[all.written[number] as usize],
+                        _ => return bytes.fault("a location of nothing"),
+                    };
+                    let times = power.unsigned_abs() as usize;
+                    if times > LONGEST || chain.len() + times * factor.len() > LONGEST {
+                        return bytes.fault("a location of too many moves");
+                    }
+                    let one = if power < 0 { inverse(factor) } else { factor.clone() };
+                    for _ in 0..times {
+                        chain = composed(&one, &chain);
+                    }
+                }
+                chain
+            }
+            _ => return bytes.fault("a location of unknown kind"),
+        };
+        let number = all.number(chain);
+        all.written.push(number);
+    }
+    Ok(all)
+}
+
+fn inverse(chain: &Chain) -> Chain {
+    chain.iter().rev().map(|&(datum, power)| (datum, -power)).collect()
+}
+
+/// Only neighbours of one and the same elementary move merge: what TopLoc_Location::Multiplied does.
+fn composed(outer: &Chain, inner: &Chain) -> Chain {
+    let mut chain = outer.clone();
+    for &(datum, power) in inner {
+        let total = match chain.last() {
+            Some(&(last, before)) if last == datum => {
+                chain.pop();
+                before.saturating_add(power)
+            }
+            _ => power,
+        };
+        if total != 0 {
+            chain.push((datum, total));
+        }
+    }
+    chain
+}
+
+impl Locations {
+    /// How many the dump has, the identity among them.
+    pub fn count(&self) -> usize {
+        self.written.len()
+    }
+
+    /// Our number of a location that the dump numbers so.
+    pub fn written(&self, number: u32) -> u32 {
+        self.written[number as usize]
+    }
+
+    fn number(&mut self, chain: Chain) -> u32 {
+        if let Some(&known) = self.numbers.get(&chain) {
+            return known;
+        }
+        let number = self.chains.len() as u32;
+        self.chains.push(chain.clone());
+        self.numbers.insert(chain, number);
+        number
+    }
+
+    /// outer * inner
+    pub fn product(&mut self, outer: u32, inner: u32) -> u32 {
+        if outer == 0 || inner == 0 {
+            return outer + inner;
+        }
+        if let Some(&known) = self.products.get(&(outer, inner)) {
+            return known;
+        }
+        let chain = composed(&self.chains[outer as usize], &self.chains[inner as usize]);
+        let number = self.number(chain);
+        self.products.insert((outer, inner), number);
+        number
+    }
+
+    /// outer^-1 * inner
+    pub fn quotient(&mut self, outer: u32, inner: u32) -> u32 {
+        if outer == 0 {
+            return inner;
+        }
+        let back = inverse(&self.chains[outer as usize]);
+        let back = self.number(back);
+        self.product(back, inner)
+    }
+
+    pub fn matrix(&mut self, number: u32) -> Matrix {
+        if let Some(known) = self.matrices.get(&number) {
+            return *known;
+        }
+        let mut matrix = IDENTITY;
+        for &(datum, power) in &self.chains[number as usize] {
+            let step = self.datums[datum as usize];
+            let step = if power > 0 { step } else { inverted(&step) };
+            for _ in 0..power.unsigned_abs().min(LONGEST as u32) {
+                matrix = chained(&matrix, &step);
+            }
+        }
+        self.matrices.insert(number, matrix);
+        matrix
+    }
+}
+
+pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+
+/// Moves by `inner`, then by `outer`.
+pub fn chained(outer: &Matrix, inner: &Matrix) -> Matrix {
+    outer.map(|[a, b, c, d]| {
+        [0, 1, 2, 3].map(|j| a * inner[0][j] + b * inner[1][j] + c * inner[2][j] + if j == 3 { d } else { 0.0 })
+    })
+}
+
+pub fn determinant(m: &Matrix) -> f64 {
+    (0..3).map(|k| m[0][k] * cofactor(m, k, 0)).sum()
+}
+
+fn cofactor(m: &Matrix, i: usize, j: usize) -> f64 {
+    let (j1, j2, i1, i2) = ((j + 1) % 3, (j + 2) % 3, (i + 1) % 3, (i + 2) % 3);
+    m[j1][i1] * m[j2][i2] - m[j1][i2] * m[j2][i1]
+}
+
+fn inverted(m: &Matrix) -> Matrix {
+    let determinant = determinant(m);
+    [0, 1, 2].map(|i| {
+        let [a, b, c] = [0, 1, 2].map(|j| cofactor(m, i, j) / determinant);
+        [a, b, c, -(a * m[0][3] + b * m[1][3] + c * m[2][3])]
+    })
+}
+
+pub fn moved(m: &Matrix, [x, y, z]: &[f64; 3]) -> [f64; 3] {
+    m.map(|[a, b, c, d]| a * x + b * y + c * z + d)
+}
+
+/// A direction, which is turned and not shifted.
+pub fn turned(m: &Matrix, [x, y, z]: &[f64; 3]) -> [f64; 3] {
+    m.map(|[a, b, c, _]| a * x + b * y + c * z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_move_and_its_inverse_cancel() {
+        let turn = [[0.0, -1.0, 0.0, 3.0], [1.0, 0.0, 0.0, 1.0], [0.0, 0.0, 1.0, 5.0]];
+        assert_eq!(chained(&turn, &inverted(&turn)), IDENTITY);
+        let mut all = Locations {
+            datums: vec![turn, IDENTITY],
+            chains: vec![vec![], vec![(0, 1)], vec![(0, 1), (1, 1)]],
+            numbers: HashMap::from([(vec![], 0), (vec![(0, 1)], 1), (vec![(0, 1), (1, 1)], 2)]),
+            products: HashMap::new(),
+            matrices: HashMap::new(),
+            written: vec![0, 1, 2],
+        };
+        assert_eq!(all.quotient(1, 1), 0);
+        let inner = all.quotient(1, 2);
+        assert_eq!(all.product(1, inner), 2);
+        assert_eq!(all.matrix(2), turn);
+    }
+}

@@ -1,0 +1,101 @@
+//! OpenCASCADE's binary dump of a shape (BinTools), layouts 2 to 4, read without OpenCASCADE.
+//!
+//! ```text
+//! Locations, Curve2ds, Curves, Polygon3D, PolygonOnTriangulations, Surfaces, Triangulations, TShapes, root
+//! ```
+//!
+//! The bytes may be anything: what is not a dump gives an error, counts are compared with the bytes that are left before
+//! memory is taken, and nesting is bounded.
+
+mod bytes;
+mod curves;
+mod locations;
+mod shapes;
+mod surfaces;
+mod triangles;
+
+pub use locations::{Locations, Matrix, chained, determinant, moved, turned};
+pub use shapes::{Kind, On, Orientation, Shape, Sub};
+pub use surfaces::SurfaceRecord;
+pub use triangles::Triangulation;
+
+use crate::geometry::curve::Curve;
+use bytes::{Bytes, Read};
+
+/// What is wrong with the bytes, and where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Damaged {
+    pub what: &'static str,
+    pub at: usize,
+}
+
+impl std::fmt::Display for Damaged {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} (at byte {})", self.what, self.at)
+    }
+}
+
+/// What a dump holds; underlying shapes stand before those that consist of them.
+pub struct Dump {
+    pub locations: Locations,
+    /// In (u, v), as curves in space with z = 0. None: of a kind that is not known here.
+    pub curves2: Vec<Option<Curve>>,
+    pub curves: Vec<Option<Curve>>,
+    /// Polygons in space.
+    pub polygons: Vec<Vec<[f64; 3]>>,
+    pub surfaces: Vec<Option<SurfaceRecord>>,
+    pub triangulations: Vec<Triangulation>,
+    pub shapes: Vec<Shape>,
+    pub root: Sub,
+}
+
+/// How deep curves and surfaces may be trimmed or offset, one upon the other.
+const MOST_NESTED: usize = 16;
+
+/// The shape of a dump.
+///
+/// # Errors
+/// The bytes are not those of a dump in a layout that is known here.
+pub fn read(data: &[u8]) -> Read<Dump> {
+    let mut bytes = Bytes::new(data);
+    let mut version = bytes.line()?;
+    if version.is_empty() {
+        version = bytes.line()?;
+    }
+    let layout = match version.strip_prefix(b"Open CASCADE Topology V").and_then(<[u8]>::first) {
+        Some(b'2' | b'3') => Layout { ends_in_uv: true, normals: false },
+        Some(b'4') => Layout { ends_in_uv: false, normals: true },
+        _ => return bytes.fault("not a dump in a layout that is known here"),
+    };
+    let locations = locations::read(&mut bytes)?;
+    let curves2 = curves::section(&mut bytes, "Curve2ds", curves::plane_curve)?;
+    let curves = curves::section(&mut bytes, "Curves", curves::space_curve)?;
+    let polygons = triangles::polygons(&mut bytes)?;
+    let on_triangles = triangles::skip_polygons_on_triangulations(&mut bytes)?;
+    let surfaces = surfaces::section(&mut bytes)?;
+    let triangulations = triangles::triangulations(&mut bytes, layout)?;
+    bytes.line()?;
+    let limits = shapes::Limits {
+        locations: locations.count(),
+        curves2: curves2.len(),
+        curves: curves.len(),
+        polygons: polygons.len(),
+        on_triangles,
+        surfaces: surfaces.len(),
+        triangulations: triangulations.len(),
+        layout,
+    };
+    let (shapes, root) = shapes::read(&mut bytes, &limits)?;
+    Ok(Dump { locations, curves2, curves, polygons, surfaces, triangulations, shapes, root })
+}
+
+#[derive(Clone, Copy)]
+struct Layout {
+    /// A curve on a surface is followed by the (u, v) of its ends.
+    ends_in_uv: bool,
+    /// A triangulation says whether it has normals.
+    normals: bool,
+}
+
+#[cfg(test)]
+mod tests;

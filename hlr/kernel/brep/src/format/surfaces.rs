@@ -1,0 +1,114 @@
+//! The section of surfaces.
+
+use super::MOST_NESTED;
+use super::bytes::{Bytes, Read};
+use super::curves::{Axis, degree, pole, space_curve};
+use crate::geometry::curve::Curve;
+
+/// A surface as numbers: what `Surface::read` takes, and what Python hands to other parts of the kernel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceRecord {
+    pub kind: u8,
+    pub data: Vec<f64>,
+}
+
+pub fn section(bytes: &mut Bytes) -> Read<Vec<Option<SurfaceRecord>>> {
+    let count = bytes.header("Surfaces", 2)?;
+    (0..count).map(|_| surface(bytes, 0)).collect()
+}
+
+/// Origin, then the directions of x, y and z; in the dump that of z comes before the others.
+fn frame(bytes: &mut Bytes) -> Read<Vec<f64>> {
+    let [a, b, c, zx, zy, zz, x @ .., yx, yy, yz] = bytes.reals::<12>()?;
+    Ok([&[a, b, c], &x[..], &[yx, yy, yz, zx, zy, zz]].concat())
+}
+
+fn with_frame<const N: usize>(bytes: &mut Bytes, kind: u8) -> Read<Option<SurfaceRecord>> {
+    let mut data = frame(bytes)?;
+    data.extend(bytes.reals::<N>()?);
+    Ok(Some(SurfaceRecord { kind, data }))
+}
+
+fn swept(kind: u8, mut data: Vec<f64>, curve: Option<Curve>) -> Option<SurfaceRecord> {
+    let curve = curve?;
+    let at = data.len();
+    data.push(0.0);
+    data[at] = f64::from(curve.record(&mut data));
+    Some(SurfaceRecord { kind, data })
+}
+
+/// None where its kind has no form here.
+fn surface(bytes: &mut Bytes, nested: usize) -> Read<Option<SurfaceRecord>> {
+    if nested > MOST_NESTED {
+        return bytes.fault("surfaces nested too deep");
+    }
+    match bytes.byte()? {
+        1 => with_frame::<0>(bytes, 1),
+        2 => with_frame::<1>(bytes, 2),
+        3 => with_frame::<2>(bytes, 3),
+        4 => with_frame::<1>(bytes, 4),
+        5 => with_frame::<2>(bytes, 5),
+        6 => {
+            let way = bytes.reals::<3>()?.to_vec();
+            Ok(swept(7, way, space_curve(bytes, nested)?))
+        }
+        7 => {
+            let axis = bytes.reals::<6>()?.to_vec();
+            Ok(swept(6, axis, space_curve(bytes, nested)?))
+        }
+        8 => bezier(bytes).map(Some),
+        9 => spline(bytes).map(Some),
+        10 => {
+            bytes.skip(32)?; // may be without end
+            surface(bytes, nested + 1)
+        }
+        11 => {
+            let distance = bytes.finite()?;
+            let basis = surface(bytes, nested + 1)?;
+            Ok(basis.map(|basis| SurfaceRecord {
+                kind: 9,
+                data: [&[distance, f64::from(basis.kind)], &basis.data[..]].concat(),
+            }))
+        }
+        _ => bytes.fault("a surface of unknown kind"),
+    }
+}
+
+fn bezier(bytes: &mut Bytes) -> Read<SurfaceRecord> {
+    let rational = bytes.flag()? | bytes.flag()?;
+    let (u, v) = (degree(bytes)?, degree(bytes)?);
+    let mut data = vec![u as f64, v as f64, u as f64 + 1.0, v as f64 + 1.0, 0.0, 0.0];
+    for degree in [u, v] {
+        data.extend(std::iter::repeat_n(0.0, degree + 1).chain(std::iter::repeat_n(1.0, degree + 1)));
+    }
+    for _ in 0..(u + 1) * (v + 1) {
+        let [x, y, z, w] = pole::<3>(bytes, rational)?;
+        data.extend([x / w, y / w, z / w, w]);
+    }
+    Ok(SurfaceRecord { kind: 8, data })
+}
+
+fn spline(bytes: &mut Bytes) -> Read<SurfaceRecord> {
+    let rational = bytes.flag()? | bytes.flag()?;
+    let periodic = [bytes.flag()?, bytes.flag()?];
+    let degrees = [degree(bytes)?, degree(bytes)?];
+    let counts = [bytes.count(24)?, bytes.count(24)?];
+    let knots = [bytes.count(12)?, bytes.count(12)?];
+    let all = counts[0].checked_mul(counts[1]).and_then(|n| i32::try_from(n).ok()).unwrap_or(-1);
+    let all = bytes.fitting(all, 24)?;
+    let poles = (0..all).map(|_| pole::<3>(bytes, rational)).collect::<Read<Vec<_>>>()?;
+    let read = |bytes: &mut Bytes, k: usize| Axis::read(bytes, degrees[k], counts[k], knots[k], periodic[k]);
+    let axes = [read(bytes, 0)?, read(bytes, 1)?];
+    let [(u, rows), (v, columns)] = [0, 1].map(|k| axes[k].flat(degrees[k], counts[k], 0));
+    let [du, dv] = degrees.map(|d| d as f64);
+    let mut data = vec![du, dv, rows.len() as f64, columns.len() as f64, axes[0].period(), axes[1].period()];
+    data.extend(u);
+    data.extend(v);
+    for row in rows {
+        for &column in &columns {
+            let [x, y, z, w] = poles[row * counts[1] + column];
+            data.extend([x / w, y / w, z / w, w]);
+        }
+    }
+    Ok(SurfaceRecord { kind: 8, data })
+}

@@ -1,0 +1,211 @@
+//! A dump as parts, faces and edges: each underlying face and edge once, however often it is placed.
+
+use std::collections::HashMap;
+
+use crate::explore::{self, Part};
+use crate::format::{Damaged, Dump, Kind, Locations, Matrix, On, Orientation, SurfaceRecord};
+use crate::geometry::curve::Curve;
+use crate::geometry::moved_surface::moved;
+use crate::geometry::surface::Surface;
+
+/// A vertex as a shape sees it that holds it: underlying shape and location.
+pub type Vertex = (u32, u32);
+
+/// The end of an edge that has no vertex there: with the edge's number.
+pub const NO_VERTEX: u32 = 1 << 31;
+
+pub struct Model {
+    pub locations: Locations,
+    pub edges: Vec<Edge>,
+    pub faces: Vec<Face>,
+    pub parts: Vec<Part>,
+    /// In (u, v), as curves in space with z = 0.
+    pub curves2: Vec<Option<Curve>>,
+}
+
+/// An underlying edge, in its own frame.
+pub struct Edge {
+    /// None: only its curves on surfaces are known.
+    pub curve: Option<Curve>,
+    pub range: [f64; 2],
+    pub tolerance: f64,
+    /// All of it is one point: a pole.
+    pub degenerate: bool,
+    /// First and last vertex, and where they are.
+    pub ends: [Option<Vertex>; 2],
+    pub end_points: [Option<[f64; 3]>; 2],
+    /// A file or a modeller recorded that two faces are tangent along it.
+    pub tangent: bool,
+    pub on: Vec<OnSurface>,
+    pub polygon: Option<Vec<[f64; 3]>>,
+    /// Of an edge without a curve in space: number of its curve in (u, v), and the surface in the edge's frame.
+    pub only_on: Option<(usize, Surface)>,
+}
+
+/// An edge's curves in (u, v) of a surface, one for each sense where the edge is a seam.
+pub struct OnSurface {
+    pub surface: usize,
+    pub location: u32,
+    pub curves: [usize; 2],
+    pub range: [f64; 2],
+}
+
+/// An underlying face, in its own frame; taken forward.
+pub struct Face {
+    pub record: Option<SurfaceRecord>,
+    pub surface: Option<Surface>,
+    pub tolerance: f64,
+    pub wires: Vec<Vec<Use>>,
+    /// Triangles that are all the face has.
+    pub own: Option<crate::format::Triangulation>,
+}
+
+/// An edge in a wire of a face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Use {
+    pub edge: u32,
+    pub location: u32,
+    /// Where the location puts it; None: where it is.
+    pub place: Option<Matrix>,
+    pub orientation: Orientation,
+    /// First and last vertex of the edge, as the face sees them.
+    pub ends: [Vertex; 2],
+    /// Number of the curve in (u, v), and its range.
+    pub curve2: Option<(usize, [f64; 2])>,
+}
+
+impl Model {
+    /// The parts are the children of the dump's root, a compound.
+    ///
+    /// # Errors
+    /// The bytes are damaged, or their shapes nest beyond all measure.
+    pub fn read(bytes: &[u8]) -> Result<Model, Damaged> {
+        let mut dump = crate::format::read(bytes)?;
+        let found = explore::explore(&mut dump)?;
+        let mut triangulations: Vec<_> = std::mem::take(&mut dump.triangulations).into_iter().map(Some).collect();
+        let edges: Vec<Edge> = found.edges.iter().map(|&shape| edge(&mut dump, shape)).collect();
+        let number: HashMap<u32, u32> = (0..).zip(&found.edges).map(|(i, &shape)| (shape, i)).collect();
+        let faces =
+            found.faces.iter().map(|&shape| face(&mut dump, shape, &number, &edges, &mut triangulations)).collect();
+        let Dump { locations, curves2, .. } = dump;
+        Ok(Model { locations, edges, faces, parts: found.parts, curves2 })
+    }
+}
+
+fn edge(dump: &mut Dump, shape: u32) -> Edge {
+    let shape = dump.shapes[shape as usize].clone();
+    let Kind::Edge { tolerance, degenerate, on, continuity, .. } = shape.kind else { unreachable!("an edge") };
+    let mut found = Edge {
+        curve: None,
+        range: [0.0; 2],
+        tolerance,
+        degenerate,
+        ends: [None; 2],
+        end_points: [None; 2],
+        // 0: nothing recorded, 1: C0, from there on tangent.
+        tangent: continuity > 1,
+        on: Vec::new(),
+        polygon: None,
+        only_on: None,
+    };
+    for on in on {
+        match on {
+            On::Curve { curve, location, range } if found.curve.is_none() => {
+                let location = dump.locations.written(location);
+                found.curve = dump.curves[curve].clone();
+                if location != 0 {
+                    let matrix = dump.locations.matrix(location);
+                    found.curve = found.curve.map(|curve| curve.moved(&matrix));
+                }
+                found.range = range;
+            }
+            On::Surface { curves, surface, location, range } => {
+                let location = dump.locations.written(location);
+                found.on.push(OnSurface { surface, location, curves, range });
+            }
+            On::Polygon { polygon, location } if found.polygon.is_none() => {
+                let location = dump.locations.written(location);
+                let matrix = dump.locations.matrix(location);
+                let points = &dump.polygons[polygon];
+                found.polygon = Some(points.iter().map(|p| crate::format::moved(&matrix, p)).collect());
+            }
+            _ => {}
+        }
+    }
+    if found.curve.is_none() || !found.range.iter().all(|t| t.is_finite()) || found.range[0] >= found.range[1] {
+        found.curve = None;
+        found.range = found.on.first().map_or([0.0; 2], |on| on.range);
+        if let (Some(on), false) = (found.on.first(), degenerate) {
+            let matrix = dump.locations.matrix(on.location);
+            found.only_on = dump.surfaces[on.surface]
+                .as_ref()
+                .and_then(|r| Surface::read(r.kind, &moved(r.kind, &r.data, &matrix)?))
+                .map(|surface| (on.curves[0], surface));
+        }
+    }
+    for sub in &shape.subs {
+        let end = match sub.orientation {
+            Orientation::Forward => 0,
+            Orientation::Reversed => 1,
+            _ => continue,
+        };
+        if found.ends[end].is_none() {
+            let location = dump.locations.written(sub.location);
+            let Kind::Vertex { point, .. } = dump.shapes[sub.shape as usize].kind else { continue };
+            found.ends[end] = Some((sub.shape, location));
+            found.end_points[end] = Some(crate::format::moved(&dump.locations.matrix(location), &point));
+        }
+    }
+    found
+}
+
+fn face(
+    dump: &mut Dump,
+    shape: u32,
+    number: &HashMap<u32, u32>,
+    edges: &[Edge],
+    triangulations: &mut [Option<crate::format::Triangulation>],
+) -> Face {
+    let shape = dump.shapes[shape as usize].clone();
+    let Kind::Face { tolerance, surface, location, triangulation } = shape.kind else { unreachable!("a face") };
+    let location = dump.locations.written(location);
+    let mut record = surface.and_then(|i| dump.surfaces[i].clone());
+    if location != 0 {
+        let matrix = dump.locations.matrix(location);
+        record = record.and_then(|r| moved(r.kind, &r.data, &matrix).map(|data| SurfaceRecord { kind: r.kind, data }));
+    }
+    let read = record.as_ref().and_then(|r| Surface::read(r.kind, &r.data));
+    let own = if surface.is_none() { triangulation.and_then(|i| triangulations[i].clone()) } else { None };
+    let mut wires = Vec::new();
+    for wire in &shape.subs {
+        let inner = match dump.shapes[wire.shape as usize].kind {
+            Kind::Wire => dump.shapes[wire.shape as usize].subs.clone(),
+            _ => continue,
+        };
+        let outer = dump.locations.written(wire.location);
+        let mut uses = Vec::with_capacity(inner.len());
+        for sub in inner {
+            let Some(&edge) = number.get(&sub.shape) else { continue };
+            let within = dump.locations.written(sub.location);
+            let stands = dump.locations.product(outer, within);
+            let orientation = wire.orientation.compose(sub.orientation);
+            let wanted = dump.locations.quotient(stands, location);
+            let on = &edges[edge as usize].on;
+            let of_surface = |on: &&OnSurface| Some(on.surface) == surface;
+            let fits = on.iter().filter(of_surface).find(|on| on.location == wanted);
+            let curve2 = fits.or_else(|| on.iter().find(of_surface)).map(|on| {
+                let reversed = orientation == Orientation::Reversed;
+                (on.curves[usize::from(reversed)], on.range)
+            });
+            let curve2 = curve2.filter(|(_, range)| range.iter().all(|t| t.is_finite()));
+            let place = (stands != 0).then(|| dump.locations.matrix(stands));
+            let ends = edges[edge as usize].ends.map(|end| match end {
+                Some((shape, location)) => (shape, dump.locations.product(stands, location)),
+                None => (NO_VERTEX | edge, stands),
+            });
+            uses.push(Use { edge, location: stands, place, orientation, ends, curve2 });
+        }
+        wires.push(uses);
+    }
+    Face { record, surface: read, tolerance, wires, own }
+}

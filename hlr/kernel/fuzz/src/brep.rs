@@ -1,0 +1,42 @@
+//! Bytes that may be a dump of a shape: read, its edges divided, the borders of its faces put together.
+//!
+//! Bytes that begin like no dump change a good one instead: each three of them are a place and what is written there.
+
+use hlr_brep::edges::polyline;
+use hlr_brep::faces::border;
+use hlr_brep::model::Model;
+
+const GOOD: &[u8] = include_bytes!("../../brep/tests/cylinder_4.bin");
+const DEFLECTION: f64 = 0.05;
+/// Radians.
+const ANGLE: f64 = 0.5;
+
+pub fn run(data: &[u8]) {
+    if data.starts_with(b"\nOpen CASCADE") || data.starts_with(b"Open CASCADE") {
+        return read(data);
+    }
+    let mut changed = GOOD.to_vec();
+    for &[high, low, value] in data.as_chunks::<3>().0 {
+        let at = usize::from(high) << 8 | usize::from(low);
+        let length = changed.len();
+        changed[at % length] = value;
+    }
+    read(&changed);
+}
+
+fn read(data: &[u8]) {
+    let Ok(model) = Model::read(data) else { return };
+    let lines: Vec<_> = model.edges.iter().map(|edge| polyline(&model, edge, DEFLECTION, ANGLE)).collect();
+    for line in lines.iter().flatten() {
+        assert!(line.points.len() > 1 && line.points.len() == line.parameters.len());
+        assert!(line.points.iter().flatten().all(|c| c.is_finite()));
+        assert!(line.parameters.is_sorted());
+    }
+    for face in &model.faces {
+        let Ok(found) = border(&model, face, &lines, DEFLECTION) else { continue };
+        for (points, chords) in found.loops.loops.iter().zip(&found.chords) {
+            assert_eq!(points.len(), chords.len());
+            assert!(points.iter().all(|p| (p.node as usize) < found.nodes.len()));
+        }
+    }
+}
