@@ -29,6 +29,7 @@ class Facts:
     curved, planar faces of either kind
     faces          planar and curved ones together are known at all: there is a B-rep
     repeated       two triangles of a part have the same corners, or two of its points the same place
+    borders        of parts without B-rep: sides that only one triangle has
     meeting        groups whose boxes meet those of others
     folded         groups that are not one convex body, and may pass through themselves
     culled         groups that are closed and turned outward
@@ -48,6 +49,7 @@ class Facts:
     planar: int = 0
     faces: bool = True
     repeated: bool = False
+    borders: int = 0
     meeting: int = 0
     folded: int = 0
     culled: int = 0

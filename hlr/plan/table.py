@@ -68,6 +68,10 @@ def _repair(f: Facts, _o: Options) -> Answer:
     )
 
 
+def _stitching(f: Facts, _o: Options) -> Answer:
+    return f.borders > 0, f"meshes have {_count(f.borders, 'border')}" if f.borders else "no mesh has a border"
+
+
 def _clash(f: Facts, _o: Options) -> Answer:
     if f.meeting:
         return True, f"the boxes of {_count(f.meeting, 'surface')} meet"
@@ -163,6 +167,7 @@ DRAWING: tuple[Effect, ...] = (
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
     Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),
     Effect("repair", SCENE, _repair, ("doubled_triangles",)),
+    Effect("stitching of borders", SCENE, _stitching, ("seams",)),
     Effect("intersection search", SCENE, _clash, ("clash_tests",)),
     Effect("outlines", SCENE, _outlines, ("outlines",)),
     Effect("near clipping", SCENE, _near, ("near_cuts",)),

@@ -22,6 +22,7 @@ from hlr.scene.needles import supported
 from hlr.scene.outward import inside_out, surfaces_turned, turned_outward
 from hlr.scene.repair import anything_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
+from hlr.scene.stitch import bare_borders, stitched
 from hlr.scene.topology import (
     MeshFacts,
     between_planes,
@@ -45,18 +46,14 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     """
     plan = planner or Planner(DRAWING, Options())
     parts, doubled = _repaired(meshed.parts, plan)
-    if sum(len(p.triangles) for p in parts) > MOST_TRIANGLES:
-        raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
-    firsts = _firsts([len(p.points) for p in parts])
-    points: Floats = np.concatenate([np.zeros((0, 3)), *[p.points for p in parts]])
-    if not (np.abs(points) < LARGEST).all():  # also where one is NaN
-        raise SourceError(
-            f"the tessellation has coordinates that are not finite or beyond {LARGEST:g}: repair the model"
-        )
-    triangles = np.concatenate([np.zeros((0, 3), np.int32), *[p.triangles + firsts[i] for i, p in enumerate(parts)]])
-    face = np.concatenate([np.zeros(0, np.int32), *[p.triangle_face for p in parts]])
-    part_of = np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts])
+    points, triangles, part_of = _put_together(parts)
     mesh = mesh_facts(points, triangles)
+    parts, seams = _stitched(parts, mesh, part_of, deflection, plan)
+    if seams:
+        points, triangles, part_of = _put_together(parts)
+        mesh = mesh_facts(points, triangles)
+    firsts = _firsts([len(p.points) for p in parts])
+    face = np.concatenate([np.zeros(0, np.int32), *[p.triangle_face for p in parts]])
     edges, offsets, incident, balance = mesh.edges, mesh.offsets, mesh.incident, mesh.balance
 
     brep = np.array([p.brep for p in parts], bool)
@@ -134,6 +131,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         triangle_part=part_of,
         triangle_group=group_of,
         triangle_face=face,
+        triangle_origin=np.concatenate([np.zeros(0, np.int32), *[_origin(p) for p in parts]]),
         turned=turned,
         edges=np.ascontiguousarray(edges),
         offsets=offsets,
@@ -163,6 +161,37 @@ def _repaired(parts: list[PartMesh], plan: Planner) -> tuple[list[PartMesh], lis
     doubled = [count for _, count in found]
     plan.spent("repair", perf_counter() - begin, doubled_triangles=sum(doubled))
     return [part for part, _ in found], doubled
+
+
+def _put_together(parts: list[PartMesh]) -> tuple[Floats, Ints, Ints]:
+    """Points (n, 3) and triangles (t, 3) of all parts, and the part (t,) of each triangle."""
+    if sum(len(p.triangles) for p in parts) > MOST_TRIANGLES:
+        raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
+    firsts = _firsts([len(p.points) for p in parts])
+    points: Floats = np.concatenate([np.zeros((0, 3)), *[p.points for p in parts]])
+    if not (np.abs(points) < LARGEST).all():  # also where one is NaN
+        raise SourceError(
+            f"the tessellation has coordinates that are not finite or beyond {LARGEST:g}: repair the model"
+        )
+    triangles = np.concatenate([np.zeros((0, 3), np.int32), *[p.triangles + firsts[i] for i, p in enumerate(parts)]])
+    return points, triangles, np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts])
+
+
+def _stitched(
+    parts: list[PartMesh], mesh: MeshFacts, part_of: Ints, deflection: float, plan: Planner
+) -> tuple[list[PartMesh], int]:
+    """The parts with borders that run along one another joined, and how many pieces of borders that joined."""
+    with plan.deciding():
+        borders = bare_borders(parts, mesh, part_of)
+    begin, seams = perf_counter(), 0
+    if plan.on("stitching of borders", Facts(borders=int(borders.sum()))):
+        parts, seams = stitched(parts, borders, deflection)
+    plan.spent("stitching of borders", perf_counter() - begin, seams=seams)
+    return parts, seams
+
+
+def _origin(part: PartMesh) -> Ints:
+    return np.arange(len(part.triangles), dtype=np.int32) if part.origin is None else part.origin
 
 
 def _firsts(counts: list[int]) -> Ints:

@@ -133,6 +133,7 @@ class Scene:
     intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
     facets (t, 3): normals of bare meshes as far as their coordinates support any, zero where none; None: all is B-rep.
     turned (t,) bool: listed the other way round by the source, which had the surface inside out.
+    triangle_origin (t,): which triangle of its part each is, or is a piece of, of those that the source handed over.
     """
 
     points: Floats
@@ -140,6 +141,7 @@ class Scene:
     triangle_part: Ints
     triangle_group: Ints
     triangle_face: Ints
+    triangle_origin: Ints
     turned: npt.NDArray[np.bool_]
     edges: Ints
     offsets: Ints

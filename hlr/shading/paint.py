@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.scene.scene import Scene
+from hlr.scene.stitch import weights
 from hlr.source.model import PLAIN, Floats, Ints, Look, Rgba
-from hlr.source.weld import equal_rows
 
 Colours = npt.NDArray[np.float32]
 
@@ -34,32 +34,28 @@ def corner_paint(scene: Scene, looks: Mapping[str, Look]) -> tuple[Colours, Ints
             corners = scene.triangles[a:b].copy()
             turned = scene.turned[a:b]
             corners[turned] = corners[turned][:, [0, 2, 1]]
-            own = look.corners[_kept(scene.points[corners], look.points[look.triangles])]
+            origin = scene.triangle_origin[a:b]
+            own = _at(scene.points[corners], look.points[look.triangles[origin]], _linear(look.corners[origin]))
             own[turned] = own[turned][:, [0, 2, 1]]
             painted.append(own.reshape(-1, 4))
             paint[a:b] = -1 - first - np.arange(3 * (b - a), dtype=np.int32).reshape(-1, 3)
     plain = np.array(list(table), np.float32).reshape(-1, 4)
     paint = np.where(paint < 0, len(plain) - 1 - paint, paint).astype(np.int32)
-    every = np.concatenate([plain, *painted])
-    return _linear(every), np.ascontiguousarray(paint)
+    return np.concatenate([_linear(plain), *painted]), np.ascontiguousarray(paint)
 
 
-def _kept(now: Floats, before: Floats) -> npt.NDArray[np.intp]:
-    """For each triangle of a scene's part which one of the mesh it is, by where their corners (m, 3, 3) are.
-
-    The scene has dropped those that are there twice; it has moved none, and left them in their order.
-    """
-    if len(now) == len(before):
-        return np.arange(len(now))
-    _, number = equal_rows(np.concatenate([before, now]).reshape(-1, 3))
-    corner = number.reshape(-1, 3).astype(np.int64)
-    _, first, inverse = np.unique(corner, axis=0, return_index=True, return_inverse=True)
-    return np.asarray(first[inverse.ravel()[len(before) :]], np.intp)
+def _at(now: Floats, before: Floats, colours: Colours) -> Colours:
+    """(m, 3, 4) the colours at the corners (m, 3, 3) of triangles that are, or are pieces of, those that had them."""
+    out = colours.copy()
+    cut = ~(now == before).all(axis=(1, 2))
+    share = weights(now[cut], before[cut])
+    out[cut] = (share[..., None] * colours[cut][:, None]).sum(axis=2)
+    return out
 
 
 def _linear(srgb: Colours) -> Colours:
     """Colours as numbers of a screen -> linear light; opacity stays."""
     out = srgb.copy()
-    c = np.clip(srgb[:, :3], 0.0, 1.0)
-    out[:, :3] = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    c = np.clip(srgb[..., :3], 0.0, 1.0)
+    out[..., :3] = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
     return np.ascontiguousarray(out)

@@ -84,6 +84,8 @@ class PartMesh:
     edge_class        (e,)   uint8: EdgeClass (SHARP, SMOOTH, SEAM or BOUNDARY)
     on_surfaces       where the triangles lie on their true surfaces; None where there are none
     precision         how far the coordinates of a mesh may be off by what they were rounded to, in model units
+    origin            (m,) int32: of a mesh that the scene has repaired, which of the source's own triangles each one
+                      is, or is a piece of; None: the same
 
     A mesh without B-rep leaves the four edge arrays empty and sets `brep` to False: creases and borders are then
     found by the scene. Free edges (belonging to no face) are edges of class SHARP whose nodes no triangle uses.
@@ -103,6 +105,7 @@ class PartMesh:
     brep: bool
     on_surfaces: OnSurfaces | None = None
     precision: float = 0.0
+    origin: Ints | None = None
 
 
 @dataclass(frozen=True, slots=True)

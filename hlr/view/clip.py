@@ -176,6 +176,7 @@ def _cut(scene: Scene, height: Floats) -> Scene:
         triangle_part=scene.triangle_part[parent],
         triangle_group=scene.triangle_group[parent],
         triangle_face=scene.triangle_face[parent],
+        triangle_origin=scene.triangle_origin[parent],
         turned=scene.turned[parent],
         edges=np.ascontiguousarray(edges),
         offsets=offsets,

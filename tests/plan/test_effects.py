@@ -50,11 +50,19 @@ def twice():
     return trimesh.Trimesh(mesh.vertices, np.concatenate([mesh.faces, mesh.faces[:1]]), process=False)
 
 
+def two_sheets(gap):
+    """Side by side, nearly."""
+    one = sheet(20, 0)
+    vertices = np.concatenate([one.vertices, one.vertices + [20 + gap, 0, 0]])
+    return vertices, np.concatenate([one.faces, one.faces + len(one.vertices)])
+
+
 # Effect: a scene that calls for it, one that does not; options of either.
 SCENES = {
     "meshing of curved faces": ((ball, {}), (lambda: cq.Workplane().box(9, 8, 7), {})),
     "triangulation of planar faces": ((lambda: cq.Workplane().box(9, 8, 7), {}), (ball, {})),
     "repair": ((twice, {}), (lambda: box((20, 20, 20)), {})),
+    "stitching of borders": ((lambda: two_sheets(1e-4), {}), (lambda: box((20, 20, 20)), {})),
     "intersection search": ((lambda: solids(*CROSSING), {}), (lambda: solids(*APART), {})),
     "outlines": ((ball, {}), (lambda: solids(*APART), {})),
     "near clipping": (

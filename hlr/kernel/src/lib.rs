@@ -13,6 +13,7 @@ pub mod preview;
 pub mod raster;
 pub mod scan;
 pub mod silhouette;
+pub mod stitch;
 
 use pyo3::prelude::*;
 
@@ -20,6 +21,7 @@ use pyo3::prelude::*;
 fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_balance, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::scan::stitched, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_folds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;

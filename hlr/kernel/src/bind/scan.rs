@@ -13,6 +13,7 @@ use crate::exact::snap::Grid;
 use crate::scan::mesh::{Mesh, Part};
 use crate::scan::sweep::{self, Counters, Outcome, Seconds, Steps};
 use crate::scan::topology;
+use crate::stitch;
 
 /// Rows of a C-contiguous (n, N) array.
 pub fn rows<'a, T: numpy::Element, const N: usize>(
@@ -50,6 +51,7 @@ pub fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize)
 }
 
 type FoldArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
+type StitchArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, usize);
 type EdgeArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>);
 
 #[pyfunction]
@@ -64,6 +66,21 @@ pub fn edge_table<'py>(
     let n = t.edges.len();
     let edges = t.edges.into_flattened().into_pyarray(py).reshape([n, 2])?;
     Ok((edges, t.offsets.into_pyarray(py), t.incident.into_pyarray(py)))
+}
+
+#[pyfunction]
+pub fn stitched<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    reach: f64,
+) -> PyResult<StitchArrays<'py>> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    let found = py.detach(|| stitch::stitch(points, triangles, reach));
+    let n = found.triangles.len();
+    let triangles = found.triangles.into_flattened().into_pyarray(py).reshape([n, 3])?;
+    Ok((triangles, found.origin.into_pyarray(py), found.seams))
 }
 
 #[pyfunction]
