@@ -1,17 +1,21 @@
 //! The mesh of one face from its loops, in the parameter plane of its surface.
 
+mod bent;
+mod border;
+mod bound;
 mod check;
 mod crossing;
-#[allow(dead_code)]
 mod delaunay;
 mod flip;
+mod lattice;
 mod outline;
-#[allow(dead_code)]
 mod plane;
 mod ruled;
+mod size;
 mod sweep;
 
 use crate::geometry::surface::Surface;
+use bound::Corner;
 use outline::Outline;
 
 /// A point of a loop: a corner of an edge's polyline.
@@ -58,6 +62,8 @@ pub enum Fault {
     Open,
     /// The surface has no normal, or no size, where one is needed.
     Degenerate,
+    /// More points than fit into memory would be needed.
+    TooFine,
     /// The chord error that could be shown, where that is above what was asked.
     NotCertified(f64),
 }
@@ -65,36 +71,59 @@ pub enum Fault {
 /// The mesh of a face: chord error at most `deflection` in the surface's unit, at most `angle` radians between
 /// neighbouring normals.
 pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f64) -> Result<FaceMesh, Fault> {
-    let _ = angle;
-    let (outline, made) = match surface {
-        Surface::Plane(_) => {
-            let outline = Outline::new(loops, |_, _, _| ())?;
-            let made = ruled::triangulate(surface, &outline, deflection);
-            (outline, made)
-        }
+    let made = match surface {
+        Surface::Plane(_) => flat(surface, Outline::new(loops, |_, _, _| ())?, deflection),
         Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => {
             let mut turns: Vec<f64> = loops.loops.iter().flatten().map(|p| p.uv[0]).collect();
             turns.sort_unstable_by(f64::total_cmp);
             turns.dedup();
+            // A generator from the apex to each point.
             let outline = Outline::new(loops, |from, to, shares| {
                 let share = |u: &f64| (u - from[0]) / (to[0] - from[0]);
                 shares.extend(turns.iter().map(share).filter(|t| *t > 0.0 && *t < 1.0));
                 shares.sort_unstable_by(f64::total_cmp);
             })?;
-            let made = ruled::triangulate(surface, &outline, deflection);
-            (outline, made)
+            flat(surface, outline, deflection)
         }
-        _ => return Err(Fault::Degenerate),
+        _ => bent::triangulate(surface, loops, deflection, angle)?,
     };
-    let sound = made.filter(|(triangles, stand_in, _)| check::is_sound(&outline, &outline.uv, stand_in, triangles));
-    let Some((triangles, stand_in, error)) = sound else { return Err(why(&outline)) };
-    if stand_in.iter().zip(&outline.nodes).any(|(&i, &node)| outline.nodes[i as usize] != node) {
+    let made = made.map_err(|outline| why(&outline))?;
+    let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
+    if !check::is_sound(&made.outline, &uv, &made.stand_in, &made.triangles) {
+        return Err(why(&made.outline));
+    }
+    let nodes = &made.outline.nodes;
+    if made.stand_in.iter().zip(nodes).any(|(&i, &node)| nodes[i as usize] != node) {
         return Err(Fault::Degenerate);
     }
-    if error > deflection * (1.0 + ROUNDING) {
-        return Err(Fault::NotCertified(error));
+    if made.error > deflection * (1.0 + ROUNDING) {
+        return Err(Fault::NotCertified(made.error));
     }
-    Ok(finish(surface, &outline, triangles))
+    Ok(finish(surface, made))
+}
+
+/// Triangles of a face, not yet proved.
+struct Made {
+    outline: Outline,
+    /// Points of the outline, then inner ones.
+    corners: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+    /// Of points of the outline at one place, the one that triangles have.
+    stand_in: Vec<u32>,
+    error: f64,
+}
+
+/// Without inner points. Where the loops cannot be filled, their outline.
+fn flat(surface: &Surface, outline: Outline, deflection: f64) -> Result<Made, Box<Outline>> {
+    let Some((triangles, stand_in, error)) = ruled::triangulate(surface, &outline, deflection) else {
+        return Err(Box::new(outline));
+    };
+    let corner = |(&uv, &point): (&[f64; 2], &[f64; 3])| match surface {
+        Surface::Plane(_) => Corner { uv, point, normal: surface.normal([0.0; 2]).unwrap_or_default() },
+        _ => Corner { uv, point, normal: surface.normal(uv).unwrap_or_default() },
+    };
+    let corners = outline.uv.iter().zip(&outline.points).map(corner).collect();
+    Ok(Made { outline, corners, triangles, stand_in, error })
 }
 
 const ROUNDING: f64 = 1e-9;
@@ -114,36 +143,35 @@ fn why(outline: &Outline) -> Fault {
     Fault::Crossing(pairs.collect())
 }
 
-fn finish(surface: &Surface, outline: &Outline, mut triangles: Vec<[u32; 3]>) -> FaceMesh {
+fn finish(surface: &Surface, made: Made) -> FaceMesh {
+    let Made { outline, mut corners, mut triangles, .. } = made;
     // At poles triangles may have two corners in one place.
     let node = |i: u32| outline.nodes.get(i as usize);
     let apart = |a: u32, b: u32| node(a).is_none() || node(a) != node(b);
     triangles.retain(|&[a, b, c]| apart(a, b) && apart(b, c) && apart(c, a));
-    let mut normals: Vec<_> = match surface {
-        Surface::Plane(_) => vec![surface.normal(outline.uv[0]).unwrap_or([0.0; 3]); outline.len()],
-        _ => outline.uv.iter().map(|&uv| surface.normal(uv).unwrap_or([0.0; 3])).collect(),
+    let toward = |c: &mut Corner, beside: [f64; 2]| {
+        if c.normal == [0.0; 3] {
+            c.normal = surface.normal_toward(c.uv, beside).unwrap_or_default();
+        }
     };
     for t in &triangles {
         for k in 0..3 {
-            let i = t[k] as usize;
-            if normals[i] == [0.0; 3] {
-                let [p, q] = [t[(k + 1) % 3], t[(k + 2) % 3]].map(|j| outline.uv[j as usize]);
-                let beside = [0, 1].map(|c| 0.5 * (p[c] + q[c]));
-                normals[i] = surface.normal_toward(outline.uv[i], beside).unwrap_or([0.0; 3]);
-            }
+            let [p, q] = [t[(k + 1) % 3], t[(k + 2) % 3]].map(|j| corners[j as usize].uv);
+            toward(&mut corners[t[k] as usize], [0, 1].map(|c| 0.5 * (p[c] + q[c])));
         }
     }
     // Corners of nothing but such triangles.
-    let middle = 0.5 * (outline.bounds()[0][1] + outline.bounds()[1][1]);
-    for (n, uv) in normals.iter_mut().zip(&outline.uv).filter(|(n, _)| **n == [0.0; 3]) {
-        *n = surface.normal_toward(*uv, [uv[0], middle]).unwrap_or([0.0; 3]);
+    let bounds = outline.bounds();
+    for c in &mut corners {
+        let middle = [c.uv[0], 0.5 * (bounds[0][1] + bounds[1][1])];
+        toward(c, middle);
     }
     FaceMesh {
-        uv: outline.uv.clone(),
-        points: outline.points.clone(),
-        nodes: outline.nodes.clone(),
+        uv: corners.iter().map(|c| c.uv).collect(),
+        points: corners.iter().map(|c| c.point).collect(),
+        nodes: outline.nodes,
         triangles,
-        normals,
+        normals: corners.iter().map(|c| c.normal).collect(),
     }
 }
 

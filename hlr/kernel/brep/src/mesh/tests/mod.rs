@@ -1,4 +1,5 @@
 //! Faces made by hand, their meshes held against the surface by dense samples.
 
+mod curved;
 mod flat;
-mod shapes;
+pub mod shapes;

@@ -1,0 +1,143 @@
+//! Faces that bend in both directions: a lattice of inner points, Delaunay's triangles in the chart, and more points until
+//! every triangle keeps the chord error.
+
+use super::border::Border;
+use super::bound::{Bend, Corner, Gap, corner, gap};
+use super::delaunay::Delaunay;
+use super::outline::Outline;
+use super::plane::distance2;
+use super::size::Field;
+use super::{FaceLoops, Fault, Made, lattice};
+use crate::geometry::surface::Surface;
+
+/// Rounds of more points.
+const ROUNDS: usize = 16;
+/// Points inside one face.
+const MOST: usize = 8_000_000;
+/// A triangle on the border cannot be better than the chord there: of that one's error, it may be off by as much.
+const BESIDE: f64 = 1.25;
+/// Of the length of the edge it divides: new points are kept so far off the border.
+const OFF: f64 = 0.2;
+
+/// Faults of the loops as None beside their outline: whoever asks finds out why.
+pub fn triangulate(
+    surface: &Surface,
+    loops: &FaceLoops,
+    deflection: f64,
+    angle: f64,
+) -> Result<Result<Made, Box<Outline>>, Fault> {
+    let bounds = Outline::new(loops, |_, _, _| ())?.bounds();
+    if !(0..2).all(|k| bounds[0][k] < bounds[1][k]) {
+        return Err(Fault::Open);
+    }
+    let field = Field::new(surface, bounds, deflection, angle).ok_or(Fault::Degenerate)?;
+    let outline = Outline::new(loops, |from, to, shares| {
+        let (a, b) = (field.to_chart(from), field.to_chart(to));
+        let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
+        let count = ((b[0] - a[0]).hypot(b[1] - a[1]) / field.at(middle)).ceil().min(1000.0) as usize;
+        shares.extend((1..count).map(|k| k as f64 / count as f64));
+    })?;
+    let chart = outline.mapped(|uv| field.to_chart(uv));
+    let inner = lattice::points(&field, &Border::new(&chart), MOST).ok_or(Fault::TooFine)?;
+    let Some(mesh) = Delaunay::new(&chart, &inner) else { return Ok(Err(Box::new(outline))) };
+    let (mut corners, mut bends): (Vec<Corner>, Vec<Bend>) =
+        outline.uv.iter().zip(&outline.points).map(|(&uv, &p)| corner(surface, uv, Some(p))).unzip();
+    for &xy in &inner {
+        let (corner, bend) = corner(surface, field.on_surface(xy), None);
+        corners.push(corner);
+        bends.push(bend);
+    }
+    let mut places = chart.uv.clone();
+    places.extend(inner);
+    let mut work = Work { surface, field: &field, chart: &chart, mesh, corners, bends, places, deflection };
+    let (triangles, error) = work.refine();
+    let Work { corners, mesh, .. } = work;
+    Ok(Ok(Made { outline, corners, triangles, stand_in: mesh.stand_in, error }))
+}
+
+struct Work<'a> {
+    surface: &'a Surface,
+    field: &'a Field,
+    chart: &'a Outline,
+    mesh: Delaunay,
+    corners: Vec<Corner>,
+    bends: Vec<Bend>,
+    /// Of the corners, in the chart.
+    places: Vec<[f64; 2]>,
+    deflection: f64,
+}
+
+impl Work<'_> {
+    /// The triangles, and the greatest error that remains.
+    fn refine(&mut self) -> (Vec<[u32; 3]>, f64) {
+        let mut round = 0;
+        loop {
+            let triangles = self.mesh.inside();
+            let mut worst = 0.0f64;
+            let mut coarse = Vec::new();
+            for t in &triangles {
+                let at = t.map(|i| i as usize);
+                let gap = gap(self.surface, at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
+                if gap.whole > self.deflection {
+                    let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
+                    let limit = BESIDE * beside.fold(0.0, f64::max);
+                    if gap.whole > limit {
+                        coarse.push((gap, *t));
+                    } else {
+                        continue;
+                    }
+                }
+                worst = worst.max(gap.whole);
+            }
+            round += 1;
+            if coarse.is_empty() || round > ROUNDS || self.corners.len() > MOST || !self.divide(coarse) {
+                return (triangles, worst);
+            }
+        }
+    }
+
+    fn is_chord(&self, a: u32, b: u32) -> bool {
+        let count = self.chart.len() as u32;
+        a < count && b < count && (self.chart.after(a) == b || self.chart.after(b) == a)
+    }
+
+    /// One more point for each coarse triangle that has no neighbour with a new one. Whether there was any.
+    fn divide(&mut self, mut coarse: Vec<(Gap, [u32; 3])>) -> bool {
+        coarse.sort_by(|a, b| b.0.whole.total_cmp(&a.0.whole).then(a.1.cmp(&b.1)));
+        let mut touched = vec![false; self.corners.len()];
+        let mut any = false;
+        for (gap, t) in coarse {
+            if t.iter().filter(|&&i| touched[i as usize]).count() >= 2 {
+                continue;
+            }
+            let Some(place) = self.place(&gap, t) else { continue };
+            if self.mesh.insert(place, self.corners.len() as u32) {
+                t.iter().for_each(|&i| touched[i as usize] = true);
+                let (corner, bend) = corner(self.surface, self.field.on_surface(place), None);
+                self.corners.push(corner);
+                self.bends.push(bend);
+                self.places.push(place);
+                any = true;
+            }
+        }
+        any
+    }
+
+    /// Amid the edge with the greatest error, or amid the triangle where that is too near the border.
+    fn place(&self, gap: &Gap, t: [u32; 3]) -> Option<[f64; 2]> {
+        let [a, b, c] = t.map(|i| self.places[i as usize]);
+        let ends = [(a, b), (b, c), (c, a)];
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| gap.edges[j].total_cmp(&gap.edges[i]));
+        let clear = |p: &[f64; 2]| {
+            (0..3).all(|k| {
+                let (from, to) = ends[k];
+                let length = (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2);
+                !self.is_chord(t[k], t[(k + 1) % 3]) || distance2(p, &from, &to) > OFF * OFF * length
+            })
+        };
+        let middle = |k: usize| [0, 1].map(|i| 0.5 * (ends[k].0[i] + ends[k].1[i]));
+        let split = order.iter().filter(|&&k| !self.is_chord(t[k], t[(k + 1) % 3])).map(|&k| middle(k)).find(clear);
+        split.or_else(|| Some([0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)).filter(clear))
+    }
+}
