@@ -189,6 +189,49 @@ mod tests {
     }
 
     #[test]
+    fn signs_of_all_kinds_of_numbers() {
+        assert_eq!([-7i64, 0, i64::MAX].map(Ring::sign), [-1, 0, 1]);
+        // Whose last 32 bits are none, and whose sign they would turn round.
+        assert_eq!([1i128 << 40, -(1i128 << 40), 0, (1 << 40) + (1 << 31)].map(Ring::sign), [1, -1, 0, 1]);
+        assert_eq!([-0.5f64, -0.0, 1e-300].map(Ring::sign), [-1, 0, 1]);
+        assert_eq!([-0.5f32, 0.0, 1e-30].map(Ring::sign), [-1, 0, 1]);
+    }
+
+    /// What all kinds of numbers say alike where nothing needs to be rounded.
+    fn agree<A: Arithmetic>() {
+        let (area, volume) = (A::coordinate, A::depth);
+        for (a, b, c, d) in [(2, 3, 5, 7), (5, 7, 2, 3), (-2, 3, 2, 3), (6, 4, 3, 8), (-5, 3, -2, 4), (1, 4, 2, 1)] {
+            let found = A::compare_products(area(a), volume(b), area(c), volume(d));
+            assert_eq!(found, (i64::from(a) * b).cmp(&(i64::from(c) * d)), "{a} {b} {c} {d}");
+        }
+        for c in [0, 1, -3, 1 << 20] {
+            assert_eq!(A::raise(area(c)).sign(), c.signum());
+            assert!(A::raise(area(c)) == volume(c.into()));
+        }
+        assert!(area(3) * area(2) == area(6) * area(1));
+        assert_eq!(A::crossing(area(3), area(4)).value(), 0.75);
+        assert_eq!(A::piercing(volume(-3), volume(-8)).value(), 0.375);
+    }
+
+    #[test]
+    fn small_numbers_are_the_same_in_all_three() {
+        agree::<Exact>();
+        agree::<Double>();
+        agree::<Single>();
+        // A power of two: no rounding but that to 24 bits.
+        assert_eq!(Single::coordinate(5) * 32768.0, 5.0);
+        assert_eq!(Single::depth(-(1 << 40)) * 32768.0, -(2f32.powi(40)));
+        assert_eq!(Double::coordinate(i32::MIN), -(2f64.powi(31)));
+    }
+
+    #[test]
+    fn what_is_no_number_is_equal_to_everything() {
+        let (huge, none) = (f64::INFINITY, 0.0);
+        assert_eq!(Double::compare_products(huge, none, 1.0, 1.0), Ordering::Equal);
+        assert_eq!(Single::compare_products(f32::NAN, 1.0, 1.0, 1.0), Ordering::Equal);
+    }
+
+    #[test]
     fn rounding_sees_a_line_where_there_is_a_turn() {
         // Slope 1 and a hair: the products differ by one part in 2^60.
         let m = (1 << 30) - 1;

@@ -42,6 +42,51 @@ mod tests {
         }
     }
 
+    /// Another way to the product: digits of 16 bits, one after another.
+    fn by_digits(a: u128, b: u128) -> (u128, u128) {
+        let digit = |v: u128, k: usize| if k < 8 { v >> (16 * k) & 0xffff } else { 0 };
+        let (mut low, mut high, mut carry) = (0u128, 0u128, 0u128);
+        for k in 0..16 {
+            carry += (0..=k).map(|i| digit(a, i) * digit(b, k - i)).sum::<u128>();
+            let half = if k < 8 { &mut low } else { &mut high };
+            *half |= (carry & 0xffff) << (16 * (k % 8));
+            carry >>= 16;
+        }
+        (high, low)
+    }
+
+    #[test]
+    fn all_256_bits_are_right() {
+        let mut numbers = vec![0, 1, 2, 3, u128::MAX, u128::MAX - 1, 1 << 127, (1 << 127) - 1, u128::MAX / 3];
+        for k in [1, 16, 31, 32, 33, 62, 63, 64, 65, 66, 95, 96, 97, 126] {
+            numbers.extend([1 << k, (1 << k) - 1, (1 << k) + 1]);
+        }
+        let mut state = 7u128;
+        for _ in 0..40 {
+            state = state.wrapping_mul(0xda94_2042_e4dd_58b5_c17f_5a3b_91d2_ed35).wrapping_add(1);
+            numbers.extend([state, state >> 29, state >> 71]);
+        }
+        for &a in &numbers {
+            for &b in &numbers {
+                assert_eq!(mul_u128(a, b), by_digits(a, b), "{a} * {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn signs_decide_and_the_least_number_has_no_opposite() {
+        let (least, most) = (i128::MIN, i128::MAX);
+        for a in [least, -1, 0, 1, most] {
+            for b in [least, -1, 0, 1, most] {
+                assert_eq!(cmp_products(a, b, 0, most), (a.signum() * b.signum()).cmp(&0));
+                assert_eq!(cmp_products(a, b, b, a), Ordering::Equal);
+            }
+        }
+        // 2^254 > (2^127 - 1) 2^127
+        assert_eq!(cmp_products(least, least, most, -least.wrapping_add(1)), Ordering::Greater);
+        assert_eq!(cmp_products(least, most, most, -most), Ordering::Less);
+    }
+
     #[test]
     fn tells_apart_products_beyond_128_bits() {
         let big = i128::MAX;
