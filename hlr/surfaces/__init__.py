@@ -7,6 +7,7 @@
 
 from __future__ import annotations
 
+from hlr.surfaces.areas import Area, areas_table
 from hlr.surfaces.memory import frame_memory, method_memory, peak_memory
 from hlr.surfaces.methods import METHODS
 from hlr.surfaces.painters import PaintersList, painters_list
@@ -22,6 +23,7 @@ from hlr.surfaces.viewport import SCREEN, Screen
 __all__ = [
     "METHODS",
     "SCREEN",
+    "Area",
     "BspTree",
     "Hit",
     "NotFinishedError",
@@ -31,6 +33,7 @@ __all__ = [
     "Screen",
     "Statistics",
     "active_edges",
+    "areas_table",
     "crossing_pairs",
     "frame_memory",
     "method_memory",

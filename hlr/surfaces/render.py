@@ -12,6 +12,7 @@ import numpy.typing as npt
 from hlr.errors import OptionError
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
+from hlr.surfaces.areas import Area, areas_of
 from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.methods import checked
 from hlr.surfaces.polygons import Polygons, polygons_of
@@ -32,6 +33,7 @@ class Statistics:
     comparisons of depths, and how many of them were decided in integers (exact)
     spans: runs of pixels looked at; written: pixels, some more than once; settled: near ties in a painter's order
     splits of polygons or spans; recursion: areas or nodes visited, deepest: how deep
+    early_stops: areas whose sorted list was not read to its end; passed_over: polygons that were spared by that
     rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
     edge_starts, edge_ends: events of the active edge list, row after row; span_starts, span_ends: of the active span
               list, column after column; their third kind, crossings, are the swaps
@@ -54,6 +56,8 @@ class Statistics:
     splits: int
     recursion: int
     deepest: int
+    early_stops: int
+    passed_over: int
     rays: int
     box_tests: int
     polygon_tests: int
@@ -79,6 +83,7 @@ class Rendering(ByValue):
              nearer, all of opposite sign
     values   (height, width, 3) interpolated, where that was asked for; NaN for the background
     trace    (w, 4) int32 row, from, to, id: the writes in their order, where that was asked for
+    areas    those of Warnock's subdivision in their order, where a trace was asked for
     """
 
     ids: Ints
@@ -87,6 +92,7 @@ class Rendering(ByValue):
     viewport: Viewport
     values: Floats | None = None
     trace: npt.NDArray[np.int32] | None = None
+    areas: tuple[Area, ...] = ()
 
     def __iter__(self) -> Iterator[Any]:
         return iter((self.ids, self.depth, self.statistics))
@@ -175,4 +181,5 @@ def rendering(
         viewport=port,
         values=found.get("values"),
         trace=found["trace"] if trace else None,
+        areas=areas_of(found["areas"]),
     )

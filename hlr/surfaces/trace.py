@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from hlr.surfaces.areas import Area
 from hlr.surfaces.polygons import polygons_of
 from hlr.surfaces.render import render
 from hlr.surfaces.viewport import Screen
@@ -20,7 +22,10 @@ COLOURS = ("#88b7e3", "#f4b183", "#a9d18e", "#ffd966", "#c5a5d9", "#9fd5d1", "#e
 def trace_svg(
     scene: Any, camera: Camera | Screen, size: tuple[int, int], method: str = "z-buffer", **options: Any
 ) -> str:
-    """All writes of a method, numbered in their order, beside the resulting picture; options as in `render`."""
+    """All writes of a method, numbered in their order, beside the resulting picture; options as in `render`.
+
+    Warnock's subdivision has its areas outlined as well, each with the letter of its ending (`hlr.surfaces.Area`).
+    """
     polygons = polygons_of(scene, options.get("rule", "even-odd"), options.get("cull", False))
     found = render(polygons, camera, size, method, trace=True, **options)
     assert found.trace is not None
@@ -40,6 +45,8 @@ def trace_svg(
         line = seen[start, row] = seen.get((start, row), -1) + 1
         out.append(f'<text x="{start * PIXEL + 2}" y="{row * PIXEL + 8 + 7 * line}">{number}</text>\n')
     out.append("</g>\n")
+    if found.areas:
+        out.append(_outlined(found.areas))
     out.append(f'<g class="result" transform="translate({wide + 24} 0)">\n')
     for row, column in np.argwhere(found.ids >= 0).tolist():
         out.append(_cell(column, row, 1, int(found.ids[row, column])))
@@ -60,6 +67,21 @@ def trace_svg(
         out.append(f'<path class="edges" stroke="#000" d="{" ".join(edges)}"/></g>\n')
     out.append("</svg>\n")
     return "".join(out)
+
+
+def _outlined(areas: Sequence[Area]) -> str:
+    """Areas, the larger ones with wider lines; their endings in the lower right corner."""
+    deepest = max(area.level for area in areas)
+    out = ['<g class="areas" fill="none" stroke="#c00">\n']
+    for area in areas:
+        (x0, x1), (y0, y1) = ((low * PIXEL, high * PIXEL) for low, high in (area.columns, area.rows))
+        wide = 1.0 + 0.75 * (deepest - area.level)
+        out.append(f'<rect x="{x0}" y="{y0}" width="{x1 - x0}" height="{y1 - y0}" stroke-width="{wide:g}"/>')
+        if area.ending != "quartered":
+            name = area.ending.removesuffix("ixel")
+            out.append(f'<text x="{x1 - 3}" y="{y1 - 4}" text-anchor="end" fill="#c00" stroke="none">{name}</text>')
+        out.append("\n")
+    return "".join(out) + "</g>\n"
 
 
 def _cell(column: int, row: int, columns: int, polygon: int) -> str:

@@ -70,6 +70,8 @@ pub fn counted<'py>(py: Python<'py>, s: &Statistics, prepared: f64, seconds: f64
         ("splits", s.splits),
         ("recursion", s.recursion),
         ("deepest", s.deepest),
+        ("early_stops", s.early_stops),
+        ("passed_over", s.passed_over),
         ("rays", s.rays),
         ("box_tests", s.box_tests),
         ("polygon_tests", s.polygon_tests),

@@ -13,7 +13,7 @@ use super::painters::{counted, sorted_list, tree_list};
 use super::scan::{expect_below, expect_len, flat, rows};
 use crate::raster::active_edges::ActiveEdges;
 use crate::raster::bsp::Tree;
-use crate::raster::canvas::{Canvas, Write};
+use crate::raster::canvas::{Canvas, Visit, Write};
 use crate::raster::edge_table::EdgeTable;
 use crate::raster::polygon_table::PolygonTable;
 use crate::raster::prepare::{Bent, screen};
@@ -51,6 +51,7 @@ struct Picture {
     depth: Vec<f64>,
     values: Vec<[f64; 3]>,
     trace: Vec<Write>,
+    visits: Vec<Visit>,
     statistics: Statistics,
     prepared: f64,
     seconds: f64,
@@ -104,11 +105,14 @@ impl RasterScene {
         };
         let mut trace = canvas.trace.take().unwrap_or_default();
         trace.iter_mut().for_each(|w| w.facet = id(w.facet) as u32);
+        let mut visits = std::mem::take(&mut canvas.visits);
+        visits.iter_mut().filter(|v| v.facet != NONE).for_each(|v| v.facet = id(v.facet) as u32);
         Some(Picture {
             ids: canvas.pixels.iter().map(|&f| if f == NONE { -1 } else { id(f) }).collect(),
             depth: canvas.pixels.iter().enumerate().map(at).collect(),
             values,
             trace,
+            visits,
             statistics,
             prepared,
             seconds,
@@ -228,6 +232,17 @@ impl RasterScene {
         let trace: Vec<i32> =
             found.trace.iter().flat_map(|w| [w.row as i32, w.from as i32, w.to as i32, w.facet as i32]).collect();
         out.set_item("trace", trace.into_pyarray(py).reshape([count, 4])?)?;
+        let areas: Vec<[i32; 9]> = found
+            .visits
+            .iter()
+            .map(|v| {
+                let [[left, right], [top, bottom]] = [v.columns, v.rows];
+                let (level, polygons, passed) = (v.level as i32, v.polygons as i32, v.passed as i32);
+                [left, right, top, bottom, level, polygons, passed, v.ending as i32, v.facet as i32]
+            })
+            .collect();
+        let count = areas.len();
+        out.set_item("areas", areas.into_flattened().into_pyarray(py).reshape([count, 9])?)?;
         out.set_item("statistics", counted(py, &found.statistics, found.prepared, found.seconds)?)?;
         Ok(out)
     }

@@ -12,17 +12,48 @@ pub struct Write {
     pub facet: u32,
 }
 
+/// How an area of Warnock's subdivision came to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// (a) all polygons are disjoint.
+    Disjoint,
+    /// (b) one is left, intersecting or contained.
+    Single,
+    /// (c) one surrounding polygon and no other.
+    Surrounded,
+    /// (d) a surrounding polygon in front of all others.
+    InFront,
+    /// A single pixel, decided at its centre.
+    Pixel,
+    Quartered,
+}
+
+/// An area that was looked at: columns and rows, end exclusive; how many halvings down; how many polygons were in its list and
+/// how many were passed over; what was seen in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Visit {
+    pub columns: [i32; 2],
+    pub rows: [i32; 2],
+    pub level: u32,
+    pub polygons: u32,
+    pub passed: u32,
+    pub ending: Ending,
+    pub facet: u32,
+}
+
 pub struct Canvas {
     pub width: usize,
     pub height: usize,
     pub pixels: Vec<u32>,
     pub trace: Option<Vec<Write>>,
+    /// Areas in the order in which they were looked at; only with a trace.
+    pub visits: Vec<Visit>,
 }
 
 impl Canvas {
     pub fn new(width: i64, height: i64, traced: bool) -> Canvas {
         let (width, height) = (width as usize, height as usize);
-        Canvas { width, height, pixels: vec![NONE; width * height], trace: traced.then(Vec::new) }
+        Canvas { width, height, pixels: vec![NONE; width * height], trace: traced.then(Vec::new), visits: Vec::new() }
     }
 
     #[inline(always)]
@@ -44,6 +75,12 @@ impl Canvas {
                 }
                 _ => trace.push(Write { row: row as u32, from: from as u32, to: to as u32, facet }),
             }
+        }
+    }
+
+    pub fn visited(&mut self, visit: impl FnOnce() -> Visit) {
+        if self.trace.is_some() {
+            self.visits.push(visit());
         }
     }
 

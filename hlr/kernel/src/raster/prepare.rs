@@ -5,7 +5,7 @@ use super::clip::{Corner, Wall, clip_loop, walls};
 use super::depth_grid::{DepthGrid, Noise};
 use super::plane::{LIMIT, Plane, Point, STEPS, centre, turn, widest};
 use super::scene::{Camera, Scene};
-use super::screen::{Facet, NEAR_TIE, STEEP, Screen, first_centre};
+use super::screen::{FAR, Facet, NEAR_TIE, STEEP, Screen, first_centre};
 use super::statistics::Statistics;
 use super::triangulate::triangulate;
 use super::watch::Watch;
@@ -269,7 +269,6 @@ impl Screen {
 
     /// A facet of loops of `points`; its plane with C > 0.
     fn push(&mut self, given: &Given, loops: &[Range<u32>], plane: Plane, noise: &Noise) {
-        const FAR: i128 = 1 << 52;
         let (mut low, mut high) = ([i64::MAX; 3], [i64::MIN; 3]);
         for l in loops {
             for p in &self.points[l.start as usize..l.end as usize] {

@@ -10,6 +10,9 @@ use std::ops::Range;
 /// No facet: the background.
 pub const NONE: u32 = u32::MAX;
 
+/// No depth is told as farther than that: of polygons so nearly edge-on that their planes lead nowhere.
+pub const FAR: i128 = 1 << 52;
+
 /// Two depths closer than this many steps are compared in integers. Floating point is wrong by less: below `STEEP` steps
 /// each of its six operations is off by at most a quarter of a step.
 pub const NEAR_TIE: f64 = 16.0;

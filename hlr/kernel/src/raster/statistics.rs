@@ -22,6 +22,9 @@ pub struct Statistics {
     /// Areas or tree nodes visited, and how deep.
     pub recursion: u64,
     pub deepest: u64,
+    /// Areas whose sorted list was not read to its end, and the polygons passed over by that.
+    pub early_stops: u64,
+    pub passed_over: u64,
     /// Rays cast; boxes and polygons tested against them.
     pub rays: u64,
     pub box_tests: u64,

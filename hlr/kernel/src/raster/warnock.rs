@@ -17,11 +17,22 @@
 //! surrounding one is nearer than all others everywhere in the area. Else each quarter inherits the list, without what is
 //! disjoint, and without what a surrounding polygon hides; a single pixel is decided at its centre. Polygons that pass
 //! through one another subdivide by themselves.
+//!
+//! The list is sorted by nearest depth, once, and so is every list that is inherited. It need not be read to its end:
+//!
+//! ```text
+//!    z |          . d                 s surrounds, and is nowhere in the area farther than the line;
+//!      |      c--.                    c and d begin behind that line, and so does all that follows
+//!      |- - - - - - - - - - - - -     in the list: they are passed over unseen
+//!      |   s-------------------s
+//!      |       b----.
+//!      +------------------------- x
+//! ```
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Ending, Visit};
 use super::coverage::{Scratch, owns, runs};
 use super::plane::{Point, centre};
-use super::screen::Screen;
+use super::screen::{FAR, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::watch::Watch;
 use std::cmp::Ordering;
@@ -69,33 +80,67 @@ impl Subdivision<'_> {
     ) -> Option<()> {
         statistics.at_depth(depth);
         let start = self.list.len();
-        for k in inherited {
+        let mut passed = 0;
+        // How far the surrounding polygons leave anything to be seen.
+        let mut limit = i64::MAX;
+        for k in inherited.clone() {
             if watch.over() {
                 return None;
             }
             let (f, before) = self.list[k];
+            if self.screen.facets[f as usize].depth[0] > limit {
+                passed = inherited.end - k;
+                statistics.early_stops += 1;
+                statistics.passed_over += passed as u64;
+                break;
+            }
             let relation = match before {
                 Relation::Surrounding => before,
                 _ => relation(self.screen, f, area.columns, area.rows, statistics),
             };
+            if relation == Relation::Surrounding {
+                limit = limit.min(self.farthest(f, area));
+            }
             if relation != Relation::Disjoint {
                 self.list.push((f, relation));
             }
         }
         statistics.holds(bytes_of(&self.list) + self.canvas.bytes());
-        let done = self.decide(area, start, watch, statistics);
-        if done == Some(false) {
+        let polygons = (self.list.len() - start) as u32;
+        let (ending, facet) = self.decide(area, start, passed > 0, watch, statistics)?;
+        let Area { columns, rows } = area;
+        let passed = passed as u32;
+        self.canvas.visited(|| Visit { columns, rows, level: depth as u32, polygons, passed, ending, facet });
+        if ending == Ending::Quartered {
             let end = self.list.len();
             for quarter in quarters(area) {
                 self.area(quarter, start..end, depth + 1, watch, statistics)?;
             }
         }
         self.list.truncate(start);
-        done.map(|_| ())
+        Some(())
     }
 
-    /// Cases (a) to (d), and the single pixel. False: subdivide.
-    fn decide(&mut self, area: Area, start: usize, watch: &Watch, statistics: &mut Statistics) -> Option<bool> {
+    /// The farthest depth of a polygon's plane in an area, rounded up: at one of the corners, for the plane falls one way
+    /// along rows and one way along columns.
+    fn farthest(&self, f: u32, area: Area) -> i64 {
+        let plane = &self.screen.facets[f as usize].plane;
+        let corner = |falls: bool, [low, high]: [i32; 2]| centre(i64::from(if falls { low } else { high - 1 }));
+        let z = plane.depth(corner(plane.a > 0, area.columns), corner(plane.b > 0, area.rows));
+        -(-z).div_euclid(plane.c.into()).clamp(-FAR, FAR) as i64
+    }
+
+    /// Cases (a) to (d), and the single pixel; and the polygon that is seen in all of the area or in part of it. `behind`:
+    /// there were polygons that the list was not read for.
+    fn decide(
+        &mut self,
+        area: Area,
+        start: usize,
+        behind: bool,
+        watch: &Watch,
+        statistics: &mut Statistics,
+    ) -> Option<(Ending, u32)> {
+        let before = self.list.len();
         if let Some(front) = self.front(area, start, statistics) {
             // What the front polygon hides everywhere in the area is of no interest any more.
             let mut kept = start;
@@ -111,13 +156,15 @@ impl Subdivision<'_> {
             }
             self.list.truncate(kept);
         }
-        match self.list[start..] {
-            [] => {}
+        let hidden = behind || self.list.len() < before;
+        Some(match self.list[start..] {
+            [] => (Ending::Disjoint, NONE),
             [(f, Relation::Surrounding)] => {
                 statistics.spans += (area.rows[1] - area.rows[0]) as u64;
                 for row in area.rows[0]..area.rows[1] {
                     self.canvas.write(row.into(), area.columns[0].into(), area.columns[1].into(), f, statistics);
                 }
+                (if hidden { Ending::InFront } else { Ending::Surrounded }, f)
             }
             [(f, _)] => {
                 let canvas = &mut *self.canvas;
@@ -126,6 +173,7 @@ impl Subdivision<'_> {
                     canvas.write(row, from, to, f, statistics);
                     true
                 });
+                (Ending::Single, f)
             }
             _ if area.columns[1] - area.columns[0] == 1 && area.rows[1] - area.rows[0] == 1 => {
                 let (column, row) = (i64::from(area.columns[0]), i64::from(area.rows[0]));
@@ -145,10 +193,10 @@ impl Subdivision<'_> {
                     statistics.spans += 1;
                     self.canvas.write(row, column, column + 1, f, statistics);
                 }
+                (Ending::Pixel, best.unwrap_or(NONE))
             }
-            _ => return Some(false),
-        }
-        Some(true)
+            _ => (Ending::Quartered, NONE),
+        })
     }
 
     /// The surrounding polygon that is nearest at the area's first corner.
@@ -186,7 +234,8 @@ pub fn relation(
         return Relation::Disjoint;
     }
     let within = |a: [i32; 2], b: [i32; 2]| b[0] <= a[0] && a[1] <= b[1];
-    if within(facet.columns, columns) && within(facet.rows, rows) {
+    // A box as large as the area may be that of a polygon which covers all of its centres: that one surrounds.
+    if within(facet.columns, columns) && within(facet.rows, rows) && (facet.columns, facet.rows) != (columns, rows) {
         return Relation::Contained;
     }
     statistics.polygon_tests += 1;
