@@ -7,3 +7,4 @@ pub mod format;
 pub mod geometry;
 pub mod mesh;
 pub mod model;
+pub mod tessellate;

@@ -4,4 +4,5 @@ mod chords;
 mod hull;
 mod of_model;
 
+pub use hull::from_chord;
 pub use of_model::{Polyline, polyline};

@@ -13,6 +13,36 @@ pub struct Polyline {
     pub points: Vec<Vec3>,
 }
 
+impl Polyline {
+    /// The chords with these numbers, ascending, are halved; whether any was.
+    pub fn divide(&mut self, model: &Model, edge: &Edge, chords: &[usize]) -> bool {
+        let at = |t: f64| match (&edge.curve, &edge.only_on) {
+            (Some(curve), _) => Some(curve.point(t)),
+            (None, Some((curve, surface))) => {
+                let [u, v, _] = model.curves2[*curve].as_ref()?.point(t);
+                Some(surface.point([u, v]))
+            }
+            (None, None) => None,
+        };
+        let before = self.points.len();
+        for &chord in chords.iter().rev() {
+            let Some(&[from, to]) = self.parameters.get(chord..chord + 2).and_then(<[f64]>::first_chunk) else {
+                continue;
+            };
+            let middle = 0.5 * (from + to);
+            if let Some(point) = at(middle)
+                && from < middle
+                && middle < to
+                && point.iter().all(|c| c.is_finite())
+            {
+                self.parameters.insert(chord + 1, middle);
+                self.points.insert(chord + 1, point);
+            }
+        }
+        self.points.len() > before
+    }
+}
+
 /// Of a turn about a pole: the parts of its line in (u, v).
 const POLE_PARTS: f64 = 16.0;
 /// Of the deflection: what is left for places that were not looked at.

@@ -4,9 +4,12 @@ use std::collections::HashMap;
 
 use super::chain::{NEAR, chained};
 use super::uses::{Run, run};
-use crate::edges::Polyline;
+use crate::edges::{Polyline, from_chord};
+use crate::format::Orientation;
+use crate::geometry::surface::Surface;
+use crate::geometry::vector::{length, sub};
 use crate::mesh::{FaceLoops, Fault, LoopPoint};
-use crate::model::{Face, Model, Vertex};
+use crate::model::{Face, Model, Use, Vertex};
 
 /// A place that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,34 +26,66 @@ pub struct Border {
     pub nodes: Vec<Node>,
     /// For each chord of each loop its edge and chord along the edge; None between the ends of two edges.
     pub chords: Vec<Vec<Option<(u32, u32)>>>,
-    /// Some edges lie inside the face and bound nothing.
-    pub inner_edges: bool,
 }
+
+impl Border {
+    /// Chords whose middle in (u, v) lies off the chord in space: edge and chord along it.
+    pub fn coarse(&self, surface: &Surface, deflection: f64) -> Vec<(u32, u32)> {
+        let mut found = Vec::new();
+        if matches!(surface, Surface::Plane(_)) {
+            return found;
+        }
+        for (points, chords) in self.loops.loops.iter().zip(&self.chords) {
+            let count = points.len();
+            for (i, chord) in chords.iter().enumerate() {
+                let (Some(chord), [p, q]) = (chord, [points[i], points[(i + 1) % count]]) else { continue };
+                let turns = if i + 1 < count { [0.0; 2] } else { whole_turns(p.uv, q.uv, self.loops.periods) };
+                let middle = [0, 1].map(|k| 0.5 * (p.uv[k] + q.uv[k] + turns[k]));
+                let off = from_chord(&surface.point(middle), &p.point, &q.point);
+                // Where the edge itself is off the surface, dividing it helps nobody.
+                let own = |p: &LoopPoint| length(&sub(&surface.point(p.uv), &p.point));
+                if off > deflection * SLACK && off > deflection * SLACK + own(&p).max(own(&q)) {
+                    found.push(*chord);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Of the deflection: chords are laid out for less than the whole of it.
+const SLACK: f64 = 1.01;
 
 /// # Errors
 /// An edge has no place on the surface, or the edges make no closed loops.
 pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflection: f64) -> Result<Border, Fault> {
     let Some(surface) = &face.surface else { return Err(Fault::Degenerate) };
     let periods = surface.periods();
-    let mut inner_edges = false;
     let mut wires: Vec<Vec<Run>> = Vec::new();
+    let mut inner = Vec::new();
     for wire in &face.wires {
         let mut runs = Vec::with_capacity(wire.len());
         for used in wire {
             match run(model, surface, used, polylines, face.tolerance, deflection)? {
                 Some(run) => runs.push(run),
-                None => inner_edges = true,
+                None => inner.push(used),
             }
         }
         wires.push(runs);
+    }
+    // An edge inside the face, there and back: a slit.
+    for used in inner.into_iter().filter(|used| used.orientation == Orientation::Internal) {
+        let slit = [Orientation::Forward, Orientation::Reversed].map(|orientation| Use { orientation, ..*used });
+        let runs: Result<Vec<_>, _> =
+            slit.iter().map(|used| run(model, surface, used, polylines, face.tolerance, deflection)).collect();
+        wires.push(runs?.into_iter().flatten().collect());
     }
     let all = || wires.iter().flatten().flat_map(|run| &run.uv);
     let extent = [0, 1].map(|k| {
         let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), uv| (l.min(uv[k]), h.max(uv[k])));
         high - low
     });
-    let mut out =
-        Border { loops: FaceLoops { loops: Vec::new(), periods }, nodes: Vec::new(), chords: Vec::new(), inner_edges };
+    let mut out = Border { loops: FaceLoops { loops: Vec::new(), periods }, nodes: Vec::new(), chords: Vec::new() };
     let mut numbers: HashMap<Node, u32> = HashMap::new();
     for runs in &wires {
         for order in chained(runs, extent, periods)? {

@@ -1,0 +1,214 @@
+//! The mesh of a model: edges once, then each underlying face once, on all threads.
+//!
+//! Chords that are too coarse for one of their faces, or cross there, are divided for both; the faces beside them follow.
+
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use crate::edges::{Polyline, polyline};
+use crate::faces::{Border, Node, border};
+use crate::mesh::{FaceMesh, Fault, mesh_face};
+use crate::model::{Face, Model};
+
+/// Rounds of dividing chords.
+const MOST_ROUNDS: usize = 12;
+/// Rounds in which a face is still divided that was not certified: its chords may be to blame, or its surface.
+const ROUNDS_UNCERTIFIED: usize = 3;
+/// Corners of one edge beyond which it is divided no more.
+const MOST_CORNERS: usize = 100_000;
+
+pub struct Tessellation {
+    /// By edge; None: an edge without any curve.
+    pub lines: Vec<Option<Polyline>>,
+    /// By face.
+    pub faces: Vec<MeshedFace>,
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct MeshedFace {
+    pub mesh: FaceMesh,
+    /// What the numbers of nodes in the mesh stand for.
+    pub nodes: Vec<Node>,
+    /// Why there is no mesh.
+    pub fault: Option<Fault>,
+}
+
+/// How far the work is, and whether it is to be stopped.
+pub struct Watch<'a> {
+    pub stopped: &'a (dyn Fn() -> bool + Sync),
+    /// Faces done in the first round.
+    pub done: &'a AtomicUsize,
+}
+
+/// The mesh at a chord error and a turning angle (radians); None: stopped.
+pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> Option<Tessellation> {
+    let mut lines: Vec<Option<Polyline>> =
+        model.edges.par_iter().map(|edge| polyline(model, edge, deflection, angle)).collect();
+    let faces_of = faces_of_edges(model);
+    let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
+    let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
+    for round in 0..=MOST_ROUNDS {
+        let tries = each(
+            &mut wanted,
+            model,
+            &lines,
+            |face| {
+                let tried = try_face(model, face, &lines, deflection, angle, round < MOST_ROUNDS);
+                if round == 0 {
+                    watch.done.fetch_add(1, Ordering::Relaxed);
+                }
+                tried
+            },
+            watch,
+        )?;
+        let mut divided: BTreeSet<(u32, u32)> = BTreeSet::new();
+        for (i, Tried { face, coarse }) in tries {
+            let uncertified = matches!(face.fault, Some(Fault::NotCertified(_)));
+            if !uncertified || round < ROUNDS_UNCERTIFIED {
+                divided.extend(coarse);
+            }
+            faces[i] = face;
+        }
+        let mut changed = BTreeSet::new();
+        for (edge, chords) in by_edge(&divided) {
+            if let Some(line) = &mut lines[edge as usize]
+                && line.points.len() < MOST_CORNERS
+                && line.divide(model, &model.edges[edge as usize], &chords)
+            {
+                changed.insert(edge);
+            }
+        }
+        let again: BTreeSet<usize> = changed.iter().flat_map(|&e| faces_of[e as usize].iter().copied()).collect();
+        wanted = again.into_iter().collect();
+        if wanted.is_empty() {
+            break;
+        }
+    }
+    Some(Tessellation { lines, faces })
+}
+
+fn by_edge(divided: &BTreeSet<(u32, u32)>) -> Vec<(u32, Vec<usize>)> {
+    let all: Vec<(u32, u32)> = divided.iter().copied().collect();
+    all.chunk_by(|a, b| a.0 == b.0).map(|group| (group[0].0, group.iter().map(|c| c.1 as usize).collect())).collect()
+}
+
+fn faces_of_edges(model: &Model) -> Vec<Vec<usize>> {
+    let mut out = vec![Vec::new(); model.edges.len()];
+    for (i, face) in model.faces.iter().enumerate() {
+        for used in face.wires.iter().flatten() {
+            let list: &mut Vec<usize> = &mut out[used.edge as usize];
+            if list.last() != Some(&i) {
+                list.push(i);
+            }
+        }
+    }
+    out
+}
+
+/// Calls `work` for the faces, those with the longest borders first, and returns its results in the faces' order.
+fn each<T: Send + Sync>(
+    wanted: &mut [usize],
+    model: &Model,
+    lines: &[Option<Polyline>],
+    work: impl Fn(&Face) -> T + Sync,
+    watch: &Watch,
+) -> Option<Vec<(usize, T)>> {
+    let corners = |i: usize| -> usize {
+        let face = &model.faces[i];
+        let border: usize = face
+            .wires
+            .iter()
+            .flatten()
+            .map(|used| lines[used.edge as usize].as_ref().map_or(0, |line| line.points.len()))
+            .sum();
+        let curved = face.record.as_ref().is_some_and(|r| r.kind > PLANE);
+        border * if curved { 10 } else { 1 }
+    };
+    wanted.sort_by_cached_key(|&i| (std::cmp::Reverse(corners(i)), i));
+    let results: Vec<OnceLock<T>> = (0..wanted.len()).map(|_| OnceLock::new()).collect();
+    let next = AtomicUsize::new(0);
+    let take = || {
+        loop {
+            let k = next.fetch_add(1, Ordering::Relaxed);
+            if k >= wanted.len() || (watch.stopped)() {
+                return;
+            }
+            let _ = results[k].set(work(&model.faces[wanted[k]]));
+        }
+    };
+    if wanted.len() == 1 || rayon::current_num_threads() == 1 {
+        take();
+    } else {
+        rayon::scope(|scope| (0..rayon::current_num_threads()).for_each(|_| scope.spawn(|_| take())));
+    }
+    let found: Option<Vec<T>> = results.into_iter().map(OnceLock::into_inner).collect();
+    let mut found: Vec<(usize, T)> = wanted.iter().copied().zip(found?).collect();
+    found.sort_by_key(|(i, _)| *i);
+    Some(found)
+}
+
+const PLANE: u8 = 1;
+
+struct Tried {
+    face: MeshedFace,
+    /// Chords that are to be divided: edge and chord along it.
+    coarse: Vec<(u32, u32)>,
+}
+
+/// divisible: chords that are too coarse may still be divided; the face is not meshed before they are.
+fn try_face(
+    model: &Model,
+    face: &Face,
+    lines: &[Option<Polyline>],
+    deflection: f64,
+    angle: f64,
+    divisible: bool,
+) -> Tried {
+    let failed = |fault, coarse| Tried { face: MeshedFace { fault: Some(fault), ..MeshedFace::default() }, coarse };
+    if let Some(own) = &face.own {
+        let uv = if own.uv.is_empty() { vec![[f64::NAN; 2]; own.points.len()] } else { own.uv.clone() };
+        let mesh = FaceMesh {
+            uv,
+            normals: vec![[0.0; 3]; own.points.len()],
+            points: own.points.clone(),
+            nodes: Vec::new(),
+            triangles: own.triangles.clone(),
+        };
+        return Tried { face: MeshedFace { mesh, ..MeshedFace::default() }, coarse: Vec::new() };
+    }
+    let Some(surface) = &face.surface else { return failed(Fault::Degenerate, Vec::new()) };
+    let found = match border(model, face, lines, deflection) {
+        Ok(found) => found,
+        Err(fault) => return failed(fault, Vec::new()),
+    };
+    let coarse = if divisible { found.coarse(surface, deflection) } else { Vec::new() };
+    if !coarse.is_empty() {
+        return failed(Fault::NotCertified(f64::INFINITY), coarse);
+    }
+    let Border { mut loops, nodes, chords, .. } = found;
+    // What two edges enclose that are one and the same chord is nothing at this deflection.
+    let encloses = |l: &Vec<crate::mesh::LoopPoint>| l.len() > 2;
+    let kept: Vec<usize> = (0..loops.loops.len()).filter(|&i| encloses(&loops.loops[i])).collect();
+    if kept.is_empty() {
+        return Tried { face: MeshedFace { nodes, ..MeshedFace::default() }, coarse: Vec::new() };
+    }
+    let chords: Vec<_> = kept.iter().map(|&i| &chords[i]).collect();
+    loops.loops.retain(encloses);
+    match mesh_face(surface, &loops, deflection, angle) {
+        Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None }, coarse: Vec::new() },
+        Err(fault) => {
+            let coarse = match &fault {
+                Fault::Crossing(pairs) => {
+                    let ends = pairs.iter().flat_map(|&[a, i, b, j]| [(a, i), (b, j)]);
+                    ends.filter_map(|(l, c)| *chords.get(l)?.get(c)?).collect()
+                }
+                Fault::NotCertified(_) => chords.iter().flat_map(|row| row.iter().flatten().copied()).collect(),
+                _ => Vec::new(),
+            };
+            failed(fault, coarse)
+        }
+    }
+}
