@@ -90,9 +90,10 @@ impl Surface {
             for turn in turns {
                 out.extend(knots.iter().filter(|&&k| first <= k && k <= last).map(|k| k + turn as f64 * period));
             }
-            out.retain(|&k| low < k && k < high);
+            let near = 1e-9 * (high - low);
+            out.retain(|&k| low + near < k && k < high - near);
             out.sort_by(f64::total_cmp);
-            out.dedup_by(|a, b| *a - *b <= 1e-12 * (high - low));
+            out.dedup_by(|a, b| *a - *b <= near);
             out
         };
         match (self, side) {

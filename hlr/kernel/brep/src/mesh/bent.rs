@@ -19,18 +19,19 @@ const BESIDE: f64 = 1.25;
 /// Of the length of the edge it divides: new points are kept so far off the border.
 const OFF: f64 = 0.2;
 
-/// Faults of the loops as None beside their outline: whoever asks finds out why.
+/// `straight`: with a chart that is slower to be filled and never wrong. Faults of the loops as None beside their outline: whoever asks finds out why.
 pub fn triangulate(
     surface: &Surface,
     loops: &FaceLoops,
     deflection: f64,
     angle: f64,
+    straight: bool,
 ) -> Result<Result<Made, Box<Outline>>, Fault> {
     let bounds = Outline::new(loops, |_, _, _| ())?.bounds();
     if !(0..2).all(|k| bounds[0][k] < bounds[1][k]) {
         return Err(Fault::Open);
     }
-    let field = Field::new(surface, bounds, deflection, angle).ok_or(Fault::Degenerate)?;
+    let field = Field::new(surface, bounds, deflection, angle, straight).ok_or(Fault::Degenerate)?;
     let outline = Outline::new(loops, |from, to, shares| {
         let (a, b) = (field.to_chart(from), field.to_chart(to));
         let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));

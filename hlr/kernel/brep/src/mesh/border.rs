@@ -28,7 +28,7 @@ impl<'a> Border<'a> {
         let mut border = Border { outline, low, step, counts, first: Vec::new(), chords: Vec::new() };
         let squares = counts[0] * counts[1];
         let mut first = vec![0u32; squares + 1];
-        for c in 0..outline.len() as u32 {
+        for c in outline.chords() {
             border.squares(c, |s| first[s + 1] += 1);
         }
         for s in 0..squares {
@@ -36,7 +36,7 @@ impl<'a> Border<'a> {
         }
         let mut next = first.clone();
         let mut chords = vec![0; first[squares] as usize];
-        for c in 0..outline.len() as u32 {
+        for c in outline.chords() {
             border.squares(c, |s| {
                 chords[next[s] as usize] = c;
                 next[s] += 1;

@@ -22,7 +22,7 @@ pub fn is_sound(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles:
 }
 
 fn is_filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 3]]) -> bool {
-    let chords = (0..outline.len() as u32).map(|c| [c, outline.after(c)].map(|p| stand_in[p as usize]));
+    let chords = outline.chords().map(|c| [c, outline.after(c)].map(|p| stand_in[p as usize]));
     let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     // Sorted by the lower end: a place for each, then within it by the upper one.
     let mut first = vec![0u32; count + 1];
@@ -44,9 +44,12 @@ fn is_filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u3
     first.windows(2).all(|w| {
         let part = &mut sorted[w[0] as usize..w[1] as usize];
         part.sort_unstable();
-        // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit.
+        // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit, or all of a face without area.
         part.chunk_by(|a, b| a.0 == b.0).all(|group| {
-            matches!(group, [(_, 0), (_, 1)] | [(_, 0 | 1), (_, 2 | 3)] | [(_, 0), (_, 1), (_, 2), (_, 3)])
+            matches!(
+                group,
+                [(_, 0), (_, 1)] | [(_, 0 | 1), (_, 2 | 3)] | [(_, 0), (_, 1), (_, 2), (_, 3)] | [(_, 2), (_, 3)]
+            )
         })
     })
 }

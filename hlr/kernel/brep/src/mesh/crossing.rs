@@ -8,13 +8,12 @@ const MOST: usize = 1000;
 
 /// Pairs of chords, as points that they begin at, that have more in common than ends.
 pub fn crossings(outline: &Outline) -> Vec<[u32; 2]> {
-    let count = outline.len() as u32;
     let ends = |c: u32| [outline.uv[c as usize], outline.uv[outline.after(c) as usize]];
     let range = |c: u32, k: usize| {
         let [a, b] = ends(c);
         (a[k].min(b[k]), a[k].max(b[k]))
     };
-    let mut order: Vec<u32> = (0..count).collect();
+    let mut order: Vec<u32> = outline.chords().collect();
     order.sort_by(|&a, &b| range(a, 0).0.total_cmp(&range(b, 0).0).then(a.cmp(&b)));
     let mut found = Vec::new();
     for (k, &one) in order.iter().enumerate() {

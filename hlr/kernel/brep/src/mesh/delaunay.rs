@@ -28,15 +28,16 @@ pub struct Delaunay {
 impl Delaunay {
     /// Inner points are numbered after those of the outline. None where chords cross or points are out of range.
     pub fn new(outline: &Outline, inner: &[[f64; 2]]) -> Option<Delaunay> {
-        let stand_in = stand_ins(&outline.uv);
+        let stand_in = stand_ins(outline);
         let count = outline.len();
         let mut corners = Vec::with_capacity(count + inner.len());
         let mut place = vec![0usize; count];
-        for i in 0..count {
+        for c in outline.chords() {
+            let i = c as usize;
             place[i] = corners.len();
-            if stand_in[i] as usize == i {
+            if stand_in[i] == c {
                 let [x, y] = outline.uv[i];
-                corners.push(Corner { place: Point2::new(x, y), number: i as u32 });
+                corners.push(Corner { place: Point2::new(x, y), number: c });
             } else {
                 place[i] = place[stand_in[i] as usize];
             }
@@ -44,17 +45,17 @@ impl Delaunay {
         for (&[x, y], number) in inner.iter().zip(count as u32..) {
             corners.push(Corner { place: Point2::new(x, y), number });
         }
-        let chords: Vec<_> = (0..count).map(|i| [place[i], place[outline.after(i as u32) as usize]]).collect();
+        let chords: Vec<_> = outline.chords().map(|c| [place[c as usize], place[outline.after(c) as usize]]).collect();
         if chords.iter().any(|[a, b]| a == b) {
             return None;
         }
         let mut slits = Vec::new();
         if stand_in.iter().zip(0..).any(|(&a, i)| a != i) {
-            let named = |i: usize| {
-                let (a, b) = (stand_in[i], stand_in[outline.after(i as u32) as usize]);
+            let named = |c: u32| {
+                let [a, b] = [c, outline.after(c)].map(|i| stand_in[i as usize]);
                 [a.min(b), a.max(b)]
             };
-            let mut all: Vec<_> = (0..count).map(named).collect();
+            let mut all: Vec<_> = outline.chords().map(named).collect();
             all.sort_unstable();
             slits = all.chunk_by(|a, b| a == b).filter(|g| g.len() == 2).map(|g| g[0]).collect();
         }
@@ -114,12 +115,12 @@ impl Delaunay {
     }
 }
 
-/// For each place the first point there.
-pub fn stand_ins(places: &[[f64; 2]]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..places.len() as u32).collect();
-    let at = |i: u32| places[i as usize];
+/// For each point of a chord the first one at its place.
+fn stand_ins(outline: &Outline) -> Vec<u32> {
+    let mut order: Vec<u32> = outline.chords().collect();
+    let at = |i: u32| outline.uv[i as usize];
     order.sort_unstable_by(|&a, &b| at(a)[0].total_cmp(&at(b)[0]).then(at(a)[1].total_cmp(&at(b)[1])).then(a.cmp(&b)));
-    let mut out = vec![0; places.len()];
+    let mut out: Vec<u32> = (0..outline.len() as u32).collect();
     for group in order.chunk_by(|&a, &b| at(a) == at(b)) {
         for &i in group {
             out[i as usize] = group[0];

@@ -1,6 +1,6 @@
 //! Inner edges turned into the other diagonal of their two triangles.
 
-use super::plane::side;
+use super::plane::{area, side};
 
 /// Rounds over all edges.
 const ROUNDS: usize = 16;
@@ -35,6 +35,37 @@ pub fn flip(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], cost: &impl Fn(u32, u32
         }
     }
     changed
+}
+
+/// Turn edges of triangles that are turned over, where that sets them upright: a chart of (u, v) keeps the sense of its own
+/// triangles only.
+pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
+    let over = |t: [u32; 3]| {
+        let [a, b, c] = t.map(|i| &uv[i as usize]);
+        side(a, b, c) < 0.0
+    };
+    // Rounded first: that tells nearly all of them.
+    let doubtful = |t: &&[u32; 3]| {
+        let [a, b, c] = t.map(|i| uv[i as usize]);
+        area(&a, &b, &c) <= 0.0
+    };
+    if !triangles.iter().any(|t| doubtful(&t)) {
+        return;
+    }
+    let mut twins = twins(triangles);
+    for t in 0..triangles.len() {
+        for edge in 3 * t..3 * t + 3 {
+            let twin = twins[edge] as usize;
+            if !over(triangles[t]) || twins[edge] == NONE {
+                continue;
+            }
+            let (a, b) = (start(triangles, edge), start(triangles, twin));
+            let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
+            if c != d && !over([c, d, b]) && !over([d, c, a]) {
+                turn(triangles, &mut twins, edge, twin);
+            }
+        }
+    }
 }
 
 const NONE: u32 = u32::MAX;

@@ -71,8 +71,9 @@ pub enum Fault {
 /// The mesh of a face: chord error at most `deflection` in the surface's unit, at most `angle` radians between
 /// neighbouring normals.
 pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f64) -> Result<FaceMesh, Fault> {
+    let bent = |straight| bent::triangulate(surface, loops, deflection, angle, straight);
     let made = match surface {
-        Surface::Plane(_) => flat(surface, Outline::new(loops, |_, _, _| ())?, deflection),
+        Surface::Plane(_) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection)),
         Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => {
             let mut turns: Vec<f64> = loops.loops.iter().flatten().map(|p| p.uv[0]).collect();
             turns.sort_unstable_by(f64::total_cmp);
@@ -83,15 +84,14 @@ pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f
                 shares.extend(turns.iter().map(share).filter(|t| *t > 0.0 && *t < 1.0));
                 shares.sort_unstable_by(f64::total_cmp);
             })?;
-            flat(surface, outline, deflection)
+            proved(flat(surface, outline, deflection))
         }
-        _ => bent::triangulate(surface, loops, deflection, angle)?,
+        _ => match proved(bent(false)?) {
+            Ok(made) => Ok(made),
+            Err(_) => proved(bent(true)?),
+        },
     };
     let made = made.map_err(|outline| why(&outline))?;
-    let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
-    if !check::is_sound(&made.outline, &uv, &made.stand_in, &made.triangles) {
-        return Err(why(&made.outline));
-    }
     let nodes = &made.outline.nodes;
     if made.stand_in.iter().zip(nodes).any(|(&i, &node)| nodes[i as usize] != node) {
         return Err(Fault::Degenerate);
@@ -100,6 +100,16 @@ pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f
         return Err(Fault::NotCertified(made.error));
     }
     Ok(finish(surface, made))
+}
+
+/// With all points of the loops, and proved to fill them; the outline where that is not so.
+fn proved(made: Result<Made, Box<Outline>>) -> Result<Made, Box<Outline>> {
+    let mut made = made?;
+    made.outline.rejoin(&mut made.triangles);
+    let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
+    flip::upright(&uv, &mut made.triangles);
+    let sound = check::is_sound(&made.outline, &uv, &made.stand_in, &made.triangles);
+    if sound { Ok(made) } else { Err(Box::new(made.outline)) }
 }
 
 /// Triangles of a face, not yet proved.

@@ -8,13 +8,17 @@ pub struct Outline {
     pub uv: Vec<[f64; 2]>,
     pub points: Vec<[f64; 3]>,
     pub nodes: Vec<u32>,
-    /// First point of each loop.
-    pub starts: Vec<u32>,
     before: Vec<u32>,
     after: Vec<u32>,
     /// Loop and number of each point in `FaceLoops`; points that were added on poles follow these.
     pub origin: Vec<(usize, usize)>,
+    /// Points that are where the one before them is, and which one that is. They are in no chord.
+    aside: Vec<(u32, u32)>,
 }
+
+const NONE: u32 = u32::MAX;
+/// Of the outline's extent: points of a pole this close to one another are one.
+const SAME: f64 = 1e-9;
 
 impl Outline {
     /// Chords whose ends share a node are poles: they are one place in space, and `divide` may put points on them. It gets
@@ -22,27 +26,84 @@ impl Outline {
     pub fn new(face: &FaceLoops, divide: impl Fn([f64; 2], [f64; 2], &mut Vec<f64>)) -> Result<Outline, Fault> {
         let mut out = Outline::default();
         for (number, points) in face.loops.iter().enumerate() {
-            if points.len() < 3 {
-                return Err(Fault::Open);
-            }
-            let (start, count) = (out.uv.len() as u32, points.len() as u32);
-            out.starts.push(start);
-            for (p, k) in points.iter().zip(0..) {
+            for (k, p) in points.iter().enumerate() {
                 if !(p.uv.iter().chain(&p.point).all(|x| x.is_finite())) {
                     return Err(Fault::Degenerate);
                 }
-                out.add(p.uv, p.point, p.node, start + (k + count - 1) % count, start + (k + 1) % count);
-                out.origin.push((number, k as usize));
+                out.add(p.uv, p.point, p.node, NONE, NONE);
+                out.origin.push((number, k));
             }
+        }
+        let [low, high] = out.bounds();
+        let near = [0, 1].map(|k| SAME * (high[k] - low[k]));
+        let mut start = 0;
+        for points in &face.loops {
+            out.link(start, points.len() as u32, near)?;
+            start += points.len() as u32;
         }
         out.divide_poles(divide);
         Ok(out)
     }
 
+    /// Joins points of a loop to a ring, those aside that are no new places.
+    fn link(&mut self, start: u32, count: u32, near: [f64; 2]) -> Result<(), Fault> {
+        let at = |i: u32| (start + i % count.max(1)) as usize;
+        let same = |i: usize, j: usize| {
+            let (p, q) = (self.uv[i], self.uv[j]);
+            p == q || (self.nodes[i] == self.nodes[j] && (0..2).all(|k| (p[k] - q[k]).abs() <= near[k]))
+        };
+        let Some(first) = (1..=count).find(|&i| !same(at(i - 1), at(i))) else {
+            let one = (0..count).all(|i| self.nodes[at(i)] == self.nodes[start as usize]);
+            return if one { Ok(()) } else { Err(Fault::Degenerate) };
+        };
+        let mut kept = vec![at(first) as u32];
+        let mut aside = Vec::new();
+        for i in first + 1..first + count {
+            let last = kept[kept.len() - 1];
+            if same(last as usize, at(i)) {
+                aside.push((at(i) as u32, last));
+            } else {
+                kept.push(at(i) as u32);
+            }
+        }
+        for (k, &p) in kept.iter().enumerate() {
+            let next = kept[(k + 1) % kept.len()];
+            self.after[p as usize] = next;
+            self.before[next as usize] = p;
+        }
+        self.aside.append(&mut aside);
+        Ok(())
+    }
+
+    /// Points aside that are nodes of their own come back, each with a triangle that has no area.
+    pub fn rejoin(&mut self, triangles: &mut Vec<[u32; 3]>) {
+        for (point, beside) in std::mem::take(&mut self.aside).into_iter().rev() {
+            if self.nodes[point as usize] == self.nodes[beside as usize] {
+                continue;
+            }
+            let next = self.after[beside as usize];
+            let turns = |t: &[u32; 3]| [0, 1, 2].map(|k| [t[k], t[(k + 1) % 3], t[(k + 2) % 3]]);
+            let on_chord = |[a, b, _]: &[u32; 3]| (*a == beside && *b == next) || (*a == next && *b == beside);
+            let found = triangles.iter().enumerate().find_map(|(i, t)| Some((i, turns(t).into_iter().find(on_chord)?)));
+            let Some((number, [a, b, c])) = found else { continue };
+            triangles[number] = if a == beside { [point, b, c] } else { [a, point, c] };
+            triangles.push(if a == beside { [a, point, c] } else { [point, b, c] });
+            self.after[beside as usize] = point;
+            self.before[point as usize] = beside;
+            self.after[point as usize] = next;
+            self.before[next as usize] = point;
+        }
+    }
+
+    /// Points that chords begin at.
+    pub fn chords(&self) -> impl Iterator<Item = u32> + Clone + '_ {
+        (0..self.uv.len() as u32).filter(|&c| self.after[c as usize] != NONE)
+    }
+
     fn divide_poles(&mut self, divide: impl Fn([f64; 2], [f64; 2], &mut Vec<f64>)) {
         let mut shares = Vec::new();
         for p in 0..self.origin.len() {
-            if !self.is_pole(p as u32) {
+            if self.after[p] == NONE || !self.is_pole(p as u32) {
                 continue;
             }
             let next = self.after[p];

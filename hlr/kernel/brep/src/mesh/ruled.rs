@@ -3,7 +3,7 @@
 //! The sweep goes along u; no triangle reaches farther in u than the chord whose mountain it is in. On a surface that can be
 //! unrolled the gap between surface and triangle is greatest at the triangle's edges: what holds for them holds everywhere.
 
-use super::delaunay::{Delaunay, stand_ins};
+use super::delaunay::Delaunay;
 use super::flip::flip;
 use super::outline::Outline;
 use super::sweep;
@@ -24,7 +24,7 @@ pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64) -> Opt
             let size = [0, 1].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
             let flat = outline.mapped(|p| [(p[0] - low[0]) / size[0], FLAT * (p[1] - low[1]) / size[1]]);
             let mesh = Delaunay::new(&flat, &[])?;
-            (mesh.inside(), stand_ins(&flat.uv))
+            (mesh.inside(), mesh.stand_in)
         }
     };
     let error = |a: u32, b: u32| edge_error(surface, outline.uv[a as usize], outline.uv[b as usize]);

@@ -4,6 +4,8 @@
 //! are such that both directions are off by as much. The chart stretches u and v each by a function of its own: on a
 //! sphere that is Mercator's, and nothing is left to be stretched.
 
+use std::f64::consts::LN_2;
+
 use crate::geometry::jet::Jet;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, length, unit};
@@ -22,7 +24,7 @@ const LONGEST: f64 = 12.0;
 const TURN: f64 = 1.5;
 /// Radians between the directions of coordinate lines at the ends of an edge: about a pole.
 const FAN: f64 = 0.8;
-/// In deflections: edges are not made shorter than that to keep the angle.
+/// In deflections: what would be seen by shorter edges is less than the deflection.
 const SHORTEST: f64 = 2.0;
 
 /// Rounds of fitting the chart to the spacings.
@@ -37,10 +39,19 @@ pub struct Field {
     pub chart: [Vec<f64>; 2],
     /// Spacing in the chart, by cells: u slow, v fast.
     spacing: Vec<f64>,
+    /// Of u and v, where the chart does nothing else: powers of two, which round nothing.
+    scale: Option<[f64; 2]>,
 }
 
 impl Field {
-    pub fn new(surface: &Surface, [low, high]: [[f64; 2]; 2], deflection: f64, angle: f64) -> Option<Field> {
+    /// `straight`: the chart is not bent, nor rounded: what crosses in it crosses in (u, v), and the other way round.
+    pub fn new(
+        surface: &Surface,
+        [low, high]: [[f64; 2]; 2],
+        deflection: f64,
+        angle: f64,
+        straight: bool,
+    ) -> Option<Field> {
         let knots = [0, 1].map(|k| surface.knots(k, low[k], high[k]));
         // Turned about an axis, a surface is the same for all u.
         let round = matches!(surface, Surface::Sphere(..) | Surface::Torus(..) | Surface::Revolution(..));
@@ -60,17 +71,23 @@ impl Field {
                 }
             }
             if !finer {
-                return Some(charted(lines, &needs));
+                return Some(charted(lines, &needs, straight));
             }
         }
     }
 
     pub fn to_chart(&self, uv: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| mapped(&self.lines[k], &self.chart[k], uv[k]))
+        match self.scale {
+            Some(scale) => [uv[0] * scale[0], uv[1] * scale[1]],
+            None => [0, 1].map(|k| mapped(&self.lines[k], &self.chart[k], uv[k])),
+        }
     }
 
     pub fn on_surface(&self, xy: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|k| mapped(&self.chart[k], &self.lines[k], xy[k]))
+        match self.scale {
+            Some(scale) => [xy[0] / scale[0], xy[1] / scale[1]],
+            None => [0, 1].map(|k| mapped(&self.chart[k], &self.lines[k], xy[k])),
+        }
     }
 
     pub fn counts(&self) -> [usize; 2] {
@@ -168,15 +185,15 @@ fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
     let across = |d: &[f64; 3], square: f64| length(&along(&jet.duv, d, -dot(&jet.duv, d) / square)) / square.sqrt();
     let fan = [across(&jet.dv, g), across(&jet.du, e)];
     let side = |k: usize, form: f64, metric: f64| {
-        let by_angle = (TURN * angle / turn[k]).max(SHORTEST * deflection / metric.sqrt());
-        (square / form).sqrt().min(by_angle).min(FAN / fan[k])
+        let shortest = SHORTEST * deflection / metric.sqrt();
+        (square / form).sqrt().min(TURN * angle / turn[k]).min(FAN / fan[k]).max(shortest)
     };
     [side(0, a, e), side(1, b, g)]
 }
 
 /// Slopes of the chart: g(v) / f(u) is as near to the ratio of spacings as such a product can be, in its logarithm, most of
 /// all where most points are.
-fn charted(lines: [Vec<f64>; 2], needs: &[Need]) -> Field {
+fn charted(lines: [Vec<f64>; 2], needs: &[Need], straight: bool) -> Field {
     let counts = lines.each_ref().map(|l| l.len() - 1);
     let mut logs = [vec![0.0f64; counts[0]], vec![0.0f64; counts[1]]];
     for _ in 0..FITS {
@@ -190,11 +207,18 @@ fn charted(lines: [Vec<f64>; 2], needs: &[Need]) -> Field {
                 sum[0] += need.points() * wanted;
                 sum[1] += need.points();
             }
-            logs[side] = even(&sums);
+            logs[side] = even(&sums, if straight { f64::INFINITY } else { STRAIGHT });
         }
     }
+    if straight {
+        logs.iter_mut().flatten().for_each(|x| *x = (*x / LN_2).round() * LN_2);
+    }
     let slopes = logs.map(|log| log.iter().map(|x| x.exp()).collect::<Vec<_>>());
+    let scale = straight.then(|| slopes.each_ref().map(|s| s[0].log2().round().exp2()));
     let chart = [0, 1].map(|k| {
+        if let Some(scale) = scale {
+            return lines[k].iter().map(|x| x * scale[k]).collect();
+        }
         let mut at = 0.0;
         let steps = lines[k].windows(2).zip(&slopes[k]).map(|(w, s)| {
             at += s * (w[1] - w[0]);
@@ -210,15 +234,15 @@ fn charted(lines: [Vec<f64>; 2], needs: &[Need]) -> Field {
             spacing.push((x * y).sqrt().min(1.6 * x.min(y)));
         }
     }
-    Field { lines, chart, spacing }
+    Field { lines, chart, spacing, scale }
 }
 
 /// Means from sums and weights. Where they hardly differ they are made one: a chart that is not bent keeps straight lines.
-fn even(sums: &[[f64; 2]]) -> Vec<f64> {
+fn even(sums: &[[f64; 2]], least: f64) -> Vec<f64> {
     let total = sums.iter().fold([0.0; 2], |t, s| [t[0] + s[0], t[1] + s[1]]);
     let means: Vec<f64> = sums.iter().map(|s| s[0] / s[1]).collect();
     let (low, high) = means.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
-    if high - low < STRAIGHT { vec![total[0] / total[1]; sums.len()] } else { means }
+    if high - low < least { vec![total[0] / total[1]; sums.len()] } else { means }
 }
 
 fn cell_of(lines: &[f64], x: f64) -> usize {

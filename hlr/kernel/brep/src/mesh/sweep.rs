@@ -21,7 +21,7 @@ use super::plane::{precedes, side};
 pub fn triangulate(outline: &Outline) -> Option<Vec<[u32; 3]>> {
     let points = &outline.uv;
     let mut order = Vec::with_capacity(points.len());
-    for i in 0..points.len() as u32 {
+    for i in outline.chords() {
         let [a, p, b] = [outline.before(i), i, outline.after(i)].map(|k| points[k as usize]);
         if a == p || b == p {
             return None;
@@ -77,7 +77,7 @@ impl<'a> Sweep<'a> {
             active: Vec::new(),
             last: vec![NONE; count],
             chains: Vec::with_capacity(3 * count),
-            triangles: Vec::with_capacity(count + 2 * outline.starts.len()),
+            triangles: Vec::with_capacity(count),
         }
     }
 

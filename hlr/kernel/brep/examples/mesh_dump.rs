@@ -1,0 +1,169 @@
+//! Meshes every face of a dump (`BinTools.Write` of a shape without triangles) and prints what came of it.
+//!
+//! ```text
+//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--sample] [--faults] [--slow]
+//! ```
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use hlr_brep::edges::polyline;
+use hlr_brep::faces::border;
+use hlr_brep::geometry::surface::Surface;
+use hlr_brep::mesh::{FaceMesh, Fault, mesh_face};
+use hlr_brep::model::Model;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [file, deflection, ..] = arguments.as_slice() else { panic!("FILE DEFLECTION") };
+    let deflection: f64 = deflection.parse().expect("a length");
+    let has = |name: &str| arguments.iter().any(|a| a == name);
+    let bytes = std::fs::read(file).expect("a file");
+    let start = Instant::now();
+    let model = Model::read(&bytes).expect("a dump");
+    let parsed = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let mut fine = vec![false; model.edges.len()];
+    for face in &model.faces {
+        let straight = |s: &Surface| {
+            matches!(s, Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..))
+        };
+        if !face.surface.as_ref().is_none_or(straight) {
+            face.wires.iter().flatten().for_each(|used| fine[used.edge as usize] = true);
+        }
+    }
+    let share = |fine: bool| if fine { 0.5 } else { 1.0 };
+    let lines: Vec<_> =
+        model.edges.iter().zip(&fine).map(|(e, &f)| polyline(&model, e, share(f) * deflection, 0.5)).collect();
+    let edges = start.elapsed().as_secs_f64();
+    let (mut triangles, mut points, mut kinds, mut faults) = (0, 0, BTreeMap::new(), BTreeMap::new());
+    let (mut bordering, mut worst) = (0.0, (0.0f64, 0));
+    for (number, face) in model.faces.iter().enumerate() {
+        let Some(surface) = &face.surface else {
+            *faults.entry("no surface").or_insert(0) += 1;
+            continue;
+        };
+        if let Some(k) = arguments.iter().position(|a| a == "--only")
+            && arguments[k + 1].parse() != Ok(number)
+        {
+            continue;
+        }
+        let start = Instant::now();
+        let border = border(&model, face, &lines, deflection);
+        bordering += start.elapsed().as_secs_f64();
+        let start = Instant::now();
+        let made = border.as_ref().map_err(Clone::clone).and_then(|b| mesh_face(surface, &b.loops, deflection, 0.5));
+        let time = start.elapsed().as_secs_f64();
+        let entry = kinds.entry(kind(surface)).or_insert((0, 0, 0.0));
+        entry.0 += 1;
+        entry.2 += time;
+        match made {
+            Ok(mesh) => {
+                entry.1 += mesh.triangles.len();
+                triangles += mesh.triangles.len();
+                points += mesh.points.len();
+                if has("--slow") && time > 0.005 {
+                    println!("face {number} {} {} triangles {time:.4} s", kind(surface), mesh.triangles.len());
+                }
+                if has("--sample") {
+                    let error = sampled(surface, &mesh) / deflection;
+                    if error > worst.0 {
+                        worst = (error, number);
+                    }
+                    if has("--faults") && error > 1.0 {
+                        println!("face {number} {}: {error:.2} deflections", kind(surface));
+                    }
+                }
+            }
+            Err(fault) => {
+                let name = match &fault {
+                    Fault::Crossing(_) => "crossing",
+                    Fault::Open => "open",
+                    Fault::Degenerate => "degenerate",
+                    Fault::TooFine => "too fine",
+                    Fault::NotCertified(_) => "not certified",
+                };
+                *faults.entry(name).or_insert(0) += 1;
+                if let Some(k) = arguments.iter().position(|a| a == "--loops")
+                    && arguments[k + 1].parse() == Ok(number)
+                {
+                    for (i, points) in border.iter().flat_map(|b| &b.loops.loops).enumerate() {
+                        for (k, p) in points.iter().enumerate() {
+                            println!("{i} {k} {:?} {:?} {}", p.uv, p.point, p.node);
+                        }
+                    }
+                }
+                if has("--faults") {
+                    let text: String = format!("{fault:?}").chars().take(70).collect();
+                    println!("face {number} {} {text}", kind(surface));
+                }
+            }
+        }
+    }
+    let mesh: f64 = kinds.values().map(|k: &(usize, usize, f64)| k.2).sum();
+    println!(
+        "{triangles} triangles, {points} points, {} faces; parse {parsed:.4} edges {edges:.4} borders {bordering:.4} mesh {mesh:.4} s; {faults:?}",
+        model.faces.len()
+    );
+    if has("--kinds") {
+        for (name, (faces, triangles, time)) in &kinds {
+            println!("  {name:10} {faces:6} faces {triangles:8} triangles {:9.1} us", time * 1e6);
+        }
+    }
+    if has("--sample") {
+        println!("  worst chord error {:.3} deflections, face {}", worst.0, worst.1);
+    }
+}
+
+fn kind(surface: &Surface) -> &'static str {
+    match surface {
+        Surface::Plane(..) => "plane",
+        Surface::Cylinder(..) => "cylinder",
+        Surface::Cone(..) => "cone",
+        Surface::Sphere(..) => "sphere",
+        Surface::Torus(..) => "torus",
+        Surface::Revolution(..) => "revolution",
+        Surface::Extrusion(..) => "extrusion",
+        Surface::Spline(..) => "spline",
+        Surface::Offset(..) => "offset",
+    }
+}
+
+/// Greatest distance of surface points amid triangles and their edges to the triangles around.
+fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
+    use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
+    let from_segment = |p: &Vector, a: &Vector, b: &Vector| {
+        let (d, q) = (sub(b, a), sub(p, a));
+        let square = dot(&d, &d);
+        let t = if square > 0.0 { (dot(&q, &d) / square).clamp(0.0, 1.0) } else { 0.0 };
+        length(&sub(&q, &scaled(&d, t)))
+    };
+    let from_triangle = |p: &Vector, [a, b, c]: [Vector; 3]| {
+        let n = cross(&sub(&b, &a), &sub(&c, &a));
+        let square = dot(&n, &n);
+        let inside = |from: &Vector, to: &Vector| dot(&cross(&sub(to, from), &sub(p, from)), &n) >= 0.0;
+        if square > 0.0 && inside(&a, &b) && inside(&b, &c) && inside(&c, &a) {
+            return dot(&sub(p, &a), &n).abs() / square.sqrt();
+        }
+        [(a, b), (b, c), (c, a)].iter().map(|(x, y)| from_segment(p, x, y)).fold(f64::INFINITY, f64::min)
+    };
+    let mut around = vec![Vec::new(); mesh.points.len()];
+    for (k, t) in mesh.triangles.iter().enumerate() {
+        t.iter().for_each(|&i| around[i as usize].push(k));
+    }
+    let corners = |k: usize| mesh.triangles[k].map(|i| mesh.points[i as usize]);
+    let mut worst = 0.0f64;
+    for (k, t) in mesh.triangles.iter().enumerate() {
+        let uv = t.map(|i| mesh.uv[i as usize]);
+        for [x, y] in [[0.33, 0.33], [0.5, 0.25], [0.25, 0.5], [0.25, 0.25], [0.45, 0.45], [0.1, 0.45], [0.45, 0.1]] {
+            let at = [0, 1].map(|k| x * uv[0][k] + y * uv[1][k] + (1.0 - x - y) * uv[2][k]);
+            let p = surface.d1(at).0;
+            let own = from_triangle(&p, corners(k));
+            if own > worst {
+                let beside = t.iter().flat_map(|&i| &around[i as usize]);
+                worst = worst.max(beside.fold(own, |least, &k| least.min(from_triangle(&p, corners(k)))));
+            }
+        }
+    }
+    worst
+}
