@@ -14,6 +14,15 @@ Ints = npt.NDArray[np.int32]
 Bools = npt.NDArray[np.bool_]
 Bytes = npt.NDArray[np.uint8]
 
+def read_mesh(
+    data: bytes, kind: str
+) -> tuple[Floats, list[tuple[str, Ints]], npt.NDArray[np.uint8] | None, npt.NDArray[np.uint8] | None]:
+    """A mesh file's points (n, 3), its parts (name, triangles (m, 3)), and the colours (k, 4) of points or triangles.
+
+    kind: stl, obj, ply or off. EOFError: it ends too early; ValueError: it is broken; MemoryError: there is too little.
+    Each says what is wrong as the end of a sentence. A corner that does not exist is out of range in the answer.
+    """
+
 def edge_table(triangles: Ints, n_points: int) -> tuple[Ints, Ints, Ints]: ...
 def edge_balance(triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Ints: ...
 def edge_folds(

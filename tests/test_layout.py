@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework", "shading", "window", "writers")
 
 # What every stage may import: no stage, and none of them imports one.
-COMMON = ("endings", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
+COMMON = ("distinct", "endings", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")
@@ -91,6 +91,26 @@ def test_import_hlr_loads_nothing_heavy():
 def test_a_refused_option_loads_nothing_heavy():
     code = "import contextlib\nwith contextlib.suppress(SystemExit):\n    from hlr.cli import main; main()"
     assert not loaded_by(f"exec({code!r})", "draw", "a.step", "-o", "a.dwg") & HEAVY
+
+
+def test_drawing_a_plain_mesh_loads_no_library_but_numpy(tmp_path):
+    heavy = HEAVY - {"numpy"} | {"email", "http", "random"}
+    (tmp_path / "one.off").write_bytes(b"OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+    (tmp_path / "one.obj").write_bytes(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    for path in (ROOT / "tests/data/soup.stl", ROOT / "tests/fuzz/corpus/seeds/box.ply", *tmp_path.glob("one.*")):
+        # With arguments the command works in its own process.
+        code = "from hlr.cli import main; main(sys.argv[1:])"
+        loaded = loaded_by(code, "draw", str(path), "-q", "-o", str(tmp_path / "out.svg"))
+        assert (tmp_path / "out.svg").exists()
+        assert "numpy" in loaded
+        assert not loaded & heavy
+        (tmp_path / "out.svg").unlink()
+
+
+def test_drawing_loads_no_masked_arrays(tmp_path):
+    code = "import hlr, sys; hlr.draw(sys.argv[1]).to_svg(); print('numpy.ma' in sys.modules)"
+    command = [sys.executable, "-P", "-c", code, str(ROOT / "tests/data/soup.stl")]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "False\n"
 
 
 def test_the_loaded_modules_are_seen():

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.distinct import distinct
 from hlr.plan.plan import DRAWN, OUTLINE, Plan
 from hlr.scene.scene import Scene
 from hlr.source.model import EdgeClass, Ints
@@ -41,7 +42,7 @@ class LineChains:
 
 def outlines(scene: Scene, plan: Plan, segments: Segments) -> LineChains:
     """Chains of the contour edges among the segments' edges."""
-    found = np.unique(segments.edge).astype(np.int32)
+    found = distinct(segments.edge).astype(np.int32)
     found = found[scene.offsets[found + 1] > scene.offsets[found]]
     owner, folds = _facing(scene, segments.facing, found)
     role = plan.role[found]

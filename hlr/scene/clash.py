@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.distinct import distinct
 from hlr.scene.groups import touching
 from hlr.scene.scene import Chains, Groups
 from hlr.scene.topology import Keys, MeshFacts
@@ -212,10 +213,13 @@ def _real(
     np.maximum.at(deepest, figure, beyond[clear])
     out[clear] = deepest[figure] >= 0.0
     slight = np.flatnonzero(~clear)
-    held = np.isin(node[slight], node[out])
+    ends_real = np.zeros(int(node.max(initial=-1)) + 1, bool)
+    ends_real[node[out]] = True
+    held = ends_real[node[slight]]
     bridge = _figures(node[slight])
-    held_nodes = np.unique(np.stack([np.repeat(bridge, 2)[held.ravel()], node[slight].ravel()[held.ravel()]]), axis=1)
-    holds = np.bincount(held_nodes[0], minlength=int(bridge.max(initial=-1)) + 1)
+    nodes = np.int64(node.max(initial=0) + 1)
+    held_nodes = distinct(np.repeat(bridge, 2)[held.ravel()] * nodes + node[slight].ravel()[held.ravel()])
+    holds = np.bincount(held_nodes // nodes, minlength=int(bridge.max(initial=-1)) + 1)
     # Faces in one plane cross all over by what was rounded: that joins lines over any distance, and is nowhere deep.
     depth = np.zeros(len(holds))
     np.maximum.at(depth, bridge, beyond[slight] / touch[slight] + 1.0)
@@ -284,7 +288,7 @@ def intersection_walks(edges: Ints, group: Ints, part_of_group: Ints, first: int
 def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
     """Parts of which one surface passes through another, or through itself."""
     a, b = part_of_group[met.group[:, 0]], part_of_group[met.group[:, 1]]
-    return np.asarray(np.union1d(a[a == b], part_of_group[np.flatnonzero(met.through)]), np.int32)
+    return np.asarray(distinct(np.concatenate([a[a == b], part_of_group[np.flatnonzero(met.through)]])), np.int32)
 
 
 def distrusted(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
@@ -314,7 +318,7 @@ def may_fold_into_itself(
     hollow = height > ROUNDING * size[edge_group[two]]
     bent |= np.bincount(edge_group[two][hollow], minlength=count) > 0
     piece = _kernel.components(triangles, len(points))
-    pieces = np.bincount(np.unique(group_of.astype(np.int64) << 32 | piece) >> 32, minlength=count)
+    pieces = np.bincount(distinct(group_of.astype(np.int64) << 32 | piece) >> 32, minlength=count)
     bent |= ~groups.cull | (pieces != 1)
     return np.asarray(bent | (_passed(points, triangles, group_of, ~bent) != 1))
 

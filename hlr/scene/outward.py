@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from hlr.distinct import distinct
 from hlr.scene.scene import Groups, TrueSurfaces
 from hlr.scene.topology import MeshFacts
 from hlr.source.model import Ints
@@ -41,6 +42,6 @@ def surfaces_turned(on: TrueSurfaces, turned: Bools, part_of: Ints, face: Ints) 
     """The same for what is known of the true surfaces under the triangles; part_of (t,), face (t,)."""
     corner, inward = on.corner.copy(), on.inward.copy()
     corner[turned] = corner[turned][:, [0, 2, 1]]
-    faces = np.unique(on.first[part_of[turned]] + face[turned])
+    faces = distinct(on.first[part_of[turned]] + face[turned])
     inward[faces] = ~inward[faces]
     return replace(on, corner=corner, inward=inward)

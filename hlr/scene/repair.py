@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from hlr.distinct import distinct
 from hlr.scene.sides import numbered, one_of_each
 from hlr.source.model import Floats, Ints, PartMesh
 from hlr.source.weld import equal_rows
@@ -91,7 +92,7 @@ def _without_repeated_faces(part: PartMesh) -> PartMesh:
     # What runs along the lost nodes, such as the edges of the lost faces, now runs along those that they lay on.
     node = np.arange(len(part.points), dtype=np.int32)
     node[nodes[~kept]] = nodes[first[~kept]]
-    used = np.unique(part.triangles[kept])
+    used = distinct(part.triangles[kept])
     node[used] = used
     return replace(_only(part, kept), edge_nodes=node[part.edge_nodes])
 

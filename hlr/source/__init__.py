@@ -93,6 +93,10 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
         from hlr.source.brepfile import open_brep
 
         return open_brep(path)
+    if kind in ("3mf", "glb"):
+        from hlr.source.packed import open_packed
+
+        return open_packed(path, kind)
     from hlr.source.meshfile import open_mesh_file
 
     return open_mesh_file(path, kind)

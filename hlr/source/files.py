@@ -40,7 +40,12 @@ def check_head(path: Path, mark: bytes, what: str) -> None:
     with path.open("rb") as file:
         head = file.read(4096)
     if mark not in head:
-        raise SourceError(f"{path.name} is not {what}: it looks like {looks_like(head)}.")
+        raise refused(path, what, head)
+
+
+def refused(path: Path, what: str, head: bytes) -> SourceError:
+    """That a file is not `what` it should be, by what its first bytes look like."""
+    return SourceError(f"{path.name} is not {what}: it looks like {looks_like(head)}.")
 
 
 def looks_like(head: bytes) -> str:

@@ -47,7 +47,7 @@ Y_UP = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
 class Instance:
     """One mesh standing somewhere: the number of its geometry and a (4, 4) transform.
 
-    mesh: the trimesh object that it comes from, which knows its colours; None for bare arrays.
+    mesh: what knows its colours: the trimesh object that it comes from, or `Painted`; None for bare arrays.
     """
 
     name: str
@@ -241,7 +241,7 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
         if key not in numbers:
             numbers[key] = len(geometries)
             geometries.append(_arrays(name, geometry))
-        named = _node_name(node, key, part)
+        named = node_name(node, key, part)
         instances.append(Instance(named, numbers[key], matrix, _color(geometry), geometry))
     if len(instances) == 1 and not instances[0].name:
         instances = [replace(instances[0], name=part)]
@@ -278,7 +278,7 @@ def _placement(graph: Any, node: str) -> tuple[Floats, str]:
     return full, key
 
 
-def _node_name(node: str, key: str, part: str) -> str:
+def node_name(node: str, key: str, part: str) -> str:
     """A readable name: trimesh invents some for nameless geometry."""
     for text in (key, node):
         plain = str(text)

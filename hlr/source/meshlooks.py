@@ -1,22 +1,32 @@
-"""Colours of meshes, as far as trimesh has read them: materials, else vertices or faces."""
+"""Colours of meshes: materials, else vertices or faces."""
 
 from __future__ import annotations
 
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.source.locations import determinant_sign
-from hlr.source.model import Look, PartMesh, Rgba, rgba
+from hlr.source.model import Ints, Look, PartMesh, Rgba, rgba
 from hlr.source.weld import Clean
 
 Corners = npt.NDArray[np.float32]
 
 
+@dataclass(frozen=True, slots=True)
+class Painted:
+    """Colours as a file has them: (k, 4) uint8, one per point of the triangles (m, 3), or per triangle where that is
+    None."""
+
+    colors: npt.NDArray[np.uint8]
+    triangles: Ints | None
+
+
 def look(part: PartMesh, mesh: Any, clean: Clean) -> Look:
-    """How a part looks; mesh: the trimesh object it comes from, or None; clean: what was made of that."""
+    """How a part looks; mesh: the trimesh object or `Painted` it comes from, or None; clean: what was made of that."""
     visual = getattr(mesh, "visual", None)
     material = getattr(visual, "material", None)
     whole: Rgba | None = rgba(part.color, _opacity(material))
@@ -48,6 +58,10 @@ def _opacity(material: Any) -> float:
 
 def _corners(mesh: Any, visual: Any, material: Any, clean: Clean) -> Corners | None:
     """(m, 3, 4) sRGB and opacity; None where nothing is painted finer than by part."""
+    if isinstance(mesh, Painted):
+        if mesh.triangles is not None:
+            return np.asarray(_scaled(mesh.colors)[mesh.triangles[clean.kept]])
+        return np.repeat(_scaled(mesh.colors[clean.kept])[:, None], 3, axis=1)
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
         return np.asarray(_scaled(visual.vertex_colors)[np.asarray(mesh.faces)[clean.kept]])

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from hlr.distinct import distinct
 from hlr.source.model import Floats
 
 FINEST_GRID = 2.0**-31
@@ -56,8 +57,8 @@ def _step(values: Floats, size: float) -> float:
     model may have been scaled or moved.
     """
     finest = FINEST_GRID * size
-    apart = np.diff(np.unique(values[:: max(1, len(values) // SAMPLE)]))
-    apart = np.unique(apart[apart > finest])[:DIFFERENCES]
+    apart = np.diff(distinct(values[:: max(1, len(values) // SAMPLE)]))
+    apart = distinct(apart[apart > finest])[:DIFFERENCES]
     step = 0.0
     for difference in [*apart.tolist(), float(np.abs(values).max())]:
         step = _divisor(step, difference, finest)

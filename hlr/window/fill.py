@@ -19,6 +19,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from hlr.distinct import distinct
 from hlr.drawing import Bounds, Fill
 
 Loop = list[tuple[float, float]]
@@ -103,7 +104,7 @@ def _packed(fill: Fill, kept: list[tuple[int, list[Loop]]]) -> Fill:
     loops = [loop for _, own in kept for loop in own]
     points = np.array([p for loop in loops for p in loop], np.float64).reshape(-1, 2)
     gradient = fill.gradient[faces]
-    used = np.unique(gradient[gradient >= 0])
+    used = distinct(gradient[gradient >= 0])
     return replace(
         fill,
         points=points,

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.curve import Arc, Bezier, Curve
+from hlr.distinct import distinct
 from hlr.drawing import Line
 from hlr.window.frame import Frame
 from hlr.window.tracks import Track, track_of
@@ -63,7 +64,7 @@ def _around(curve: Curve | None, points: Floats) -> Floats:
 
 def _cut(line: Line, frame: Frame) -> list[Line]:
     track = track_of(line)
-    breaks = np.unique(np.concatenate([track.breaks, *(track.crossings(*side) for side in frame.sides)]))
+    breaks = distinct(np.concatenate([track.breaks, *(track.crossings(*side) for side in frame.sides)]))
     # Between two breaks it lies on one side of each side: its middle tells.
     middle = track.at(0.5 * (breaks[:-1] + breaks[1:]))
     kept = np.all((middle >= frame.low - SLACK) & (middle <= frame.high + SLACK), axis=1).tolist()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import stat
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -79,7 +78,7 @@ def place(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
                 continue
             # Through a symbolic link to the file it means, not onto the link.
             target = Path(os.path.realpath(path))
-            beside = target.with_name(f".{target.name[:100]}.{secrets.token_hex(4)}.tmp")
+            beside = target.with_name(f".{target.name[:100]}.{os.urandom(4).hex()}.tmp")
             staged.append((path, beside, target))
             _fill(beside, data, target)
         for asked, beside, target in staged:

@@ -13,6 +13,7 @@ from itertools import groupby, pairwise
 
 import numpy as np
 
+from hlr.distinct import distinct
 from hlr.drawing import Fill, Gradient
 from hlr.errors import WriteError
 from hlr.writers.number import NOT_FINITE, grid, number
@@ -29,7 +30,7 @@ def faces(fill: Fill, places: int) -> Iterator[tuple[int, Loops]]:
         raise WriteError(NOT_FINITE)
     unit = 10.0**-places
     steps = grid(fill.points, places)
-    printed = {v: number(v * unit, places) for v in np.unique(steps).tolist()}
+    printed = {v: number(v * unit, places) for v in distinct(steps).tolist()}
     listed = steps.tolist()
     loops, starts = fill.loops.tolist(), fill.faces.tolist()
     for k in range(len(starts) - 1):

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import re
 from itertools import groupby, repeat
-from xml.sax.saxutils import escape, quoteattr
 
 from hlr import _kernel
 from hlr.drawing import Drawing
@@ -39,7 +38,7 @@ def svg(drawing: Drawing) -> bytes:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
         f'viewBox="{corner} {width} {height}" fill="none" stroke="#000" '
         'stroke-linecap="round" stroke-linejoin="round">\n',
-        f"<title>{escape(_clean(title(drawing)))}</title>\n",
+        f"<title>{_escaped(title(drawing))}</title>\n",
         _metadata(drawing),
     ]
     if drawing.fill is not None:
@@ -118,11 +117,11 @@ def _metadata(drawing: Drawing) -> str:
         "unit": f"{drawing.unit:.9g}",
         **accuracies(drawing),
     }
-    attributes = " ".join(f"{key}={quoteattr(_clean(value))}" for key, value in fields.items())
+    attributes = " ".join(f"{key}={_quoted(value)}" for key, value in fields.items())
     parts = []
     for index, part in enumerate(drawing.parts):
         color = f' color="{_hex(part.color)}"' if part.color is not None else ""
-        parts.append(f'<part index="{index}" name={quoteattr(_clean(part.name))}{color}/>\n')
+        parts.append(f'<part index="{index}" name={_quoted(part.name)}{color}/>\n')
     errors = " ".join(f'{key}="{value}"' for key, value in reached(drawing).items())
     measured = f"<reached {errors}/>\n" if errors else ""
     inside = measured + "".join(parts)
@@ -153,3 +152,16 @@ def _hex(color: tuple[float, float, float]) -> str:
 
 def _clean(text: str) -> str:
     return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", text)
+
+
+def _escaped(text: str) -> str:
+    """Text between tags. What `xml.sax.saxutils` does, without the network that it loads."""
+    return _clean(text).replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
+
+
+def _quoted(text: str) -> str:
+    """The value of an attribute, with its quotes."""
+    value = _escaped(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
+    if '"' not in value:
+        return f'"{value}"'
+    return f"'{value}'" if "'" not in value else '"' + value.replace('"', "&quot;") + '"'

@@ -157,6 +157,10 @@ NEIGHBOUR = {
         ("other.obj", b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "cannot be read as OBJ"),
         ("huge.stl", bytes(80) + struct.pack("<I", 4_000_000_000) + bytes(100), "cut short.*room for 2"),
         ("cut.stl", b"solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "endsolid is missing"),
+        ("empty.stl", bytes(84), "no triangles"),
+        ("words.stl", b"solid\nfacet\nouter loop\nvertex a 0 0\nendsolid\n", 'line 4 has "a" for a coordinate'),
+        ("corner.obj", b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n", "line 4 names vertex 9, and there are 3"),
+        ("list.ply", ply(b"ascii", 1, b"0 0 0\n4000000000 0 1\n"), "last row is not whole"),
         ("none.stl", b"solid x\nendsolid x\n", "no triangles"),
         ("nan.stl", bytes(80) + struct.pack("<I12fH", 1, *[float("nan")] * 12, 0), "coordinates are all numbers"),
         ("huge.ply", ply(b"binary_little_endian", 2_000_000_000, bytes(99)), "announces at least 24000000001 bytes"),
@@ -196,6 +200,77 @@ def test_what_is_left_of_a_damaged_mesh_is_drawn(tmp_path):
     source = open_source(tmp_path / "hole.off")
     assert len(source.mesh(0.1, 0.3).parts[0].triangles) == 1
     assert list(map(str, source.notes)) == ["1 triangle with coordinates that are no numbers was left out."]
+
+
+SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+
+
+def parts(path):
+    return open_source(path).mesh(0.1, 0.3).parts
+
+
+def test_objects_of_an_obj_file_are_parts_with_their_names(tmp_path):
+    path = tmp_path / "two.obj"
+    path.write_text(
+        f"{SQUARE}o left side\nf 1 2 3 4\n{SQUARE.replace('v 1', 'v 3')}o right\nusemtl a\nf 5 6 7\nf -4 -2 -1\n"
+    )
+    left, right = parts(path)
+    assert (left.name, right.name) == ("left side", "right")
+    assert left.points.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    assert right.triangles.tolist() == [[0, 1, 2], [0, 2, 3]]
+    path.write_text(f"{SQUARE}f 1 2 3 4\n")
+    assert [part.name for part in parts(path)] == ["two"]
+
+
+def test_groups_that_share_vertices_are_one_surface(tmp_path):
+    path = tmp_path / "groups.obj"
+    path.write_text(f"{SQUARE}{SQUARE}g a\nf 1 2 3\ng b\nf 5 6 7\n")
+    assert [part.name for part in parts(path)] == ["a", "b"]
+    path.write_text(f"{SQUARE}g a\nf 1 2 3\ng b\nf 1 3 4\n")
+    assert [(part.name, len(part.triangles)) for part in parts(path)] == [("groups", 2)]
+
+
+@pytest.mark.parametrize("kind", ["obj", "off", "ply"])
+def test_a_concave_face_does_not_fold_over_itself(kind, tmp_path):
+    corners = [(0, 0), (4, 0), (4, 4), (3, 4), (3, 1), (1, 1), (1, 4), (0, 4)]
+    rows = [f"{x} 0 {y}" for x, y in corners]
+    path = tmp_path / f"u.{kind}"
+    if kind == "obj":
+        path.write_text("".join(f"v {row}\n" for row in rows) + "f 1 2 3 4 5 6 7 8\n")
+    elif kind == "off":
+        path.write_text("OFF\n8 1 0\n" + "\n".join(rows) + "\n8 0 1 2 3 4 5 6 7\n")
+    else:
+        path.write_bytes(ply(b"ascii", 8, "".join(f"{row}\n" for row in rows).encode() + b"8 0 1 2 3 4 5 6 7\n"))
+    (part,) = parts(path)
+    a, b, c = (part.points[part.triangles[:, k]] for k in range(3))
+    areas = np.cross(b - a, c - a)[:, 1] / -2
+    assert (areas > 0).all()
+    assert areas.sum() == 10
+
+
+def test_colours_of_a_ply_file(tmp_path):
+    box = trimesh.creation.box()
+    colors = np.arange(48, dtype=np.uint8).reshape(12, 4)
+    box.visual.face_colors = colors
+    box.export(tmp_path / "faces.ply")
+    look = open_source(tmp_path / "faces.ply").looks()["faces"]
+    assert np.allclose(look.corners, np.repeat(colors[:, None], 3, axis=1) / 255)
+    box.visual = trimesh.visual.ColorVisuals(box, vertex_colors=colors[:8])
+    box.export(tmp_path / "vertices.ply")
+    look = open_source(tmp_path / "vertices.ply").looks()["vertices"]
+    assert np.allclose(look.corners, colors[box.faces] / 255)
+
+
+def test_bytes_after_a_binary_stl_are_no_obstacle(tmp_path):
+    (tmp_path / "more.stl").write_bytes(trimesh.creation.box().export(file_type="stl") + b"more")
+    assert len(parts(tmp_path / "more.stl")[0].triangles) == 12
+
+
+def test_solids_of_a_text_stl_are_parts(tmp_path):
+    solid = trimesh.exchange.stl.export_stl_ascii(trimesh.creation.box())
+    named = [solid.replace("solid ", f"solid {name}", 1) for name in ("pin", "pin", "")]
+    (tmp_path / "three.stl").write_text("".join(named))
+    assert [part.name for part in parts(tmp_path / "three.stl")] == ["pin", "pin:2", "three"]
 
 
 def test_a_byte_order_mark_is_no_obstacle(tmp_path):

@@ -8,6 +8,7 @@ pub mod ink;
 pub mod lines;
 pub mod measure;
 pub mod memory;
+pub mod meshfile;
 pub mod paper;
 pub mod preview;
 pub mod raster;
@@ -43,6 +44,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::painters::quadric_row, m)?)?;
     m.add_class::<bind::raster::RasterScene>()?;
     m.add_function(wrap_pyfunction!(bind::silhouette::silhouettes, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::meshfile::read_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(bind::measure::nearest, m)?)?;
     m.add_function(wrap_pyfunction!(bind::measure::blocked, m)?)?;
     m.add_function(wrap_pyfunction!(bind::guard::take_fault, m)?)?;

@@ -45,6 +45,11 @@ fn linework() {
 }
 
 #[test]
+fn meshfile() {
+    replay("meshfile", fuzz::meshfile::run);
+}
+
+#[test]
 fn topology() {
     replay("topology", fuzz::topology::run);
 }

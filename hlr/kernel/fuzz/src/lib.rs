@@ -6,6 +6,7 @@ pub mod brep;
 pub mod bytes;
 pub mod clash;
 pub mod linework;
+pub mod meshfile;
 pub mod oracle;
 pub mod scene;
 pub mod topology;
