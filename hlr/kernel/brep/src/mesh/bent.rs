@@ -71,29 +71,40 @@ struct Work<'a> {
 impl Work<'_> {
     /// The triangles, and the greatest error that remains.
     fn refine(&mut self) -> (Vec<[u32; 3]>, f64) {
-        let mut round = 0;
-        loop {
-            let triangles = self.mesh.inside();
-            let mut worst = 0.0f64;
-            let mut coarse = Vec::new();
-            for t in &triangles {
-                let at = t.map(|i| i as usize);
-                let gap = gap(self.surface, at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
-                if gap.whole > self.deflection {
-                    let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
-                    let limit = BESIDE * beside.fold(0.0, f64::max);
-                    if gap.whole > limit {
-                        coarse.push((gap, *t));
-                    } else {
-                        continue;
+        let mut worst = 0.0f64;
+        let mut coarse = Vec::new();
+        for t in self.mesh.inside() {
+            self.judge(t, &mut worst, &mut coarse);
+        }
+        for _ in 0..ROUNDS {
+            let known = self.corners.len();
+            if coarse.is_empty() || known > MOST || !self.divide(&mut coarse) {
+                break;
+            }
+            coarse.retain(|(_, t)| self.mesh.has(*t));
+            // All triangles that were not there have a new point.
+            for point in known as u32..self.corners.len() as u32 {
+                for t in self.mesh.around(point) {
+                    if t.iter().all(|&i| i >= point || i < known as u32) {
+                        self.judge(t, &mut worst, &mut coarse);
                     }
                 }
-                worst = worst.max(gap.whole);
             }
-            round += 1;
-            if coarse.is_empty() || round > ROUNDS || self.corners.len() > MOST || !self.divide(coarse) {
-                return (triangles, worst);
+        }
+        (self.mesh.inside(), coarse.iter().fold(worst, |w, (gap, _)| w.max(gap.whole)))
+    }
+
+    /// Whether a triangle keeps the deflection, or is as good as the border lets it be.
+    fn judge(&self, t: [u32; 3], worst: &mut f64, coarse: &mut Vec<(Gap, [u32; 3])>) {
+        let at = t.map(|i| i as usize);
+        let gap = gap(self.surface, at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]), self.deflection);
+        if gap.whole > self.deflection {
+            let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
+            if gap.whole > BESIDE * beside.fold(0.0, f64::max) {
+                coarse.push((gap, t));
             }
+        } else {
+            *worst = worst.max(gap.whole);
         }
     }
 
@@ -103,16 +114,16 @@ impl Work<'_> {
     }
 
     /// One more point for each coarse triangle that has no neighbour with a new one. Whether there was any.
-    fn divide(&mut self, mut coarse: Vec<(Gap, [u32; 3])>) -> bool {
+    fn divide(&mut self, coarse: &mut [(Gap, [u32; 3])]) -> bool {
         coarse.sort_by(|a, b| b.0.whole.total_cmp(&a.0.whole).then(a.1.cmp(&b.1)));
         let mut touched = vec![false; self.corners.len()];
         let mut any = false;
-        for (gap, t) in coarse {
+        for &mut (gap, t) in coarse {
             if t.iter().filter(|&&i| touched[i as usize]).count() >= 2 {
                 continue;
             }
             let Some(place) = self.place(&gap, t) else { continue };
-            if self.mesh.insert(place, self.corners.len() as u32) {
+            if self.mesh.insert(place) {
                 t.iter().for_each(|&i| touched[i as usize] = true);
                 let (corner, bend) = corner(self.surface, self.field.on_surface(place), None);
                 self.corners.push(corner);

@@ -39,7 +39,8 @@ pub struct Gap {
     pub edges: [f64; 3],
 }
 
-pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3]) -> Gap {
+/// Where that is enough to keep the deflection, a bound that is told at a glance.
+pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], deflection: f64) -> Gap {
     if let Surface::Sphere(_, r) = surface {
         return on_sphere(r.abs(), corners);
     }
@@ -51,12 +52,17 @@ pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3]) -> Gap {
     // H of each corner along each edge.
     let along = steps.map(|step| [0, 1, 2].map(|k| form(&forms[k], step)));
     let most = [0, 1, 2].map(|k| forms.iter().fold(0.0f64, |m, f| m.max(f[k].abs())));
-    let rest = |[u, v]: [f64; 2]| SHARE * form(&most, [u.abs(), v.abs()]) / 8.0;
     let size = [0, 1].map(|k| steps.iter().fold(0.0f64, |m, s| m.max(s[k].abs())));
+    let rest = |step: [f64; 2]| SHARE * form(&most, step) / 8.0;
+    // sum l_i l_j is a third at most.
+    let glance = along.iter().flatten().fold(0.0f64, |m, h| m.max(h.abs())) / 6.0 + rest(size);
+    if glance <= deflection {
+        return Gap { whole: glance, edges: [0.0; 3] };
+    }
     Gap {
         whole: 0.5 * extreme(&along) + rest(size),
         // Along an edge by itself, with H from one end to the other.
-        edges: [0, 1, 2].map(|i| 0.0625 * (along[i][i] + along[i][(i + 1) % 3]).abs() + rest(steps[i])),
+        edges: [0, 1, 2].map(|i| 0.0625 * (along[i][i] + along[i][(i + 1) % 3]).abs() + rest(steps[i].map(f64::abs))),
     }
 }
 
@@ -143,7 +149,7 @@ mod tests {
             let uv: [[f64; 2]; 3] = std::array::from_fn(|_| [random.next(), random.next()]);
             let corners = uv.map(|p| Corner { uv: p, point: [p[0], p[1], height(p)], normal: [0.0, 0.0, 1.0] });
             let bends = uv.map(bend);
-            let got = gap(&Surface::read(1, &[0.0; 12]).unwrap(), corners.each_ref(), bends.each_ref()).whole;
+            let got = gap(&Surface::read(1, &[0.0; 12]).unwrap(), corners.each_ref(), bends.each_ref(), 0.0).whole;
             let mut most = 0.0f64;
             for i in 0..=40 {
                 for j in 0..=40 - i {

@@ -1,5 +1,6 @@
 //! Constrained Delaunay triangles of loops and inner points.
 
+use spade::handles::{DirectedEdgeHandle, FixedVertexHandle};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::outline::Outline;
@@ -21,6 +22,8 @@ pub struct Delaunay {
     mesh: ConstrainedDelaunayTriangulation<Corner>,
     /// Of points of the outline at one place, the first one.
     pub stand_in: Vec<u32>,
+    /// Of all numbers.
+    handles: Vec<FixedVertexHandle>,
     /// Chords that run to and fro, lower point first: the same is on either side.
     slits: Vec<[u32; 2]>,
 }
@@ -59,13 +62,20 @@ impl Delaunay {
             all.sort_unstable();
             slits = all.chunk_by(|a, b| a == b).filter(|g| g.len() == 2).map(|g| g[0]).collect();
         }
+        // The triangulation keeps the order of corners, which are all in different places.
+        let handles = place
+            .iter()
+            .copied()
+            .chain(corners.len() - inner.len()..corners.len())
+            .map(FixedVertexHandle::from_index)
+            .collect();
         let mut crossed = false;
         let mesh = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(corners, chords, |_| crossed = true).ok()?;
-        (!crossed).then_some(Delaunay { mesh, stand_in, slits })
+        (!crossed).then_some(Delaunay { mesh, stand_in, handles, slits })
     }
 
-    /// One more inner point. False where it is no new one, or lies on a chord.
-    pub fn insert(&mut self, [x, y]: [f64; 2], number: u32) -> bool {
+    /// One more inner point, which gets the next number. False where it is no new one, or lies on a chord.
+    pub fn insert(&mut self, [x, y]: [f64; 2]) -> bool {
         use spade::PositionInTriangulation::{OnEdge, OnFace};
         let place = Point2::new(x, y);
         let free = match self.mesh.locate(place) {
@@ -73,7 +83,25 @@ impl Delaunay {
             OnEdge(edge) => !self.mesh.directed_edge(edge).is_constraint_edge(),
             _ => false,
         };
-        free && self.mesh.insert(Corner { place, number }).is_ok()
+        let number = self.handles.len() as u32;
+        let Some(handle) = free.then(|| self.mesh.insert(Corner { place, number }).ok()).flatten() else {
+            return false;
+        };
+        self.handles.push(handle);
+        true
+    }
+
+    /// The triangles around an inner point.
+    pub fn around(&self, number: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let edges = self.mesh.vertex(self.handles[number as usize]).out_edges();
+        edges.filter_map(|e| e.face().as_inner()).map(|f| f.vertices().map(|v| v.data().number))
+    }
+
+    /// Whether a triangle that was one is one still.
+    pub fn has(&self, [a, b, c]: [u32; 3]) -> bool {
+        let [a, b, c] = [a, b, c].map(|i| self.handles[i as usize]);
+        let edge = self.mesh.get_edge_from_neighbors(a, b);
+        edge.and_then(|e| e.opposite_vertex()).is_some_and(|v| v.fix() == c)
     }
 
     /// The triangles inside the loops, counterclockwise: those with an odd number of chords between them and the outside.
@@ -106,7 +134,7 @@ impl Delaunay {
         inner.map(|f| f.vertices().map(|v| v.data().number)).collect()
     }
 
-    fn toggles(&self, edge: spade::handles::DirectedEdgeHandle<Corner, (), spade::CdtEdge<()>, ()>) -> bool {
+    fn toggles(&self, edge: DirectedEdgeHandle<Corner, (), spade::CdtEdge<()>, ()>) -> bool {
         if !edge.is_constraint_edge() {
             return false;
         }
