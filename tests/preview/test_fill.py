@@ -250,3 +250,29 @@ def test_glass_that_stands_on_a_floor_has_an_even_bottom():
     filled = hlr.draw(assembly, fill=True, scale=2).fill
     # The floor alone and through two walls, its rim, and the glass before nothing.
     assert len(filled.loops) - 1 < 16
+
+
+@pytest.mark.parametrize("top", [0.0, 12.0])
+def test_a_cone_has_no_bands(top):
+    """Its light is a fan of narrow wedges, each a level of the screen apart; none goes astray at the apex."""
+    import cadquery as cq
+    import pypdfium2
+
+    cone = cq.Workplane().add(cq.Solid.makeCone(30, top, 60))
+    drawing = hlr.draw(cone, fill=True, hidden=False)
+    shown = hlr.preview(cone, antialias=False, size=(900, 900), background="transparent").pixels
+    page = pypdfium2.PdfDocument(io.BytesIO(written(drawing, "pdf")))[0]
+    picture = np.asarray(page.render(scale=4 * 25.4 / 72).to_pil().convert("RGB")).astype(int)[:, :, 0]
+    # Along rows, where no black line is near: a border of bands is a step between two even stretches.
+    for row in picture[:: len(picture) // 40]:
+        free = np.convolve(row < 60, np.ones(13), "same") == 0
+        steps = np.abs(np.diff(row))
+        even = np.convolve(steps, [1, 1, 1, 1, 0, 1, 1, 1, 1], "same") == 0
+        assert steps[even & free[1:] & free[:-1]].max(initial=0) <= 1
+    # As light as the preview, but for a few pixels at the apex, where a normal is none of the surface's.
+    solid = shown[..., 3] > 0
+    assert abs(int(np.percentile(shown[solid][:, 0], 99)) - int(drawing.fill.colors[:, 0].max())) <= 2
+    colours = np.unique(drawing.fill.colors[:, 0].astype(int))
+    assert np.sort(np.diff(colours))[-2] <= 2 and len(drawing.fill.gradients) == 0
+    # The same areas are in the SVG.
+    assert len(re.findall("data-part", drawing.to_svg().split('id="visible"')[0])) > 60

@@ -3,7 +3,8 @@
 //! ```text
 //! 1. `samples`   what is seen at the points of a grid, by the preview's z-buffer: faces, colour, and how light it is
 //! 2. `specks`    pieces smaller than a few points go to their neighbours
-//! 3. `tone`      the paint of each face: one colour, a gradient along a line, or bands of equal light
+//! 3. `tone`      the paint of each face: one colour, a gradient along a line, or bands of equal light; `fan`: where their
+//!                borders meet in one place
 //! 4. `chains`    the borders between areas, walked from where three of them meet to the next such place
 //! 5. `crossing`  where a border really runs between two points of the grid, found on the triangles that are seen there
 //! 6. `straight`  few corners: chains become straight runs, and corners are where these meet
@@ -17,6 +18,7 @@
 pub mod areas;
 pub mod chains;
 pub mod crossing;
+pub mod fan;
 pub mod samples;
 pub mod specks;
 pub mod straight;
@@ -42,15 +44,15 @@ pub fn areas(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<Areas> {
     let size = scene.lens.size;
-    let grid = samples::grid(scene, label, space, stopped)?;
+    let mut grid = samples::grid(scene, label, space, stopped)?;
     let mut faces = grid.faces.clone();
-    specks::merge(&mut faces, size, SPECK, |_, _| false);
+    specks::merge(&mut faces, size, SPECK, |_, _| 0);
     if stopped() {
         return None;
     }
-    let tones = tone::tones(&grid, &faces, fine);
+    let tones = tone::tones(&mut grid, &faces, fine);
     let mut cells = tone::cells(&grid, &faces, &tones);
-    specks::merge(&mut cells, size, BAND_SPECK, |a, b| tones.face[a as usize] == tones.face[b as usize]);
+    specks::merge(&mut cells, size, BAND_SPECK, |a, b| tones.alike(a as usize, b as usize));
     if stopped() {
         return None;
     }

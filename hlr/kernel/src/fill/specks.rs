@@ -1,8 +1,8 @@
 //! Pieces of a map that are too small to be seen go to a neighbour.
 
 /// `map`: row by row, 0 for nothing. Pieces of fewer than `least` places that hang together side by side become part of the
-/// largest piece beside them: of what is `alike`, where there is any; of nothing only where there is nothing else.
-pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: impl Fn(u32, u32) -> bool) {
+/// largest piece beside them, of those that are most `alike`; of nothing only where there is nothing else.
+pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: impl Fn(u32, u32) -> u32) {
     let piece = pieces(map, width, height);
     let count = piece.iter().max().map_or(0, |&m| m as usize + 1);
     let (mut size, mut value) = (vec![0usize; count], vec![0u32; count]);
@@ -43,7 +43,7 @@ pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: 
         if size[own as usize] >= least {
             continue; // has grown
         }
-        let mut best: Option<((bool, bool, usize), u32)> = None;
+        let mut best: Option<((u32, bool, usize), u32)> = None;
         for &[_, beside] in pairs {
             let beside = root(&mut owner, beside);
             let (a, b) = (value[own as usize], value[beside as usize]);
@@ -117,14 +117,14 @@ mod tests {
     #[test]
     fn a_speck_goes_to_the_largest_beside_it_and_not_to_nothing() {
         let mut map = vec![1, 1, 1, 0, 1, 2, 1, 0, 1, 1, 3, 0];
-        merge(&mut map, [4, 3], 2, |_, _| false);
+        merge(&mut map, [4, 3], 2, |_, _| 0);
         assert_eq!(map, [1, 1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0]);
     }
 
     #[test]
     fn what_stands_alone_stays() {
         let mut map = vec![0, 0, 0, 0, 5, 0, 0, 0, 0];
-        merge(&mut map, [3, 3], 4, |_, _| false);
+        merge(&mut map, [3, 3], 4, |_, _| 0);
         assert_eq!(map[4], 5);
     }
 }

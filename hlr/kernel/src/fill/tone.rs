@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::fan::{Fan, place};
 use super::samples::{Grid, Sample};
 
 /// Of 255: what differs by less has one colour.
@@ -13,6 +14,9 @@ const EVEN: f32 = 1.5;
 /// Of 255: steps between bands.
 const STEP: f32 = 3.0;
 const MOST_BANDS: f32 = 64.0;
+/// The same of fans, whose borders are straight and cost next to nothing: as fine as screens are.
+const FAN_STEP: f32 = 1.0;
+const MOST_IN_FAN: f32 = 256.0;
 /// Points that directions are tried on.
 const TRIED: usize = 1500;
 /// Slices across a gradient.
@@ -47,6 +51,11 @@ pub struct Tones {
 }
 
 impl Tones {
+    /// How alike two cells are: 0 of two faces, else the more, the nearer their bands are.
+    pub fn alike(&self, a: usize, b: usize) -> u32 {
+        if self.face[a] == self.face[b] { u32::MAX - self.band[a].abs_diff(self.band[b]) } else { 0 }
+    }
+
     /// The tone at which a border between two bands of one face runs.
     pub fn between(&self, a: usize, b: usize) -> f32 {
         let (low, high) = (a.min(b), a.max(b));
@@ -55,7 +64,8 @@ impl Tones {
 }
 
 /// `faces`: of each point. `fine`: points that a band is wide at least.
-pub fn tones(grid: &Grid, faces: &[u32], fine: f64) -> Tones {
+/// The light of a fan becomes what it is by angle, so that its bands have straight borders.
+pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
     let count = grid.first.len();
     let mut starts = vec![0usize; count + 1];
     // What a speck has left to its neighbour has another face's colour.
@@ -74,11 +84,17 @@ pub fn tones(grid: &Grid, faces: &[u32], fine: f64) -> Tones {
             next[f as usize] += 1;
         }
     }
-    let painted: Vec<Paint> =
-        (0..count).into_par_iter().map(|f| paint(grid, &points[starts[f]..starts[f + 1]], f, fine)).collect();
+    let shown: &Grid = grid;
+    let painted: Vec<(Paint, Option<Fan>)> =
+        (0..count).into_par_iter().map(|f| paint(shown, &points[starts[f]..starts[f + 1]], f, fine)).collect();
     let mut out = Tones { face: vec![], band: vec![], colour: vec![], gradient: vec![], begins: vec![] };
-    for (f, paint) in painted.into_iter().enumerate() {
+    for (f, (paint, fan)) in painted.into_iter().enumerate() {
         let own = &points[starts[f]..starts[f + 1]];
+        if let Some(fan) = fan {
+            for &p in own {
+                grid.samples[p as usize].tone = fan.tone(place(grid, p));
+            }
+        }
         let (gradient, begins) = match paint {
             Paint::Even => (None, vec![]),
             Paint::Gradient(g) => (Some(g), vec![]),
@@ -126,22 +142,24 @@ fn band(begins: &[f32], tone: f32) -> usize {
     begins.partition_point(|&b| b <= tone)
 }
 
-fn paint(grid: &Grid, points: &[u32], face: usize, fine: f64) -> Paint {
+fn paint(grid: &Grid, points: &[u32], face: usize, fine: f64) -> (Paint, Option<Fan>) {
     let tone = |p: &u32| grid.samples[*p as usize].tone;
     let low = points.iter().map(tone).fold(f32::INFINITY, f32::min);
     let high = points.iter().map(tone).fold(f32::NEG_INFINITY, f32::max);
     if face == 0 || points.is_empty() || high - low <= EVEN {
-        return Paint::Even;
+        return (Paint::Even, None);
     }
     if let Some(gradient) = gradient(grid, points) {
-        return Paint::Gradient(gradient);
+        return (Paint::Gradient(gradient), None);
     }
+    let fan = Fan::find(grid, points, face as u32);
+    let (step, most) = if fan.is_some() { (FAN_STEP, MOST_IN_FAN) } else { (STEP, MOST_BANDS) };
     let wide = ((points.len() as f64).sqrt() / fine) as f32;
-    let count = ((high - low) / STEP).min(MOST_BANDS).min(wide).max(1.0) as usize;
+    let count = ((high - low) / step).min(most).min(wide).max(1.0) as usize;
     if count < 2 {
-        return Paint::Even;
+        return (Paint::Even, None);
     }
-    Paint::Bands((1..count).map(|k| low + (high - low) * k as f32 / count as f32).collect())
+    (Paint::Bands((1..count).map(|k| low + (high - low) * k as f32 / count as f32).collect()), fan)
 }
 
 /// Some of a face's points: place from their middle, tone, colour.
