@@ -15,7 +15,7 @@ from hlr.surfaces.polygons import Polygons
 from hlr.surfaces.quadric import quadric_depths
 from hlr.surfaces.ray import Hit, ray_hits
 from hlr.surfaces.render import NotFinishedError, Rendering, Statistics, render
-from hlr.surfaces.rows import active_edges, crossing_pairs, spans
+from hlr.surfaces.rows import EdgeRecord, active_edges, crossing_pairs, edge_records, spans
 from hlr.surfaces.trace import trace_svg
 from hlr.surfaces.tree import BspTree
 from hlr.surfaces.viewport import SCREEN, Screen
@@ -25,6 +25,7 @@ __all__ = [
     "SCREEN",
     "Area",
     "BspTree",
+    "EdgeRecord",
     "Hit",
     "NotFinishedError",
     "PaintersList",
@@ -35,6 +36,7 @@ __all__ = [
     "active_edges",
     "areas_table",
     "crossing_pairs",
+    "edge_records",
     "frame_memory",
     "method_memory",
     "painters_list",

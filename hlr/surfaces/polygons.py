@@ -136,3 +136,15 @@ def _loops(polygon: Any, number: int) -> list[Floats]:
     if not all(np.isfinite(loop).all() for loop in loops):
         raise wrong
     return loops
+
+
+def checked_values(values: Any, polygons: Polygons) -> Floats | None:
+    """Colours or normals (points, 3), or None; raises OptionError for what is neither."""
+    wrong = OptionError(f"values need three finite numbers for each of the {len(polygons.points)} points")
+    try:
+        given = None if values is None else np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise wrong from None
+    if given is not None and (given.shape != polygons.points.shape or not np.isfinite(given).all()):
+        raise wrong
+    return given

@@ -15,7 +15,7 @@ from hlr.source.model import Floats, Ints
 from hlr.surfaces.areas import Area, areas_of
 from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.methods import checked
-from hlr.surfaces.polygons import Polygons, polygons_of
+from hlr.surfaces.polygons import Polygons, checked_values, polygons_of
 from hlr.surfaces.viewport import Screen, Viewport, Window, viewport
 from hlr.values import ByValue
 from hlr.view.camera import Camera
@@ -144,24 +144,13 @@ def render(
         raise OptionError(f"no shading is called {shading!r}: use {' or '.join(SHADING)}")
     within = limits(time_limit, memory_limit)
     polygons = polygons_of(scene, rule, cull)
-    given = _values(values, polygons)
+    given = checked_values(values, polygons)
     port = viewport(camera, polygons.points, size, window=window, front=front, back=back, space=space)
     with within.over(method):
         found = polygons.kernel(given, within).render(
             port.kernel(), (method, variant), within.kernel(), shading if given is not None else "", trace
         )
     return rendering(found, port, camera, variant, trace)
-
-
-def _values(values: Any, polygons: Polygons) -> Floats | None:
-    wrong = OptionError(f"values need three finite numbers for each of the {len(polygons.points)} points")
-    try:
-        given = None if values is None else np.asarray(values, np.float64)
-    except (TypeError, ValueError):
-        raise wrong from None
-    if given is not None and (given.shape != polygons.points.shape or not np.isfinite(given).all()):
-        raise wrong
-    return given
 
 
 def rendering(

@@ -2,14 +2,36 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
+from hlr import _kernel
 from hlr.surfaces.limits import limits
-from hlr.surfaces.polygons import Polygons, polygons_of
+from hlr.surfaces.polygons import Polygons, checked_values, polygons_of
 from hlr.surfaces.viewport import Screen, Viewport, viewport
 from hlr.view.camera import Camera
 
 Span = tuple[int, int, list[int]]
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeRecord:
+    """An active edge as its entry stands in a row: what it has there, and by how much that changes to the next row.
+
+    polygon, edge  edge k starts at the polygon's corner k
+    x, dx          in pixels; dx is 1 / m of its slope m
+    z, dz          depth of the plane Ax + By + Cz + D = 0 along the edge; dz is -(A / m + B) / C
+    values, steps  interpolated from the corners, where values were given
+    """
+
+    polygon: int
+    edge: int
+    x: float
+    dx: float
+    z: float
+    dz: float
+    values: tuple[float, ...] | None = None
+    steps: tuple[float, ...] | None = None
 
 
 def _prepared(scene: Any, camera: Camera | Screen, size: tuple[int, int], rule: str) -> tuple[Polygons, Viewport]:
@@ -17,10 +39,12 @@ def _prepared(scene: Any, camera: Camera | Screen, size: tuple[int, int], rule: 
     return polygons, viewport(camera, polygons.points, size)
 
 
-def _row(polygons: Polygons, port: Viewport, row: int) -> tuple[list[tuple[int, int, float]], list[Span]]:
+def _row(
+    polygons: Polygons, port: Viewport, row: int, values: Any = None
+) -> tuple[list[_kernel.RasterRecord], list[Span]]:
     within = limits()
     with within.over("the scan of a row"):
-        return polygons.kernel(within=within).scan_row(port.kernel(), row, within.kernel())
+        return polygons.kernel(values, within).scan_row(port.kernel(), row, within.kernel())
 
 
 def active_edges(
@@ -28,7 +52,27 @@ def active_edges(
 ) -> list[tuple[int, int, float]]:
     """The active edge list of a row, left to right: (polygon, edge, x in pixels); edge k starts at corner k."""
     polygons, port = _prepared(scene, camera, size, rule)
-    return _row(polygons, port, row)[0]
+    return [(polygon, edge, x[0]) for polygon, edge, x, _, _ in _row(polygons, port, row)[0]]
+
+
+def edge_records(
+    scene: Any,
+    camera: Camera | Screen,
+    size: tuple[int, int],
+    row: int,
+    rule: str = "even-odd",
+    values: Any = None,
+) -> list[EdgeRecord]:
+    """The same with all that an entry of the active edge list holds; values (points, 3) as for `render`.
+
+    Raises OptionError for values that do not fit.
+    """
+    polygons, port = _prepared(scene, camera, size, rule)
+    found = _row(polygons, port, row, checked_values(values, polygons))[0]
+    return [
+        EdgeRecord(polygon, edge, *x, *z, *((None, None) if v is None else (tuple(v[0]), tuple(v[1]))))
+        for polygon, edge, x, z, v in found
+    ]
 
 
 def spans(scene: Any, camera: Camera | Screen, size: tuple[int, int], row: int, rule: str = "even-odd") -> list[Span]:

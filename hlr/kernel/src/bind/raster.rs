@@ -14,6 +14,7 @@ use super::scan::{expect_below, expect_len, flat, rows};
 use crate::raster::active_edges::ActiveEdges;
 use crate::raster::bsp::Tree;
 use crate::raster::canvas::{Canvas, Visit, Write};
+use crate::raster::edge_record::{Active, Colour, Depth};
 use crate::raster::edge_table::EdgeTable;
 use crate::raster::polygon_table::PolygonTable;
 use crate::raster::prepare::{Bent, screen};
@@ -25,8 +26,10 @@ use crate::raster::warped::planar;
 use crate::raster::watch::Watch;
 use crate::raster::{scan_line_z_buffer, shading};
 
-/// Active edges: polygon, edge, x. Spans: from, to, polygons that are in.
-type RowParts = (Vec<(i32, u32, f64)>, Vec<(i64, i64, Vec<i32>)>);
+/// Of an active edge: polygon, edge; x and dx, z and dz, values and their steps, where it crosses the row.
+type Record = (i32, u32, [f64; 2], [f64; 2], Option<[[f64; 3]; 2]>);
+/// Active edges. Spans: from, to, polygons that are in.
+type RowParts = (Vec<Record>, Vec<(i64, i64, Vec<i32>)>);
 /// The same for Python.
 type Row<'py> = (Bound<'py, PyList>, Bound<'py, PyList>);
 /// Polygons in the plane, the node behind and the one in front.
@@ -124,10 +127,15 @@ impl RasterScene {
         let on = screen(&self.scene(), camera, Bent::Triangulated, watch, &mut statistics)?;
         let (mut edges, mut spans) = (Vec::new(), Vec::new());
         let table = EdgeTable::new(&on, watch)?;
-        let mut active = ActiveEdges::new(&table);
+        let mut active = ActiveEdges::<Depth>::new(&on, &table);
+        let mut coloured = (!on.values.is_empty()).then(|| ActiveEdges::<Colour<false>>::new(&on, &table));
         let id = |f: u32| self.id(on.facets[f as usize].id);
         let here = loop {
-            match active.next_row(&mut statistics) {
+            let next = active.next_row(&mut statistics);
+            if let Some(coloured) = &mut coloured {
+                coloured.next_row(&mut statistics);
+            }
+            match next {
                 Some(here) if here < row && !watch.over() => {}
                 Some(here) if here < row => return None,
                 other => break other,
@@ -135,13 +143,17 @@ impl RasterScene {
         };
         if here == Some(row) {
             let mut polygons = PolygonTable::new(on.rule, on.facets.len());
-            for (k, e) in active.edges.iter().enumerate() {
-                edges.push((id(e.facet), e.number, e.crossing()));
+            for (k, Active { edge: e, carried }) in active.edges.iter().enumerate() {
+                let [z, dz] = on.crossing_depth(e, carried);
+                let colour = coloured
+                    .as_ref()
+                    .map(|c| [c.edges[k].carried.value, c.edges[k].carried.down].map(|v| [v[0], v[1], v[2]]));
+                edges.push((id(e.facet), e.number, [e.crossing(), e.slope()], [z, dz], colour));
                 polygons.cross(e.facet, e.winding);
-                if let Some(next) = active.edges.get(k + 1).filter(|n| n.column > e.column) {
+                if let Some(next) = active.edges.get(k + 1).map(|n| n.edge.column).filter(|&n| n > e.column) {
                     let mut inside: Vec<i32> = polygons.inside.iter().map(|&f| id(f)).collect();
                     inside.sort_unstable();
-                    spans.push((e.column, next.column, inside));
+                    spans.push((e.column, next, inside));
                 }
             }
         }
@@ -288,7 +300,8 @@ impl RasterScene {
         Ok(out)
     }
 
-    /// One row as the scan line sees it: active edges (polygon, edge, x) and spans (from, to, polygons that are in).
+    /// One row as the scan line sees it: records of active edges (polygon, edge, (x, dx), (z, dz), values and their steps) and
+    /// spans (from, to, polygons that are in).
     fn scan_row<'py>(&self, py: Python<'py>, camera: CameraTuple, row: i64, limits: LimitsTuple) -> PyResult<Row<'py>> {
         let camera = camera_of(camera);
         let found = within(py, limits, |watch| self.row(&camera, row, watch))?;

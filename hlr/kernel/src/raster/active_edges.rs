@@ -10,19 +10,22 @@
 //! Done when the active list and the edge table both are empty; in a gap between rows it goes on at the next edge.
 
 use super::coverage::{Edge, insertion_sort};
+use super::edge_record::{Active, Carried};
 use super::edge_table::EdgeTable;
+use super::screen::Screen;
 use super::statistics::{Statistics, bytes_of};
 
-pub struct ActiveEdges<'a> {
+pub struct ActiveEdges<'a, C> {
+    screen: &'a Screen,
     table: &'a EdgeTable,
-    pub edges: Vec<Edge>,
-    merged: Vec<Edge>,
+    pub edges: Vec<Active<C>>,
+    merged: Vec<Active<C>>,
     row: i64,
 }
 
-impl<'a> ActiveEdges<'a> {
-    pub fn new(table: &'a EdgeTable) -> ActiveEdges<'a> {
-        ActiveEdges { table, edges: Vec::new(), merged: Vec::new(), row: -1 }
+impl<'a, C: Carried> ActiveEdges<'a, C> {
+    pub fn new(screen: &'a Screen, table: &'a EdgeTable) -> ActiveEdges<'a, C> {
+        ActiveEdges { screen, table, edges: Vec::new(), merged: Vec::new(), row: -1 }
     }
 
     /// On to the next row with edges; None where there is none left.
@@ -30,12 +33,12 @@ impl<'a> ActiveEdges<'a> {
         self.row += 1;
         let row = self.row as i32;
         let before = self.edges.len();
-        self.edges.retain(|e| e.end > row);
+        self.edges.retain(|e| e.edge.end > row);
         statistics.edge_ends += (before - self.edges.len()) as u64;
         if self.edges.is_empty() {
             self.row = self.table.next_start(self.row)?;
         }
-        self.edges.iter_mut().for_each(Edge::advance);
+        self.edges.iter_mut().for_each(Active::advance);
         statistics.swaps += insertion_sort(&mut self.edges);
         let starting = self.table.starting(self.row);
         statistics.edge_starts += starting.len() as u64;
@@ -51,10 +54,10 @@ impl<'a> ActiveEdges<'a> {
         self.merged.clear();
         let mut old = self.edges.iter().copied().peekable();
         for new in starting {
-            while let Some(e) = old.next_if(|e| e.column <= new.column) {
+            while let Some(e) = old.next_if(|e| e.edge.column <= new.column) {
                 self.merged.push(e);
             }
-            self.merged.push(*new);
+            self.merged.push(Active::new(self.screen, new, self.row));
         }
         self.merged.extend(old);
         std::mem::swap(&mut self.edges, &mut self.merged);

@@ -19,6 +19,7 @@
 use super::plane::{Point, STEPS, centre};
 use super::scene::Rule;
 use super::screen::{Facet, Screen, first_centre};
+use std::cmp::Ordering;
 
 /// An edge on its way down the rows.
 #[derive(Clone, Copy, Debug)]
@@ -60,15 +61,22 @@ impl Edge {
         Some(Edge { column, excess: column * over - numerator, step, rest, over, end, winding, facet, number })
     }
 
-    /// On to the next row.
+    /// On to the next row; whether the rest has added up to a column more than the whole step.
     #[inline(always)]
-    pub fn advance(&mut self) {
+    pub fn advance(&mut self) -> bool {
         self.column += self.step;
         self.excess -= self.rest;
-        if self.excess < 0 {
+        let carry = self.excess < 0;
+        if carry {
             self.column += 1;
             self.excess += self.over;
         }
+        carry
+    }
+
+    /// The whole columns of dx.
+    pub fn whole(&self) -> i64 {
+        self.step
     }
 
     /// dx as a fraction, for the order within a bucket of the edge table.
@@ -79,6 +87,18 @@ impl Edge {
     /// Where it crosses the row, in pixels; for traces.
     pub fn crossing(&self) -> f64 {
         self.column as f64 - self.excess as f64 / self.over as f64 + 0.5
+    }
+
+    /// Order by where they cross the row, exactly.
+    pub fn compare(&self, other: &Edge) -> Ordering {
+        self.column.cmp(&other.column).then_with(|| (other.excess * self.over).cmp(&(self.excess * other.over)))
+    }
+}
+
+impl AsRef<Edge> for Edge {
+    #[inline(always)]
+    fn as_ref(&self) -> &Edge {
+        self
     }
 }
 
@@ -132,24 +152,26 @@ pub fn runs(
         }
         insertion_sort(active);
         let mut go_on = true;
-        intervals(active, screen.rule, |from, to| {
-            let (from, to) = (from.max(low), to.min(high));
+        intervals(active, screen.rule, |left, right| {
+            let (from, to) = (left.column.max(low), right.column.min(high));
             go_on = go_on && (from >= to || visit(row.into(), from, to));
         });
         if !go_on {
             return;
         }
-        active.iter_mut().for_each(Edge::advance);
+        for edge in active.iter_mut() {
+            edge.advance();
+        }
     }
 }
 
 /// Sort edges by column; they nearly are. Returns the number of swaps.
 #[inline]
-pub fn insertion_sort(edges: &mut [Edge]) -> u64 {
+pub fn insertion_sort<E: AsRef<Edge>>(edges: &mut [E]) -> u64 {
     let mut swaps = 0;
     for i in 1..edges.len() {
         let mut k = i;
-        while k > 0 && edges[k - 1].column > edges[k].column {
+        while k > 0 && edges[k - 1].as_ref().column > edges[k].as_ref().column {
             edges.swap(k - 1, k);
             swaps += 1;
             k -= 1;
@@ -158,16 +180,16 @@ pub fn insertion_sort(edges: &mut [Edge]) -> u64 {
     swaps
 }
 
-/// The inside intervals between the sorted crossings of one polygon with a row.
+/// The inside intervals between the sorted crossings of one polygon with a row: the edges left and right of each.
 #[inline]
-pub fn intervals(edges: &[Edge], rule: Rule, mut visit: impl FnMut(i64, i64)) {
-    let (mut winding, mut from) = (0, 0);
+pub fn intervals<E: AsRef<Edge>>(edges: &[E], rule: Rule, mut visit: impl FnMut(&E, &E)) {
+    let (mut winding, mut left) = (0, None);
     for e in edges {
         let before = rule.inside(winding);
-        winding += e.winding;
-        match (before, rule.inside(winding)) {
-            (false, true) => from = e.column,
-            (true, false) if e.column > from => visit(from, e.column),
+        winding += e.as_ref().winding;
+        match (before, rule.inside(winding), left) {
+            (false, true, _) => left = Some(e),
+            (true, false, Some(l)) if e.as_ref().column > l.as_ref().column => visit(l, e),
             _ => {}
         }
     }

@@ -1,8 +1,8 @@
 //! The edge table: all edges that cross a row, bucket-sorted by the first row they cover; within a bucket by x, then dx.
 //!
 //! Horizontal edges are not in it. An entry (`coverage::Edge`) holds x and dx = 1 / m as whole columns and remainders, the
-//! row where it ends and the polygon it belongs to; depth and its steps are the polygon's own (`polygon_table`), one plane
-//! for all its edges. Edges are entered once, before the first row: where the list of active edges changes at vertices is
+//! row where it ends and the polygon it belongs to; z and dz, colour and its step join it when it becomes active
+//! (`edge_record`). Edges are entered once, before the first row: where the list of active edges changes at vertices is
 //! known from then on.
 
 use super::coverage::{Edge, edges_of};
@@ -19,9 +19,14 @@ pub struct EdgeTable {
 impl EdgeTable {
     /// None where there was no time.
     pub fn new(screen: &Screen, watch: &Watch) -> Option<EdgeTable> {
+        EdgeTable::of(screen, |_| true, watch)
+    }
+
+    /// The edges of some of the facets only.
+    pub fn of(screen: &Screen, wanted: impl Fn(u32) -> bool, watch: &Watch) -> Option<EdgeTable> {
         let height = screen.height as i32;
         let mut entries: Vec<(i32, Edge)> = Vec::new();
-        for number in 0..screen.facets.len() as u32 {
+        for number in (0..screen.facets.len() as u32).filter(|&f| wanted(f)) {
             if watch.over() {
                 return None;
             }

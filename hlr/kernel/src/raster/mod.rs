@@ -14,7 +14,8 @@
 //!
 //! The methods:
 //! - `z_buffer` (Catmull 1974), `scan_line_z_buffer`
-//! - `edge_table`, `active_edges`, `polygon_table`, `scan_line` (Wylie et al. 1967, Bouknight 1970, Watkins 1970), `span_list`
+//! - `edge_table`, `active_edges` with their `edge_record`s, `polygon_table`, `scan_line` (Wylie et al. 1967, Bouknight 1970,
+//!   Watkins 1970), `span_list`
 //! - `warnock` (Warnock 1969)
 //! - `depth_sort` (Newell, Newell, Sancha 1972) and `bsp` (Fuchs, Kedem, Naylor 1980), on `pieces`
 //! - `ray_casting` (Appel 1968) with `boxes`, a hierarchy of them, `grid` and an equal-count `partition`
@@ -30,6 +31,7 @@ pub mod clip;
 pub mod coverage;
 pub mod depth_grid;
 pub mod depth_sort;
+pub mod edge_record;
 pub mod edge_table;
 pub mod grid;
 pub mod partition;

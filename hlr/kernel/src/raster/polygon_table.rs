@@ -2,6 +2,9 @@
 //!
 //! Crossing an edge toggles a flag under the even-odd rule; the non-zero rule needs a counter. With it a polygon may be
 //! entered several times in one row.
+//!
+//! Depth is noted where a polygon is entered, from the record of the edge, beside those of the other polygons that are in: what
+//! is compared lies together in memory. Along the row it changes by -A / C a pixel.
 
 use super::scene::Rule;
 
@@ -14,6 +17,26 @@ pub struct PolygonTable {
     place: Vec<u32>,
     /// The polygons that the scan is in, in no order.
     pub inside: Vec<u32>,
+    /// Their depths, where they are asked for.
+    depths: Vec<Along>,
+}
+
+/// Depth along a row, from the column in which a polygon was entered.
+#[derive(Clone, Copy, Debug)]
+pub struct Along {
+    pub column: i64,
+    pub depth: f64,
+    pub right: f64,
+}
+
+impl Along {
+    pub const UNKNOWN: Along = Along { column: 0, depth: f64::NAN, right: 0.0 };
+
+    /// Within half of `NEAR_TIE`, as `Facet::depth_at`.
+    #[inline(always)]
+    pub fn at(&self, column: i64) -> f64 {
+        self.depth + self.right * (column - self.column) as f64
+    }
 }
 
 /// What crossing an edge meant.
@@ -26,11 +49,29 @@ pub enum Toggle {
 
 impl PolygonTable {
     pub fn new(rule: Rule, facets: usize) -> PolygonTable {
-        PolygonTable { rule, winding: vec![0; facets], place: vec![OUT; facets], inside: Vec::new() }
+        PolygonTable {
+            rule,
+            winding: vec![0; facets],
+            place: vec![OUT; facets],
+            inside: Vec::new(),
+            depths: Vec::new(),
+        }
     }
 
     #[inline]
     pub fn cross(&mut self, facet: u32, winding: i32) -> Toggle {
+        self.cross_at(facet, winding, || Along::UNKNOWN)
+    }
+
+    /// Depth of the polygon in the place k of `inside`.
+    #[inline(always)]
+    pub fn depth(&self, k: usize, column: i64) -> f64 {
+        self.depths[k].at(column)
+    }
+
+    /// `along` is asked where the polygon is entered.
+    #[inline]
+    pub fn cross_at(&mut self, facet: u32, winding: i32, along: impl FnOnce() -> Along) -> Toggle {
         let f = facet as usize;
         let before = self.rule.inside(self.winding[f]);
         self.winding[f] += winding;
@@ -38,11 +79,13 @@ impl PolygonTable {
             (false, true) => {
                 self.place[f] = self.inside.len() as u32;
                 self.inside.push(facet);
+                self.depths.push(along());
                 Toggle::Entered
             }
             (true, false) => {
                 let at = self.place[f] as usize;
                 self.inside.swap_remove(at);
+                self.depths.swap_remove(at);
                 if let Some(&moved) = self.inside.get(at) {
                     self.place[moved as usize] = at as u32;
                 }
@@ -59,6 +102,6 @@ impl PolygonTable {
 
     pub fn bytes(&self) -> usize {
         use super::statistics::bytes_of;
-        bytes_of(&self.winding) + bytes_of(&self.place) + bytes_of(&self.inside)
+        bytes_of(&self.winding) + bytes_of(&self.place) + bytes_of(&self.inside) + bytes_of(&self.depths)
     }
 }

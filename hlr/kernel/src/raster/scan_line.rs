@@ -22,9 +22,10 @@
 
 use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
+use super::edge_record::{Active, Depth};
 use super::edge_table::EdgeTable;
 use super::polygon_table::{PolygonTable, Toggle};
-use super::screen::{NONE, Screen};
+use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::Statistics;
 use super::watch::Watch;
 use std::cmp::Ordering;
@@ -50,7 +51,7 @@ pub fn render(
     statistics: &mut Statistics,
 ) -> Option<()> {
     let table = EdgeTable::new(screen, watch)?;
-    let mut active = ActiveEdges::new(&table);
+    let mut active = ActiveEdges::<Depth>::new(screen, &table);
     let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
     while let Some(row) = active.next_row(statistics) {
         let mut scan = Scan { screen, canvas, polygons: &mut polygons, coherence, row, visible: NONE };
@@ -72,22 +73,24 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    fn row(&mut self, active: &ActiveEdges, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
+    fn row(&mut self, active: &ActiveEdges<Depth>, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
         let edges = &active.edges;
         let mut k = 0;
         while k < edges.len() {
             if watch.over() {
                 return None;
             }
-            let column = edges[k].column;
+            let column = edges[k].edge.column;
             let known = self.visible;
-            while k < edges.len() && edges[k].column == column {
-                let toggle = self.polygons.cross(edges[k].facet, edges[k].winding);
-                self.crossed(toggle, edges[k].facet, column, statistics);
+            while k < edges.len() && edges[k].edge.column == column {
+                let Active { edge, carried } = &edges[k];
+                let (screen, row) = (self.screen, self.row);
+                let toggle = self.polygons.cross_at(edge.facet, edge.winding, || screen.along(edge, carried, row));
+                self.crossed(toggle, edge.facet, column, statistics);
                 k += 1;
             }
             let Some(next) = edges.get(k) else { break };
-            let (from, to) = (column.max(0), next.column.min(self.screen.width));
+            let (from, to) = (column.max(0), next.edge.column.min(self.screen.width));
             if from >= to {
                 continue;
             }
@@ -138,12 +141,18 @@ impl Scan<'_> {
         }
     }
 
-    /// The nearest of the polygons that are in.
+    /// The nearest of the polygons that are in: by the depths of the edge records where they are certain.
     fn nearest(&self, column: i64, statistics: &mut Statistics) -> u32 {
-        let mut best = self.polygons.inside[0];
-        for &f in &self.polygons.inside[1..] {
-            if self.screen.compare(f, best, column, self.row, statistics) == Ordering::Less {
-                best = f;
+        let inside = &self.polygons.inside;
+        let (mut best, mut depth) = (inside[0], self.polygons.depth(0, column));
+        for (k, &f) in inside.iter().enumerate().skip(1) {
+            statistics.comparisons += 1;
+            let z = self.polygons.depth(k, column);
+            // Of a steep polygon it is no number: then neither is certain.
+            let (nearer, farther) = (depth - z > NEAR_TIE, z - depth > NEAR_TIE);
+            let mut exactly = || self.screen.compare_exactly(f, best, column, self.row, statistics) == Ordering::Less;
+            if nearer || (!farther && exactly()) {
+                (best, depth) = (f, z);
             }
         }
         best

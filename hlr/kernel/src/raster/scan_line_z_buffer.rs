@@ -13,8 +13,9 @@
 use super::active_edges::ActiveEdges;
 use super::canvas::{Canvas, Write};
 use super::coverage::{Edge, edges_of, insertion_sort, intervals};
+use super::edge_record::{Active, Depth};
 use super::edge_table::EdgeTable;
-use super::polygon_table::{PolygonTable, Toggle};
+use super::polygon_table::{Along, PolygonTable, Toggle};
 use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::watch::Watch;
@@ -52,19 +53,18 @@ impl Row<'_> {
         Row { screen, depths: vec![f64::INFINITY; width], owners: vec![NONE; width] }
     }
 
-    fn fill(&mut self, number: u32, row: i64, from: i64, to: i64, canvas: &mut Canvas, statistics: &mut Statistics) {
-        let (from, to) = (from.max(0), to.min(self.screen.width));
+    /// The pixels from where a polygon is entered, with its depth there, to where it is left.
+    fn fill(&mut self, number: u32, row: i64, along: Along, to: i64, canvas: &mut Canvas, statistics: &mut Statistics) {
+        let (from, to) = (along.column, to.min(self.screen.width));
         if from >= to {
             return;
         }
         statistics.spans += 1;
-        let facet = &self.screen.facets[number as usize];
-        let z = facet.depth_at(from, row);
         statistics.comparisons += (to - from) as u64;
         let mut start = from;
         for column in from..to {
             let at = column as usize;
-            let z = z + facet.right * (column - from) as f64;
+            let z = along.at(column);
             let ahead = self.depths[at] - z;
             // A steep facet has no depth in floating point: then neither is certain.
             let (nearer, farther) = (ahead > NEAR_TIE, ahead < -NEAR_TIE);
@@ -101,7 +101,7 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
     // Polygons by first row, the next to start at the end of the list.
     let mut waiting: Vec<u32> = (0..screen.facets.len() as u32).collect();
     waiting.sort_unstable_by_key(|&f| std::cmp::Reverse((screen.facets[f as usize].rows[0], f)));
-    let mut active: Vec<Active> = Vec::new();
+    let mut active: Vec<ActivePolygon> = Vec::new();
     let mut buffer = Row::new(screen);
     for row in 0..screen.height {
         active.retain(|a| {
@@ -110,7 +110,7 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
             stays
         });
         while let Some(facet) = waiting.pop_if(|f| i64::from(screen.facets[*f as usize].rows[0]) <= row) {
-            active.push(Active::new(screen, facet, row));
+            active.push(ActivePolygon::new(screen, facet, row));
         }
         if active.is_empty() {
             if waiting.is_empty() {
@@ -123,10 +123,13 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
             if watch.over() {
                 return None;
             }
-            a.enter(row, statistics);
+            a.enter(screen, row, statistics);
             statistics.swaps += insertion_sort(&mut a.edges);
-            intervals(&a.edges, screen.rule, |from, to| buffer.fill(a.facet, row, from, to, canvas, statistics));
-            a.edges.iter_mut().for_each(Edge::advance);
+            intervals(&a.edges, screen.rule, |left, right| {
+                let along = screen.along(&left.edge, &left.carried, row);
+                buffer.fill(a.facet, row, along, right.edge.column, canvas, statistics);
+            });
+            a.edges.iter_mut().for_each(Active::advance);
         }
         let edges: usize = active.iter().map(|a| bytes_of(&a.edges) + bytes_of(&a.waiting)).sum();
         statistics.holds(buffer.bytes() + bytes_of(&waiting) + bytes_of(&active) + edges + canvas.bytes());
@@ -137,26 +140,26 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
 }
 
 /// A polygon that crosses the row, with its edges.
-struct Active {
+struct ActivePolygon {
     facet: u32,
-    edges: Vec<Edge>,
+    edges: Vec<Active<Depth>>,
     waiting: Vec<(i32, Edge)>,
 }
 
-impl Active {
-    fn new(screen: &Screen, facet: u32, row: i64) -> Active {
+impl ActivePolygon {
+    fn new(screen: &Screen, facet: u32, row: i64) -> ActivePolygon {
         let mut waiting = Vec::new();
         edges_of(screen, facet, row as i32, screen.height as i32, |start, edge| waiting.push((start, edge)));
         waiting.sort_unstable_by_key(|&(start, _)| std::cmp::Reverse(start));
-        Active { facet, edges: Vec::new(), waiting }
+        ActivePolygon { facet, edges: Vec::new(), waiting }
     }
 
-    fn enter(&mut self, row: i64, statistics: &mut Statistics) {
+    fn enter(&mut self, screen: &Screen, row: i64, statistics: &mut Statistics) {
         let before = self.edges.len();
-        self.edges.retain(|e| i64::from(e.end) > row);
+        self.edges.retain(|e| i64::from(e.edge.end) > row);
         statistics.edge_ends += (before - self.edges.len()) as u64;
         while let Some((_, edge)) = self.waiting.pop_if(|(start, _)| i64::from(*start) <= row) {
-            self.edges.push(edge);
+            self.edges.push(Active::new(screen, &edge, row));
             statistics.edge_starts += 1;
         }
     }
@@ -171,9 +174,9 @@ pub fn merged(
     paired: &mut dyn FnMut(Write),
 ) -> Option<()> {
     let table = EdgeTable::new(screen, watch)?;
-    let mut active = ActiveEdges::new(&table);
+    let mut active = ActiveEdges::<Depth>::new(screen, &table);
     let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
-    let mut entered = vec![0i64; screen.facets.len()];
+    let mut entered = vec![Along::UNKNOWN; screen.facets.len()];
     let mut buffer = Row::new(screen);
     while let Some(row) = active.next_row(statistics) {
         buffer.clear();
@@ -181,17 +184,14 @@ pub fn merged(
             if watch.over() {
                 return None;
             }
-            match polygons.cross(e.facet, e.winding) {
-                Toggle::Entered => entered[e.facet as usize] = e.column,
-                Toggle::Left if entered[e.facet as usize] < e.column => {
-                    let from = entered[e.facet as usize];
-                    paired(Write {
-                        row: row as u32,
-                        from: from.max(0) as u32,
-                        to: e.column.max(0) as u32,
-                        facet: e.facet,
-                    });
-                    buffer.fill(e.facet, row, from, e.column, canvas, statistics);
+            let Active { edge, carried } = e;
+            let f = edge.facet as usize;
+            match polygons.cross(edge.facet, edge.winding) {
+                Toggle::Entered => entered[f] = screen.along(edge, carried, row),
+                Toggle::Left if entered[f].column < edge.column => {
+                    let (from, to) = (entered[f].column as u32, edge.column as u32);
+                    paired(Write { row: row as u32, from, to, facet: edge.facet });
+                    buffer.fill(edge.facet, row, entered[f], edge.column, canvas, statistics);
                 }
                 _ => {}
             }

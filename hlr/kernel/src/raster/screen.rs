@@ -1,7 +1,10 @@
 //! Facets on the screen: what every method starts from, and their depths compared. `prepare` makes them.
 
+use super::coverage::Edge;
 use super::depth_grid::DepthGrid;
+use super::edge_record::Depth;
 use super::plane::{Plane, Point, STEPS, centre};
+use super::polygon_table::Along;
 use super::scene::Rule;
 use super::statistics::Statistics;
 use std::cmp::Ordering;
@@ -44,6 +47,15 @@ pub struct Facet {
 }
 
 impl Facet {
+    /// A plane with C > 0 over columns and rows, for tests.
+    #[cfg(test)]
+    pub fn flat(plane: Plane, columns: [i32; 2], rows: [i32; 2]) -> Facet {
+        let over = |n: i128| n as f64 / plane.c as f64;
+        let start = over(plane.depth(centre(columns[0].into()), centre(rows[0].into())));
+        let (right, down) = (over(-plane.a) * STEPS as f64, over(-plane.b) * STEPS as f64);
+        Facet { id: 0, loops: 0..0, plane, columns, rows, depth: [0, 0], start, right, down, slack: 0.0 }
+    }
+
     /// Depth at a pixel's centre within `NEAR_TIE` / 2, or NaN; nothing of the kind beyond `columns` and `rows`.
     #[inline(always)]
     pub fn depth_at(&self, column: i64, row: i64) -> f64 {
@@ -72,6 +84,39 @@ impl Screen {
         self.loops[facet.loops.start as usize..facet.loops.end as usize]
             .iter()
             .map(|l| &self.points[l.start as usize..l.end as usize])
+    }
+
+    /// Depth along the row from the edge at which a facet is entered, by the edge's record; from the first column of the
+    /// frame where that is before it.
+    #[inline(always)]
+    pub fn along(&self, edge: &Edge, depth: &Depth, row: i64) -> Along {
+        let facet = &self.facets[edge.facet as usize];
+        let (column, depth) = if edge.column < 0 { (0, facet.depth_at(0, row)) } else { (edge.column, depth.get()) };
+        Along { column, depth, right: facet.right }
+    }
+
+    /// Depth where an edge crosses a row, and its change to the next, -(A / m + B) / C, in the units of the camera; for
+    /// traces.
+    pub fn crossing_depth(&self, edge: &Edge, depth: &Depth) -> [f64; 2] {
+        let facet = &self.facets[edge.facet as usize];
+        let z = depth.get() - facet.right * (edge.column as f64 + 0.5 - edge.crossing());
+        let down = facet.right * edge.slope() + facet.down;
+        [self.depths.depth(z), self.depths.depth(down) - self.depths.depth(0.0)]
+    }
+
+    /// The corners, as indices into `points`, between which an edge of a facet runs; edges are numbered loop after loop.
+    pub fn ends(&self, facet: u32, edge: u32) -> (usize, usize) {
+        let facet = &self.facets[facet as usize];
+        let mut number = edge;
+        for l in &self.loops[facet.loops.start as usize..facet.loops.end as usize] {
+            let count = l.end - l.start;
+            if number < count {
+                let next = if number + 1 == count { 0 } else { number + 1 };
+                return ((l.start + number) as usize, (l.start + next) as usize);
+            }
+            number -= count;
+        }
+        unreachable!("a facet has no edge {edge}")
     }
 
     /// Nearer first; at equal depth the lower facet. Exact, whatever floating point makes of it.

@@ -3,6 +3,7 @@
 //!
 //! The textbook interpolates on the screen, where equal steps are not equal steps on the surface: in perspective the far half
 //! of a polygon gets too little. Value / w and 1 / w are linear on the screen, so their quotient is right (Blinn 1992).
+//! Either way what is linear takes one addition a row along an edge (`edge_record`), and one a pixel between two edges.
 //!
 //! ```text
 //!        1 +                row y: left = between 1 and 3, right = between 1 and 2, then from left to right
@@ -12,62 +13,72 @@
 //!    3 +-------+ 2
 //! ```
 
-use super::plane::centre;
+use super::active_edges::ActiveEdges;
+use super::edge_record::{Active, Colour};
+use super::edge_table::EdgeTable;
 use super::screen::{NONE, Screen};
+use super::statistics::Statistics;
 use super::watch::Watch;
 
 /// Per pixel of `frame`, the value at its centre; NaN for the background. None where there was no time.
 pub fn shade(screen: &Screen, frame: &[u32], correct: bool, watch: &Watch) -> Option<Vec<[f64; 3]>> {
+    if correct { rows::<true>(screen, frame, watch) } else { rows::<false>(screen, frame, watch) }
+}
+
+fn rows<const CORRECT: bool>(screen: &Screen, frame: &[u32], watch: &Watch) -> Option<Vec<[f64; 3]>> {
     let width = screen.width as usize;
     let mut out = vec![[f64::NAN; 3]; frame.len()];
-    for (at, &number) in frame.iter().enumerate() {
-        if watch.over() {
-            return None;
-        }
-        if number != NONE {
-            out[at] = value(screen, number, (at % width) as i64, (at / width) as i64, correct);
+    let mut visible = vec![false; screen.facets.len()];
+    frame.iter().filter(|&&f| f != NONE).for_each(|&f| visible[f as usize] = true);
+    let table = EdgeTable::of(screen, |f| visible[f as usize], watch)?;
+    let mut active = ActiveEdges::<Colour<CORRECT>>::new(screen, &table);
+    let mut order: Vec<u32> = Vec::new();
+    while let Some(row) = active.next_row(&mut Statistics::default()) {
+        // Polygon by polygon, the edges from left to right.
+        order.clear();
+        order.extend(0..active.edges.len() as u32);
+        let edge = |k: u32| &active.edges[k as usize];
+        order.sort_unstable_by(|&i, &k| {
+            let (a, b) = (&edge(i).edge, &edge(k).edge);
+            a.facet.cmp(&b.facet).then_with(|| a.compare(b)).then(a.number.cmp(&b.number))
+        });
+        let start = row as usize * width;
+        let (seen, values) = (&frame[start..start + width], &mut out[start..start + width]);
+        for pair in order.windows(2) {
+            if watch.over() {
+                return None;
+            }
+            let (left, right) = (edge(pair[0]), edge(pair[1]));
+            if left.edge.facet == right.edge.facet {
+                between(left, right, seen, values);
+            }
         }
     }
     Some(out)
 }
 
-/// The edges left and right of a pixel in its row, and the value between them.
-fn value(screen: &Screen, number: u32, column: i64, row: i64, correct: bool) -> [f64; 3] {
-    let facet = &screen.facets[number as usize];
-    let (x, y) = (centre(column) as f64, centre(row) as f64);
-    let mut left: Option<(f64, [f64; 4])> = None;
-    let mut right: Option<(f64, [f64; 4])> = None;
-    for l in &screen.loops[facet.loops.start as usize..facet.loops.end as usize] {
-        for i in l.clone() {
-            let next = if i + 1 == l.end { l.start } else { i + 1 };
-            let (p, q) = (&screen.points[i as usize], &screen.points[next as usize]);
-            let (py, qy) = (p[1] as f64, q[1] as f64);
-            if (py <= y) == (qy <= y) {
-                continue;
-            }
-            let t = (y - py) / (qy - py);
-            let at = p[0] as f64 + t * (q[0] - p[0]) as f64;
-            let value = between(&screen.values[i as usize], &screen.values[next as usize], t, correct);
-            if at <= x && left.is_none_or(|(l, _)| at > l) {
-                left = Some((at, value));
-            }
-            if at > x && right.is_none_or(|(r, _)| at < r) {
-                right = Some((at, value));
-            }
+/// The pixels of a row between two neighbouring edges of a polygon, where it is seen.
+fn between<const CORRECT: bool>(
+    left: &Active<Colour<CORRECT>>,
+    right: &Active<Colour<CORRECT>>,
+    seen: &[u32],
+    out: &mut [[f64; 3]],
+) {
+    let within = |column: i64| column.clamp(0, seen.len() as i64) as usize;
+    let (from, to) = (within(left.edge.column), within(right.edge.column));
+    if from >= to || !seen[from..to].contains(&left.edge.facet) {
+        return;
+    }
+    let (p, q) = (&left.carried.value, &right.carried.value);
+    let (start, end) = (left.edge.crossing(), right.edge.crossing());
+    let step: [f64; 4] = std::array::from_fn(|k| (q[k] - p[k]) / (end - start));
+    let mut here: [f64; 4] = std::array::from_fn(|k| p[k] + step[k] * (from as f64 + 0.5 - start));
+    for column in from..to {
+        if seen[column] == left.edge.facet {
+            out[column] = [here[0] / here[3], here[1] / here[3], here[2] / here[3]];
+        }
+        for k in 0..4 {
+            here[k] += step[k];
         }
     }
-    let out = match (left, right) {
-        (Some((l, from)), Some((r, to))) => between(&from, &to, (x - l) / (r - l), correct),
-        (Some((_, only)), None) | (None, Some((_, only))) => only,
-        (None, None) => [f64::NAN; 4],
-    };
-    [out[0], out[1], out[2]]
-}
-
-/// Between two values with their 1 / w: on the screen, or on the surface.
-fn between(p: &[f64; 4], q: &[f64; 4], t: f64, correct: bool) -> [f64; 4] {
-    let w = p[3] + (q[3] - p[3]) * t;
-    let share = if correct { t * q[3] / w } else { t };
-    let at = |k: usize| p[k] + (q[k] - p[k]) * share;
-    [at(0), at(1), at(2), w]
 }

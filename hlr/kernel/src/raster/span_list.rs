@@ -17,7 +17,7 @@
 
 use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
-use super::coverage::Edge;
+use super::edge_record::Active;
 use super::edge_table::EdgeTable;
 use super::polygon_table::{PolygonTable, Toggle};
 use super::screen::Screen;
@@ -31,7 +31,7 @@ type Crossing = (i64, u32, u32);
 
 pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
     let table = EdgeTable::new(screen, watch)?;
-    let mut active = ActiveEdges::new(&table);
+    let mut active = ActiveEdges::<()>::new(screen, &table);
     let mut polygons = PolygonTable::new(screen.rule, screen.facets.len());
     let mut row_of_spans = Spans { screen, row: 0, order: Vec::new(), crossings: BinaryHeap::new() };
     while let Some(row) = active.next_row(statistics) {
@@ -54,7 +54,7 @@ struct Spans<'a> {
 impl Spans<'_> {
     fn run(
         &mut self,
-        active: &ActiveEdges,
+        active: &ActiveEdges<()>,
         polygons: &mut PolygonTable,
         canvas: &mut Canvas,
         watch: &Watch,
@@ -62,7 +62,7 @@ impl Spans<'_> {
     ) -> Option<()> {
         let edges = &active.edges;
         let width = self.screen.width;
-        let within = |e: &Edge| e.column.clamp(0, width);
+        let within = |e: &Active<()>| e.edge.column.clamp(0, width);
         let (mut started, mut k) = (Vec::new(), 0);
         let mut seen_from = 0;
         self.order.clear();
@@ -79,9 +79,9 @@ impl Spans<'_> {
             seen_from = column;
             started.clear();
             while k < edges.len() && within(&edges[k]) == column {
-                let f = edges[k].facet;
+                let f = edges[k].edge.facet;
                 // Left and entered in one column: it stays.
-                match polygons.cross(f, edges[k].winding) {
+                match polygons.cross(f, edges[k].edge.winding) {
                     Toggle::Entered => started.push(f),
                     Toggle::Left if started.last() == Some(&f) => {
                         started.pop();
