@@ -239,6 +239,7 @@ class RasterScene:
         values: Floats,
         non_zero: bool,
         limits: RasterLimits,
+        patches: list[tuple[int, list[list[float]], list[float], list[float]]] = ...,
     ) -> RasterScene: ...
     def render(
         self, camera: RasterCamera, method: tuple[str, str], limits: RasterLimits, shaded: str, traced: bool

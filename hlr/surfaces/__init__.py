@@ -11,6 +11,7 @@ from hlr.surfaces.areas import Area, areas_table
 from hlr.surfaces.memory import frame_memory, method_memory, peak_memory
 from hlr.surfaces.methods import METHODS
 from hlr.surfaces.painters import PaintersList, painters_list
+from hlr.surfaces.patch import Patch
 from hlr.surfaces.polygons import Polygons
 from hlr.surfaces.quadric import quadric_depths
 from hlr.surfaces.ray import Hit, ray_hits
@@ -29,6 +30,7 @@ __all__ = [
     "Hit",
     "NotFinishedError",
     "PaintersList",
+    "Patch",
     "Polygons",
     "Rendering",
     "Screen",

@@ -14,6 +14,7 @@ from hlr.errors import OptionError
 from hlr.scene.scene import Scene
 from hlr.source.model import Floats, Ints
 from hlr.surfaces.limits import Limits, limits
+from hlr.surfaces.patch import Patch
 from hlr.values import ByValue
 
 RULES = ("even-odd", "non-zero")
@@ -29,6 +30,7 @@ class Polygons(ByValue):
     polygons  (p + 1,) int32 into loops: where each polygon begins
     cull      (p,) bool: of a closed, outward-turned solid, so that it is left out where it is turned away
     rule      what is inside: "even-odd" or "non-zero"
+    patches   numbers, ascending, of polygons that are the outlines of curved patches, and those
     """
 
     points: Floats
@@ -37,12 +39,14 @@ class Polygons(ByValue):
     polygons: Ints
     cull: npt.NDArray[np.bool_]
     rule: str = "even-odd"
+    patches: tuple[tuple[int, Patch], ...] = ()
 
     def __len__(self) -> int:
         return len(self.polygons) - 1
 
     def chosen(self, which: npt.NDArray[np.int64]) -> Polygons:
         """Only these polygons, in this order, renumbered; points stay as they are."""
+        curved = dict(self.patches)
         loops = np.concatenate(
             [np.zeros(0, np.int64), *[np.arange(self.polygons[p], self.polygons[p + 1]) for p in which]]
         )
@@ -55,13 +59,19 @@ class Polygons(ByValue):
             np.append(0, np.cumsum(self.polygons[which + 1] - self.polygons[which])).astype(np.int32),
             self.cull[which],
             self.rule,
+            tuple((k, curved[p]) for k, p in enumerate(which.tolist()) if p in curved),
         )
 
-    def kernel(self, values: Floats | None = None, within: Limits | None = None) -> _kernel.RasterScene:
+    def kernel(
+        self, values: Floats | None = None, within: Limits | None = None, curved: bool = False
+    ) -> _kernel.RasterScene:
         """The kernel's scene; values (n, 3) per point are interpolated where that is asked for.
 
-        Raises OptionError for arrays that do not fit together or hold what is no number, NotFinishedError.
+        curved: whether patches are drawn as such. Raises OptionError where they are not and there are some, for arrays
+        that do not fit together or hold what is no number; NotFinishedError.
         """
+        if self.patches and not curved:
+            raise OptionError(f"polygon {self.patches[0][0]} is a curved patch: only render draws those")
         within = within or limits()
         none = np.zeros((0, 3))
         try:
@@ -75,6 +85,7 @@ class Polygons(ByValue):
                     none if values is None else np.ascontiguousarray(values, np.float64),
                     self.rule == "non-zero",
                     within.kernel(),
+                    [patch.kernel(number) for number, patch in self.patches],
                 )
         except (ValueError, TypeError) as error:
             raise OptionError(f"the polygons are not well formed: {error}") from None
@@ -83,8 +94,10 @@ class Polygons(ByValue):
 def polygons_of(scene: Any, rule: str = "even-odd", cull: bool = False) -> Polygons:
     """A Scene (its triangles), Polygons, or a sequence of polygons, as Polygons.
 
-    A plain polygon is one loop, (n, 3) numbers, or a list of loops. cull: leave out what is turned away; of a Scene
-    only in those parts that are closed and turned outward. Raises OptionError for what is none of these.
+    A plain polygon is one loop, (n, 3) numbers, or a list of loops; or it is a Patch. cull: leave out what is turned
+    away; of a Scene only in those parts that are closed and turned outward.
+
+    Raises OptionError for what is none of these.
     """
     if rule not in RULES:
         raise OptionError(f"no inside rule is called {rule!r}: use {' or '.join(RULES)}")
@@ -107,8 +120,9 @@ def _plain(given: Sequence[Any], rule: str, cull: bool) -> Polygons:
         raise OptionError(
             f"{type(given).__name__} is no scene: give a Scene, Polygons, or a list of polygons"
         ) from None
+    patches = [(number, given) for number, given in enumerate(listed) if isinstance(given, Patch)]
     for number, polygon in enumerate(listed):
-        for loop in _loops(polygon, number):
+        for loop in _outline(polygon) if isinstance(polygon, Patch) else _loops(polygon, number):
             points.append(loop)
             loops.append(loops[-1] + len(loop))
         polygons.append(len(loops) - 1)
@@ -116,8 +130,20 @@ def _plain(given: Sequence[Any], rule: str, cull: bool) -> Polygons:
     corners = np.arange(len(flat), dtype=np.int32)
     n = len(polygons) - 1
     return Polygons(
-        flat, corners, np.array(loops, np.int32), np.array(polygons, np.int32), np.full(n, cull, np.bool_), rule
+        flat,
+        corners,
+        np.array(loops, np.int32),
+        np.array(polygons, np.int32),
+        np.full(n, cull, np.bool_),
+        rule,
+        tuple(patches),
     )
+
+
+def _outline(patch: Patch) -> list[Floats]:
+    """Loops of a patch, level: where they lie in depth means nothing."""
+    level = patch.range()[0]
+    return [np.array([(x, y, level) for x, y in loop]) for loop in patch.loops()]
 
 
 def _loops(polygon: Any, number: int) -> list[Floats]:

@@ -15,8 +15,9 @@ from hlr.source.model import Floats, Ints
 from hlr.surfaces.areas import Area, areas_of
 from hlr.surfaces.limits import NotFinishedError, limits
 from hlr.surfaces.methods import checked
+from hlr.surfaces.patch import checked_patches
 from hlr.surfaces.polygons import Polygons, checked_values, polygons_of
-from hlr.surfaces.viewport import Screen, Viewport, Window, viewport
+from hlr.surfaces.viewport import Screen, Viewport, Window, checked_size, viewport
 from hlr.values import ByValue
 from hlr.view.camera import Camera
 
@@ -128,7 +129,8 @@ def render(
 ) -> Rendering:
     """The visible polygon and its depth at every pixel's centre.
 
-    scene    a Scene (its triangles), Polygons, or a list of polygons: (n, 3) points each, or loops of them
+    scene    a Scene (its triangles), Polygons, or a list of polygons: (n, 3) points each, or loops of them, or curved
+             patches (`Patch`), which SCREEN alone sees, without front and back planes
     camera   of `hlr.view`, or SCREEN for polygons given in pixels
     size     width and height in pixels
     method   one of METHODS, variant one of its variants; all give the same picture
@@ -145,9 +147,12 @@ def render(
     within = limits(time_limit, memory_limit)
     polygons = polygons_of(scene, rule, cull)
     given = checked_values(values, polygons)
+    checked_patches(polygons.patches, method, variant, checked_size(size))
+    if polygons.patches and not (isinstance(camera, Screen) and front is None and back is None):
+        raise OptionError("curved patches are given in pixels: use SCREEN, without front and back planes")
     port = viewport(camera, polygons.points, size, window=window, front=front, back=back, space=space)
     with within.over(method):
-        found = polygons.kernel(given, within).render(
+        found = polygons.kernel(given, within, curved=True).render(
             port.kernel(), (method, variant), within.kernel(), shading if given is not None else "", trace
         )
     return rendering(found, port, camera, variant, trace)

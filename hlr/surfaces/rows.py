@@ -69,10 +69,11 @@ def edge_records(
     """
     polygons, port = _prepared(scene, camera, size, rule)
     found = _row(polygons, port, row, checked_values(values, polygons))[0]
-    return [
-        EdgeRecord(polygon, edge, *x, *z, *((None, None) if v is None else (tuple(v[0]), tuple(v[1]))))
-        for polygon, edge, x, z, v in found
-    ]
+    return [EdgeRecord(polygon, edge, x[0], x[1], z[0], z[1], *_pair(v)) for polygon, edge, x, z, v in found]
+
+
+def _pair(found: list[list[float]] | None) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
+    return (None, None) if found is None else (tuple(found[0]), tuple(found[1]))
 
 
 def spans(scene: Any, camera: Camera | Screen, size: tuple[int, int], row: int, rule: str = "even-odd") -> list[Span]:

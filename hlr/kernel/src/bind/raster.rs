@@ -16,6 +16,7 @@ use crate::raster::bsp::Tree;
 use crate::raster::canvas::{Canvas, Visit, Write};
 use crate::raster::edge_record::{Active, Colour, Depth};
 use crate::raster::edge_table::EdgeTable;
+use crate::raster::patch::Curve;
 use crate::raster::polygon_table::PolygonTable;
 use crate::raster::prepare::{Bent, screen};
 use crate::raster::scene::{Camera, Rule, Scene};
@@ -32,6 +33,8 @@ type Record = (i32, u32, [f64; 2], [f64; 2], Option<[[f64; 3]; 2]>);
 type RowParts = (Vec<Record>, Vec<(i64, i64, Vec<i32>)>);
 /// The same for Python.
 type Row<'py> = (Bound<'py, PyList>, Bound<'py, PyList>);
+/// Of a curved patch: its polygon, coefficients, origin, least and greatest depth.
+type PatchTuple = (u32, [[f64; 4]; 4], [f64; 2], [f64; 2]);
 /// Polygons in the plane, the node behind and the one in front.
 type TreeNode = (Vec<i32>, Option<u32>, Option<u32>);
 
@@ -44,6 +47,7 @@ pub struct RasterScene {
     cull: Vec<bool>,
     values: Vec<[f64; 3]>,
     rule: Rule,
+    patches: Vec<(u32, Curve)>,
     /// The polygon as given, of each planar one; empty where they are the same.
     owner: Vec<u32>,
     tree: Mutex<Option<Tree>>,
@@ -75,6 +79,7 @@ impl RasterScene {
             cull: &self.cull,
             values: &self.values,
             rule: self.rule,
+            patches: &self.patches,
         }
     }
 
@@ -164,7 +169,7 @@ impl RasterScene {
 #[pymethods]
 impl RasterScene {
     #[new]
-    #[pyo3(signature = (points, corners, loops, polygons, cull, values, non_zero, limits))]
+    #[pyo3(signature = (points, corners, loops, polygons, cull, values, non_zero, limits, patches = vec![]))]
     #[allow(clippy::too_many_arguments)] // one per array: the stub names them
     fn new(
         py: Python<'_>,
@@ -176,6 +181,7 @@ impl RasterScene {
         values: PyReadonlyArray2<'_, f64>,
         non_zero: bool,
         limits: LimitsTuple,
+        patches: Vec<PatchTuple>,
     ) -> PyResult<RasterScene> {
         caught(py, || {
             let points = rows::<f64, 3>(&points, "points")?;
@@ -208,12 +214,20 @@ impl RasterScene {
                 cull: cull.to_vec(),
                 values: values.to_vec(),
                 rule: if non_zero { Rule::NonZero } else { Rule::EvenOdd },
+                patches: patches
+                    .into_iter()
+                    .map(|(p, c, o, r)| (p, Curve { coefficients: c, origin: o, range: r }))
+                    .collect(),
                 owner: Vec::new(),
                 tree: Mutex::new(None),
             };
             if let Some(Some(p)) = within(py, limits, |watch| planar(&scene.scene(), watch))? {
                 (scene.corners, scene.loops, scene.polygons) = (p.corners, p.loops, p.polygons);
                 (scene.cull, scene.owner) = (p.cull, p.owner);
+                // An outline is planar, and stays in one piece.
+                for (polygon, _) in &mut scene.patches {
+                    *polygon = scene.owner.partition_point(|owner| owner < polygon) as u32;
+                }
             }
             Ok(scene)
         })
@@ -354,6 +368,7 @@ impl RasterScene {
             cull: self.cull.clone(),
             values: self.values.clone(),
             rule: self.rule,
+            patches: self.patches.clone(),
             owner: self.owner.clone(),
             tree: Mutex::new(None),
         };

@@ -20,7 +20,8 @@
 //! - `depth_sort` (Newell, Newell, Sancha 1972) and `bsp` (Fuchs, Kedem, Naylor 1980), on `pieces`
 //! - `ray_casting` (Appel 1968) with `boxes`, a hierarchy of them, `grid` and an equal-count `partition`
 //!
-//! Beside them `quadric`, depth of curved patches by forward differences, and `shading`, values along spans.
+//! Beside them `patch`, curved patches z = f(x, y) for the z-buffer and the scan lines, `quadric`, depth of quadrics, both by
+//! forward differences, and `shading`, values along spans.
 
 pub mod active_edges;
 pub mod back_face;
@@ -35,6 +36,7 @@ pub mod edge_record;
 pub mod edge_table;
 pub mod grid;
 pub mod partition;
+pub mod patch;
 pub mod pieces;
 pub mod plane;
 pub mod polygon_table;

@@ -3,9 +3,10 @@
 use super::back_face::{Facing, facing};
 use super::clip::{Corner, Wall, clip_loop, walls};
 use super::depth_grid::{DepthGrid, Noise};
+use super::patch::{Curve, Patch};
 use super::plane::{LIMIT, Plane, Point, STEPS, centre, turn, widest};
 use super::scene::{Camera, Scene};
-use super::screen::{FAR, Facet, NEAR_TIE, STEEP, Screen, first_centre};
+use super::screen::{FAR, Facet, NEAR_TIE, NONE, STEEP, Screen, first_centre};
 use super::statistics::Statistics;
 use super::triangulate::triangulate;
 use super::watch::Watch;
@@ -61,7 +62,10 @@ pub fn screen(
     }
     statistics.polygons = scene.len() as u64;
     // 3. round, with one step of depth for all
-    let depths = DepthGrid::new(camera, &flat.points);
+    let sign = camera.matrix[2][2];
+    let bounds = scene.patches.iter().flat_map(|(_, curve)| curve.range.map(|z| [0.0, 0.0, sign * z]));
+    let reached: Vec<[f64; 3]> = flat.points.iter().copied().chain(bounds).collect();
+    let depths = DepthGrid::new(camera, if scene.patches.is_empty() { &flat.points } else { &reached });
     let reciprocals: Vec<f64> = flat.values.iter().map(|v| v[3]).collect();
     let noise = Noise::new(scene, camera);
     let mut out = Screen {
@@ -72,6 +76,7 @@ pub fn screen(
         values: if scene.values.is_empty() { Vec::new() } else { flat.values },
         loops: Vec::with_capacity(flat.loops.len()),
         facets: Vec::with_capacity(flat.polygons.len()),
+        patches: Vec::new(),
         depths,
     };
     // 4. planes, culling, triangles where there is no plane
@@ -86,7 +91,10 @@ pub fn screen(
             reciprocals: &reciprocals,
             cull: scene.cull[*id as usize],
         };
-        out.add(&given, &noise, bent, watch, statistics)?;
+        match scene.patch(*id) {
+            Some(curve) => out.add_patch(&given, curve, sign, &noise, statistics),
+            None => out.add(&given, &noise, bent, watch, statistics)?,
+        }
     }
     statistics.facets = out.facets.len() as u64;
     Some(out)
@@ -194,6 +202,23 @@ impl Given<'_> {
 }
 
 impl Screen {
+    /// A curved patch: its outline owns the pixels, as that of a polygon does; its depth comes from its polynomial.
+    fn add_patch(&mut self, given: &Given, curve: &Curve, sign: f64, noise: &Noise, statistics: &mut Statistics) {
+        if widest(&self.points[given.corners()]).is_none() {
+            statistics.edge_on += 1;
+            return;
+        }
+        let before = self.facets.len();
+        self.push(given, given.loops, Plane { a: 0, b: 0, c: 1, d: 0 }, noise);
+        let number = self.patches.len() as u32;
+        let depths = curve.range.map(|z| self.depths.number(sign * z));
+        for facet in &mut self.facets[before..] {
+            facet.patch = number;
+            facet.depth = [depths[0].min(depths[1]).floor() as i64, depths[0].max(depths[1]).ceil() as i64];
+            self.patches.push(Patch::new(curve, sign, facet.columns, facet.rows, &self.depths));
+        }
+    }
+
     /// One polygon, in as many facets as it takes.
     fn add(
         &mut self,
@@ -311,6 +336,7 @@ impl Screen {
             right,
             down,
             slack: self.slack(given, &plane, &[base[0], base[1], z], reach, noise),
+            patch: NONE,
         });
     }
 }

@@ -18,12 +18,15 @@
 //!                   m
 //! ```
 //!
+//! With a curved patch (`patch`) nothing is linear: where one is in, with others, each pixel is asked.
+//!
 //! Polygons that do not pass through one another allow for less (`Coherence`).
 
 use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
 use super::edge_record::{Active, Depth};
 use super::edge_table::EdgeTable;
+use super::patch::Walk;
 use super::polygon_table::{PolygonTable, Toggle};
 use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::Statistics;
@@ -100,6 +103,10 @@ impl Scan<'_> {
                     continue;
                 }
                 (1, _) => self.visible = self.polygons.inside[0],
+                _ if self.is_curved() => {
+                    self.curved(from, to, watch, statistics)?;
+                    continue;
+                }
                 (_, Coherence::BothEnds) => {
                     self.span(from, to, watch, statistics)?;
                     continue;
@@ -156,6 +163,53 @@ impl Scan<'_> {
             }
         }
         best
+    }
+
+    /// Whether a curved patch is among the polygons that are in.
+    fn is_curved(&self) -> bool {
+        let facets = &self.screen.facets;
+        !self.screen.patches.is_empty() && self.polygons.inside.iter().any(|&f| facets[f as usize].patch != NONE)
+    }
+
+    /// The span [from, to) with a patch in it, which may change places with others any number of times: pixel by pixel, each
+    /// depth by steps.
+    fn curved(&mut self, from: i64, to: i64, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
+        let (screen, row) = (self.screen, self.row);
+        let inside = &self.polygons.inside;
+        let mut walks: Vec<Option<Walk>> =
+            inside.iter().map(|&f| screen.patch_of(&screen.facets[f as usize]).map(|p| p.walk(from, row))).collect();
+        let (mut start, mut seen) = (from, NONE);
+        for column in from..to {
+            if watch.over() {
+                return None;
+            }
+            let (mut best, mut depth) = (NONE, f64::INFINITY);
+            for (k, (&f, walk)) in inside.iter().zip(&mut walks).enumerate() {
+                let z = walk.as_mut().map_or_else(|| self.polygons.depth(k, column), Walk::step);
+                if best == NONE {
+                    (best, depth) = (f, z);
+                    continue;
+                }
+                statistics.comparisons += 1;
+                let (nearer, farther) = (depth - z > NEAR_TIE, z - depth > NEAR_TIE);
+                let mut exactly = || screen.compare_exactly(f, best, column, row, statistics) == Ordering::Less;
+                if nearer || (!farther && exactly()) {
+                    (best, depth) = (f, z);
+                }
+            }
+            if best != seen {
+                if start < column {
+                    statistics.spans += 1;
+                    self.canvas.write(row, start, column, seen, statistics);
+                }
+                statistics.splits += u64::from(seen != NONE);
+                (start, seen) = (column, best);
+            }
+        }
+        statistics.spans += 1;
+        self.canvas.write(row, start, to, seen, statistics);
+        self.visible = seen;
+        Some(())
     }
 
     /// The span [from, to), split where polygons cross.

@@ -20,6 +20,7 @@ use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::watch::Watch;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lists {
@@ -59,12 +60,32 @@ impl Row<'_> {
         if from >= to {
             return;
         }
+        let facet = &self.screen.facets[number as usize];
+        if let Some(patch) = self.screen.patch_of(facet) {
+            let mut walk = patch.walk(from, row);
+            self.span(number, row, from..to, |_| walk.step(), canvas, statistics);
+        } else {
+            self.span(number, row, from..to, |column| along.at(column), canvas, statistics);
+        }
+    }
+
+    /// `depth` is asked for each column, from left to right.
+    #[inline(always)]
+    fn span(
+        &mut self,
+        number: u32,
+        row: i64,
+        columns: Range<i64>,
+        mut depth: impl FnMut(i64) -> f64,
+        canvas: &mut Canvas,
+        statistics: &mut Statistics,
+    ) {
         statistics.spans += 1;
-        statistics.comparisons += (to - from) as u64;
-        let mut start = from;
-        for column in from..to {
+        statistics.comparisons += (columns.end - columns.start) as u64;
+        let mut start = columns.start;
+        for column in columns.clone() {
             let at = column as usize;
-            let z = along.at(column);
+            let z = depth(column);
             let ahead = self.depths[at] - z;
             // A steep facet has no depth in floating point: then neither is certain.
             let (nearer, farther) = (ahead > NEAR_TIE, ahead < -NEAR_TIE);
@@ -82,8 +103,8 @@ impl Row<'_> {
                 start = column + 1;
             }
         }
-        if start < to {
-            canvas.write(row, start, to, number, statistics);
+        if start < columns.end {
+            canvas.write(row, start, columns.end, number, statistics);
         }
     }
 

@@ -1,5 +1,7 @@
 //! Polygons as they come: loops of points in one set of arrays.
 
+use super::patch::Curve;
+
 /// What is inside where loops overlap or cross themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
@@ -31,6 +33,8 @@ pub struct Scene<'a> {
     /// Per point: a colour or normal to interpolate; may be empty.
     pub values: &'a [[f64; 3]],
     pub rule: Rule,
+    /// Polygons, ascending, that are the outlines of curved patches.
+    pub patches: &'a [(u32, Curve)],
 }
 
 impl Scene<'_> {
@@ -40,6 +44,12 @@ impl Scene<'_> {
 
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The patch that a polygon is the outline of.
+    pub fn patch(&self, polygon: u32) -> Option<&Curve> {
+        let at = self.patches.binary_search_by_key(&polygon, |(p, _)| *p).ok()?;
+        Some(&self.patches[at].1)
     }
 
     /// The loops of a polygon, each as indices into `points`.

@@ -3,10 +3,12 @@
 use super::coverage::Edge;
 use super::depth_grid::DepthGrid;
 use super::edge_record::Depth;
+use super::patch::Patch;
 use super::plane::{Plane, Point, STEPS, centre};
 use super::polygon_table::Along;
 use super::scene::Rule;
 use super::statistics::Statistics;
+use crate::exact::wide::cmp_products;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -44,6 +46,8 @@ pub struct Facet {
     pub down: f64,
     /// How far rounding may have moved the plane in depth: the window in which a painter's order is not trusted.
     pub slack: f64,
+    /// Number of its patch where it is curved; NONE where it is flat. A patch has no plane of its own.
+    pub patch: u32,
 }
 
 impl Facet {
@@ -53,7 +57,7 @@ impl Facet {
         let over = |n: i128| n as f64 / plane.c as f64;
         let start = over(plane.depth(centre(columns[0].into()), centre(rows[0].into())));
         let (right, down) = (over(-plane.a) * STEPS as f64, over(-plane.b) * STEPS as f64);
-        Facet { id: 0, loops: 0..0, plane, columns, rows, depth: [0, 0], start, right, down, slack: 0.0 }
+        Facet { id: 0, loops: 0..0, plane, columns, rows, depth: [0, 0], start, right, down, slack: 0.0, patch: NONE }
     }
 
     /// Depth at a pixel's centre within `NEAR_TIE` / 2, or NaN; nothing of the kind beyond `columns` and `rows`.
@@ -76,6 +80,7 @@ pub struct Screen {
     /// Runs of `points`.
     pub loops: Vec<Range<u32>>,
     pub facets: Vec<Facet>,
+    pub patches: Vec<Patch>,
     pub depths: DepthGrid,
 }
 
@@ -138,7 +143,25 @@ impl Screen {
     pub fn compare_exactly(&self, f: u32, g: u32, column: i64, row: i64, statistics: &mut Statistics) -> Ordering {
         statistics.exact += 1;
         let (a, b) = (&self.facets[f as usize], &self.facets[g as usize]);
-        a.plane.compare(&b.plane, centre(column), centre(row)).then(f.cmp(&g))
+        if self.patches.is_empty() {
+            return a.plane.compare(&b.plane, centre(column), centre(row)).then(f.cmp(&g));
+        }
+        let ((n, c), (m, d)) = (self.fraction(a, column, row), self.fraction(b, column, row));
+        cmp_products(n, d, m, c).then(f.cmp(&g))
+    }
+
+    /// The patch of a facet, if it is curved.
+    #[inline(always)]
+    pub fn patch_of(&self, facet: &Facet) -> Option<&Patch> {
+        if facet.patch == NONE { None } else { Some(&self.patches[facet.patch as usize]) }
+    }
+
+    /// Depth at a pixel's centre: numerator and denominator.
+    fn fraction(&self, facet: &Facet, column: i64, row: i64) -> (i128, i128) {
+        match self.patch_of(facet) {
+            Some(patch) => (patch.numerator(column, row), patch.over()),
+            None => (facet.plane.depth(centre(column), centre(row)), facet.plane.c.into()),
+        }
     }
 
     /// The same at any pixel of the frame, where the facets need not be: floating point decides where it can.
@@ -186,9 +209,7 @@ impl Screen {
 
     /// Depth of a facet at a pixel's centre, in the units of the camera.
     pub fn true_depth(&self, f: u32, column: i64, row: i64) -> f64 {
-        let plane = &self.facets[f as usize].plane;
-        let n = plane.depth(centre(column), centre(row));
-        let c = i128::from(plane.c);
+        let (n, c) = self.fraction(&self.facets[f as usize], column, row);
         // Whole steps and the rest apart: exact for whole numbers, correct to the last bits else.
         let (whole, rest) = (n.div_euclid(c), n.rem_euclid(c));
         self.depths.depth(whole as f64 + rest as f64 / c as f64)

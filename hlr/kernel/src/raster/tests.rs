@@ -35,6 +35,7 @@ fn random_triangles_look_the_same_to_all_methods() {
             cull: &[false; 12],
             values: &[],
             rule: Rule::EvenOdd,
+            patches: &[],
         };
         let camera = Camera {
             matrix: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]],

@@ -14,6 +14,7 @@ use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::watch::Watch;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 /// Which depths are nearer: the scene's own depth always grows away from the viewer; under `Larger` its negative is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,42 +34,22 @@ pub fn render(
         Nearer::Smaller => (f64::INFINITY, 1.0),
         Nearer::Larger => (f64::NEG_INFINITY, -1.0),
     };
-    let mut depths = vec![background; canvas.pixels.len()];
+    let depths = vec![background; canvas.pixels.len()];
     statistics.holds(canvas.bytes() + bytes_of(&depths));
+    let mut buffer = Buffer { screen, canvas, depths, nearer };
     let mut scratch = Scratch::default();
     for number in 0..screen.facets.len() as u32 {
         let facet = &screen.facets[number as usize];
         let right = sign * facet.right;
         let mut over = false;
         runs(screen, number, facet.columns, facet.rows, &mut scratch, |row, from, to| {
-            statistics.spans += 1;
-            statistics.comparisons += (to - from) as u64;
-            let z = sign * facet.depth_at(from, row);
-            let mut start = from;
-            for column in from..to {
+            if let Some(patch) = screen.patch_of(facet) {
+                let mut walk = patch.walk(from, row);
+                buffer.span(number, row, from..to, |_| sign * walk.step(), statistics);
+            } else {
                 // As adding `right` pixel by pixel; but no sum is waited for.
-                let z = z + right * (column - from) as f64;
-                let at = row as usize * canvas.width + column as usize;
-                let won = match wins(nearer, z, depths[at]) {
-                    Some(won) => won,
-                    None => {
-                        let owner = canvas.pixels[at];
-                        owner == NONE
-                            || screen.compare_exactly(number, owner, column, row, statistics) == Ordering::Less
-                    }
-                };
-                if won {
-                    depths[at] = z;
-                } else {
-                    // What has been won so far in this row is written in one go.
-                    if start < column {
-                        canvas.write(row, start, column, number, statistics);
-                    }
-                    start = column + 1;
-                }
-            }
-            if start < to {
-                canvas.write(row, start, to, number, statistics);
+                let z = sign * facet.depth_at(from, row);
+                buffer.span(number, row, from..to, |column| z + right * (column - from) as f64, statistics);
             }
             over = watch.over();
             !over
@@ -78,6 +59,54 @@ pub fn render(
         }
     }
     Some(())
+}
+
+struct Buffer<'a> {
+    screen: &'a Screen,
+    canvas: &'a mut Canvas,
+    depths: Vec<f64>,
+    nearer: Nearer,
+}
+
+impl Buffer<'_> {
+    /// The pixels of a row that a facet owns; `depth` is asked for each, from left to right.
+    #[inline(always)]
+    fn span(
+        &mut self,
+        number: u32,
+        row: i64,
+        columns: Range<i64>,
+        mut depth: impl FnMut(i64) -> f64,
+        statistics: &mut Statistics,
+    ) {
+        let Buffer { screen, canvas, depths, nearer } = self;
+        statistics.spans += 1;
+        statistics.comparisons += (columns.end - columns.start) as u64;
+        let mut start = columns.start;
+        for column in columns.clone() {
+            let z = depth(column);
+            let at = row as usize * canvas.width + column as usize;
+            let won = match wins(*nearer, z, depths[at]) {
+                Some(won) => won,
+                None => {
+                    let owner = canvas.pixels[at];
+                    owner == NONE || screen.compare_exactly(number, owner, column, row, statistics) == Ordering::Less
+                }
+            };
+            if won {
+                depths[at] = z;
+            } else {
+                // What has been won so far in this row is written in one go.
+                if start < column {
+                    canvas.write(row, start, column, number, statistics);
+                }
+                start = column + 1;
+            }
+        }
+        if start < columns.end {
+            canvas.write(row, start, columns.end, number, statistics);
+        }
+    }
 }
 
 /// Whether depth z wins over the one in the buffer; None where only integers can say.
