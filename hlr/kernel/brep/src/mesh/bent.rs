@@ -16,8 +16,8 @@ const ROUNDS: usize = 16;
 const MOST: usize = 8_000_000;
 /// A triangle on the border cannot be better than the chord there: of that one's error, it may be off by as much.
 const BESIDE: f64 = 1.25;
-/// Of the length of the edge it divides: new points are kept so far off the border.
-const OFF: f64 = 0.2;
+/// Of the length of a chord: new points are kept so far off it in the chart; nearer only where there is no other way.
+const OFF: [f64; 2] = [0.2, 0.02];
 
 /// `straight`: with a chart that is slower to be filled and never wrong. Faults of the loops as None beside their outline: whoever asks finds out why.
 pub fn triangulate(
@@ -141,15 +141,18 @@ impl Work<'_> {
         let ends = [(a, b), (b, c), (c, a)];
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| gap.edges[j].total_cmp(&gap.edges[i]));
-        let clear = |p: &[f64; 2]| {
+        let clear = |p: &[f64; 2], off: f64| {
             (0..3).all(|k| {
                 let (from, to) = ends[k];
                 let length = (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2);
-                !self.is_chord(t[k], t[(k + 1) % 3]) || distance2(p, &from, &to) > OFF * OFF * length
+                !self.is_chord(t[k], t[(k + 1) % 3]) || distance2(p, &from, &to) > off * off * length
             })
         };
         let middle = |k: usize| [0, 1].map(|i| 0.5 * (ends[k].0[i] + ends[k].1[i]));
-        let split = order.iter().filter(|&&k| !self.is_chord(t[k], t[(k + 1) % 3])).map(|&k| middle(k)).find(clear);
-        split.or_else(|| Some([0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)).filter(clear))
+        OFF.iter().find_map(|&off| {
+            let inner = order.iter().filter(|&&k| !self.is_chord(t[k], t[(k + 1) % 3]));
+            let split = inner.map(|&k| middle(k)).find(|p| clear(p, off));
+            split.or_else(|| Some([0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)).filter(|p| clear(p, off)))
+        })
     }
 }
