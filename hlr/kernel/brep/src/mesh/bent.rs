@@ -48,9 +48,10 @@ pub fn triangulate(
         corners.push(corner);
         bends.push(bend);
     }
+    let spans = corners.iter().map(|c| field.span(c.uv)).collect();
     let mut places = chart.uv.clone();
     places.extend(inner);
-    let mut work = Work { surface, field: &field, chart: &chart, mesh, corners, bends, places, deflection };
+    let mut work = Work { surface, field: &field, chart: &chart, mesh, corners, bends, spans, places, deflection };
     let (triangles, error) = work.refine();
     let Work { corners, mesh, .. } = work;
     Ok(Ok(Made { outline, corners, triangles, stand_in: mesh.stand_in, error }))
@@ -63,6 +64,8 @@ struct Work<'a> {
     mesh: Delaunay,
     corners: Vec<Corner>,
     bends: Vec<Bend>,
+    /// Between which knots the corners are.
+    spans: Vec<[u32; 2]>,
     /// Of the corners, in the chart.
     places: Vec<[f64; 2]>,
     deflection: f64,
@@ -97,7 +100,10 @@ impl Work<'_> {
     /// Whether a triangle keeps the deflection, or is as good as the border lets it be.
     fn judge(&self, t: [u32; 3], worst: &mut f64, coarse: &mut Vec<(Gap, [u32; 3])>) {
         let at = t.map(|i| i as usize);
-        let gap = gap(self.surface, at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]), self.deflection);
+        let (corners, bends) = (at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
+        let spans = at.map(|i| self.spans[i]);
+        let kinked = spans[0] != spans[1] || spans[1] != spans[2];
+        let gap = gap(self.surface, corners, bends, kinked, self.deflection);
         if gap.whole > self.deflection {
             let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
             if gap.whole > BESIDE * beside.fold(0.0, f64::max) {
@@ -126,6 +132,7 @@ impl Work<'_> {
             if self.mesh.insert(place) {
                 t.iter().for_each(|&i| touched[i as usize] = true);
                 let (corner, bend) = corner(self.surface, self.field.on_surface(place), None);
+                self.spans.push(self.field.span(corner.uv));
                 self.corners.push(corner);
                 self.bends.push(bend);
                 self.places.push(place);

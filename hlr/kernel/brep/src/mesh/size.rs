@@ -41,6 +41,8 @@ pub struct Field {
     spacing: Vec<f64>,
     /// Of u and v, where the chart does nothing else: powers of two, which round nothing.
     scale: Option<[f64; 2]>,
+    /// Of the surface, within the face.
+    knots: [Vec<f64>; 2],
 }
 
 impl Field {
@@ -71,7 +73,7 @@ impl Field {
                 }
             }
             if !finer {
-                return Some(charted(lines, &needs, straight));
+                return Some(Field { knots, ..charted(lines, &needs, straight) });
             }
         }
     }
@@ -92,6 +94,11 @@ impl Field {
 
     pub fn counts(&self) -> [usize; 2] {
         [0, 1].map(|k| self.lines[k].len() - 1)
+    }
+
+    /// Between which knots a place on the surface is.
+    pub fn span(&self, uv: [f64; 2]) -> [u32; 2] {
+        [0, 1].map(|k| self.knots[k].partition_point(|&knot| knot <= uv[k]) as u32)
     }
 
     /// Spacing in the chart within a cell.
@@ -142,25 +149,26 @@ fn sampled(surface: &Surface, lines: &[Vec<f64>; 2], deflection: f64, angle: f64
         let wanted = spacing(&surface.jet([u, v]), deflection, angle);
         [0, 1].map(|k| wanted[k].min(whole[k]))
     };
-    let corners: Vec<[f64; 2]> =
-        lines[0].iter().flat_map(|&u| lines[1].iter().map(move |&v| (u, v))).map(|(u, v)| at(u, v)).collect();
+    let row = |u: f64| lines[1].iter().map(|&v| at(u, v)).collect::<Vec<_>>();
     let mut out = Vec::with_capacity(counts[0] * counts[1]);
-    for (i, u) in lines[0].windows(2).enumerate() {
+    let mut left = row(lines[0][0]);
+    for u in lines[0].windows(2) {
+        let right = row(u[1]);
         for (j, v) in lines[1].windows(2).enumerate() {
-            let row = counts[1] + 1;
-            let four = [(i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1)].map(|(i, j)| corners[i * row + j]);
+            let four = [left[j], left[j + 1], right[j], right[j + 1]];
             let middle = at(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
             let size = four.iter().fold(middle, |m, c| [m[0].min(c[0]), m[1].min(c[1])]);
             if !size.iter().all(|s| *s > 0.0) {
                 return None;
             }
-            let ratio = |a: [f64; 2], b: [f64; 2]| (0..2).map(|k| (a[k] / b[k]).max(b[k] / a[k])).fold(1.0, f64::max);
-            let rough = [
-                ratio(four[0], four[2]).max(ratio(four[1], four[3])),
-                ratio(four[0], four[1]).max(ratio(four[2], four[3])),
-            ];
+            let ratio = |a: usize, b: usize| {
+                let (a, b) = (four[a], four[b]);
+                (0..2).map(|k| (a[k] / b[k]).max(b[k] / a[k])).fold(1.0, f64::max)
+            };
+            let rough = [ratio(0, 2).max(ratio(1, 3)), ratio(0, 1).max(ratio(2, 3))];
             out.push(Need { cell: [u[1] - u[0], v[1] - v[0]], size, rough });
         }
+        left = right;
     }
     Some(out)
 }
@@ -234,7 +242,7 @@ fn charted(lines: [Vec<f64>; 2], needs: &[Need], straight: bool) -> Field {
             spacing.push((x * y).sqrt().min(1.6 * x.min(y)));
         }
     }
-    Field { lines, chart, spacing, scale }
+    Field { lines, chart, spacing, scale, knots: [Vec::new(), Vec::new()] }
 }
 
 /// Means from sums and weights. Where they hardly differ they are made one: a chart that is not bent keeps straight lines.
