@@ -1,7 +1,7 @@
 //! Meshes every face of a dump (`BinTools.Write` of a shape without triangles) and prints what came of it.
 //!
 //! ```text
-//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--sample] [--faults] [--slow]
+//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--sample] [--faults] [--slow] [--kinds] [--only FACE] [--loops FACE]
 //! ```
 
 use std::collections::BTreeMap;
@@ -10,7 +10,8 @@ use std::time::Instant;
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::mesh::{FaceMesh, Fault, mesh_face};
+use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
+use hlr_brep::mesh::{FaceMesh, Fault, border_share, mesh_face};
 use hlr_brep::model::Model;
 
 fn main() {
@@ -23,18 +24,15 @@ fn main() {
     let model = Model::read(&bytes).expect("a dump");
     let parsed = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let mut fine = vec![false; model.edges.len()];
+    let mut shares = vec![1.0f64; model.edges.len()];
     for face in &model.faces {
-        let straight = |s: &Surface| {
-            matches!(s, Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..))
-        };
-        if !face.surface.as_ref().is_none_or(straight) {
-            face.wires.iter().flatten().for_each(|used| fine[used.edge as usize] = true);
+        let share = face.surface.as_ref().map_or(1.0, border_share);
+        for used in face.wires.iter().flatten() {
+            shares[used.edge as usize] = shares[used.edge as usize].min(share);
         }
     }
-    let share = |fine: bool| if fine { 0.5 } else { 1.0 };
     let lines: Vec<_> =
-        model.edges.iter().zip(&fine).map(|(e, &f)| polyline(&model, e, share(f) * deflection, 0.5)).collect();
+        model.edges.iter().zip(&shares).map(|(e, share)| polyline(&model, e, share * deflection, 0.5)).collect();
     let edges = start.elapsed().as_secs_f64();
     let (mut triangles, mut points, mut kinds, mut faults) = (0, 0, BTreeMap::new(), BTreeMap::new());
     let (mut bordering, mut worst) = (0.0, (0.0f64, 0));
@@ -57,6 +55,15 @@ fn main() {
         let entry = kinds.entry(kind(surface)).or_insert((0, 0, 0.0));
         entry.0 += 1;
         entry.2 += time;
+        if let Some(k) = arguments.iter().position(|a| a == "--loops")
+            && arguments[k + 1].parse() == Ok(number)
+        {
+            for (i, points) in border.iter().flat_map(|b| &b.loops.loops).enumerate() {
+                for (k, p) in points.iter().enumerate() {
+                    println!("{i} {k} {:?} {:?} {}", p.uv, p.point, p.node);
+                }
+            }
+        }
         match made {
             Ok(mesh) => {
                 entry.1 += mesh.triangles.len();
@@ -66,7 +73,10 @@ fn main() {
                     println!("face {number} {} {} triangles {time:.4} s", kind(surface), mesh.triangles.len());
                 }
                 if has("--sample") {
-                    let error = sampled(surface, &mesh) / deflection;
+                    // What the edges themselves are off the surface is the file's.
+                    let points = border.iter().flat_map(|b| b.loops.loops.iter().flatten());
+                    let off = points.map(|p| length(&sub(&p.point, &surface.point(p.uv)))).fold(0.0, f64::max);
+                    let error = (sampled(surface, &mesh) - off).max(0.0) / deflection;
                     if error > worst.0 {
                         worst = (error, number);
                     }
@@ -84,15 +94,6 @@ fn main() {
                     Fault::NotCertified(_) => "not certified",
                 };
                 *faults.entry(name).or_insert(0) += 1;
-                if let Some(k) = arguments.iter().position(|a| a == "--loops")
-                    && arguments[k + 1].parse() == Ok(number)
-                {
-                    for (i, points) in border.iter().flat_map(|b| &b.loops.loops).enumerate() {
-                        for (k, p) in points.iter().enumerate() {
-                            println!("{i} {k} {:?} {:?} {}", p.uv, p.point, p.node);
-                        }
-                    }
-                }
                 if has("--faults") {
                     let text: String = format!("{fault:?}").chars().take(70).collect();
                     println!("face {number} {} {text}", kind(surface));
@@ -131,7 +132,6 @@ fn kind(surface: &Surface) -> &'static str {
 
 /// Greatest distance of surface points amid triangles and their edges to the triangles around.
 fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
-    use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
     let from_segment = |p: &Vector, a: &Vector, b: &Vector| {
         let (d, q) = (sub(b, a), sub(p, a));
         let square = dot(&d, &d);

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
-use crate::mesh::{FaceMesh, Fault, mesh_face};
+use crate::mesh::{FaceMesh, Fault, border_share, mesh_face};
 use crate::model::{Face, Model};
 
 /// Rounds of dividing chords.
@@ -45,8 +45,13 @@ pub struct Watch<'a> {
 
 /// The mesh at a chord error and a turning angle (radians); None: stopped.
 pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> Option<Tessellation> {
-    let mut lines: Vec<Option<Polyline>> =
-        model.edges.par_iter().map(|edge| polyline(model, edge, deflection, angle)).collect();
+    let shares = shares_of_edges(model);
+    let mut lines: Vec<Option<Polyline>> = model
+        .edges
+        .par_iter()
+        .zip(&shares)
+        .map(|(edge, share)| polyline(model, edge, share * deflection, angle))
+        .collect();
     let faces_of = faces_of_edges(model);
     let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
@@ -93,6 +98,18 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
 fn by_edge(divided: &BTreeSet<(u32, u32)>) -> Vec<(u32, Vec<usize>)> {
     let all: Vec<(u32, u32)> = divided.iter().copied().collect();
     all.chunk_by(|a, b| a.0 == b.0).map(|group| (group[0].0, group.iter().map(|c| c.1 as usize).collect())).collect()
+}
+
+/// Of the deflection, what each edge may take: the least that its faces leave it.
+fn shares_of_edges(model: &Model) -> Vec<f64> {
+    let mut shares = vec![1.0f64; model.edges.len()];
+    for face in &model.faces {
+        let share = face.surface.as_ref().map_or(1.0, border_share);
+        for used in face.wires.iter().flatten() {
+            shares[used.edge as usize] = shares[used.edge as usize].min(share);
+        }
+    }
+    shares
 }
 
 fn faces_of_edges(model: &Model) -> Vec<Vec<usize>> {

@@ -5,7 +5,10 @@
 
 use super::jet::Jet;
 use super::nurbs::{basis, find_span};
-use super::vector::{Vector, along, scaled, sub};
+use super::vector::{Vector, along, dot, length, scaled, sub};
+
+/// Of a surface's size: poles that are as near to where they would be are there.
+const SAME: f64 = 1e-10;
 
 pub const MAX_DEGREE: usize = 25;
 
@@ -131,6 +134,33 @@ impl SplineSurface {
     pub fn knots(&self, side: usize) -> (&[f64], [f64; 2], f64) {
         let (p, knots) = (self.degree[side], &self.knots[side]);
         (knots, [knots[p], knots[self.count[side]]], self.period[side])
+    }
+
+    /// The parameter, u (0) or v (1), along which the surface is straight, if its tangent plane is the same all along: a part
+    /// of a cylinder, of a cone, or of what is like these over another curve.
+    pub fn unrolls_along(&self) -> Option<usize> {
+        [1, 0].into_iter().find(|&side| self.degree[side] == 1 && self.count[side] == 2 && self.is_scaled(side))
+    }
+
+    /// Whether one end curve is the other one, moved and scaled.
+    fn is_scaled(&self, side: usize) -> bool {
+        let pole = |i: usize, end: usize| {
+            let [x, y, z, w] = self.poles[if side == 1 { i * self.count[1] + end } else { end * self.count[1] + i }];
+            ([x / w, y / w, z / w], w)
+        };
+        let chords: Vec<[Vector; 2]> =
+            (0..self.count[1 - side]).map(|i| [0, 1].map(|end| sub(&pole(i, end).0, &pole(0, end).0))).collect();
+        let (mut up, mut square, mut size) = (0.0, 0.0, 0.0f64);
+        for [a, b] in &chords {
+            up += dot(a, b);
+            square += dot(a, a);
+            size = size.max(length(a)).max(length(b));
+        }
+        let far = (0..self.count[1 - side]).map(|i| length(&sub(&pole(i, 1).0, &pole(i, 0).0))).fold(size, f64::max);
+        let scale = if square > 0.0 { up / square } else { return false };
+        scale >= 0.0
+            && chords.iter().all(|[a, b]| length(&along(b, a, -scale)) <= SAME * far)
+            && (0..chords.len()).all(|i| (pole(i, 0).1 / pole(i, 1).1 - 1.0).abs() <= SAME)
     }
 
     /// The parameter within the domain that means the same, on a periodic side.

@@ -72,15 +72,16 @@ pub enum Fault {
 /// neighbouring normals.
 pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f64) -> Result<FaceMesh, Fault> {
     let bent = |straight| bent::triangulate(surface, loops, deflection, angle, straight);
-    let made = match surface {
-        Surface::Plane(_) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection)),
-        Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => {
-            let mut turns: Vec<f64> = loops.loops.iter().flatten().map(|p| p.uv[0]).collect();
+    let made = match (surface, ruled::straight_along(surface)) {
+        (Surface::Plane(_), _) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection)),
+        (_, Some(straight)) => {
+            let bent = 1 - straight;
+            let mut turns: Vec<f64> = loops.loops.iter().flatten().map(|p| p.uv[bent]).collect();
             turns.sort_unstable_by(f64::total_cmp);
             turns.dedup();
-            // A generator from the apex to each point.
+            // A straight line from the apex to each point.
             let outline = Outline::new(loops, |from, to, shares| {
-                let share = |u: &f64| (u - from[0]) / (to[0] - from[0]);
+                let share = |x: &f64| (x - from[bent]) / (to[bent] - from[bent]);
                 shares.extend(turns.iter().map(share).filter(|t| *t > 0.0 && *t < 1.0));
                 shares.sort_unstable_by(f64::total_cmp);
             })?;
@@ -100,6 +101,11 @@ pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f
         return Err(Fault::NotCertified(made.error));
     }
     Ok(finish(surface, made))
+}
+
+/// Of the deflection: how coarse the border of a face may be, so that the triangles beside it can keep the whole.
+pub fn border_share(surface: &Surface) -> f64 {
+    if ruled::straight_along(surface).is_some() { 1.0 } else { 0.5 }
 }
 
 /// With all points of the loops, and proved to fill them; the outline where that is not so.

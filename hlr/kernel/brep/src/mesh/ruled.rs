@@ -1,22 +1,46 @@
-//! Cylinders, cones, extrusions: straight along v, so that no inner points are needed.
+//! Cylinders, cones, extrusions, and splines that are like these: straight along v, or along u, so that no inner points are
+//! needed.
 //!
-//! The sweep goes along u; no triangle reaches farther in u than the chord whose mountain it is in. On a surface that can be
-//! unrolled the gap between surface and triangle is greatest at the triangle's edges: what holds for them holds everywhere.
+//! The sweep goes along the other parameter; no triangle reaches farther in it than the chord whose mountain it is in. On a
+//! surface that can be unrolled the gap between surface and triangle is greatest at the triangle's edges: what holds for
+//! them holds everywhere.
 
 use super::delaunay::Delaunay;
 use super::flip::flip;
 use super::outline::Outline;
 use super::sweep;
 use crate::geometry::surface::Surface;
-use crate::geometry::vector::{along, dot, from_line};
+use crate::geometry::vector::{along, cross, dot, from_line, sub, unit};
 
 /// Where the sweep does not get through, v is made so short that Delaunay's triangles are as narrow in u as they can be.
 const FLAT: f64 = 1e-3;
-/// What three samples of a curve may miss.
-const MARGIN: f64 = 1.1;
+/// Shares of an edge at which gaps are measured, and how much more they may be beside these.
+const PLACES: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
+const MARGIN: f64 = 1.016;
+
+/// The parameter, u (0) or v (1), along which a surface is straight and does not turn; a plane is so in any direction.
+pub fn straight_along(surface: &Surface) -> Option<usize> {
+    match surface {
+        Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => Some(1),
+        Surface::Spline(s) => s.unrolls_along(),
+        _ => None,
+    }
+}
 
 /// Triangles and the error that is shown for them.
-pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64) -> Option<(Vec<[u32; 3]>, Vec<u32>, f64)> {
+pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64) -> Option<Triangles> {
+    if straight_along(surface) == Some(0) {
+        let (mut triangles, stand_in, error) = upright(surface, &outline.mapped(|[u, v]| [v, u]), true, deflection)?;
+        triangles.iter_mut().for_each(|t| t.swap(1, 2));
+        return Some((triangles, stand_in, error));
+    }
+    upright(surface, outline, false, deflection)
+}
+
+type Triangles = (Vec<[u32; 3]>, Vec<u32>, f64);
+
+/// `swapped`: the outline has (v, u) in place of (u, v).
+fn upright(surface: &Surface, outline: &Outline, swapped: bool, deflection: f64) -> Option<Triangles> {
     let (mut triangles, stand_in) = match sweep::triangulate(outline) {
         Some(triangles) => (triangles, (0..outline.len() as u32).collect()),
         None => {
@@ -27,10 +51,9 @@ pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64) -> Opt
             (mesh.inside(), mesh.stand_in)
         }
     };
-    let error = |a: u32, b: u32| edge_error(surface, outline.uv[a as usize], outline.uv[b as usize]);
+    let error = |a: u32, b: u32| edge_error(surface, outline.uv[a as usize], outline.uv[b as usize], swapped);
     let worst = |triangles: &[[u32; 3]]| {
         let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        // A square root of a comparison: most edges are no wider than one that was measured.
         edges.fold(0.0f64, |most, [a, b]| if a < b { most.max(error(a, b)) } else { most })
     };
     let mut most = worst(&triangles);
@@ -41,7 +64,7 @@ pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64) -> Opt
 }
 
 /// How far the surface is from the straight line between two of its points, on the shortest way along it.
-fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2]) -> f64 {
+fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64 {
     let turn = (a[0] - b[0]).abs();
     if turn == 0.0 {
         return 0.0;
@@ -64,7 +87,24 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2]) -> f64 {
             };
             let (from, to) = (flat(a[0]), flat(b[0]));
             let height = |t: f64| from_line(&flat(a[0] + t * (b[0] - a[0])), &from, &to);
-            MARGIN * [0.25, 0.5, 0.75].map(height).into_iter().fold(0.0, f64::max)
+            MARGIN * PLACES.map(height).into_iter().fold(0.0, f64::max)
+        }
+        // The distance between the edge and the straight lines of the surface that it passes.
+        Surface::Spline(s) => {
+            let at = |[x, y]: [f64; 2]| surface.point(if swapped { [y, x] } else { [x, y] });
+            let (_, [low, high], _) = s.knots(usize::from(!swapped));
+            let (from, to) = (at(a), at(b));
+            let edge = sub(&to, &from);
+            let apart = |t: f64| {
+                let x = a[0] + t * (b[0] - a[0]);
+                let (p, q) = (at([x, low]), at([x, high]));
+                let line = sub(&q, &p);
+                let n = cross(&edge, &line);
+                let parallel = dot(&n, &n) <= 1e-18 * dot(&edge, &edge) * dot(&line, &line);
+                let n = if parallel { None } else { unit(&n) };
+                n.map_or_else(|| from_line(&p, &from, &to), |n| dot(&n, &sub(&p, &from)).abs())
+            };
+            MARGIN * PLACES.map(apart).into_iter().fold(0.0, f64::max)
         }
         _ => 0.0,
     }

@@ -218,3 +218,29 @@ fn random_holes() {
         meshed(&plane, &places, 0.1);
     }
 }
+
+/// A quarter of a cylinder, and of a cone, as rational splines that are straight along v or along u.
+#[test]
+fn splines_that_unroll() {
+    let w = std::f64::consts::FRAC_1_SQRT_2;
+    for top in [1.0, 0.25] {
+        let arc = [(1.0, 0.0, 1.0), (1.0, 1.0, w), (0.0, 1.0, 1.0)];
+        let pole =
+            |&(x, y, w): &(f64, f64, f64), k: f64| [10.0 * x * k, 10.0 * y * k, if k == top { 30.0 } else { 0.0 }, w];
+        let ends = [[0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0, 1.0]];
+        let quarter = [0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+        let mut along_v = vec![2.0, 1.0, 3.0, 2.0, 0.0, 0.0];
+        along_v.extend(quarter.iter().chain(&ends[0]));
+        let low = if top == 1.0 { 0.999_999_999_999 } else { 1.0 };
+        arc.iter().for_each(|p| along_v.extend([pole(p, low), pole(p, top)].as_flattened()));
+        let mut along_u = vec![1.0, 2.0, 2.0, 3.0, 0.0, 0.0];
+        along_u.extend(ends[0].iter().chain(&quarter));
+        [low, top].iter().for_each(|&k| arc.iter().for_each(|p| along_u.extend(pole(p, k))));
+        for (data, frame_of) in [(along_v, [20, 1]), (along_u, [1, 20])] {
+            let s = Surface::read(8, &data).unwrap();
+            let mesh = meshed(&s, &[frame([0.0, 0.0], [1.0, 1.0], frame_of[0], frame_of[1])], 0.02);
+            assert_eq!(mesh.triangles.len(), 40);
+            assert!(chord_error(&s, &mesh) < 0.02);
+        }
+    }
+}
