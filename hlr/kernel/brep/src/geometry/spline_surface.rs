@@ -1,10 +1,9 @@
 //! Tensor-product B-splines, rational or not: points and first derivatives.
 //!
-//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.3 (basis functions and derivatives, here the first
-//! only), A3.6 and A4.4 (surface points and derivatives).
+//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.2 and (2.7) (basis functions, and derivatives from
+//! those of lower degree), A3.6 and A4.4 (surface points and derivatives).
 
 use super::jet::Jet;
-use super::nurbs::{basis, find_span};
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
 /// Of a surface's size: poles that are as near to where they would be are there.
@@ -23,11 +22,11 @@ pub struct SplineSurface {
     poles: Vec<[f64; 4]>,
 }
 
-/// Values and first derivatives of the basis functions that are not zero at a parameter, and the first one's number.
-struct Basis {
+/// Values, first and second derivatives of the basis functions that are not zero at a parameter, and the first one's number.
+/// N: at least one more than the degree.
+struct Basis<const N: usize> {
     first: usize,
-    value: [f64; MAX_DEGREE + 1],
-    slope: [f64; MAX_DEGREE + 1],
+    rows: [[f64; N]; 3],
 }
 
 impl SplineSurface {
@@ -62,21 +61,39 @@ impl SplineSurface {
 
     /// The point, and the derivatives by u and v.
     pub fn d1(&self, u: f64, v: f64) -> (Vector, Vector, Vector) {
-        let (a, b) = (self.basis(0, u), self.basis(1, v));
+        // Short arrays are much faster; most surfaces are of low degree.
+        match self.degree[0].max(self.degree[1]) {
+            0..=3 => self.first_derivatives::<4>(u, v),
+            4..=7 => self.first_derivatives::<8>(u, v),
+            _ => self.first_derivatives::<{ MAX_DEGREE + 1 }>(u, v),
+        }
+    }
+
+    /// The point with first and second derivatives.
+    pub fn jet(&self, u: f64, v: f64) -> Jet {
+        match self.degree[0].max(self.degree[1]) {
+            0..=3 => self.second_derivatives::<4>(u, v),
+            4..=7 => self.second_derivatives::<8>(u, v),
+            _ => self.second_derivatives::<{ MAX_DEGREE + 1 }>(u, v),
+        }
+    }
+
+    fn first_derivatives<const N: usize>(&self, u: f64, v: f64) -> (Vector, Vector, Vector) {
+        let (a, b) = (self.basis::<N>(0, u), self.basis::<N>(1, v));
         let mut sums = [[0.0f64; 4]; 3];
         for i in 0..=self.degree[0] {
             let row = &self.poles[(a.first + i) * self.count[1] + b.first..][..=self.degree[1]];
             let mut inner = [[0.0f64; 4]; 2];
             for (j, pole) in row.iter().enumerate() {
                 for k in 0..4 {
-                    inner[0][k] += b.value[j] * pole[k];
-                    inner[1][k] += b.slope[j] * pole[k];
+                    inner[0][k] += b.rows[0][j] * pole[k];
+                    inner[1][k] += b.rows[1][j] * pole[k];
                 }
             }
             for k in 0..4 {
-                sums[0][k] += a.value[i] * inner[0][k];
-                sums[1][k] += a.slope[i] * inner[0][k];
-                sums[2][k] += a.value[i] * inner[1][k];
+                sums[0][k] += a.rows[0][i] * inner[0][k];
+                sums[1][k] += a.rows[1][i] * inner[0][k];
+                sums[2][k] += a.rows[0][i] * inner[1][k];
             }
         }
         let [p, pu, pv] = sums;
@@ -85,21 +102,15 @@ impl SplineSurface {
         (point, derived(pu), derived(pv))
     }
 
-    /// The point with first and second derivatives.
-    pub fn jet(&self, u: f64, v: f64) -> Jet {
-        let at = [u, v];
-        let [a, b] = [0, 1].map(|k| {
-            let x = self.inside(k, at[k]);
-            let span = find_span(&self.knots[k], self.degree[k], self.count[k], x);
-            (span - self.degree[k], basis(&self.knots[k], self.degree[k], span, x))
-        });
+    fn second_derivatives<const N: usize>(&self, u: f64, v: f64) -> Jet {
+        let (a, b) = (self.basis::<N>(0, u), self.basis::<N>(1, v));
         // By u, v: 00, 10, 01, 20, 11, 02.
         let mut sums = [[0.0f64; 4]; 6];
         for i in 0..=self.degree[0] {
-            let row = &self.poles[(a.0 + i) * self.count[1] + b.0..][..=self.degree[1]];
+            let row = &self.poles[(a.first + i) * self.count[1] + b.first..][..=self.degree[1]];
             let mut inner = [[0.0f64; 4]; 3];
             for (j, pole) in row.iter().enumerate() {
-                for (sum, values) in inner.iter_mut().zip(&b.1) {
+                for (sum, values) in inner.iter_mut().zip(&b.rows) {
                     for k in 0..4 {
                         sum[k] += values[j] * pole[k];
                     }
@@ -107,7 +118,7 @@ impl SplineSurface {
             }
             for (sum, (m, n)) in sums.iter_mut().zip([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]) {
                 for k in 0..4 {
-                    sum[k] += a.1[m][i] * inner[n][k];
+                    sum[k] += a.rows[m][i] * inner[n][k];
                 }
             }
         }
@@ -169,36 +180,48 @@ impl SplineSurface {
         if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x }
     }
 
-    fn basis(&self, side: usize, x: f64) -> Basis {
+    fn basis<const N: usize>(&self, side: usize, x: f64) -> Basis<N> {
         let (p, knots) = (self.degree[side], &self.knots[side]);
         let x = self.inside(side, x);
         // The span of non-zero length that holds x; beyond the ends the outermost polynomial goes on.
-        let span = knots.partition_point(|&k| k <= x).clamp(p + 1, self.count[side]) - 1;
-        let mut value = [0.0; MAX_DEGREE + 1];
-        let mut slope = [0.0; MAX_DEGREE + 1];
-        let (mut left, mut right) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
+        let mut span = knots.partition_point(|&k| k <= x).clamp(p + 1, self.count[side]) - 1;
+        while span > p && knots[span + 1] <= knots[span] {
+            span -= 1;
+        }
+        let width = |q: usize, r: usize| knots[span + r + 1] - knots[span + 1 + r - q];
+        // Of degree p, p - 1 and p - 2.
+        let mut by_degree = [[0.0; N]; 3];
+        let mut value = [0.0; N];
         value[0] = 1.0;
-        for j in 1..=p {
-            left[j] = x - knots[span + 1 - j];
-            right[j] = knots[span + j] - x;
-            let mut saved = 0.0;
-            let mut rate = 0.0;
-            for r in 0..j {
-                let width = right[r + 1] + left[j - r];
-                let share = if width == 0.0 { 0.0 } else { value[r] / width };
-                if j == p {
-                    slope[r] = rate - p as f64 * share;
-                    rate = p as f64 * share;
+        for q in 0..=p {
+            if q > 0 {
+                let mut saved = 0.0;
+                for r in 0..q {
+                    let share = value[r] / width(q, r);
+                    value[r] = saved + (knots[span + r + 1] - x) * share;
+                    saved = (x - knots[span + 1 + r - q]) * share;
                 }
-                value[r] = saved + right[r + 1] * share;
-                saved = left[j - r] * share;
+                value[q] = saved;
             }
-            value[j] = saved;
-            if j == p {
-                slope[j] = rate;
+            if p - q < 3 {
+                by_degree[p - q] = value;
             }
         }
-        Basis { first: span - p, value, slope }
+        let derived = |lower: &[f64; N], q: usize| {
+            let mut out = [0.0; N];
+            let mut before = 0.0;
+            for r in 0..q {
+                let share = q as f64 * lower[r] / width(q, r);
+                out[r] = before - share;
+                before = share;
+            }
+            out[q] = before;
+            out
+        };
+        let [values, lower, lowest] = by_degree;
+        let slopes = derived(&lower, p);
+        let bends = if p > 1 { derived(&derived(&lowest, p - 1), p) } else { [0.0; N] };
+        Basis { first: span - p, rows: [values, slopes, bends] }
     }
 }
 

@@ -129,7 +129,7 @@ impl Work<'_> {
                 continue;
             }
             let Some(place) = self.place(&gap, t) else { continue };
-            if self.mesh.insert(place) {
+            if self.mesh.insert(place, t[0]) {
                 t.iter().for_each(|&i| touched[i as usize] = true);
                 let (corner, bend) = corner(self.surface, self.field.on_surface(place), None);
                 self.spans.push(self.field.span(corner.uv));

@@ -74,19 +74,17 @@ impl Delaunay {
         (!crossed).then_some(Delaunay { mesh, stand_in, handles, slits })
     }
 
-    /// One more inner point, which gets the next number. False where it is no new one, or lies on a chord.
-    pub fn insert(&mut self, [x, y]: [f64; 2]) -> bool {
+    /// One more inner point near a known one, which gets the next number. False where it is no new one, or lies on a chord.
+    pub fn insert(&mut self, [x, y]: [f64; 2], near: u32) -> bool {
         use spade::PositionInTriangulation::{OnEdge, OnFace};
-        let place = Point2::new(x, y);
-        let free = match self.mesh.locate(place) {
+        let (place, near) = (Point2::new(x, y), self.handles[near as usize]);
+        let free = match self.mesh.locate_with_hint(place, near) {
             OnFace(_) => true,
             OnEdge(edge) => !self.mesh.directed_edge(edge).is_constraint_edge(),
             _ => false,
         };
-        let number = self.handles.len() as u32;
-        let Some(handle) = free.then(|| self.mesh.insert(Corner { place, number }).ok()).flatten() else {
-            return false;
-        };
+        let corner = Corner { place, number: self.handles.len() as u32 };
+        let Some(handle) = free.then(|| self.mesh.insert_with_hint(corner, near).ok()).flatten() else { return false };
         self.handles.push(handle);
         true
     }
