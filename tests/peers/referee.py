@@ -139,7 +139,9 @@ def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference)
     from hlr.plan.options import Options
     from hlr.writers import render
 
-    options = Options(hidden=True, scale=SHEET / (model.diagonal * model.unit), accuracy=SHEET / model.fineness)
+    # The reference holds every face of the file, those of annotation too.
+    scale, accuracy = SHEET / (model.diagonal * model.unit), SHEET / model.fineness
+    options = Options(hidden=True, scale=scale, accuracy=accuracy, annotations=True)
     start = time.perf_counter()
     own: list[reference.Reference] = []
     try:
