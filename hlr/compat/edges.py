@@ -10,6 +10,7 @@ import numpy as np
 
 from hlr.curve import Arc, Bezier
 from hlr.drawing import Line, Points
+from hlr.source.bindings import collection
 
 CIRCLE = 1e-9
 """Relative: an ellipse whose radii differ by no more is a circle."""
@@ -80,11 +81,9 @@ def _bezier(chain: Bezier, shift: Points) -> Any:
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
     from OCP.Geom import Geom_BezierCurve, Geom_BSplineCurve
     from OCP.gp import gp_Pnt
-    from OCP.TColgp import TColgp_Array1OfPnt
-    from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 
     moved = chain.points + shift
-    poles = TColgp_Array1OfPnt(1, len(moved))
+    poles = collection("points", 1, len(moved))
     for i, (x, y) in enumerate(moved.tolist(), 1):
         poles.SetValue(i, gp_Pnt(x, y, 0.0))
     if np.ptp(moved, axis=0).max() <= SAME_POINT:
@@ -94,8 +93,8 @@ def _bezier(chain: Bezier, shift: Points) -> Any:
     if count == 1:
         curve: Any = Geom_BezierCurve(poles)
     else:
-        knots = TColStd_Array1OfReal(1, count + 1)
-        multiplicities = TColStd_Array1OfInteger(1, count + 1)
+        knots = collection("reals", 1, count + 1)
+        multiplicities = collection("integers", 1, count + 1)
         for i in range(count + 1):
             knots.SetValue(i + 1, float(i))
             multiplicities.SetValue(i + 1, degree + 1 if i in (0, count) else degree)

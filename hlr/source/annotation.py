@@ -13,6 +13,7 @@ from typing import Any
 
 from hlr.errors import counted
 from hlr.notes import Note
+from hlr.source.bindings import collection
 from hlr.source.parts import compound, explored, located
 
 _WORDS = (b"INVISIBILITY", b"CONSTRUCTIVE_GEOMETRY_REPRESENTATION")
@@ -51,7 +52,6 @@ class Annotation:
         return self._known[key]
 
     def _split(self, product: Any, whole: bool) -> tuple[Any, int]:
-        from OCP.TDF import TDF_LabelSequence
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
         shape = self._shapes.GetShape_s(product)
@@ -60,7 +60,7 @@ class Annotation:
             *explored(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID),
             *explored(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL),
         ]
-        children = TDF_LabelSequence()
+        children = collection("labels")
         self._shapes.GetSubShapes_s(product, children)
         labels = [children.Value(i) for i in range(1, children.Length() + 1)] if loose and not whole else []
         hidden = {self._shapes.GetShape_s(label).TShape() for label in labels if self._is_hidden(label)}
@@ -84,12 +84,11 @@ class Annotation:
 
     def _is_hidden(self, label: Any) -> bool:
         """Whether a label, or a layer that it is on, is invisible."""
-        from OCP.TDF import TDF_LabelSequence
         from OCP.XCAFDoc import XCAFDoc_ColorTool
 
         if not XCAFDoc_ColorTool.IsVisible_s(label):
             return True
-        layers = TDF_LabelSequence()
+        layers = collection("labels")
         self._layers.GetLayers(label, layers)
         return any(not self._layers.IsVisible(layers.Value(i)) for i in range(1, layers.Length() + 1))
 

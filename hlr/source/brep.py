@@ -11,6 +11,7 @@ import numpy as np
 
 from hlr.errors import SourceError, counted
 from hlr.notes import Note, NoteCode
+from hlr.source.bindings import collection
 from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
@@ -152,22 +153,21 @@ class BrepSource:
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopoDS import TopoDS
 
-        return TopoDS.Edge_s(self._map(part, Kind.TopAbs_EDGE).FindKey(index + 1))
+        return TopoDS.Edge(self._map(part, Kind.TopAbs_EDGE).FindKey(index + 1))
 
     def face_shape(self, part: str, index: int) -> Any:
         """The TopoDS_Face with this number in the TopExp face map of the part of that name, without its placement."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopoDS import TopoDS
 
-        return TopoDS.Face_s(self._map(part, Kind.TopAbs_FACE).FindKey(index + 1))
+        return TopoDS.Face(self._map(part, Kind.TopAbs_FACE).FindKey(index + 1))
 
     def face_edges(self, part: str, index: int) -> list[int]:
         """Numbers of the edges of a face of a part, both counted as TopExp does."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopExp import TopExp
-        from OCP.TopTools import TopTools_IndexedMapOfShape
 
-        own = TopTools_IndexedMapOfShape()
+        own = collection("shape_map")
         TopExp.MapShapes_s(self.face_shape(part, index), Kind.TopAbs_EDGE, own)
         every = self._map(part, Kind.TopAbs_EDGE)
         return [every.FindIndex(own.FindKey(i)) - 1 for i in range(1, own.Extent() + 1)]
@@ -175,11 +175,10 @@ class BrepSource:
     def _map(self, part: str, kind: Any) -> Any:
         """The TopExp map of a part's edges or faces."""
         from OCP.TopExp import TopExp
-        from OCP.TopTools import TopTools_IndexedMapOfShape
 
         key = self._root_of[part], kind
         if key not in self._maps:
-            self._maps[key] = TopTools_IndexedMapOfShape()
+            self._maps[key] = collection("shape_map")
             TopExp.MapShapes_s(self._roots[key[0]], kind, self._maps[key])
         return self._maps[key]
 
@@ -323,11 +322,10 @@ def _counts(root: Any) -> tuple[int, int, int]:
     """(faces, edges, solids) of the index maps of a shape."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp
-    from OCP.TopTools import TopTools_IndexedMapOfShape
 
     counts = []
     for kind in (Kind.TopAbs_FACE, Kind.TopAbs_EDGE, Kind.TopAbs_SOLID):
-        found = TopTools_IndexedMapOfShape()
+        found = collection("shape_map")
         TopExp.MapShapes_s(root, kind, found)
         counts.append(found.Extent())
     return counts[0], counts[1], counts[2]
@@ -346,5 +344,5 @@ def _box(root: Any) -> Floats:
         BRepBndLib.Add_s(root, box, True)
     if box.IsVoid():
         return np.empty((0, 3))
-    x0, y0, z0, x1, y1, z1 = box.Get()
+    (x0, y0, z0), (x1, y1, z1) = box.CornerMin().Coord(), box.CornerMax().Coord()
     return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])

@@ -47,7 +47,7 @@ def _rectangle_or_loop(outline: Any) -> bool:
     if len(edges) == 1:
         return True
     line = GeomAbs_CurveType.GeomAbs_Line
-    return len(edges) <= RECTANGLE and all(BRepAdaptor_Curve(TopoDS.Edge_s(e)).GetType() == line for e in edges)
+    return len(edges) <= RECTANGLE and all(BRepAdaptor_Curve(TopoDS.Edge(e)).GetType() == line for e in edges)
 
 
 def without(root: Any, faces: Set[Any]) -> Any:

@@ -43,4 +43,4 @@ class EdgeCurveReader:
             edges = self._edges[root] = explored(self._roots[root], TopAbs_ShapeEnum.TopAbs_EDGE)
         if edge >= len(edges):
             return UNKNOWN
-        return edge_record(TopoDS.Edge_s(edges[edge]))
+        return edge_record(TopoDS.Edge(edges[edge]))

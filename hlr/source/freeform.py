@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
+from hlr.source.bindings import collection
 from hlr.source.geometry import UNKNOWN, Record, curve_record
 from hlr.source.parts import explored, matrix
 from hlr.source.surfaces import FaceSurfaces
@@ -75,21 +76,20 @@ def _edges(root: Any, number: Mapping[Any, int], free: Set[Any]) -> Iterator[tup
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
-    from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape, TopTools_IndexedMapOfShape
 
     if not any(face.TShape() in free for face in explored(root, Kind.TopAbs_FACE)):
         return
-    around, order = TopTools_IndexedDataMapOfShapeListOfShape(), TopTools_IndexedMapOfShape()
+    around, order = collection("ancestor_map"), collection("shape_map")
     TopExp.MapShapesAndAncestors_s(root, Kind.TopAbs_EDGE, Kind.TopAbs_FACE, around)
     TopExp.MapShapes_s(root, Kind.TopAbs_EDGE, order)
     for i in range(1, around.Extent() + 1):
         beside = around.FindFromIndex(i)
         if beside.Extent() != 2:
             continue
-        faces = [TopoDS.Face_s(face) for face in (beside.First(), beside.Last())]
+        faces = [TopoDS.Face(face) for face in (beside.First(), beside.Last())]
         if faces[0].IsSame(faces[1]) or not any(face.TShape() in free for face in faces):
             continue
-        edge = TopoDS.Edge_s(around.FindKey(i))
+        edge = TopoDS.Edge(around.FindKey(i))
         if BRep_Tool.Degenerated_s(edge):
             continue
         one, other = (_side(edge, face, number[face.TShape()]) for face in faces)
@@ -141,13 +141,13 @@ def with_nodes(wanted: Sequence[tuple[Any, Sequence[float]]]) -> Iterator[None]:
     added = []
     try:
         for edge, parameters in wanted:
-            bare = TopoDS.Edge_s(edge.Located(TopLoc_Location(), False).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
+            bare = TopoDS.Edge(edge.Located(TopLoc_Location(), False).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
             curve, frozen = BRepAdaptor_Curve(bare), not bare.Free()
             bare.Free(True)
             for parameter in parameters:
                 vertex = TopoDS_Vertex()
                 builder.MakeVertex(vertex, curve.Value(parameter), Precision.Confusion_s())
-                inner = TopoDS.Vertex_s(vertex.Oriented(TopAbs_Orientation.TopAbs_INTERNAL))
+                inner = TopoDS.Vertex(vertex.Oriented(TopAbs_Orientation.TopAbs_INTERNAL))
                 builder.Add(bare, inner)
                 builder.UpdateVertex(inner, parameter, bare, Precision.Confusion_s())
                 added.append((bare, inner))

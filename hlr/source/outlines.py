@@ -77,7 +77,7 @@ def projected_anew(face: Any) -> None:
 
     tool, fixer = ShapeBuild_Edge(), ShapeFix_Edge()
     for shape in explored(face, Kind.TopAbs_EDGE):
-        edge = TopoDS.Edge_s(shape)
+        edge = TopoDS.Edge(shape)
         if BRep_Tool.Degenerated_s(edge):
             continue
         seam = BRep_Tool.IsClosed_s(edge, face)
@@ -103,7 +103,7 @@ def _uses(wire: Any, face: Any) -> list[_Use]:
     found = []
     iterator = TopoDS_Iterator(wire)
     while iterator.More():
-        edge = TopoDS.Edge_s(iterator.Value())
+        edge = TopoDS.Edge(iterator.Value())
         iterator.Next()
         if edge.Orientation() not in (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED):
             continue

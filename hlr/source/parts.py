@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from hlr.notes import Note
+from hlr.source.bindings import collection
 from hlr.source.locations import chained
 from hlr.source.model import PLAIN, Color, Floats, Look, Rgba, rgba
 
@@ -176,9 +177,8 @@ def explored(shape: Any, kind: Any, avoid: Any = None) -> list[Any]:
     """Sub-shapes of a kind in TopExp order, each once, outside those of the kind `avoid`."""
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
-    from OCP.TopTools import TopTools_IndexedMapOfShape
 
-    found = TopTools_IndexedMapOfShape()
+    found = collection("shape_map")
     explorer = TopExp_Explorer(shape, kind, TopAbs_ShapeEnum.TopAbs_SHAPE if avoid is None else avoid)
     while explorer.More():
         found.Add(explorer.Current())

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.source.bindings import collection
 from hlr.source.model import Floats, Ints
 from hlr.source.tables import FACE, Tables, ranges
 
@@ -139,15 +140,14 @@ def tightened(faces: list[Any]) -> Iterator[list[Any]]:
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
-    from OCP.TopTools import TopTools_IndexedMapOfShape
 
     builder, tool = BRep_Builder(), ShapeFix_ShapeTolerance()
     restore = []
     for kind, cast, update in (
-        (Kind.TopAbs_VERTEX, TopoDS.Vertex_s, builder.UpdateVertex),
-        (Kind.TopAbs_EDGE, TopoDS.Edge_s, builder.UpdateEdge),
+        (Kind.TopAbs_VERTEX, TopoDS.Vertex, builder.UpdateVertex),
+        (Kind.TopAbs_EDGE, TopoDS.Edge, builder.UpdateEdge),
     ):
-        found = TopTools_IndexedMapOfShape()
+        found = collection("shape_map")
         for face in faces:
             TopExp.MapShapes_s(face, kind, found)
         for i in range(1, found.Extent() + 1):

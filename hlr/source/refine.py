@@ -61,7 +61,7 @@ def refine(face: Any, triangles: Ints, fixed: Ints, deflection: float) -> bool:
     from OCP.TopoDS import TopoDS
 
     # The triangulation lies in the frame of the face before its placement: there the surface is asked, too.
-    here = TopoDS.Face_s(face.Located(TopLoc_Location(), False))
+    here = TopoDS.Face(face.Located(TopLoc_Location(), False))
     triangulation = BRep_Tool.Triangulation_s(here, TopLoc_Location())
     if triangulation is None or not triangulation.HasUVNodes():
         return False

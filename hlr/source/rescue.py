@@ -39,7 +39,7 @@ def rescue(face: Any, deflection: float, angle: float) -> bool:
     from OCP.TopoDS import TopoDS
 
     # The triangulation lies in the frame of the face before its placement.
-    here = TopoDS.Face_s(face.Located(TopLoc_Location(), False))
+    here = TopoDS.Face(face.Located(TopLoc_Location(), False))
     for copied in _copies(here):
         with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the next way is tried
             copy, counterpart = copied()
@@ -57,7 +57,7 @@ def _copies(face: Any) -> Iterator[Callable[[], Copied]]:
 
         forward = face.Oriented(TopAbs_Orientation.TopAbs_FORWARD)
         copier = BRepBuilderAPI_Copy(forward, True, False)
-        return TopoDS.Face_s(copier.Shape()), copier.ModifiedShape
+        return TopoDS.Face(copier.Shape()), copier.ModifiedShape
 
     def same_curves() -> Copied:
         copy, counterpart = copied()
@@ -78,7 +78,7 @@ def _copies(face: Any) -> Iterator[Callable[[], Copied]]:
         fixer = ShapeFix_Face(copy)
         fixer.Perform()
         context = fixer.Context()
-        return TopoDS.Face_s(fixer.Result()), lambda edge: context.Apply(counterpart(edge))
+        return TopoDS.Face(fixer.Result()), lambda edge: context.Apply(counterpart(edge))
 
     yield same_curves
     yield new_curves
@@ -120,10 +120,10 @@ def _taken_over(face: Any, copy: Any, counterpart: Callable[[Any], Any]) -> bool
     triangulation = BRep_Tool.Triangulation_s(copy, place)
     found = []
     for shape in explored(face, Kind.TopAbs_EDGE):
-        edge = TopoDS.Edge_s(shape)
-        twin = TopoDS.Edge_s(counterpart(edge))
+        edge = TopoDS.Edge(shape)
+        twin = TopoDS.Edge(counterpart(edge))
         one, two = (
-            BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge_s(twin.Oriented(way)), triangulation, place)
+            BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge(twin.Oriented(way)), triangulation, place)
             for way in (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED)
         )
         if one is None or BRep_Tool.Degenerated_s(twin) != BRep_Tool.Degenerated_s(edge):

@@ -11,6 +11,7 @@ from hlr.errors import SourceError
 from hlr.notes import Note
 from hlr.source.annotation import Annotation, entry, may_hold
 from hlr.source.annotation import note as left_out
+from hlr.source.bindings import collection
 from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
 from hlr.source.model import Color, Rgba
@@ -108,11 +109,10 @@ class _Tree:
 
     def walk(self, fallback: str, annotation: Annotation | None = None) -> None:
         """Collect the leaves; annotation: what is left out of them, unless nothing else would be left."""
-        from OCP.TDF import TDF_LabelSequence
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopLoc import TopLoc_Location
 
-        free = TDF_LabelSequence()
+        free = collection("labels")
         self.shapes.GetFreeShapes(free)
         self._annotation, self._left_out = annotation, 0
         self.leaves, self.notes = [], []
@@ -126,7 +126,7 @@ class _Tree:
             self.walk(fallback)
 
     def _visit(self, label: Any, place: Any, inherited: Rgba | None, fallback: str, above: list[Any]) -> None:
-        from OCP.TDF import TDF_Label, TDF_LabelSequence
+        from OCP.TDF import TDF_Label
 
         product, color = label, self._color(label)
         if self.shapes.IsReference_s(label):
@@ -138,7 +138,7 @@ class _Tree:
         under = [*above, label]
         name = _name(product) or _name(label) or fallback
         if self.shapes.IsAssembly_s(product) and len(above) < _DEPTH:
-            children = TDF_LabelSequence()
+            children = collection("labels")
             self.shapes.GetComponents_s(product, children)
             for i in range(1, children.Length() + 1):
                 self._visit(children.Value(i), place, color, name, under)
@@ -161,13 +161,12 @@ class _Tree:
 
     def _detail(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
         """Colours, and opacities below one, of the solids and faces of a product, by underlying shape."""
-        from OCP.TDF import TDF_LabelSequence
 
         key = entry(product)
         known = self._details.get(key)
         if known is None:
             known = self._details[key] = ({}, {})
-            children = TDF_LabelSequence()
+            children = collection("labels")
             self.shapes.GetSubShapes_s(product, children)
             for i in range(1, children.Length() + 1):
                 color = self._color(children.Value(i))

@@ -77,7 +77,7 @@ def _of_face(face: Any) -> tuple[SurfaceKind, list[float]]:
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS
 
-    surface = BRep_Tool.Surface_s(TopoDS.Face_s(face.Located(TopLoc_Location(), False)))
+    surface = BRep_Tool.Surface_s(TopoDS.Face(face.Located(TopLoc_Location(), False)))
     if surface is None:
         return _UNKNOWN
     try:

@@ -60,7 +60,7 @@ class Tessellator:
                 underlying = face.TShape()
                 if underlying not in self._number:
                     self._number[underlying] = len(self._faces)
-                    self._faces.append(TopoDS.Face_s(face))
+                    self._faces.append(TopoDS.Face(face))
         self._flat = [_is_flat(face, FLAT * size) for face in self._faces]
         self.surfaces = FaceSurfaces(self._faces)
         self._free_edges: FreeEdges | None = None

@@ -82,21 +82,21 @@ class _Walker:
         from OCP.TopoDS import TopoDS
 
         place = TopLoc_Location()
-        triangulation = BRep_Tool.Triangulation_s(TopoDS.Face_s(face), place)
+        triangulation = BRep_Tool.Triangulation_s(TopoDS.Face(face), place)
         if triangulation is None:
             return
         tri = self.face_tri[number] = self.tris.setdefault(triangulation, len(self.tris))
         for shape in explored(face, TopAbs_ShapeEnum.TopAbs_EDGE):
             found = []
             for orientation in (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED):
-                edge = TopoDS.Edge_s(shape.Oriented(orientation))
+                edge = TopoDS.Edge(shape.Oriented(orientation))
                 polygon = BRep_Tool.PolygonOnTriangulation_s(edge, triangulation, place)
                 if polygon is not None:
                     found.append([polygon.Node(i) - 1 for i in range(1, polygon.NbNodes() + 1)])
             if found:
                 key = (self.visit(shape), tri, self.location(shape.Location().Inverted()))
                 if key not in self.reps:
-                    closed = BRep_Tool.IsClosed_s(TopoDS.Edge_s(shape), triangulation, place)
+                    closed = BRep_Tool.IsClosed_s(TopoDS.Edge(shape), triangulation, place)
                     first = self._polygon(found[0])
                     self.reps[key] = (first, self._polygon(found[-1]) if closed else -1)
 
@@ -111,7 +111,7 @@ class _Walker:
         from OCP.TopoDS import TopoDS
 
         place = TopLoc_Location()
-        polygon = BRep_Tool.Polygon3D_s(TopoDS.Edge_s(edge), place)
+        polygon = BRep_Tool.Polygon3D_s(TopoDS.Edge(edge), place)
         if polygon is None:
             return
         nodes = polygon.Nodes()
@@ -127,7 +127,7 @@ class _Walker:
         degenerated = np.zeros(len(kind), dtype=bool)
         smooth = np.full(len(kind), -1, dtype=np.int32)
         for number in np.flatnonzero(kind == EDGE).tolist():
-            edge = TopoDS.Edge_s(self.shapes[number])
+            edge = TopoDS.Edge(self.shapes[number])
             degenerated[number] = BRep_Tool.Degenerated_s(edge)
             if BRep_Tool.HasContinuity_s(edge):
                 smooth[number] = int(BRep_Tool.MaxContinuity_s(edge))

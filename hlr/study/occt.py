@@ -107,7 +107,7 @@ def _edges(compound: Any) -> Iterator[Any]:
         return
     explorer = TopExp_Explorer(compound, Kind.TopAbs_EDGE)
     while explorer.More():
-        yield TopoDS.Edge_s(explorer.Current())
+        yield TopoDS.Edge(explorer.Current())
         explorer.Next()
 
 
