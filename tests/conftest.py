@@ -5,9 +5,14 @@ package, which has no compiled kernel.
 
 The ordinary run tries the same examples every time, so that a red test means a changed program. To look for new
 examples: pytest --hypothesis-profile=explore
+
+Without CadQuery (build123d on OpenCASCADE 8 cannot share an environment with it) the tests that build their shapes with
+it are left out.
 """
 
+import ast
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 from hypothesis import Phase, settings
@@ -21,3 +26,30 @@ settings.register_profile("explore", deadline=None, max_examples=1000)
 # Without looking for the smallest example of what fails.
 settings.register_profile("unshrunk", derandomize=True, deadline=None, phases=[Phase.explicit, Phase.generate])
 settings.load_profile("same")
+
+
+def imports(path: Path) -> set[str]:
+    """Names of the modules that a file imports, and of what it takes from them."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.Import):
+            found.update(name.name for name in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            found.add(node.module)
+            found.update(f"{node.module}.{name.name}" for name in node.names)
+    return found
+
+
+def needing(package: str) -> list[str]:
+    """Files under this folder that import a package, or another file here that does."""
+    files = {path: imports(path) for path in Path(HERE).rglob("*.py")}
+    wanted, found = {package}, set[Path]()
+    while more := {path for path, names in files.items() if names & wanted} - found:
+        found |= more
+        wanted |= {".".join(path.relative_to(HERE).with_suffix("").parts) for path in more}
+        # Some folders stand on the path themselves.
+        wanted |= {path.stem for path in more}
+    return [str(path) for path in found]
+
+
+collect_ignore = [] if find_spec("cadquery") else needing("cadquery")

@@ -18,6 +18,7 @@ NAMES = {
     "shape_list": ("List_TopoDS_Shape", "TopTools.TopTools_ListOfShape"),
     "labels": ("Sequence_TDF_Label", "TDF.TDF_LabelSequence"),
     "points": ("Array1_gp_Pnt", "TColgp.TColgp_Array1OfPnt"),
+    "point_net": ("Array2_gp_Pnt", "TColgp.TColgp_Array2OfPnt"),
     "reals": ("Array1_double", "TColStd.TColStd_Array1OfReal"),
     "integers": ("Array1_int", "TColStd.TColStd_Array1OfInteger"),
 }

@@ -1,7 +1,9 @@
 """Which parts of a model are drawn, and which shape of a script."""
 
 import json
+from importlib.util import find_spec
 
+import pytest
 import trimesh
 
 SCRIPT = """
@@ -30,6 +32,7 @@ def test_on_the_command_line(hlr_real, tmp_path):
     assert refused.code == 2 and 'perhaps "bolt"' in refused.err
 
 
+@pytest.mark.skipif(find_spec("cadquery") is None, reason="the script is one of CadQuery")
 def test_the_command_says_which_shape_it_draws(hlr_real, tmp_path):
     path = tmp_path / "model.py"
     path.write_text(SCRIPT)

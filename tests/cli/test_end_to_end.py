@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 import pypdfium2
@@ -143,6 +144,7 @@ def test_several_views_in_several_formats(run, tmp_path):
     assert 'width="51mm" height="41mm"' in (tmp_path / "box-top.svg").read_text()
 
 
+@pytest.mark.skipif(find_spec("cadquery") is None, reason="the script is one of CadQuery")
 def test_the_same_bytes_from_run_to_run_and_for_any_number_of_threads(run, tmp_path):
     for ending in ("svg", "pdf"):
         run("draw", "plate.py", "-o", f"1.{ending}", "--threads", "1")
@@ -151,6 +153,7 @@ def test_the_same_bytes_from_run_to_run_and_for_any_number_of_threads(run, tmp_p
         assert len({(tmp_path / f"{name}.{ending}").read_bytes() for name in "123"}) == 1
 
 
+@pytest.mark.skipif(find_spec("cadquery") is None, reason="the script is one of CadQuery")
 def test_a_script_is_drawn_and_what_it_prints_stays_out(run):
     out, err = run("draw", "plate.py", "-o", "-")
     assert out.startswith("<?xml")

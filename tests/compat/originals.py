@@ -43,7 +43,7 @@ def length(shape):
     total = 0.0
     explorer = TopExp_Explorer(shape, TopAbs_ShapeEnum.TopAbs_EDGE) if shape is not None else None
     while explorer is not None and explorer.More():
-        curve = BRepAdaptor_Curve(TopoDS.Edge_s(explorer.Current()))
+        curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
         first, last = curve.FirstParameter(), curve.LastParameter()
         ends = [first + (last - first) * i / PIECES for i in range(PIECES + 1)]
         total += sum(GCPnts_AbscissaPoint.Length_s(curve, a, b) for a, b in pairwise(ends))
@@ -64,4 +64,4 @@ def box(shapes):
         if shape is not None:
             BRepBndLib.AddOptimal_s(shape, bounds, False, False)
     bounds.SetGap(0.0)
-    return bounds.Get()
+    return (*bounds.CornerMin().Coord(), *bounds.CornerMax().Coord())

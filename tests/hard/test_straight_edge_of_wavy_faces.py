@@ -11,10 +11,9 @@ import pytest
 from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace, BRepBuilderAPI_Sewing
 from OCP.Geom import Geom_BSplineSurface
 from OCP.gp import gp_Pnt
-from OCP.TColgp import TColgp_Array2OfPnt
-from OCP.TColStd import TColStd_Array1OfInteger, TColStd_Array1OfReal
 
 import hlr
+from hlr.source.bindings import collection
 
 LONG, WIDE = 100.0, 20.0
 FLAT = [0.0] * 9
@@ -30,19 +29,19 @@ def strip(heights, side, size):
     knots = np.linspace(0.0, 1.0, n - degree + 1)
     repeats = [degree + 1, *[1] * (len(knots) - 2), degree + 1]
     flat = np.repeat(knots, repeats)
-    poles = TColgp_Array2OfPnt(1, n, 1, 2)
+    poles = collection("point_net", 1, n, 1, 2)
     for i, height in enumerate(heights):
         x = LONG * flat[i + 1 : i + 1 + degree].mean()
         poles.SetValue(i + 1, 1, gp_Pnt(size * x, 0, 0))
         poles.SetValue(i + 1, 2, gp_Pnt(size * x, size * side * WIDE, size * height))
-    u, v = (_filled(TColStd_Array1OfReal, [float(k) for k in values]) for values in (knots, (0.0, 1.0)))
-    counts = (_filled(TColStd_Array1OfInteger, values) for values in (repeats, (2, 2)))
+    u, v = (_filled("reals", [float(k) for k in values]) for values in (knots, (0.0, 1.0)))
+    counts = (_filled("integers", values) for values in (repeats, (2, 2)))
     surface = Geom_BSplineSurface(poles, u, v, *counts, degree, 1)
     return BRepBuilderAPI_MakeFace(surface, 1e-7).Face()
 
 
 def _filled(kind, values):
-    result = kind(1, len(values))
+    result = collection(kind, 1, len(values))
     for i, value in enumerate(values):
         result.SetValue(i + 1, value)
     return result
@@ -108,12 +107,11 @@ def test_of_one_kind_throughout(heights, expected):
 def test_the_callers_shape_keeps_its_vertices():
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp
-    from OCP.TopTools import TopTools_IndexedMapOfShape
 
     shape = sheet(HALF)
     counts = []
     for _ in range(2):
-        found = TopTools_IndexedMapOfShape()
+        found = collection("shape_map")
         TopExp.MapShapes_s(shape, TopAbs_ShapeEnum.TopAbs_VERTEX, found)
         counts.append(found.Extent())
         hlr.draw(shape, "iso")

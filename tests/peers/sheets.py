@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr.source.bindings import collection
+
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
 Vector = tuple[float, float, float]
@@ -92,9 +94,8 @@ def edges(shape: Any, count: int) -> Iterator[tuple[Floats, Floats]]:
     from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE
     from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
-    from OCP.TopTools import TopTools_IndexedDataMapOfShapeListOfShape
 
-    table = TopTools_IndexedDataMapOfShapeListOfShape()
+    table = collection("ancestor_map")
     TopExp.MapShapesAndAncestors_s(wrapped(shape), TopAbs_EDGE, TopAbs_FACE, table)
     for i in range(1, table.Extent() + 1):
         edge = TopoDS.Edge_s(table.FindKey(i))
@@ -144,10 +145,9 @@ def bezier(poles: npt.ArrayLike) -> Any:
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
     from OCP.Geom import Geom_BezierSurface
     from OCP.gp import gp_Pnt
-    from OCP.TColgp import TColgp_Array2OfPnt
 
     p = np.asarray(poles, float)
-    array = TColgp_Array2OfPnt(1, p.shape[0], 1, p.shape[1])
+    array = collection("point_net", 1, p.shape[0], 1, p.shape[1])
     for i in range(p.shape[0]):
         for j in range(p.shape[1]):
             array.SetValue(i + 1, j + 1, gp_Pnt(*p[i, j].tolist()))
@@ -159,9 +159,8 @@ def spline(heights: Callable[[float, float], float], size: float, poles: int) ->
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
     from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
     from OCP.gp import gp_Pnt
-    from OCP.TColgp import TColgp_Array2OfPnt
 
-    array = TColgp_Array2OfPnt(1, poles, 1, poles)
+    array = collection("point_net", 1, poles, 1, poles)
     for i, x in enumerate(np.linspace(-size / 2, size / 2, poles)):
         for j, y in enumerate(np.linspace(-size / 2, size / 2, poles)):
             array.SetValue(i + 1, j + 1, gp_Pnt(float(x), float(y), float(heights(x, y))))
