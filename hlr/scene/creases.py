@@ -32,6 +32,12 @@ LONE_EDGES = 4
 """Fewer connected edges than this, none of them clear, are a scan's roughness even if they close."""
 
 
+LONG_CREASE = 12
+"""As many connected edges are a crease of the shape, even if none is clear and both ends lie in smooth surfaces: the
+roughness of scans goes on for eleven at most (a skull, a bunny, a turbine blade), faint creases of parts for fourteen
+or more."""
+
+
 def creases(mesh: MeshFacts, bare: Bools, crease: float, points: Floats) -> Kinds:
     """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
     kind = np.full(len(mesh.edges), 255, np.uint8)
@@ -105,8 +111,10 @@ def _slight(kind: Kinds, edges: Ints, clear: Bools, n: int) -> Ints:
     ends = edges[chosen]
     figure = _kernel.edge_components(np.ascontiguousarray(ends), n)
     single = (np.bincount(ends.ravel(), minlength=n) == 1)[ends].sum(axis=1)
+    long = np.bincount(figure)
     open_ended = np.bincount(figure, weights=single) >= 2
-    slight = (open_ended | (np.bincount(figure) < LONE_EDGES)) & (np.bincount(figure, weights=clear[chosen]) == 0)
+    few = long < np.where(open_ended, LONG_CREASE, LONE_EDGES)
+    slight = few & (np.bincount(figure, weights=clear[chosen]) == 0)
     lone: Ints = chosen[slight[figure]]
     return lone
 

@@ -68,6 +68,11 @@ def test_what_is_hardly_a_crease_and_ends_in_smooth_surfaces_is_none() -> None:
     assert sharp(ridge([0, 0, 10, 28, 33, 36, 35, 36, 33, 35, 28, 10, 0, 0])) == 0.0
 
 
+def test_a_faint_crease_is_drawn_where_it_is_long() -> None:
+    assert sharp(ridge([0, 0, 10, 28, *[35] * 13, 28, 10, 0, 0])) >= 120.0
+    assert sharp(ridge([0, 0, 10, 28, *[35] * 9, 28, 10, 0, 0])) == 0.0
+
+
 def test_what_is_clearly_a_crease_may_end_there() -> None:
     assert sharp(ridge([0, 0, 10, 28, 33, 50, 55, 50, 33, 35, 28, 10, 0, 0])) > 60.0
 
