@@ -1,10 +1,11 @@
 //! Meshes every face of a dump (`BinTools.Write` of a shape without triangles) and prints what came of it.
 //!
 //! ```text
-//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--sample] [--faults] [--slow] [--kinds] [--only FACE] [--loops FACE]
+//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--sample] [--faults] [--slow] [--kinds] [--only FACE] [--loops FACE] [--driver]
 //! ```
 
 use std::collections::BTreeMap;
+use std::sync::atomic::AtomicUsize;
 use std::time::Instant;
 
 use hlr_brep::edges::polyline;
@@ -13,6 +14,7 @@ use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
 use hlr_brep::mesh::{FaceMesh, Fault, border_share, mesh_face};
 use hlr_brep::model::Model;
+use hlr_brep::tessellate::{Watch, tessellate};
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -23,6 +25,9 @@ fn main() {
     let start = Instant::now();
     let model = Model::read(&bytes).expect("a dump");
     let parsed = start.elapsed().as_secs_f64();
+    if has("--driver") {
+        return driven(&model, deflection, parsed);
+    }
     let start = Instant::now();
     let mut shares = vec![1.0f64; model.edges.len()];
     for face in &model.faces {
@@ -113,6 +118,23 @@ fn main() {
     }
     if has("--sample") {
         println!("  worst chord error {:.3} deflections, face {}", worst.0, worst.1);
+    }
+}
+
+/// All faces by the driver, on all threads.
+fn driven(model: &Model, deflection: f64, parsed: f64) {
+    let start = Instant::now();
+    let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
+    let made = tessellate(model, deflection, 0.5, &watch).expect("not stopped");
+    let time = start.elapsed().as_secs_f64();
+    let triangles: usize = made.faces.iter().map(|f| f.mesh.triangles.len()).sum();
+    println!("{triangles} triangles, {} faces; parse {parsed:.4} all {time:.4} s", made.faces.len());
+    for (number, face) in made.faces.iter().enumerate() {
+        if let Some(fault) = &face.fault {
+            let name = model.faces[number].surface.as_ref().map_or("none", kind);
+            let text: String = format!("{fault:?}").chars().take(90).collect();
+            println!("  face {number} {name} {text}");
+        }
     }
 }
 

@@ -17,8 +17,9 @@ pub struct Outline {
 }
 
 const NONE: u32 = u32::MAX;
-/// Of the outline's extent: points of a pole this close to one another are one.
-const SAME: f64 = 1e-9;
+/// Of the outline's extent: neighbours this close to one another in (u, v) are at one place there. What ends of edges that
+/// miss their vertex do between themselves is less than that.
+const SAME: f64 = 1e-6;
 
 impl Outline {
     /// Chords whose ends share a node are poles: they are one place in space, and `divide` may put points on them. It gets
@@ -45,12 +46,12 @@ impl Outline {
         Ok(out)
     }
 
-    /// Joins points of a loop to a ring, those aside that are no new places.
+    /// Joins points of a loop to a ring, and puts those aside that are no new places.
     fn link(&mut self, start: u32, count: u32, near: [f64; 2]) -> Result<(), Fault> {
         let at = |i: u32| (start + i % count.max(1)) as usize;
         let same = |i: usize, j: usize| {
             let (p, q) = (self.uv[i], self.uv[j]);
-            p == q || (self.nodes[i] == self.nodes[j] && (0..2).all(|k| (p[k] - q[k]).abs() <= near[k]))
+            (0..2).all(|k| (p[k] - q[k]).abs() <= near[k])
         };
         let Some(first) = (1..=count).find(|&i| !same(at(i - 1), at(i))) else {
             let one = (0..count).all(|i| self.nodes[at(i)] == self.nodes[start as usize]);
@@ -70,6 +71,9 @@ impl Outline {
             let next = kept[(k + 1) % kept.len()];
             self.after[p as usize] = next;
             self.before[next as usize] = p;
+        }
+        for &(point, place) in &aside {
+            self.uv[point as usize] = self.uv[place as usize];
         }
         self.aside.append(&mut aside);
         Ok(())

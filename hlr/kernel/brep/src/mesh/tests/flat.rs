@@ -159,6 +159,23 @@ fn loops_that_cross() {
     assert!(matches!(mesh_face(&plane, &face, 0.1, 0.5), Err(Fault::Crossing(_))));
 }
 
+/// Ends of edges that miss their vertex: points in nearly one place, in an order that crosses itself.
+#[test]
+fn neighbours_in_nearly_one_place() {
+    let plane = surface(1, &[]);
+    let places =
+        vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0 + 1e-7], [4.0 + 1e-8, 3.0], [3.0, 3.0], [0.0, 3.0], [1e-8, 3.0]];
+    let face = loops(&plane, std::slice::from_ref(&places));
+    let mesh = mesh_face(&plane, &face, 0.1, 0.5).unwrap();
+    // Each is a node of its own, so each has its place in the mesh.
+    assert_eq!(mesh.triangles.len(), places.len() - 2);
+    assert_eq!(mesh.points, face.loops[0].iter().map(|p| p.point).collect::<Vec<_>>());
+    let mut used: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    assert_eq!(used.len(), places.len());
+}
+
 #[test]
 fn slivers() {
     let plane = surface(1, &[]);
