@@ -36,28 +36,30 @@ def test_knots_of_surfaces():
     assert of(SurfaceKind.EXTRUSION, np.array([*extruded[:3], other, *curve])) == [[], []]
     assert of(SurfaceKind.OFFSET, np.array([0.5, float(SurfaceKind.EXTRUSION), *extruded])) == [knots, []]
     assert of(SurfaceKind.PLANE, extruded) == [[], []]
-    # Degrees 1 and 2, two and three poles, periods 10 and 0; four knots and six.
+    # Degrees 1 and 2, two and three poles, periods 10 and 20; four knots and six.
     u, v = [0, 0, 1, 1], [0, 0, 0, 3, 4, 4]
-    spline = np.array([1, 2, 2, 3, 10, 0, *u, *v, 77, 78.0])
-    assert of(SurfaceKind.SPLINE, spline) == [[-10, -9, 0, 1, 10, 11], [0, 3, 4]]
+    spline = np.array([1, 2, 2, 3, 10, 20, *u, *v, 77, 78.0])
+    assert of(SurfaceKind.SPLINE, spline) == [[-10, -9, 0, 1, 10, 11], [-20, -17, -16, 0, 3, 4, 20, 23, 24]]
 
 
 def test_steps_are_divided_but_not_from_one_edge_to_the_next():
-    edge, share = tangency._divided(ints(3, 3, 3, 7, 7), np.array([0, 0.5, 1, 0, 1]), ints(2, 4, 9, 1, 5))
-    assert edge.tolist() == [3] * 7 + [7] * 2
-    assert share.tolist() == [0, 0.25, 0.5, 0.625, 0.75, 0.875, 1, 0, 1]
+    edge, share = tangency._divided(ints(3, 3, 3, 7, 7), np.array([0, 0.5, 1, 0, 1]), ints(2, 4, 9, 2, 5))
+    assert edge.tolist() == [3] * 7 + [7] * 3
+    assert share.tolist() == [0, 0.25, 0.5, 0.625, 0.75, 0.875, 1, 0, 0.5, 1]
 
 
 def test_places_in_order_and_each_once():
-    edge, share = tangency._ascending(ints(2, 1, 1, 1, 2, 1), np.array([0.5, 1, 0.25, 0.25 + 5e-10, 0.5 + 2e-9, 0]))
+    edge, share = tangency._ascending(
+        ints(2, 1, 1, 1, 2, 1, 2), np.array([0.5, 1, 0.25, 0.25 + 7e-10, 0.5 + 1.5e-9, 0, 0.5])
+    )
     assert edge.tolist() == [1, 1, 1, 2, 2] and edge.dtype == np.int32
-    assert share.tolist() == [0, 0.25, 1, 0.5, 0.5 + 2e-9]
+    assert share.tolist() == [0, 0.25, 1, 0.5, 0.5 + 1.5e-9]
     # Ends of two edges at one share stand twice.
     assert tangency._ascending(ints(1, 2), np.array([0.5, 0.5]))[1].tolist() == [0.5, 0.5]
 
 
 def test_where_knots_are_passed():
-    knots = np.array([0.0, 1.0, 2.0, 3.0])
+    knots = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
     parameter = np.array([0.5, 2.5, 0.5, 0.5, 1.0, 2.0])
     edge, share = ints(4, 4, 4, 4, 5, 5), np.array([0, 0.4, 0.8, 1, 0, 1])
     found = tangency._crossings(edge, share, parameter, np.array([0, 1, 2, 4]), knots)
@@ -121,6 +123,8 @@ def between(low, high, inside, outside):
 
 def test_one_class_throughout():
     assert pieces(lambda at: 0.0 * at) == ([True], [])
+    # A hundredth of a radian is the limit, where it does not waver.
+    assert pieces(lambda at: 0.0099 + 0 * at) == ([True], []) and pieces(lambda at: 0.0101 + 0 * at) == ([False], [])
     assert pieces(lambda at: 0.5 + 0 * at) == ([False], [])
 
 
