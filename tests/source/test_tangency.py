@@ -147,9 +147,19 @@ def test_a_short_fold_says_nothing():
     # Less than a fiftieth of the length.
     assert pieces(between(0.495, 0.505, 0.5, 0.001)) == ([True], [])
     assert pieces(between(0.485, 0.515, 0.5, 0.001))[0] == [True, False, True]
-    # Three of them, each short, and together more than two may have.
+    # Three of them, together less than two may have; and five, together more.
+    three = np.linspace(0.2, 0.8, 3)
+    assert pieces(lambda at: np.where(np.abs(at[:, None] - three).min(axis=1) < 0.005, 0.5, 0.001)) == ([True], [])
     several = np.linspace(0.2, 0.8, 5)
     assert pieces(lambda at: np.where(np.abs(at[:, None] - several).min(axis=1) < 0.005, 0.5, 0.001))[0] != [True]
+
+
+@pytest.mark.parametrize("end", [0.0, 1.0])
+def test_the_last_place_counts_half_a_step(end):
+    # Of three places at an end, two and a half steps are more than a fiftieth; of two, less.
+    assert pieces(lambda at: np.where(np.abs(at - end) < 0.005, 0.5, 0.001)) == ([True], [])
+    assert pieces(lambda at: np.where(np.abs(at - end) < 0.015, 0.5, 0.001)) == ([True], [])
+    assert pieces(lambda at: np.where(np.abs(at - end) < 0.025, 0.5, 0.001))[0] in ([False, True], [True, False])
 
 
 def test_what_waves_is_whole():
@@ -176,6 +186,28 @@ def test_length_counts_and_not_the_number_of_places():
     assert pieces(between(-1.0, 0.085, 0.001, 0.5), crowded) == ([False], [])
     assert pieces(between(0.005, 0.0199, 0.5, 0.001), crowded) == ([True], [])
     assert pieces(between(0.005, 0.0299, 0.5, 0.001), crowded)[0] == [False, True]
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-3, 10.0])
+def test_length_is_a_share_whatever_the_size(size):
+    edge = tangency.FreeEdge((None, None), (0.0, 1.0), False)
+
+    def smooth(places):
+        def closer(at):
+            return np.where((at > 0.495) & (at < 0.485 + 0.01 * places + 0.01), 0.5, 0.001), size * np.outer(
+                at, [1, 0, 0]
+            )
+
+        return tangency._pieces(edge, SHARE, *closer(SHARE), closer).smooth.tolist()
+
+    assert smooth(1) == [True] and smooth(3) == [True, False, True]
+    # Where places are crowded it is length that counts, however little there is.
+    crowded = np.unique(np.concatenate([np.linspace(0, 0.09, 200), SHARE]))
+    angle, point = between(0.005, 0.0199, 0.5, 0.001)(crowded), size * np.outer(crowded, [1, 0, 0])
+    found = tangency._pieces(edge, crowded, angle, point, lambda at: (at, np.outer(at, [1, 0, 0])))
+    assert (found.smooth.tolist() == [True]) == (size > 0.0)
+    # Without a length each place counts alike: two of 101 are less than a fiftieth.
+    assert size > 0.0 or smooth(2) == [True]
 
 
 def test_an_edge_without_length_is_one_class():

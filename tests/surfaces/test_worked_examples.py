@@ -388,7 +388,7 @@ def test_9_z_buffer_does_not_depend_on_the_screen_alone():
     assert many.comparisons == 50 * one.comparisons
 
 
-def test_9_scan_lines_lose_where_polygons_interpenetrate():
+def test_9_scan_lines_split_where_polygons_interpenetrate():
     scenes = [interpenetrating(seed) for seed in range(20)]
 
     def count(method, variant=None):
