@@ -20,6 +20,7 @@ NoteCode = Literal[
     "over-time",
     "script-shape",
     "stray-parts",
+    "glass-hides",
     "cut-short",
 ]
 """All codes there are; `CODES` says what each means."""
@@ -39,12 +40,13 @@ CODES: dict[NoteCode, str] = {
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
     "stray-parts": "a few parts far from the rest make the drawing several times as large",
+    "glass-hides": "transparent parts hide what is behind them: `see_through` was not asked for",
     "cut-short": "the file ends too early: some of the model may be missing",
 }
 """What each code means. A code keeps its meaning; new ones may be added."""
 
 REMARKS: frozenset[NoteCode] = frozenset(
-    {"annotation-left-out", "free-edges-left-out", "paper-size", "script-shape", "stray-parts"}
+    {"annotation-left-out", "free-edges-left-out", "glass-hides", "paper-size", "script-shape", "stray-parts"}
 )
 """Codes of what is worth knowing, though the drawing is what was asked for: `strict` makes no errors of them."""
 

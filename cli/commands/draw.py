@@ -35,6 +35,7 @@ LINES = (
         default=True,
         help="Lines where surfaces pass through each other. Default: on.",
     ),
+    click.option("--see-through", is_flag=True, help="Parts that are transparent in the file hide nothing."),
     click.option("--fill", is_flag=True, help="Paint the visible faces under the lines."),
 )
 """What is drawn."""

@@ -48,6 +48,7 @@ class Options:
                  neighbours are less than the crease angle (and 45 degrees) apart
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
+    see_through  parts that their file says are transparent hide nothing; else they hide like all others
     fill         paint what is seen of the faces, shaded, under the lines (SVG and PDF)
     threads      0: all cores
     strict       warnings are errors
@@ -71,6 +72,7 @@ class Options:
     circles: bool = False
     up: Vector | None = None
     perspective: Perspective | None = None
+    see_through: bool = False
     fill: bool = False
     threads: int = 0
     strict: bool = False
@@ -97,6 +99,7 @@ class Wishes(TypedDict, total=False):
     circles: bool
     up: Vector | None
     perspective: Perspective | None
+    see_through: bool
     fill: bool
     threads: int
     only: tuple[str, ...]

@@ -23,7 +23,9 @@ NARROWEST, WIDEST = 0.01, 170.0
 
 def checked(options: Options) -> Options:
     """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
-    for name in ("hidden", "smooth", "seam", "intersections", "fill", "circles", "strict", "report", "annotations"):
+    for name in (
+        "hidden", "smooth", "seam", "intersections", "see_through", "fill", "circles", "strict", "report", "annotations"
+    ):  # fmt: skip
         value = getattr(options, name)
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
@@ -41,6 +43,8 @@ def checked(options: Options) -> Options:
         raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
     if options.fit is not None and options.scale != 1.0:
         raise OptionError("scale and fit contradict one another: give one of them")
+    if options.see_through and options.report:
+        raise OptionError("report measures what all parts hide: leave it out, or see_through")
     if options.window is not None:
         _window(options.window)
     for name in ("only", "hide"):

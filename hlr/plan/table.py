@@ -145,6 +145,16 @@ def _pyramid(f: Facts, _o: Options) -> Answer:
     return deep, f"{what}: much may lie behind" if deep else f"{what}: looking would cost more than it saves"
 
 
+def _glass(f: Facts, options: Options) -> Answer:
+    if f.opacity >= 1.0:
+        return False, "all is opaque"
+    least = f"the least opacity is {f.opacity:g}"
+    return (
+        options.see_through,
+        f"asked for: {least}" if options.see_through else f"{least}, and still hides: not asked for",
+    )
+
+
 def _exact(f: Facts, _o: Options) -> Answer:
     return f.bent > 0, f"{_count(f.bent, 'line')} may be curved" if f.bent else "every line is straight, or a mesh's"
 
@@ -173,6 +183,7 @@ DRAWING: tuple[Effect, ...] = (
     Effect("near clipping", SCENE, _near, ("near_cuts",)),
     Effect("side clipping", SCENE, _sides, ("side_cuts",)),
     Effect("perspective divide", SCENE, _divide, ("divided_points",)),
+    Effect("seeing through glass", ASKED, _glass, ("glass_triangles",)),
     Effect("back-face culling", SCENE, _culling, ("culled",)),
     Effect("crossing search", SCENE, _crossings, ("seeds", "crossing_tests")),
     Effect("depth pyramid", SCENE, _pyramid, ("pyramid_parts", "hidden_by_pyramid")),

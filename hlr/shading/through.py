@@ -2,12 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
+from hlr.notes import Note
 from hlr.scene.scene import Scene
+from hlr.shading.paint import corner_paint
+from hlr.source.model import Look
+
+
+def opacity_of(look: Look) -> float:
+    """The least opacity of a part."""
+    found = [1.0 if look.whole is None else look.whole[3], *(color[3] for color in look.faces.values())]
+    if look.corners is not None:
+        found.append(float(look.corners[..., 3].min(initial=1.0)))
+    return min(found)
+
+
+def glass_of(scene: Scene, looks: Mapping[str, Look]) -> npt.NDArray[np.bool_]:
+    """(t,) bool: the triangle is transparent, somewhere at least."""
+    colours, paint = corner_paint(scene, looks)
+    return np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
+
+
+def hiding(scene: Scene, looks: Mapping[str, Look]) -> list[Note]:
+    """The remark that transparent parts hide others, where they may."""
+    clear = [p.name for p in scene.parts if opacity_of(looks.get(p.name, Look())) < 1.0]
+    if not clear or len(scene.parts) < 2:
+        return []
+    which = f'Part "{clear[0]}" is transparent and hides' if len(clear) == 1 else f"{len(clear)} transparent parts hide"
+    return [Note("glass-hides", f"{which} what is behind, as in other CAD drawings: see_through shows it.")]
 
 
 def without_glass(scene: Scene, glass: npt.NDArray[np.bool_]) -> Scene:

@@ -15,6 +15,10 @@ def views(command, *arguments):
     return fake.ASKED[-1][1]
 
 
+def test_transparent_parts_are_seen_through_on_request(hlr_command):
+    assert options(hlr_command, "--see-through").see_through and not options(hlr_command).see_through
+
+
 def test_draws_a_file_and_says_nothing(hlr_command, tmp_path):
     result = hlr_command("draw", "a.step", "-o", "out.svg")
     assert result == (0, "", "")
