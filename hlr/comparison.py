@@ -7,7 +7,7 @@ from typing import Any
 
 from hlr.errors import OptionError
 from hlr.plan.options import Options, View
-from hlr.plan.request import checked_views
+from hlr.plan.request import checked, checked_views
 from hlr.source.model import Progress
 from hlr.surfaces.methods import METHODS
 from hlr.surfaces.polygons import Polygons, polygons_of
@@ -30,6 +30,10 @@ def compare_methods(
     size: tuple[int, int] = (1024, 1024),
     limit: float = 10.0,
     methods: Sequence[str] = (),
+    only: Sequence[str] = (),
+    hide: Sequence[str] = (),
+    var: str | None = None,
+    annotations: bool = False,
     progress: Progress | None = None,
 ) -> list[Timing]:
     """Time every method on every scene.
@@ -40,8 +44,13 @@ def compare_methods(
     limit   seconds of the processor for each method and scene
     methods names of the only ones to time: a method, or "method, variant" with any of its variants
 
+    only, hide, var, annotations  which parts of the source, as of a drawing (`hlr.Options`)
+
     Raises OptionError, SourceError, ViewError.
     """
+    chosen = checked(Options(only=tuple(only), hide=tuple(hide), var=var, annotations=annotations))
+    if source is None and (only or hide or var is not None or annotations):
+        raise OptionError("only, hide, var and annotations choose parts of a model: name one")
     size = checked_size(size)
     if not limit > 0.0:
         raise OptionError(f"a limit of {limit!r} seconds leaves no time: give a positive number")
@@ -53,7 +62,7 @@ def compare_methods(
     trials = _trials(methods)
     sceneries: list[Scenery] = []
     if source is not None:
-        sceneries.append(_of_model(source, view, size, progress))
+        sceneries.append(_of_model(source, view, size, chosen, progress))
     for count, crosses in [*((c, False) for c in counts), *((c, True) for c in crossing)]:
         sceneries.append(_scenery(scene_name(count, crosses), polygons(count, size, crosses), SCREEN, size))
     return measure(sceneries, limit, trials, progress)
@@ -73,18 +82,18 @@ def _scenery(name: str, own: Polygons, camera: Camera | Screen, size: tuple[int,
     return Scenery(name, len(own), own.kernel, viewport(camera, own.points, size))
 
 
-def _of_model(source: Any, view: View, size: tuple[int, int], progress: Progress | None) -> Scenery:
+def _of_model(source: Any, view: View, size: tuple[int, int], options: Options, progress: Progress | None) -> Scenery:
     from hlr.scene.build import build
-    from hlr.source import open_source
+    from hlr.source.chosen import open_chosen
     from hlr.tolerance import ANGLE, SMALL_DRAWING
     from hlr.view.camera import resolve
 
-    view = checked_views([view], Options())[0]
+    view = checked_views([view], options)[0]
     tell = progress or (lambda _stage, _done: None)
     tell("source", 0.0)
-    opened = open_source(source)
+    opened = open_chosen(source, options)
     bounds = opened.bounds()
-    camera = resolve(view, Options(), opened.frame, bounds)
+    camera = resolve(view, options, opened.frame, bounds)
     tell("tessellate", 0.0)
     deflection = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5) / SMALL_DRAWING
     scene = build(opened.mesh(deflection, ANGLE, progress), 30.0, deflection)

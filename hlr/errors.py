@@ -10,11 +10,13 @@ LONGEST = 1000
 
 
 class HlrError(Exception):
-    """Base of every error that hlr raises on purpose; its message is one line, whatever it quotes."""
+    """Base of every error that hlr raises on purpose; its message is one line that ends with a full stop, whatever it
+    quotes."""
 
     def __init__(self, message: str) -> None:
         words = " ".join(message.split())
-        super().__init__(words if len(words) <= LONGEST else words[: LONGEST - 4] + " ...")
+        words = words if len(words) <= LONGEST else words[: LONGEST - 4] + " ..."
+        super().__init__(words if words.endswith((".", "!", "?")) else words + ".")
 
 
 class SourceError(HlrError):

@@ -18,7 +18,7 @@ PANIC = "PanicException"
 """What Rust's panics are called in Python. They are no `Exception`, so that nobody catches them."""
 
 
-def guarded(function: Callable[P, T], told: Callable[[], str]) -> Callable[P, T]:
+def guarded(function: Callable[P, T], told: Callable[[], str | None]) -> Callable[P, T]:
     """The function, whose panics are KernelErrors; told: where and why the last one happened."""
 
     @functools.wraps(function)

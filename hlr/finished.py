@@ -123,7 +123,7 @@ _CREASES = ("sharp", "boundary")
 
 def _empty(lines: tuple[Line, ...], fill: Fill | None) -> tuple[Note, ...]:
     painted = fill is not None and len(fill.part) > 0
-    return () if lines or painted else (Note("nothing-in-view", "nothing of the model lies in this view"),)
+    return () if lines or painted else (Note("nothing-in-view", "nothing of the model lies in this view."),)
 
 
 def drawn_view(camera: Camera) -> DrawnView:

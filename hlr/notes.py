@@ -21,6 +21,7 @@ NoteCode = Literal[
     "script-shape",
     "stray-parts",
     "glass-hides",
+    "depth-coarse",
     "cut-short",
 ]
 """All codes there are; `CODES` says what each means."""
@@ -41,6 +42,7 @@ CODES: dict[NoteCode, str] = {
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
     "stray-parts": "a few parts far from the rest make the drawing several times as large",
     "glass-hides": "transparent parts hide what is behind them: `see_through` was not asked for",
+    "depth-coarse": "depths of a preview tie that lie a pixel apart or more: the model is very deep",
     "cut-short": "the file ends too early: some of the model may be missing",
 }
 """What each code means. A code keeps its meaning; new ones may be added."""

@@ -16,6 +16,7 @@ from hlr.drawing import Drawing, DrawnPart
 from hlr.finished import drawn_view
 from hlr.fitting import Staged, meshed_scene
 from hlr.keywords import record_of, shown
+from hlr.notes import Note
 from hlr.picture import Picture
 from hlr.pipeline import drawing_of, refuse_warnings
 from hlr.plan.effect import Facts, Planner
@@ -36,7 +37,7 @@ from hlr.plan.options import View
 from hlr.plan.request import checked_views
 from hlr.plan.table import DRAWING
 from hlr.scene.scene import Scene
-from hlr.shading.lens import Lens, frame_scale, lens, light_lens, toward_light
+from hlr.shading.lens import Lens, depth_step, frame_scale, lens, light_lens, toward_light
 from hlr.shading.lines import cues, pieces, pieces_by_depth
 from hlr.shading.scene import ShadedScene, shaded_scene
 from hlr.shading.through import without_glass
@@ -102,8 +103,9 @@ def preview_views(
         started = perf_counter()
         shaded = shaded_scene(scene, looks, _before(scene, camera), options.threads)
         planner = Planner(PREVIEW, options)
-        effects = decide_effects(options, shaded.opacity, _facts(scene, camera), planner)
         eye = lens(camera, shaded.points, at.per_model * PIXELS_PER_MM, options.size)
+        facts = _facts(scene, camera, eye, opened.frame.unit)
+        effects = decide_effects(options, shaded.opacity, facts, planner)
         started = lap(own, "prepare", started)
         pixels = _empty(options.size, background)
         if effects.faces:
@@ -124,6 +126,8 @@ def preview_views(
             lap(own, "edges", started)
         own["total"] = sum(own.values())
         notes = tuple(dict.fromkeys((*opened.notes, *scene.notes, *(n for n in at.notes if n.code == "stray-parts"))))
+        if facts.depth > facts.pixel and effects.faces:
+            notes = (*notes, _coarse(facts))
         if options.strict:
             refuse_warnings(notes)
         out.append(
@@ -162,12 +166,22 @@ def _ink(
             _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, ink, threads)
 
 
-def _facts(scene: Scene, camera: Camera) -> Facts:
+def _coarse(facts: Facts) -> Note:
+    text = (
+        f"Depths within {facts.depth:.2g} mm of one another are not told apart in the picture, for the model is very "
+        "deep: leave out what lies far behind."
+    )
+    return Note("depth-coarse", text)
+
+
+def _facts(scene: Scene, camera: Camera, eye: Lens, unit: float) -> Facts:
     on = scene.true_surfaces
     return Facts(
         curved=0 if on is None else int((~on.planar).sum()),
         faces=on is not None,
         perspective=camera.eye is not None,
+        depth=depth_step(eye) * unit,
+        pixel=unit / eye[4],
     )
 
 

@@ -1,6 +1,8 @@
 """Whatever is asked, the answer is a drawing or an HlrError in one sentence, never another exception."""
 
+import ast
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from refusals import checked, drawn_or_refused, is_a_model, verdict
 
 import hlr
 from hlr import HlrError, Options, Perspective
+from hlr.errors import SourceError
 
 BOX = box((10, 20, 30))
 
@@ -200,3 +203,25 @@ def test_draw_refuses_a_crease_out_of_range(crease):
 def test_a_refusal_comes_before_the_file_is_opened():
     with pytest.raises(hlr.OptionError, match="scale"):
         hlr.draw_views("no such file.step", ["iso"], Options(scale=-1.0))
+
+
+def test_every_error_is_a_sentence():
+    for words, told in (
+        ("no view: give one", "no view: give one."),
+        ("Why?", "Why?"),
+        ("It ends here.", "It ends here."),
+    ):
+        assert str(SourceError(words)) == told
+
+
+def test_every_note_in_the_source_is_a_sentence():
+    """As far as its text stands there; what is put together ends with what stands last."""
+    found = 0
+    for path in [p for folder in ("hlr", "cli") for p in (Path(__file__).parents[1] / folder).rglob("*.py")]:
+        for call in ast.walk(ast.parse(path.read_text())):
+            if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "Note" and len(call.args) == 2:
+                last = call.args[1].values[-1] if isinstance(call.args[1], ast.JoinedStr) else call.args[1]
+                if isinstance(last, ast.Constant):
+                    found += 1
+                    assert last.value.endswith("."), f"{path.name}:{call.lineno}: {last.value!r}"
+    assert found > 10

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,6 +13,7 @@ from ..parameters import Pixels, ViewName
 from ..streams import result_only
 from ..telling import tell_written
 from ..verb import Verb
+from ..view_options import CHOICE, options
 
 if TYPE_CHECKING:
     from hlr.plan.options import View
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 @click.command(cls=Verb)
 @click.argument("source", required=False)
 @click.option("-o", "--output", metavar="DIR", help="A folder for methods.csv, methods.md and the plot methods.png.")
+@options(*CHOICE)
 @click.option("--size", type=Pixels(), metavar="WxH", default="1024x1024", help="Pixels. Default: 1024x1024.")
 @click.option(
     "--polygons",
@@ -65,6 +67,7 @@ def methods(
     view: View,
     limit: float,
     quiet: bool,
+    **chosen: Any,
 ) -> None:
     """Time the visible-surface methods on SOURCE, or on scenes of many polygons, or on both.
 
@@ -81,16 +84,17 @@ def methods(
             from hlr.surfaces import report
 
             # With a choice of scenes only those are measured; a model is a choice as well.
-            chosen = bool(counts or crossing or source)
+            some = bool(counts or crossing or source)
             found = compare_methods(
                 source,
-                counts=counts if chosen else None,
-                crossing=crossing if chosen else (100, 2_500, 60_000),
+                counts=counts if some else None,
+                crossing=crossing if some else (100, 2_500, 60_000),
                 view=view,
                 size=size,
                 limit=limit,
                 methods=methods,
                 progress=progress,
+                **chosen,
             )
         out.put(report.text(found).encode("utf-8"))
         if targets:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -16,6 +16,7 @@ from ..parameters import Scale, Size, ViewName
 from ..signals import Stopped, tidily
 from ..telling import tell_written
 from ..verb import Verb
+from ..view_options import CHOICE, options
 
 if TYPE_CHECKING:
     from hlr.plan.options import View
@@ -30,6 +31,7 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
 @click.argument("source")
 @click.option("-o", "--output", metavar="DIR", required=True, help="A folder for study.md, its tables and its plots.")
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="Default: iso.")
+@options(*CHOICE)
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model.")
 @click.option("--fit", type=Size(), metavar="WxH|A4", help="Fit into so many millimetres. Default: A4-landscape.")
 @click.option(
@@ -74,6 +76,7 @@ def study(
     limit: float,
     runs: int,
     quiet: bool,
+    **chosen: Any,
 ) -> None:
     """Measure what accuracy costs on SOURCE, beside OpenCASCADE, a z-buffer, and predicates that round.
 
@@ -108,7 +111,16 @@ def study(
         try:
             with meter(quiet) as progress:
                 measure(
-                    source, view, scale=scale, fit=fit, wish=wish, limit=limit, runs=runs, into=found, progress=progress
+                    source,
+                    view,
+                    scale=scale,
+                    fit=fit,
+                    wish=wish,
+                    limit=limit,
+                    runs=runs,
+                    into=found,
+                    progress=progress,
+                    **chosen,
                 )
         except Stopped:
             _write(targets, found)

@@ -40,6 +40,7 @@ class Facts:
     bent           edges and outlines that may be other than straight
     edges          that may be drawn
     opacity        the least of what is shown
+    depth, pixel   how far apart depths of a picture are to be told apart, and how wide a pixel is: millimetres
     """
 
     kind: str = ""
@@ -60,6 +61,8 @@ class Facts:
     bent: int = 0
     edges: int = 0
     opacity: float = 1.0
+    depth: float = 0.0
+    pixel: float = 1.0
 
 
 Needed = Callable[[Facts, Any], tuple[bool, str]]

@@ -155,6 +155,11 @@ def _glass(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
     return f.opacity < 1.0, f"the least opacity is {f.opacity:g}" if f.opacity < 1.0 else "all is opaque"
 
 
+def _tied(f: Facts, _o: PreviewOptions) -> tuple[bool, str]:
+    told = f"depths are told apart down to {f.depth:.2g} mm, a pixel is {f.pixel:.2g} mm"
+    return f.depth > f.pixel, told
+
+
 def _faces(_f: Facts, o: PreviewOptions) -> tuple[bool, str]:
     return o.look == "shaded", f"the look is {o.look}"
 
@@ -183,6 +188,7 @@ PREVIEW: tuple[Effect, ...] = (
     Effect("smooth normals", SCENE, _smooth),
     Effect("transparency", SCENE, _glass),
     Effect("perspective divide", SCENE, _eye),
+    Effect("ties of depth", SCENE, _tied),
     Effect("faces", ASKED, _faces),
     Effect("lines", ASKED, _lines),
     Effect("lines behind glass", SCENE, _behind),

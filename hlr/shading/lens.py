@@ -9,6 +9,9 @@ import numpy as np
 from hlr.source.model import Floats
 from hlr.view.camera import NEAR, Camera, Vector, cross, dot, normalized
 
+SINGLE = 2.0**-23
+"""Of 1: what numbers of single precision are off by, twice: at the corners, and between them."""
+
 Lens = tuple[Vector, Vector, Vector, Vector, float, tuple[float, float], float, tuple[float, float], tuple[int, int]]
 """right, up, ahead, origin, pixels per model unit, centre in pixels, distance of the image plane (0: parallel), nearest
 and farthest depth, (width, height)."""
@@ -52,6 +55,17 @@ def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int],
         (nearest - (0.0 if distance else room), farthest + room),
         size,
     )
+
+
+def depth_step(eye: Lens) -> float:
+    """How far apart two depths have to be to be two, at the farthest: model units.
+
+    The picture keeps them in single precision, 0 to 1; in perspective as 1 - nearest / depth, over the farthest of it.
+    """
+    nearest, farthest = eye[7]
+    if not eye[6]:
+        return (farthest - nearest) * SINGLE
+    return (farthest - nearest) * farthest / nearest * SINGLE
 
 
 def frame_scale(camera: Camera, height: int) -> float | None:

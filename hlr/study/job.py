@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -40,6 +41,7 @@ class Job:
     folder    where lines are kept for the judge; name: under which
     runs      how often a contestant draws, if that is quick
     limit     seconds of processor time for all
+    only, hide, var, annotations   which parts, as of a drawing (`hlr.Options`)
     """
 
     work: str
@@ -52,6 +54,10 @@ class Job:
     name: str = ""
     runs: int = 1
     limit: float = 60.0
+    only: Sequence[str] = ()
+    hide: Sequence[str] = ()
+    var: str | None = None
+    annotations: bool = False
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

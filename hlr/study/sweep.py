@@ -69,12 +69,17 @@ def study(
     wish: Wish | None = None,
     limit: float = 30.0,
     runs: int = 3,
+    only: Sequence[str] = (),
+    hide: Sequence[str] = (),
+    var: str | None = None,
+    annotations: bool = False,
     into: Study | None = None,
     progress: Progress | None = None,
 ) -> Study:
     """Measure all points, each `runs` times in a process of its own.
 
     scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: processor seconds for each point.
+    only, hide, var, annotations: which parts, as of a drawing (`hlr.Options`).
     into: is filled step by step, so that what is finished survives whatever stops this.
 
     Raises OptionError, and SourceError where the model cannot be drawn at all.
@@ -86,12 +91,13 @@ def study(
     tell = progress or (lambda _stage, _done: None)
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
         # Without a scale as large as fits; from then on the same for all.
-        first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit)
+        chosen: dict[str, Any] = {"only": tuple(only), "hide": tuple(hide), "var": var, "annotations": annotations}
+        first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit, **chosen)
         tell("look", 0.0)
         out.look = answer(first)
         if out.look.get("failure"):
             raise SourceError(f"{source} cannot be studied: {out.look['failure']}")
-        common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder, "runs": runs}
+        common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder, "runs": runs, **chosen}
         _Points(out, common, wish, limit, tell).run()
     out.finished = True
     return out
@@ -158,7 +164,9 @@ class _Points:
             if not found.get("failure"):
                 self._out.truth = accuracy
                 return
-        self._out.notes.append(f"No errors were measured: the true lines could not be drawn ({found['failure']}).")
+        self._out.notes.append(
+            f"No errors were measured: the true lines could not be drawn ({found['failure'].rstrip('.')})."
+        )
 
     def _judge(self) -> None:
         if self._out.truth is None:
@@ -167,14 +175,18 @@ class _Points:
             if point.failure is None:
                 found = self._answer("judge", point.setting, f"{number}", PATIENCE)
                 if found.get("failure"):
-                    self._out.notes.append(f"{point.who} at {point.setting:g} was not judged: {found['failure']}.")
+                    self._out.notes.append(
+                        f"{point.who} at {point.setting:g} was not judged: {found['failure'].rstrip('.')}."
+                    )
                 else:
                     point.errors = found["errors"]
 
     def _arithmetic(self, accuracy: float) -> None:
         found = self._answer("arithmetic", accuracy, patience=PATIENCE)
         if found.get("failure"):
-            self._out.notes.append(f"Kinds of arithmetic were not compared at {accuracy:g} mm: {found['failure']}.")
+            self._out.notes.append(
+                f"Kinds of arithmetic were not compared at {accuracy:g} mm: {found['failure'].rstrip('.')}."
+            )
         else:
             self._out.arithmetic += found["kinds"]
 

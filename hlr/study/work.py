@@ -20,7 +20,7 @@ from hlr.pipeline import draw_views
 from hlr.plan.options import Options
 from hlr.plan.plan import decide
 from hlr.scene.scene import Scene
-from hlr.source import open_source
+from hlr.source.chosen import open_chosen
 from hlr.source.model import Source
 from hlr.study.ink import Ink, drawing_of, ink_of, load
 from hlr.study.job import EXACT, HLR, POLY, ZBUFFER, Cost, Job, Point
@@ -78,11 +78,19 @@ REPEAT = 0.5
 
 
 def _options(job: Job, **others: Any) -> Options:
-    return Options(scale=job.scale or 1.0, fit=None if job.scale else job.fit, **others)
+    return Options(
+        scale=job.scale or 1.0,
+        fit=None if job.scale else job.fit,
+        only=tuple(job.only),
+        hide=tuple(job.hide),
+        var=job.var,
+        annotations=job.annotations,
+        **others,
+    )
 
 
 def _opened(job: Job, options: Options) -> tuple[Source, Camera, Placed]:
-    opened = open_source(job.source)
+    opened = open_chosen(job.source, job)
     bounds = opened.bounds()
     camera = resolve(job.view, options, opened.frame, bounds)
     return opened, camera, place(camera, options, opened, bounds)
@@ -240,7 +248,7 @@ def _reached(job: Job) -> dict[str, Any]:
     """What an independent measurement says of our own drawing: OpenCASCADE's curves, surfaces, rays."""
     from hlr.measure import measured
 
-    opened = open_source(job.source)
+    opened = open_chosen(job.source, job)
     drawing = draw_views(opened, [job.view], _options(job, accuracy=job.setting))[0]
     return {"reached": measured(opened, drawing).as_dict()}
 

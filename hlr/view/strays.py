@@ -36,7 +36,7 @@ def stray_note(names: Sequence[str], boxes: Sequence[Floats], camera: Camera) ->
     them = "it" if len(stray) == 1 else "them"
     listed = ", ".join(f'"{name}"' for name in stray)
     text = f"{who} far from the rest, and the drawing is {ratio:.2g} times as large for {them}: leave {them} out with"
-    return Note("stray-parts", f"{text} {cure} (in Python, hide=[{listed}])")
+    return Note("stray-parts", f"{text} {cure} (in Python, hide=[{listed}]).")
 
 
 def strays(low: Floats, high: Floats) -> list[int]:

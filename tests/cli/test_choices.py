@@ -28,6 +28,11 @@ def test_on_the_command_line(hlr_real, tmp_path):
     assert [part["name"] for part in json.loads((tmp_path / "a.json").read_text())["parts"]] == ["bolt"]
     assert hlr_real("preview", "m.glb", "-o", "a.png", "--hide", "nut", "--size", "20x20").code == 0
     assert hlr_real("plan", "m.glb", "--only", "nut").code == 0
+    methods = ("methods", "m.glb", "--size", "64x64", "--method", "z-buffer", "-q")
+    assert "m.glb: 12\n" in hlr_real(*methods, "--hide", "nut", "--hide", "plate").out
+    assert hlr_real("methods", "--only", "nut", "-q").err.endswith("choose parts of a model: name one.\n")
+    study = ("study", "m.glb", "-o", "s", "--accuracy", "1", "--no-rivals", "--no-reached", "--runs", "1", "-q")
+    assert hlr_real(*study, "--only", "nut").code == 0 and "1 part" in (tmp_path / "s" / "study.md").read_text()
     refused = hlr_real("draw", "m.glb", "--only", "blot")
     assert refused.code == 2 and 'perhaps "bolt"' in refused.err
 

@@ -179,3 +179,23 @@ def test_highlights_are_white_and_only_where_asked():
     more = (shiny - plain).min(axis=2)
     assert (shiny >= plain).all() and more.max() > 20
     assert 0.002 < (more > 5).mean() < 0.15
+
+
+def test_ties_of_depth_are_told_where_they_can_be_seen():
+    plain = hlr.preview(joined(box(), wall(3)), view="front", size=(60, 60))
+    (row,) = [d for d in plain.plan if d.name == "ties of depth"]
+    assert not row.on and all(note.code != "depth-coarse" for note in plain.notes)
+    for perspective in (None, hlr.Perspective(eye=(0, -40, 0), target=(0, 0, 0), fov=20)):
+        deep = joined(box(), wall(1e9))
+        picture = hlr.preview(deep, view="front", size=(60, 60), perspective=perspective)
+        (row,) = [d for d in picture.plan if d.name == "ties of depth"]
+        assert row.on and row.reason.startswith("depths are told apart down to ")
+        assert [note.code for note in picture.notes if note.code == "depth-coarse"] == ["depth-coarse"]
+
+
+def test_of_faces_in_one_place_the_first_is_seen():
+    red, blue = colored(wall(0), (200, 30, 30, 255)), colored(wall(0), (30, 30, 200, 255))
+    for one, other, wins in ((red, blue, 0), (blue, red, 2)):
+        picture = hlr.preview(trimesh.Scene([one, other]), view="front", size=(60, 60), antialias=False)
+        inner = picture.pixels[10:50, 10:50, :3].reshape(-1, 3)
+        assert (inner.argmax(axis=1) == wins).all()

@@ -246,5 +246,5 @@ def test_an_eye_that_sees_nothing_says_so():
     away = Perspective(eye=(0, -100, 0), target=(0, -200, 0), fov=40.0)
     drawing = hlr.draw(box((10, 10, 10)), "front", perspective=away)
     assert drawing.lines == ()
-    assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view"),)
+    assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view."),)
     assert drawing.bounds == (0, 0, 0, 0)

@@ -16,10 +16,10 @@ fn fault() -> std::sync::MutexGuard<'static, Option<String>> {
     FAULT.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// What the last panic said, once; "" if there was none.
+/// What the last panic said, once; None if the hook has noted none.
 #[pyfunction]
-pub fn take_fault() -> String {
-    fault().take().unwrap_or_default()
+pub fn take_fault() -> Option<String> {
+    fault().take()
 }
 
 /// Panics, on the caller's thread or on a worker: for tests of the guard.
@@ -35,7 +35,10 @@ pub fn caught<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(done) => done,
         Err(_) => {
-            let error = py.import("hlr.faults")?.getattr("fault")?.call1((take_fault(),))?;
+            let error = py
+                .import("hlr.faults")?
+                .getattr("fault")?
+                .call1((take_fault().unwrap_or("a place that it could not name".into()),))?;
             Err(PyErr::from_value(error))
         }
     }
@@ -44,7 +47,7 @@ pub fn caught<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult
 /// Put everything in the module behind the guard, and let panics be told by it instead of on standard error.
 pub fn guard(m: &Bound<'_, PyModule>) -> PyResult<()> {
     std::panic::set_hook(Box::new(|info| {
-        let place = info.location().map(|l| format!("{}:{}", l.file(), l.line())).unwrap_or_default();
+        let place = info.location().map_or("an unknown place".into(), |l| format!("{}:{}", l.file(), l.line()));
         let payload = info.payload();
         let words = payload.downcast_ref::<&str>().copied().or(payload.downcast_ref::<String>().map(String::as_str));
         let words = words.unwrap_or("no reason given");

@@ -111,7 +111,8 @@ impl RasterScene {
             NONE => f64::INFINITY,
             _ => on.true_depth(f, (k % canvas.width) as i64, (k / canvas.width) as i64),
         };
-        let mut trace = canvas.trace.take().unwrap_or_default();
+        // There is none where nobody asked for it.
+        let mut trace = canvas.trace.take().unwrap_or_else(Vec::new);
         trace.iter_mut().for_each(|w| w.facet = id(w.facet) as u32);
         let mut visits = std::mem::take(&mut canvas.visits);
         visits.iter_mut().filter(|v| v.facet != NONE).for_each(|v| v.facet = id(v.facet) as u32);
@@ -294,7 +295,7 @@ impl RasterScene {
             };
             listed.map(|l| (l, statistics))
         })?;
-        let (list, statistics) = found.unwrap_or_default();
+        let (list, statistics) = found.ok_or_else(unfinished)?;
         let out = PyDict::new(py);
         let (mut ids, mut polygons, mut loops, mut points) = (vec![], vec![0i32], vec![0i32], Vec::<[f64; 2]>::new());
         for (polygon, pieces) in list {
@@ -352,7 +353,7 @@ impl RasterScene {
             with_tree(&self.scene(), &self.tree, watch, &mut Statistics::default(), |tree, _| Some(tree.drawn()))
         })?;
         let ids = |polygons: Vec<u32>| polygons.into_iter().map(|p| self.id(p)).collect();
-        Ok(drawn.unwrap_or_default().into_iter().map(|(p, behind, front)| (ids(p), behind, front)).collect())
+        Ok(drawn.ok_or_else(unfinished)?.into_iter().map(|(p, behind, front)| (ids(p), behind, front)).collect())
     }
 
     /// The scene with some of its points moved. The tree goes with it: the polygons at those points are let in again.

@@ -52,7 +52,7 @@ impl Fitted {
         let number = |steps: i64| {
             let mut out = Vec::new();
             put(&mut out, steps, self.places);
-            String::from_utf8(out).unwrap_or_default()
+            out.into_iter().map(char::from).collect::<String>()
         };
         let lengths: Vec<String> = self.lengths.iter().map(|v| number(*v)).collect();
         (lengths.join(" "), if self.lengths.is_empty() { String::new() } else { number(self.offset) })

@@ -32,6 +32,7 @@ pub mod picture;
 pub mod pyramid;
 pub mod raster;
 pub mod resolve;
+pub mod sampling;
 pub mod shade;
 pub mod shadow;
 pub mod small;

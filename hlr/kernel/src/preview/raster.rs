@@ -10,16 +10,10 @@
 //! A sample on an edge belongs to the face whose left or top edge it is, so that of two faces with a common edge exactly
 //! one owns it. All that is exact: E is an integer; samples are 2^shift steps apart, so its sign at sample (i, j) is that
 //! of floor(E(0, 0) / 2^shift) + A i + B j, which fits 32 bits within a tile.
-//!
-//! ```text
-//!   one sample a pixel        sixteen: a grid of 4 x 4, sheared so that all x and all y differ (rooks)
-//!   +-------+                 rows shifted in x by SHEAR[row], columns in y by SHEAR[column]
-//!   |   .   |
-//!   +-------+
-//! ```
 
-use super::faces::{Face, GRID};
+use super::faces::Face;
 use super::pyramid::Pyramid;
+pub use super::sampling::Sampling;
 use super::{NOTHING, edges, small, spans};
 
 pub const TILE_WIDTH: usize = 64;
@@ -29,48 +23,6 @@ pub const LANES: usize = 8;
 const EMPTY: f64 = f64::from_bits((2f32.to_bits() as u64) << 32 | NOTHING as u64);
 /// Beyond this an edge function keeps its sign all over the tile.
 pub const FAR: i64 = 1_000_000_000;
-
-/// Where a pixel is looked at.
-#[derive(Clone, Copy, Debug)]
-pub struct Sampling {
-    /// Samples along a side of a pixel: 1 or 4.
-    pub side: usize,
-    pub shift: u32,
-    pub shear: [i32; 4],
-}
-
-impl Sampling {
-    pub const CENTRES: Sampling = Sampling { side: 1, shift: 8, shear: [0; 4] };
-    pub const SIXTEEN: Sampling = Sampling { side: 4, shift: 6, shear: [-24, 8, -8, 24] };
-
-    /// Rows of tiles in a picture of this height.
-    pub fn strips(&self, height: usize) -> usize {
-        (height * self.side).div_ceil(TILE_HEIGHT)
-    }
-
-    /// First sample and the one after the last, along one axis, that a face may own; `size` in pixels.
-    #[inline(always)]
-    pub fn reach(&self, corners: &[i32; 3], size: usize) -> [i32; 2] {
-        let low = corners[0].min(corners[1]).min(corners[2]);
-        let high = corners[0].max(corners[1]).max(corners[2]);
-        let (step, spread) = (1 << self.shift, self.shear[3]);
-        let first = (low - step / 2 - spread + step - 1) >> self.shift;
-        let end = ((high - step / 2 + spread) >> self.shift) + 1;
-        let most = size.saturating_mul(self.side).min(i32::MAX as usize) as i32;
-        [first.max(0), end.min(most)]
-    }
-
-    /// A sample's place in pixels.
-    #[inline(always)]
-    pub fn place(&self, i: usize, j: usize) -> [f64; 2] {
-        let step = 1i64 << self.shift;
-        let at = |k: usize, across: usize| {
-            let steps = k as i64 * step + step / 2 + i64::from(self.shear[across & 3]);
-            steps as f64 / f64::from(GRID)
-        };
-        [at(i, j), at(j, i)]
-    }
-}
 
 /// Depth and owner of the samples of one tile: the bits of a depth, which is not negative, above the number of a triangle.
 /// So the nearer of two is the smaller number, and of equal depths that of the first triangle. It is kept as the double of
