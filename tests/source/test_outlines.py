@@ -121,6 +121,17 @@ def test_each_wire_of_a_face_is_chained_by_itself():
         assert -1e-6 <= ends[..., 0].min() < TURN
 
 
+def test_a_wire_without_edges_is_passed_over():
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Wire
+
+    face, empty = face_of(cq.Workplane().cylinder(10, 3).val(), "CYLINDER"), TopoDS_Wire()
+    BRep_Builder().MakeWire(empty)
+    face.Free(True)
+    BRep_Builder().Add(face, empty)
+    outlines.chained(face)
+
+
 def test_a_plane_is_left_alone(monkeypatch):
     face = face_of(cq.Workplane().box(1, 2, 3).val(), "PLANE")
     monkeypatch.setattr(outlines, "_uses", None)
@@ -147,7 +158,7 @@ def test_whole_periods():
     assert outlines._whole(np.array([6.1, -6.1]), np.array([2.0, 2.0]), down=True).tolist() == [8.0, -6.0]
     # What is beyond by rounding alone takes no further period.
     assert outlines._whole(np.array([6.0 + 1e-7, 6.0 + 1e-5]), np.array([2.0, 2.0]), down=True).tolist() == [6.0, 8.0]
-    assert outlines._whole(np.array([6.0 + 1.5e-6, 0]), np.array([2.0, 2.0]), down=True).tolist() == [6.0, 0.0]
+    assert outlines._whole(np.array([6.0 + 1.5e-6, 6.0 + 3e-6]), np.array([2.0, 2.0]), down=True).tolist() == [6.0, 8.0]
 
 
 class Vertex(SimpleNamespace):
@@ -181,6 +192,12 @@ def test_of_several_at_one_vertex_the_nearest_in_u_and_v_follows():
     far = use("s1", 1, 1, (5 * TURN + 0.1, 0.1), (TURN, 1))
     assert order(a, down, far) == ["a", "s1", "t1"]
     assert order(a, use("s1", 1, 1, (TURN, 2.0), (0, 0)), use("t1", 1, 1, (TURN, 1.0), (0, 0))) == ["a", "t1", "s1"]
+
+
+def test_it_is_the_end_that_the_next_one_is_near_to():
+    a = use("a", 1, 1, (0.2, 5), (1, 3))
+    start, opposite, near = (use(n, 1, 1, at, (9, 9)) for n, at in (("s", (0.2, 5)), ("o", (-1, -3)), ("n", (1, 3.1))))
+    assert order(a, start, opposite, near)[:2] == ["a", "n"]
 
 
 def test_an_edge_does_not_follow_itself():

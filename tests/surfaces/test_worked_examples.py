@@ -1,8 +1,5 @@
 """The literature's worked examples, each under its own name, with the tables they come with."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from surfaces.random_scenes import SIZE, interpenetrating
@@ -14,9 +11,6 @@ from hlr.surfaces import (
     Screen,
     active_edges,
     crossing_pairs,
-    frame_memory,
-    method_memory,
-    peak_memory,
     render,
     spans,
     trace_svg,
@@ -395,48 +389,3 @@ def test_9_scan_lines_split_where_polygons_interpenetrate():
         return sum(render(s, SCREEN, SIZE, method, variant=variant).statistics.splits for s in scenes)
 
     assert count("scan line") > 0 == count("z-buffer")
-
-
-# 10. Memory ----------------------------------------------------------------------------------------------------------
-
-
-MIB = 1 << 20
-
-
-def test_10_memory_of_a_frame():
-    assert frame_memory(1024, 1280, colour=4, depth=4, doubled=True) == 20 * MIB
-    assert frame_memory(1024, 1024, colour=0, depth=4) == 4 * MIB
-    assert frame_memory(1024, 1, colour=0, depth=4) == 4 << 10
-
-
-@pytest.mark.parametrize("size", [(1024, 1024), (3840, 2160)])
-@pytest.mark.parametrize("method", METHODS)
-def test_10_methods_hold_what_is_stated(method, size):
-    # One rectangle: what the scene adds is little, but for the heads of an edge table, 4 bytes a row.
-    held = render([box(0, 0, 4, 4, 1)], SCREEN, size, method).statistics.memory
-    assert method_memory(method, size) <= held <= method_memory(method, size) + 8 * size[1] + 8192
-
-
-TAKEN = """
-import sys
-from hlr.surfaces import SCREEN, render
-scene = [[(0, 0, 1), (4, 0, 1), (4, 4, 1)]]
-render(scene, SCREEN, (8, 8), sys.argv[1])
-# Of this program alone: ru_maxrss begins with what the one that started it had.
-most = lambda: int(open("/proc/self/status").read().split("VmHWM:")[1].split()[0]) * 1024
-before = most()
-render(scene, SCREEN, (int(sys.argv[2]),) * 2, sys.argv[1])
-print(most() - before)
-"""
-
-
-@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux tells the most that a program had")
-@pytest.mark.parametrize("method", ["z-buffer", "scan-line z-buffer", "warnock"])
-def test_10_a_process_takes_what_is_stated(method):
-    def taken(side):
-        command = [sys.executable, "-P", "-c", TAKEN, method, str(side)]
-        return int(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-
-    stated = {side: peak_memory(method, (side, side)) for side in (1024, 3072)}
-    small, large = taken(1024), taken(3072)
-    assert large - small == pytest.approx(stated[3072] - stated[1024], rel=0.1)
