@@ -24,10 +24,51 @@ def read_mesh(
     """
 
 def edge_table(triangles: Ints, n_points: int) -> tuple[Ints, Ints, Ints]: ...
-def edge_balance(triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Ints: ...
-def edge_folds(
-    points: Floats, triangles: Ints, offsets: Ints, incident: Ints, balance: Ints
-) -> tuple[Floats, Floats]: ...
+def clean_mesh(
+    points: Floats, triangles: Ints
+) -> tuple[Floats, Ints, npt.NDArray[np.uint32] | None, tuple[int, int, int]]:
+    """Points (n, 3) with equal ones joined, triangles (m, 3) without impossible ones, which of the given these are
+    (None: all), and how many were left out: not finite, out of range, degenerate."""
+
+def mesh_facts(
+    points: Floats, triangles: Ints
+) -> tuple[Ints, Ints, Ints, Ints, Floats, Floats, npt.NDArray[np.int64], bool]:
+    """edges (e, 2), offsets (e+1,), incident (k,), balance (e,), fold (e,), normals (t, 3), flat (f,), repeated: the
+    fields of `hlr.scene.topology.MeshFacts`."""
+
+def group_facts(
+    points: Floats, triangles: Ints, group: Ints, count: int
+) -> tuple[Floats, Floats, npt.NDArray[np.uint32], Floats, Floats]:
+    """Of each group its box, low (g, 3) and high (g, 3), its triangles, six times its volume, and twice its area."""
+
+def bent_groups(
+    points: Floats,
+    triangles: Ints,
+    edges: Ints,
+    offsets: Ints,
+    incident: Ints,
+    normals: Floats,
+    group: Ints,
+    least: Floats,
+) -> Bools:
+    """(g,) whether a group bends inward at an edge by more than least (g,), or has an edge of not two triangles."""
+
+def group_pieces(group: Ints, piece: Ints, count: int) -> npt.NDArray[np.uint32]:
+    """(g,) connected pieces of each group; group (t,), piece (t,) as `components` numbers them."""
+
+def needles(
+    points: Floats, triangles: Ints, normals: Floats, part: Ints, least: Floats
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Triangles lower than least (p,) of their part, or without area, ascending; and which side (0..2) is longest."""
+
+def edge_kinds(
+    offsets: Ints, fold: Floats, edge_part: Ints, bare: Bools, sharp: float, near: float
+) -> tuple[Bytes, npt.NDArray[np.int64]]:
+    """(e,) EdgeClass of the edges of parts that are bare (p,), 255 for others; and which of these are nearly creases.
+
+    sharp, near: cosines of folds, below which an edge is a crease, or nearly one.
+    """
+
 def stitched(points: Floats, triangles: Ints, reach: float) -> tuple[Ints, Ints, int]: ...
 def components(triangles: Ints, n_points: int) -> Ints: ...
 def edge_components(edges: Ints, n_points: int) -> Ints: ...

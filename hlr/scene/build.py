@@ -20,7 +20,7 @@ from hlr.scene.defects import notes, reports
 from hlr.scene.groups import checked, grouped, welded, with_wires
 from hlr.scene.needles import supported
 from hlr.scene.outward import inside_out, surfaces_turned, turned_outward
-from hlr.scene.repair import anything_repeated, without_duplicates
+from hlr.scene.repair import places_repeated, without_duplicates
 from hlr.scene.scene import INTERIOR, Scene, TrueSurfaces
 from hlr.scene.stitch import bare_borders, stitched
 from hlr.scene.topology import (
@@ -45,9 +45,13 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
     """
     plan = planner or Planner(DRAWING, Options())
-    parts, doubled = _repaired(meshed.parts, plan)
+    parts = meshed.parts
     points, triangles, part_of = _put_together(parts)
     mesh = mesh_facts(points, triangles)
+    parts, doubled = _repaired(parts, mesh, plan)
+    if any(one is not other for one, other in zip(parts, meshed.parts, strict=True)):
+        points, triangles, part_of = _put_together(parts)
+        mesh = mesh_facts(points, triangles)
     parts, seams = _stitched(parts, mesh, part_of, deflection, plan)
     if seams:
         points, triangles, part_of = _put_together(parts)
@@ -58,27 +62,28 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
 
     brep = np.array([p.brep for p in parts], bool)
     curved = _curved(parts, part_of, face)
-    edge_part = part_of[incident[offsets[:-1]]]
-    bare = ~brep[edge_part]
+    first = mesh.first()
+    edge_part = part_of[first] if len(parts) > 1 else np.zeros(len(edges), np.int32)
     walks, loose = source_walks(parts, firsts, edges, len(points))
     kind = np.full(len(edges) + len(loose), INTERIOR, np.uint8)
     facets = None
-    if bare.any():
-        coarse = np.array([p.precision for p in parts])[part_of]
-        sure = supported(mesh, points, triangles, coarse)
+    if len(edges) and not brep[edge_part].all():
+        sure = supported(mesh, points, triangles, part_of, np.array([p.precision for p in parts]))
         facets = sure.normals
-        kind[: len(edges)] = creases(sure, bare, crease, points)
-        walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part, bare))
+        kind[: len(edges)] = creases(sure, edge_part, ~brep, crease, points)
+        walks = joined(walks, crease_walks(points, edges, kind[: len(edges)], edge_part))
     # Backwards, so that of several source edges along one mesh edge the first gives its class.
     kind[walks.edges[::-1]] = np.repeat(walks.kind, np.diff(walks.offsets))[::-1]
     walks = between_planes(walks, mesh, kind, curved)
 
     whole = brep & (np.bincount(edge_part[balance != 0], minlength=len(parts)) == 0)
     group_of, group_part = grouped(whole, triangles, part_of, len(points))
-    groups = checked(points, triangles, group_of, group_part, edges, offsets, incident, balance, brep, curved)
+    groups = checked(points, triangles, group_of, group_part, mesh, brep, curved)
     inward = inside_out(groups, group_part)
-    turned = inward[group_of]
+    turned = inward[group_of] if inward.any() else np.zeros(len(triangles), bool)
     if inward.any():
+        if len(parts) == 1:
+            triangles = triangles.copy()  # they are the part's own
         facets = None if facets is None else np.where(turned[:, None], -facets, facets)
         groups = turned_outward(groups, inward, triangles, mesh, turned)
     suspect = may_fold_into_itself(points, triangles, mesh, group_of, groups)
@@ -90,10 +95,12 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     else:
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
-    found = reports(parts, doubled, mesh, kind, part_of, groups, group_part, inward, crossed_parts(met, group_part))
+    found = reports(
+        parts, doubled, mesh, kind, part_of, edge_part, groups, group_part, inward, crossed_parts(met, group_part)
+    )
     groups = distrusted(groups, met.through | welded(offsets, incident, group_of, groups))
 
-    edge_group = group_of[incident[offsets[:-1]]]
+    edge_group = group_of[first]
     if len(loose):
         # Wires of no face: edges without triangles, in a group of their own part.
         vertex_part = np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.points) for p in parts])
@@ -117,7 +124,8 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     curved |= _run_into(curved, kind, mesh, part_of, face, parts)
     edge_curved = np.zeros(len(edges), bool)
     faced = len(offsets) - 1
-    edge_curved[:faced] = np.logical_or.reduceat(curved[incident], offsets[:-1]) if faced else False
+    if faced:
+        edge_curved[:faced] = True if curved.all() else np.logical_or.reduceat(curved[incident], offsets[:-1])
     edge_curved[:faced] &= ~folded_back(mesh)
     offsets = np.concatenate([offsets, np.full(len(edges) - faced, offsets[-1], np.int32)])
     on = _true_surfaces(parts)
@@ -150,10 +158,10 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     )
 
 
-def _repaired(parts: list[PartMesh], plan: Planner) -> tuple[list[PartMesh], list[int]]:
+def _repaired(parts: list[PartMesh], mesh: MeshFacts, plan: Planner) -> tuple[list[PartMesh], list[int]]:
     """The parts without what is there twice, and how many triangles that left out of each."""
     with plan.deciding():
-        repeated = anything_repeated(parts)
+        repeated = mesh.repeated or places_repeated(parts)
     begin = perf_counter()
     found = [(part, 0) for part in parts]
     if plan.on("repair", Facts(repeated=repeated)):
@@ -168,13 +176,19 @@ def _put_together(parts: list[PartMesh]) -> tuple[Floats, Ints, Ints]:
     if sum(len(p.triangles) for p in parts) > MOST_TRIANGLES:
         raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
     firsts = _firsts([len(p.points) for p in parts])
-    points: Floats = np.concatenate([np.zeros((0, 3)), *[p.points for p in parts]])
-    if not (np.abs(points) < LARGEST).all():  # also where one is NaN
+    points = _joined([np.zeros((0, 3)), *[p.points for p in parts]])
+    if not (points.max(initial=0.0) < LARGEST and points.min(initial=0.0) > -LARGEST):  # also where one is NaN
         raise SourceError(
             f"the tessellation has coordinates that are not finite or beyond {LARGEST:g}: repair the model"
         )
-    triangles = np.concatenate([np.zeros((0, 3), np.int32), *[p.triangles + firsts[i] for i, p in enumerate(parts)]])
+    numbered = [p.triangles + firsts[i] if firsts[i] else p.triangles for i, p in enumerate(parts)]
+    triangles = _joined([np.zeros((0, 3), np.int32), *numbered])
     return points, triangles, np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts])
+
+
+def _joined(tables: list[npt.NDArray[Any]]) -> npt.NDArray[Any]:
+    """The tables one after another; of two, of which the first is empty, the other itself."""
+    return np.ascontiguousarray(tables[1]) if len(tables) == 2 else np.concatenate(tables)
 
 
 def _stitched(
@@ -255,6 +269,8 @@ def _run_into(
     Seen edge-on, such a plane is the curved face's outline, and rounding decides along which of its edges it folds.
     """
     smooth = np.flatnonzero(kind[: len(mesh.balance)] == EdgeClass.SMOOTH)
+    if not len(smooth):
+        return np.zeros(len(face), bool)
     number = _firsts([len(p.face_planar) for p in parts])[part_of] + face
     touched = np.zeros(int(number.max(initial=-1)) + 1, bool)
     for k in (0, 1):
@@ -268,4 +284,6 @@ def _curved(parts: list[PartMesh], part_of: Ints, face: Ints) -> npt.NDArray[np.
     """(t,) bool: the triangle lies on a face that may show an outline."""
     firsts = _firsts([len(p.face_planar) for p in parts])
     planar = np.concatenate([np.zeros(0, bool), *[p.face_planar for p in parts]])
+    if not planar.any():
+        return np.ones(len(face), bool)
     return np.asarray(~planar[firsts[part_of] + face])

@@ -90,6 +90,8 @@ def clashes(
     curved (t,) bool: triangles of faces that are not planar, or that may be anything.
     """
     found = _kernel.clashes(points, triangles, group_of, itself)
+    if not len(found["triangles"]):
+        return replace(no_clashes(len(itself)), tests=int(found["tests"]))
     group = np.asarray(group_of[found["triangles"]].reshape(-1, 2))
     touch = touching(groups, CONTACT * deflection, PLANAR * deflection)[group].max(axis=1, initial=0.0)
     touch = np.where((group[:, 0] == group[:, 1]) & ~groups.bare[group[:, 0]], SELF * touch, touch)
@@ -304,22 +306,13 @@ def may_fold_into_itself(
     What is closed, in one piece, bends outward or not at all at every edge, and goes round its middle once, is convex.
     """
     count = len(groups.closed)
-    incident, offsets = mesh.incident, mesh.offsets
-    first = offsets[:-1]
-    edge_group = group_of[incident[first]]
-    two = np.diff(offsets) == 2
-    bent = np.bincount(edge_group[~two], minlength=count) > 0
-    s, t = incident[first[two]], incident[first[two] + 1]
-    ends = mesh.edges[two]
-    apex = triangles[t].sum(axis=1, dtype=np.int64) - ends.sum(axis=1, dtype=np.int64)
-    away = points[apex] - points[ends[:, 0]]
-    height = np.einsum("ij,ij->i", mesh.normals[s], away)
     size = np.where(np.isfinite(groups.low[:, 0]), (groups.high - groups.low).max(axis=1), 0.0)
-    hollow = height > ROUNDING * size[edge_group[two]]
-    bent |= np.bincount(edge_group[two][hollow], minlength=count) > 0
-    piece = _kernel.components(triangles, len(points))
-    pieces = np.bincount(distinct(group_of.astype(np.int64) << 32 | piece) >> 32, minlength=count)
-    bent |= ~groups.cull | (pieces != 1)
+    bent = ~groups.cull | _kernel.bent_groups(
+        points, triangles, mesh.edges, mesh.offsets, mesh.incident, mesh.normals, group_of, ROUNDING * size
+    )
+    if bent.all():
+        return bent
+    bent |= _kernel.group_pieces(group_of, _kernel.components(triangles, len(points)), count) != 1
     return np.asarray(bent | (_passed(points, triangles, group_of, ~bent) != 1))
 
 

@@ -38,18 +38,15 @@ roughness of scans goes on for eleven at most (a skull, a bunny, a turbine blade
 or more."""
 
 
-def creases(mesh: MeshFacts, bare: Bools, crease: float, points: Floats) -> Kinds:
-    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees)."""
-    kind = np.full(len(mesh.edges), 255, np.uint8)
-    count = np.diff(mesh.offsets)
-    kind[bare & (count == 1)] = EdgeClass.BOUNDARY
-    kind[bare & (count > 2)] = EdgeClass.SHARP
-    kind[bare & (mesh.fold < _cosine(crease - SLACK))] = EdgeClass.SHARP
-    near = np.flatnonzero(bare & (kind == 255) & (mesh.fold < _cosine(NEAR_FOLD * crease)))
+def creases(mesh: MeshFacts, edge_part: Ints, bare: Bools, crease: float, points: Floats) -> Kinds:
+    """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees).
+
+    edge_part (e,); bare: per part.
+    """
+    sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
+    kind, near = _kernel.edge_kinds(mesh.offsets, mesh.fold, edge_part, bare, sharp, near_fold)
     kind[_continuing(kind, mesh.edges, near, points)] = EdgeClass.SHARP
-    # Also where there is no fold, at a border.
-    clear = ~(mesh.fold >= _cosine(CLEAR_FOLD * crease))
-    kind[_slight(kind, mesh.edges, clear, len(points))] = 255
+    kind[_slight(kind, mesh, _cosine(CLEAR_FOLD * crease), len(points))] = 255
     return kind
 
 
@@ -65,6 +62,8 @@ def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Fl
     faces end at its rims, and stay smooth.
     """
     chosen = np.flatnonzero(kind != 255)
+    if not len(chosen) or not len(near):
+        return []
     degree = np.bincount(edges[chosen].ravel(), minlength=len(points))
     at_end = (degree[edges[chosen]] == 1).any(axis=1)
     ends = [
@@ -103,18 +102,20 @@ def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Fl
     return found
 
 
-def _slight(kind: Kinds, edges: Ints, clear: Bools, n: int) -> Ints:
+def _slight(kind: Kinds, mesh: MeshFacts, clear_fold: float, n: int) -> Ints:
     """Edges of figures of which none is clear, and which are short or end within smooth surfaces."""
     chosen = np.flatnonzero(kind != 255).astype(np.int32)
     if len(chosen) == 0:
         return chosen
-    ends = edges[chosen]
+    ends = mesh.edges[chosen]
+    # Also where there is no fold, at a border.
+    clear = ~(mesh.fold[chosen] >= clear_fold)
     figure = _kernel.edge_components(np.ascontiguousarray(ends), n)
     single = (np.bincount(ends.ravel(), minlength=n) == 1)[ends].sum(axis=1)
     long = np.bincount(figure)
     open_ended = np.bincount(figure, weights=single) >= 2
     few = long < np.where(open_ended, LONG_CREASE, LONE_EDGES)
-    slight = few & (np.bincount(figure, weights=clear[chosen]) == 0)
+    slight = few & (np.bincount(figure, weights=clear) == 0)
     lone: Ints = chosen[slight[figure]]
     return lone
 

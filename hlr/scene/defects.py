@@ -20,6 +20,7 @@ def reports(
     mesh: MeshFacts,
     kind: npt.NDArray[np.uint8],
     part_of: Ints,
+    edge_part: Ints,
     groups: Groups,
     group_part: Ints,
     inward: npt.NDArray[np.bool_],
@@ -27,12 +28,13 @@ def reports(
 ) -> tuple[ScenePart, ...]:
     """Per part what it is and what is wrong with it.
 
-    doubled: triangles already left out as duplicates; kind: of all mesh edges; part_of (t,); group_part (g,);
-    inward: (g,) bool, what had to be turned outward; crossed: numbers of parts whose surfaces pass through one another.
+    doubled: triangles already left out as duplicates; kind: of all mesh edges; part_of (t,); edge_part (e,); group_part
+    (g,); inward: (g,) bool, what had to be turned outward; crossed: numbers of parts whose surfaces pass through one
+    another.
     """
     n = len(parts)
     uses = np.diff(mesh.offsets)
-    own = part_of[mesh.incident[mesh.offsets[:-1]]]
+    own = edge_part[: len(uses)]
 
     def per_part(edges: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
         return np.bincount(own[edges], minlength=n)
@@ -40,7 +42,7 @@ def reports(
     border, crowded = per_part(uses == 1), per_part(uses > 2)
     turned = per_part((uses == 2) & (mesh.balance != 0))
     drawn = per_part(kind[: len(own)] != INTERIOR)
-    flat = np.bincount(part_of[np.abs(mesh.normals).max(axis=1, initial=0.0) == 0.0], minlength=n)
+    flat = np.bincount(part_of[mesh.flat], minlength=n)
 
     def groups_of_part(chosen: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
         return np.bincount(group_part[chosen], minlength=n)

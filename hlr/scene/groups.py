@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.scene.scene import Groups
+from hlr.scene.topology import MeshFacts
 from hlr.source.model import Floats, Ints
 from hlr.tolerance import MESH_CONTACT
 
@@ -21,6 +22,11 @@ def grouped(whole: npt.NDArray[np.bool_], triangles: Ints, part_of: Ints, n_poin
     if whole.all():
         return part_of.copy(), np.arange(len(whole), dtype=np.int32)
     piece = _kernel.components(triangles, n_points)
+    if not whole.any():
+        # Pieces are numbered in order of appearance.
+        group_part = np.zeros(int(piece.max(initial=-1)) + 1, np.int32)
+        group_part[piece[::-1]] = part_of[::-1]
+        return piece, group_part
     # Whole parts first, numbered as they are; then the pieces of the others.
     label = np.where(whole[part_of], part_of, piece + len(whole)).astype(np.int64)
     used, group = np.unique(label, return_inverse=True)
@@ -35,52 +41,31 @@ def checked(
     triangles: Ints,
     group_of: Ints,
     group_part: Ints,
-    edges: Ints,
-    offsets: Ints,
-    incident: Ints,
-    balance: Ints,
+    mesh: MeshFacts,
     brep: npt.NDArray[np.bool_],
     curved: npt.NDArray[np.bool_],
 ) -> Groups:
-    """Per group what can be told from its triangles: balance (e,), brep per part, curved per triangle."""
+    """Per group what can be told from its triangles; brep per part, curved per triangle."""
     count = len(group_part)
-    edge_group = group_of[incident[offsets[:-1]]]
-    odd = np.bincount(edge_group[balance != 0], minlength=count)
-    used = np.bincount(group_of, minlength=count) > 0
+    odd_edges = np.flatnonzero(mesh.balance)
+    odd = np.bincount(group_of[mesh.incident[mesh.offsets[odd_edges]]], minlength=count)
+    low, high, size, six_volumes, two_areas = _kernel.group_facts(points, triangles, group_of, count)
+    used = size > 0
     closed = (odd == 0) & used
-    low = np.full((count, 3), np.inf)
-    high = np.full((count, 3), -np.inf)
-    order = np.argsort(group_of, kind="stable")
-    starts = np.flatnonzero(np.diff(group_of[order], prepend=-1))
-    corner = points[triangles[order]]
-    if len(order):
-        which = group_of[order][starts]
-        low[which] = np.minimum.reduceat(corner.min(axis=1), starts, axis=0)
-        high[which] = np.maximum.reduceat(corner.max(axis=1), starts, axis=0)
-    # Signed volume about the group's own corner: small numbers, so that a far-away part keeps its sign.
-    origin = np.where(np.isfinite(low), low, 0.0)[group_of]
-    p, q, r = (points[triangles[:, k]] - origin for k in range(3))
-    six = (
-        p[:, 0] * (q[:, 1] * r[:, 2] - q[:, 2] * r[:, 1])
-        + p[:, 1] * (q[:, 2] * r[:, 0] - q[:, 0] * r[:, 2])
-        + p[:, 2] * (q[:, 0] * r[:, 1] - q[:, 1] * r[:, 0])
-    )
-    volume = np.bincount(group_of, weights=six, minlength=count)
     extent = np.where(used, (high - low).min(axis=1), 0.0)
-    area = np.bincount(group_of, weights=np.sqrt((np.cross(q - p, r - p) ** 2).sum(axis=1)), minlength=count)
     # Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a cube a
     # third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still hides.
     with np.errstate(divide="ignore", invalid="ignore"):
-        thickness = np.where(closed, 1.8 * 2.0 * np.abs(volume / 6.0) / (area / 2.0), np.inf)
+        thickness = np.where(closed, 1.8 * 2.0 * np.abs(six_volumes / 6.0) / (two_areas / 2.0), np.inf)
     extent = np.fmin(extent, thickness)
     return Groups(
         closed=closed,
-        cull=closed & (volume > 0.0),
-        inward=closed & (volume < 0.0),
+        cull=closed & (six_volumes > 0.0),
+        inward=closed & (six_volumes < 0.0),
         sound=closed & brep[group_part],
         bare=~brep[group_part],
         tight=np.zeros(count, bool),
-        planar=np.bincount(group_of[curved], minlength=count) == 0,
+        planar=~used if curved.all() else np.bincount(group_of[curved], minlength=count) == 0,
         extent=extent,
         low=low,
         high=high,

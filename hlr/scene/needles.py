@@ -20,6 +20,8 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
+from hlr.distinct import distinct
 from hlr.scene.topology import MeshFacts, keys
 from hlr.source.model import Floats, Ints
 
@@ -32,35 +34,31 @@ MOST_STEPS = 32
 """Needles side by side, of each the longest side on the next one, before what lies beyond is taken as not known."""
 
 
-def supported(mesh: MeshFacts, points: Floats, triangles: Ints, precision: Floats) -> MeshFacts:
+def supported(mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, precision: Floats) -> MeshFacts:
     """The mesh with the normals and folds that its coordinates support; a triangle without area is a needle, too.
 
-    precision (t,): how far the corners of each triangle may be off, in model units; 0 where they are exact
+    part_of (t,); precision (p,): how far coordinates of each part may be off, in model units; 0 where they are exact
     """
-    flat = np.asarray(~mesh.normals.any(axis=1))
-    low = np.flatnonzero((precision > 0.0) | flat)
+    low, longest = _kernel.needles(points, triangles, mesh.normals, part_of, LOW * precision)
     if not len(low):
         return mesh
-    corner = points[triangles[low]]
-    sides = np.stack([corner[:, (k + 1) % 3] - corner[:, k] for k in range(3)], axis=1)
-    squares = (sides**2).sum(axis=2)
-    area = np.cross(sides[:, 0], sides[:, 1])
-    with np.errstate(divide="ignore", invalid="ignore"):
-        height = np.sqrt((area**2).sum(axis=1)) / np.sqrt(squares.max(axis=1))
-    needle = (height < LOW * precision[low]) | flat[low]
-    low, longest = low[needle], squares[needle].argmax(axis=1)
-    if not len(low):
-        return mesh
-    beyond, sense = np.arange(len(triangles)), np.ones(len(triangles))
-    beyond[low], sense[low] = _across(mesh, triangles, low, longest)
-    target, turn = np.arange(len(triangles)), np.ones(len(triangles))
-    for _ in range(MOST_STEPS):
-        turn = turn * sense[target]
-        target = beyond[target]
+    # Chains from needle to needle, in terms of needles; what is none ends them.
+    beyond, sense = _across(mesh, triangles, low, longest)
+    place = np.minimum(np.searchsorted(low, beyond), len(low) - 1)
+    follows = low[place] == beyond
+    target, turn, going = beyond.copy(), sense.copy(), follows
+    for _ in range(MOST_STEPS - 1):
+        at = np.searchsorted(low, target[going])
+        turn[going] = turn[going] * sense[at]
+        target[going] = beyond[at]
+        going = going.copy()
+        going[going] = follows[at]
+        if not going.any():
+            break
     is_low = np.zeros(len(triangles), bool)
     is_low[low] = True
     normals = mesh.normals.copy()
-    normals[low] = np.where(is_low[target[low]], 0.0, turn[low])[:, None] * mesh.normals[target[low]]
+    normals[low] = np.where(is_low[target], 0.0, turn)[:, None] * mesh.normals[target]
     return replace(mesh, normals=normals, fold=_folds(mesh, normals, is_low))
 
 
@@ -78,10 +76,10 @@ def _across(mesh: MeshFacts, triangles: Ints, low: Indices, longest: Indices) ->
 
 def _folds(mesh: MeshFacts, normals: Floats, changed: npt.NDArray[np.bool_]) -> Floats:
     """Cosines of all folds, those at the changed triangles anew."""
-    two = np.flatnonzero(np.diff(mesh.offsets) == 2)
+    at_changed = np.flatnonzero(changed[mesh.incident])
+    edge = np.searchsorted(mesh.offsets, at_changed, side="right") - 1
+    two = distinct(edge[mesh.offsets[edge + 1] - mesh.offsets[edge] == 2])
     one, other = mesh.incident[mesh.offsets[two]], mesh.incident[mesh.offsets[two] + 1]
-    mine = changed[one] | changed[other]
-    two, one, other = two[mine], one[mine], other[mine]
     known = normals[one].any(axis=1) & normals[other].any(axis=1)
     cosine = (normals[one] * normals[other]).sum(axis=1) * np.where(mesh.balance[two] == 0, 1.0, -1.0)
     fold = mesh.fold.copy()

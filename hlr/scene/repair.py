@@ -15,24 +15,19 @@ from hlr.source.weld import equal_rows
 Indices = npt.NDArray[np.intp]
 
 
-def anything_repeated(parts: list[PartMesh]) -> bool:
-    """Whether a part may hold a triangle on the same corners as another, or two points in one place: yes where it does.
+def places_repeated(parts: list[PartMesh]) -> bool:
+    """Whether a part may hold two points in one place: yes where it does.
 
-    Sums of what is mixed stand for sets of corners, so that one sort of plain numbers tells; that two different ones
-    have the same is a matter of 2^-64.
+    A sum stands for each place, mixed, so that one sort of plain numbers tells; that two different ones have the same
+    is a matter of 2^-64, or of coordinates made for it.
     """
+    parts = [part for part in parts if not part.joined]
     if not parts:
         return False
-    counts = np.array([len(p.points) for p in parts])
-    number = np.repeat(np.arange(len(parts), dtype=np.uint64), counts)
+    number = np.repeat(np.arange(len(parts), dtype=np.uint64), [len(p.points) for p in parts])
     x, y, z = np.concatenate([p.points for p in parts]).T
     place = _mixed((x + 0.7548776662466927 * y + 0.5698402909980532 * z + 0.0).view(np.uint64)) + number * _ODD
-    if _twice(place):
-        return True
-    first = np.cumsum(counts) - counts
-    corners = np.concatenate([p.triangles for p in parts])
-    corners = corners + np.repeat(first, [len(p.triangles) for p in parts])[:, None]
-    return _twice(_mixed(corners.astype(np.uint64)).sum(axis=1, dtype=np.uint64))
+    return _twice(place)
 
 
 def _twice(numbers: npt.NDArray[np.uint64]) -> bool:

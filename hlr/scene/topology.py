@@ -79,6 +79,7 @@ class MeshFacts:
 
     edges (e, 2), offsets (e+1,), incident (k,); balance (e,) triangles along minus triangles against the edge;
     fold (e,) cosine of the fold, NaN where there are not two triangles with area; normals (t, 3), zero without area.
+    flat (k,) the triangles without area; repeated: a triangle is there twice.
     """
 
     edges: Ints
@@ -87,14 +88,17 @@ class MeshFacts:
     balance: Ints
     fold: Floats
     normals: Floats
+    flat: npt.NDArray[np.int64]
+    repeated: bool
+
+    def first(self) -> Ints:
+        """(e,) of each edge its first triangle."""
+        return np.asarray(self.incident[self.offsets[:-1]])
 
 
 def mesh_facts(points: Floats, triangles: Ints) -> MeshFacts:
     """What can be said of a mesh before any part or edge has a meaning."""
-    edges, offsets, incident = _kernel.edge_table(triangles, len(points))
-    balance = _kernel.edge_balance(triangles, edges, offsets, incident)
-    fold, normals = _kernel.edge_folds(points, triangles, offsets, incident, balance)
-    return MeshFacts(edges, offsets, incident, balance, fold, normals)
+    return MeshFacts(*_kernel.mesh_facts(points, triangles))
 
 
 def folded_back(mesh: MeshFacts) -> npt.NDArray[np.bool_]:
@@ -106,11 +110,9 @@ def folded_back(mesh: MeshFacts) -> npt.NDArray[np.bool_]:
     return np.asarray((mesh.fold < 0.0) & (mesh.balance == 0))
 
 
-def crease_walks(
-    points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part: Ints, candidates: npt.NDArray[np.bool_]
-) -> Chains:
+def crease_walks(points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part: Ints) -> Chains:
     """Creases and borders of bare meshes, joined where exactly two of a kind meet, and where one goes straight on."""
-    chosen = np.flatnonzero(candidates & (kind != 255)).astype(np.int32)
+    chosen = np.flatnonzero(kind != 255).astype(np.int32)
     key = part[chosen].astype(np.int32) * 8 + kind[chosen]
     offsets, order, backward = _kernel.chain(
         np.ascontiguousarray(edges[chosen]), np.ascontiguousarray(key), points, STRAIGHT_ON
@@ -134,6 +136,8 @@ def between_planes(
     walks: Chains, mesh: MeshFacts, kind: npt.NDArray[np.uint8], curved: npt.NDArray[np.bool_]
 ) -> Chains:
     """The walks of B-rep edges, those marked that run between two planar faces at an angle; curved (t,), kind (e,)."""
+    if not (walks.index >= 0).any():
+        return walks
     count = len(mesh.offsets) - 1
     flat = np.zeros(len(kind), bool)
     if count:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from hlr.errors import SourceError, counted
 from hlr.notes import Note
-from hlr.source.extent import checked
+from hlr.source.extent import box, checked
 from hlr.source.locations import determinant_sign, moved
 from hlr.source.model import Choice, Color, Floats, Frame, Ints, Look, Meshed, PartInfo, PartMesh, Progress
 from hlr.source.weld import Clean, clean
@@ -131,9 +131,7 @@ class MeshSource:
 
     def bounds(self) -> Floats:
         """(2, 3) exact corners in model coordinates."""
-        low = np.min([part.points.min(axis=0) for part in self._parts], axis=0)
-        high = np.max([part.points.max(axis=0) for part in self._parts], axis=0)
-        return np.stack((low, high))
+        return box(np.concatenate(self.boxes()))
 
     def infos(self) -> list[PartInfo]:
         """Meshes have no faces or edges of their own; both counts are 0."""
@@ -141,7 +139,7 @@ class MeshSource:
 
     def boxes(self) -> list[Floats]:
         """(2, 3) corners of every part."""
-        return [np.stack((part.points.min(axis=0), part.points.max(axis=0))) for part in self._parts]
+        return [box(part.points) for part in self._parts]
 
     def of_parts(self, names: Collection[str], choice: Choice) -> MeshSource:
         """The same source with these parts only."""
@@ -182,7 +180,8 @@ def unique_names(names: Sequence[str]) -> list[str]:
 
 def _part(name: str, mesh: Clean, instance: Instance) -> PartMesh:
     points, triangles = mesh.points, mesh.triangles
-    if not (instance.transform == np.eye(4)).all():
+    moved_away = not (instance.transform == np.eye(4)).all()
+    if moved_away:
         with np.errstate(over="ignore", invalid="ignore"):  # such a size is refused in a sentence
             points = moved(points, instance.transform)
             mirrored = determinant_sign(instance.transform) < 0
@@ -202,6 +201,7 @@ def _part(name: str, mesh: Clean, instance: Instance) -> PartMesh:
         edge_index=none,
         edge_class=np.empty(0, dtype=np.uint8),
         brep=False,
+        joined=not moved_away,
         precision=mesh.precision * float(np.sqrt((instance.transform[:3, :3] ** 2).sum(axis=0).max())),
     )
 
@@ -344,8 +344,8 @@ def open_arrays(vertices: Any, faces: Any) -> MeshSource:
         raise SourceError(f"faces must be whole numbers of the shape (m, 3) or (m, 4), not {corners.shape}.")
     if corners.shape[1] == 4:
         corners = np.concatenate((corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]))
-    outside = (corners < 0) | (corners >= len(points))
-    if outside.any():
+    if corners.size and not (corners.min() >= 0 and corners.max() < len(points)):
+        outside = (corners < 0) | (corners >= len(points))
         raise SourceError(f"faces name {int(outside.sum())} vertices that do not exist (there are {len(points)}).")
-    triangles: Ints = corners.astype(np.int32)
+    triangles: Ints = corners.astype(np.int32, copy=False)
     return MeshSource("mesh", "mesh", [(points, triangles)], [Instance("part", 0, np.eye(4), None)])

@@ -84,6 +84,7 @@ class PartMesh:
     edge_class        (e,)   uint8: EdgeClass (SHARP, SMOOTH, SEAM or BOUNDARY)
     on_surfaces       where the triangles lie on their true surfaces; None where there are none
     precision         how far the coordinates of a mesh may be off by what they were rounded to, in model units
+    joined            no two points are in one place
     origin            (m,) int32: of a mesh that the scene has repaired, which of the source's own triangles each one
                       is, or is a piece of; None: the same
 
@@ -105,6 +106,7 @@ class PartMesh:
     brep: bool
     on_surfaces: OnSurfaces | None = None
     precision: float = 0.0
+    joined: bool = False
     origin: Ints | None = None
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
 from hlr.source.model import Floats, Ints
 from hlr.source.precision import precision
 
@@ -15,7 +17,8 @@ from hlr.source.precision import precision
 class Clean:
     """points (n, 3), each used and each once; triangles (m, 3) without repeated corners; what was left out.
 
-    kept: of the triangles that were given (m,) which each of these was; precision: how far coordinates may be off.
+    kept: of the triangles that were given (m,) which each of these was, None if all of them are there; precision: how
+    far coordinates may be off.
     """
 
     points: Floats
@@ -23,8 +26,12 @@ class Clean:
     not_finite: int
     out_of_range: int
     degenerate: int
-    kept: npt.NDArray[np.intp]
+    kept: npt.NDArray[np.uint32] | None
     precision: float
+
+    def of_kept(self, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Rows for the triangles that were given, as rows for those that were kept."""
+        return rows if self.kept is None else rows[self.kept]
 
 
 def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) -> Clean:
@@ -32,35 +39,13 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
 
     Kept points are in order of first use by number, so the result depends on the input alone.
     """
-    points = np.array(points, dtype=np.float64, copy=True).reshape(-1, 3)
-    points += 0.0  # minus zero becomes zero: equal numbers, equal bits
+    points = np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 3)
     faces = np.asarray(triangles).reshape(-1, 3)
-    given = np.arange(len(faces))
-    inside = ((faces >= 0) & (faces < len(points))).all(axis=1)
-    out_of_range = int(len(faces) - inside.sum())
-    if out_of_range:
-        faces, given = faces[inside], given[inside]
-    finite_points = np.logical_and.reduce(np.isfinite(points), axis=1)
-    not_finite = 0
-    if not finite_points.all():
-        finite = finite_points[faces].all(axis=1)
-        not_finite = int(len(faces) - finite.sum())
-        faces, given = faces[finite], given[finite]
-        points[~finite_points] = 0.0
-    used = np.zeros(len(points), dtype=bool)
-    used[faces] = True
-    kept = np.flatnonzero(used)
-    points = points[kept]
-    number = np.zeros(len(used), dtype=np.int32)
-    first, rank = equal_rows(points)
-    number[kept] = rank
-    faces = number[faces]
-    a, b, c = faces.T
-    whole = (a != b) & (b != c) & (c != a)
-    degenerate = int(len(faces) - whole.sum())
-    whole_faces = np.ascontiguousarray(faces[whole], np.int32)
-    points = points[first]
-    return Clean(points, whole_faces, not_finite, out_of_range, degenerate, given[whole], precision(points))
+    if faces.dtype != np.int32:  # what does not fit 32 bits is out of range there, too
+        faces = np.where((faces >= 0) & (faces < len(points)), faces, -1)
+    found, corners, kept, left_out = _kernel.clean_mesh(points, np.ascontiguousarray(faces, dtype=np.int32))
+    not_finite, out_of_range, degenerate = left_out
+    return Clean(found, corners, not_finite, out_of_range, degenerate, kept, precision(found))
 
 
 def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:

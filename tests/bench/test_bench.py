@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
-from bench import measure, occt, ours, run, scenes
+from bench import loads, measure, occt, ours, run, scenes
 
 
 def test_scenes_have_the_parts_they_promise() -> None:
@@ -50,3 +52,25 @@ def test_measure_reports_a_median_and_memory() -> None:
 def test_a_measurement_that_fails_stays_in_the_table() -> None:
     failed = run.measured("no such file.step", "poly", 1, 60)
     assert "failure" in failed and run.seconds(failed) == failed["failure"] and run.ratio(failed, failed) == "-"
+
+
+@pytest.mark.parametrize("name", loads.FILES)
+def test_mesh_files_of_all_kinds_hold_the_same_torus(name, tmp_path) -> None:
+    from hlr.source import open_source
+
+    points, triangles = loads.torus(loads.RINGS, loads.SIDES)
+    (tmp_path / name).write_bytes(loads.FILES[name](points, triangles))
+    (part,) = open_source(tmp_path / name).mesh(0.1, 0.5).parts
+    assert part.triangles.shape == triangles.shape == (13_478, 3)
+    assert np.allclose(part.points[part.triangles], points[triangles], atol=1e-5)
+
+
+def test_tori_lie_apart_and_processes_are_measured() -> None:
+    points, triangles = loads.tori(2)
+    assert len(triangles) == 2 * 80_800 and triangles.max() == len(points) - 1
+    one, other = np.split(points, 2)
+    assert np.linalg.norm(one.mean(axis=0) - other.mean(axis=0)) > 80.0
+    seconds, megabytes = loads.processor_seconds([sys.executable, "-c", "sum(range(1_000_000))"])
+    assert seconds > 0.01 and megabytes > 5.0
+    with pytest.raises(RuntimeError, match="ended with"):
+        loads.processor_seconds([sys.executable, "-c", "raise SystemExit(3)"])

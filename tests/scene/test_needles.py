@@ -17,7 +17,8 @@ def facts(points, triangles):
 def supported(points, triangles, precision=0.0):
     mesh, points, triangles = facts(points, triangles)
     given = np.broadcast_to(np.asarray(precision, float), len(triangles)).copy()
-    return mesh, needles.supported(mesh, points, triangles, given)
+    # Each triangle as a part of its own.
+    return mesh, needles.supported(mesh, points, triangles, np.arange(len(triangles), dtype=np.int32), given)
 
 
 def fold(mesh, a, b):

@@ -8,6 +8,7 @@ pub mod ink;
 pub mod lines;
 pub mod measure;
 pub mod memory;
+pub mod mesh;
 pub mod meshfile;
 pub mod paper;
 pub mod preview;
@@ -20,11 +21,16 @@ use pyo3::prelude::*;
 
 #[pymodule]
 fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::scan::edge_balance, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::stitched, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::components, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::scan::edge_folds, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::clean_mesh, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::mesh_facts, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::group_facts, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::bent_groups, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::group_pieces, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::needles, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::edge_kinds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;

@@ -7,6 +7,7 @@ pub mod guard;
 pub mod ink;
 pub mod lines;
 pub mod measure;
+pub mod mesh;
 pub mod meshfile;
 pub mod methods;
 pub mod painters;

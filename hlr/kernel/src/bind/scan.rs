@@ -50,7 +50,6 @@ pub fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize)
     Ok(())
 }
 
-type FoldArrays<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
 type StitchArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, usize);
 type EdgeArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>);
 
@@ -81,42 +80,6 @@ pub fn stitched<'py>(
     let n = found.triangles.len();
     let triangles = found.triangles.into_flattened().into_pyarray(py).reshape([n, 3])?;
     Ok((triangles, found.origin.into_pyarray(py), found.seams))
-}
-
-#[pyfunction]
-pub fn edge_balance<'py>(
-    py: Python<'py>,
-    triangles: PyReadonlyArray2<'py, i32>,
-    edges: PyReadonlyArray2<'py, i32>,
-    offsets: PyReadonlyArray1<'py, i32>,
-    incident: PyReadonlyArray1<'py, i32>,
-) -> PyResult<Bound<'py, PyArray1<i32>>> {
-    let (triangles, edges) = (rows::<i32, 3>(&triangles, "triangles")?, rows::<i32, 2>(&edges, "edges")?);
-    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
-    check_incidence(edges.len(), offsets, incident, triangles.len())?;
-    Ok(run(py, 0, triangles.len(), |_| topology::balance(triangles, edges, offsets, incident))?.into_pyarray(py))
-}
-
-#[pyfunction]
-pub fn edge_folds<'py>(
-    py: Python<'py>,
-    points: PyReadonlyArray2<'py, f64>,
-    triangles: PyReadonlyArray2<'py, i32>,
-    offsets: PyReadonlyArray1<'py, i32>,
-    incident: PyReadonlyArray1<'py, i32>,
-    balance: PyReadonlyArray1<'py, i32>,
-) -> PyResult<FoldArrays<'py>> {
-    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
-    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
-    let balance = flat(&balance, "balance")?;
-    check_incidence(balance.len(), offsets, incident, triangles.len())?;
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-    let (folds, normals) = run(py, 0, triangles.len(), |_| {
-        let normals = topology::normals(points, triangles);
-        (topology::folds(&normals, offsets, incident, balance), normals)
-    })?;
-    let n = normals.len();
-    Ok((folds.into_pyarray(py), normals.into_flattened().into_pyarray(py).reshape([n, 3])?))
 }
 
 #[pyfunction]

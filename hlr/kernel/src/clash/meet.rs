@@ -38,6 +38,34 @@ pub fn orient3d(p: &Point, q: &Point, r: &Point, s: &Point) -> i128 {
     minor(1, 2) * i128::from(w[0]) + minor(2, 0) * i128::from(w[1]) + minor(0, 1) * i128::from(w[2])
 }
 
+/// Whether two triangles certainly do not meet, or only in the corner that they share: the other corners of one lie on one
+/// side of the other's plane. Decided in floating point, and only where the rounding cannot matter.
+pub fn apart(a: &Numbered, b: &Numbered) -> bool {
+    beyond(a, b) || beyond(b, a)
+}
+
+fn beyond(plane: &Numbered, of: &Numbered) -> bool {
+    // Differences of 32-bit numbers are exact.
+    let origin = plane.corner[0].map(f64::from);
+    let d = |v: &Point| [0, 1, 2].map(|k| f64::from(v[k]) - origin[k]);
+    let (u, v) = (d(plane.corner[1]), d(plane.corner[2]));
+    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    let mut size = u.iter().chain(&v).fold(0.0f64, |m, c| m.max(c.abs()));
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for k in 0..3 {
+        if plane.number.contains(&of.number[k]) {
+            continue;
+        }
+        let w = d(of.corner[k]);
+        size = w.iter().fold(size, |m, c| m.max(c.abs()));
+        let side = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
+        (low, high) = (low.min(side), high.max(side));
+    }
+    // Each component of n is off by 4 units of 2^-53 size^2 at most, the sum so by 30 of 2^-53 size^3.
+    let error = 32.0 * f64::EPSILON * size * size * size;
+    low > error || high < -error
+}
+
 /// None where they do not meet, or only in a point, or lie in one plane.
 pub fn meet(a: &Numbered, b: &Numbered) -> Option<Meeting> {
     let side_b = sides(a, b)?;
@@ -180,6 +208,29 @@ mod tests {
         let left = met([[-100, -100, 0], [0, -100, 0], [0, 100, 0]], wall).unwrap();
         let right = met([[0, -100, 0], [100, -100, 0], [0, 100, 0]], wall).unwrap();
         assert_eq!(left.ends[1], right.ends[0]);
+    }
+
+    #[test]
+    fn what_is_called_apart_does_not_meet() {
+        let mut state = 1u64;
+        let mut random = |n: i32| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 33) as i32).rem_euclid(n)
+        };
+        let (mut told, mut met) = (0, 0);
+        for k in 0..20_000 {
+            let range = [5, 50, 1 << 30][k % 3];
+            let corners: Vec<Point> = (0..6).map(|_| [0, 1, 2].map(|_| random(range))).collect();
+            // Every other pair shares a corner.
+            let last = if k % 2 == 0 { 5 } else { 0 };
+            let a = Numbered { corner: [&corners[0], &corners[1], &corners[2]], number: [0, 1, 2] };
+            let b = Numbered { corner: [&corners[3], &corners[4], &corners[last]], number: [3, 4, last as i32] };
+            let found = meet(&a, &b).is_some();
+            assert!(!(apart(&a, &b) && found), "{corners:?}");
+            told += usize::from(apart(&a, &b));
+            met += usize::from(found);
+        }
+        assert!(told > 5_000 && met > 1_000, "{told} {met}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! through itself.
 //!
 //! 1. `search`  which triangles may meet: boxes of groups, then boxes of triangles, only where boxes overlap
+//!               `tree`: the hierarchies of boxes that are searched side by side
 //! 2. `meet`    the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`    ends that fall on one grid point are one point
 //!
@@ -11,4 +12,5 @@
 
 pub mod meet;
 pub mod search;
+pub mod tree;
 pub mod weld;

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::meet::{Meeting, Numbered, meet};
+use super::meet::{Meeting, Numbered, apart, meet};
+use super::tree::{Found, Item, Tree};
 use crate::exact::Point;
 use crate::scan::box_tree::{Aabb, BoxTree};
 
@@ -21,6 +22,19 @@ pub struct Clashes {
     pub tests: u64,
 }
 
+#[derive(Default)]
+struct Part {
+    found: Vec<Clash>,
+    tests: u64,
+}
+
+impl Found for Part {
+    fn join(&mut self, mut other: Part) {
+        self.found.append(&mut other.found);
+        self.tests += other.tests;
+    }
+}
+
 pub struct Surfaces<'a> {
     pub points: &'a [Point],
     pub triangles: &'a [[i32; 3]],
@@ -28,9 +42,6 @@ pub struct Surfaces<'a> {
     /// Per group, whether it is searched for passing through itself.
     pub itself: &'a [bool],
 }
-
-/// Triangles of one task.
-const CHUNK: usize = 512;
 
 impl Surfaces<'_> {
     fn numbered(&self, t: u32) -> Numbered<'_> {
@@ -54,42 +65,31 @@ impl Surfaces<'_> {
         let pairs = self.pairs(&boxes, &members);
         let mut wanted = vec![false; count];
         for &[a, b] in &pairs {
-            wanted[a as usize] |= a == b || members[a as usize].len() >= members[b as usize].len();
-            wanted[b as usize] |= members[a as usize].len() < members[b as usize].len();
+            wanted[a as usize] = true;
+            wanted[b as usize] = true;
         }
-        let trees: Vec<Option<BoxTree>> = (0..count)
-            .into_par_iter()
-            .map(|g| wanted[g].then(|| BoxTree::new(members[g].iter().map(|&t| (self.bounds(t), t)).collect())))
+        let mut items: Vec<Vec<Item>> = members
+            .par_iter()
+            .zip(&wanted)
+            .map(|(of, &wanted)| if wanted { of.iter().map(|&t| (self.bounds(t), t)).collect() } else { Vec::new() })
             .collect();
-        // The larger group is the tree; the smaller one's triangles ask it, in tasks of a chunk each.
-        let tasks: Vec<([u32; 2], &[u32])> = pairs
-            .iter()
-            .flat_map(|&[a, b]| {
-                let swap = members[a as usize].len() < members[b as usize].len();
-                let (tree, asking) = if swap { (b, a) } else { (a, b) };
-                members[asking as usize].chunks(CHUNK).map(move |chunk| ([tree, asking], chunk))
-            })
-            .collect();
-        let parts: Vec<(Vec<Clash>, u64)> = tasks
-            .into_par_iter()
-            .map(|([tree, asking], chunk)| {
-                let mut out = (Vec::new(), 0);
-                if let (false, Some(boxes_of)) = (stopped(), &trees[tree as usize]) {
-                    let common = boxes[tree as usize].common(&boxes[asking as usize]);
-                    for &t in chunk {
-                        let around = self.bounds(t);
-                        if around.overlaps(&common) {
-                            boxes_of.query(&around, |u| self.try_pair(t, u, tree == asking, tree < asking, &mut out));
-                        }
-                    }
-                }
-                out
+        let trees: Vec<Tree> = items.par_iter_mut().map(|items| Tree::new(items)).collect();
+        let try_pair = |s: u32, t: u32, out: &mut Part| {
+            if !stopped() {
+                self.try_pair(s, t, out);
+            }
+        };
+        let parts: Vec<Part> = pairs
+            .par_iter()
+            .map(|&[a, b]| {
+                let (a, b) = (&trees[a as usize], &trees[b as usize]);
+                if std::ptr::eq(a, b) { a.within(&try_pair) } else { a.between(b, &try_pair) }
             })
             .collect();
         let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
-        for (found, tests) in parts {
-            all.found.extend(found);
-            all.tests += tests;
+        for part in parts {
+            all.found.extend(part.found);
+            all.tests += part.tests;
         }
         all.found.par_sort_unstable_by_key(|c| {
             let [s, t] = c.triangles;
@@ -98,14 +98,21 @@ impl Surfaces<'_> {
         all
     }
 
-    fn try_pair(&self, t: u32, u: u32, same: bool, tree_first: bool, out: &mut (Vec<Clash>, u64)) {
-        let (a, b) = (self.numbered(t), self.numbered(u));
-        if same && (u <= t || a.number.iter().filter(|v| b.number.contains(v)).count() > 1) {
-            return; // once only, and neighbours along an edge meet there by right
+    /// Two triangles whose boxes overlap: of different groups that of the lower one first, or both of one group.
+    fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
+        let same = self.group[s as usize] == self.group[t as usize];
+        let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
+        let (a, b) = (self.numbered(s), self.numbered(t));
+        let shared = if same { a.number.iter().filter(|v| b.number.contains(v)).count() } else { 0 };
+        if shared > 1 {
+            return; // neighbours along an edge meet there by right
         }
-        out.1 += 1;
+        out.tests += 1;
+        if apart(&a, &b) {
+            return;
+        }
         if let Some(meeting) = meet(&a, &b) {
-            out.0.push(Clash { triangles: if tree_first { [u, t] } else { [t, u] }, meeting });
+            out.found.push(Clash { triangles: [s, t], meeting });
         }
     }
 

@@ -1,5 +1,7 @@
 //! Every mesh edge with its triangles: once per model, whatever the view.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 pub struct Topology {
@@ -11,12 +13,9 @@ pub struct Topology {
 /// Edges (lo < hi, ascending) and the triangles incident to each, ascending. Triangles with a repeated corner
 /// contribute their remaining edge twice, which cancels in every jump.
 ///
-/// Bucketed by the lower vertex first: what is left to sort are the few edges around one vertex.
+/// Bucketed by the lower vertex first: what is left to sort are the few edges around one vertex. Each thread has a range of
+/// vertices of its own and goes through all triangles for them.
 pub fn topology(triangles: &[[i32; 3]], n_points: usize) -> Topology {
-    let sides = |t: &[i32; 3]| {
-        let [p, q, r] = *t;
-        [(p, q), (q, r), (r, p)].map(|(a, b)| (a.min(b) as usize, a.max(b) as u64, a != b))
-    };
     let mut first = vec![0u32; n_points + 1];
     for t in triangles {
         for (low, _, proper) in sides(t) {
@@ -27,37 +26,110 @@ pub fn topology(triangles: &[[i32; 3]], n_points: usize) -> Topology {
         first[v + 1] += first[v];
     }
     let total = first[n_points] as usize;
-    let mut next = first.clone();
+    let ranges = ranges(&first, if total < FEW { 1 } else { rayon::current_num_threads() });
     let mut around = vec![0u64; total];
+    let counts: Vec<usize> = parted(&mut around, ranges.iter().map(|r| (first[r.end] - first[r.start]) as usize))
+        .into_par_iter()
+        .zip(&ranges)
+        .map(|(around, range)| fans(triangles, &first, range, around))
+        .collect();
+    let count: usize = counts.iter().sum();
+    let (mut edges, mut offsets, mut incident) = (vec![[0; 2]; count], vec![0; count + 1], vec![0; total]);
+    offsets[count] = total as i32;
+    let rows = parted(&mut edges, counts.iter().copied()).into_iter().zip(parted(&mut offsets, counts.iter().copied()));
+    incident.par_iter_mut().zip(&around).for_each(|(t, side)| *t = (side & 0xffff_ffff) as i32);
+    rows.zip(&ranges).par_bridge().for_each(|((edges, offsets), range)| {
+        let mut next = 0;
+        for v in range.clone() {
+            let mut last = u64::MAX;
+            for at in first[v] as usize..first[v + 1] as usize {
+                let high = around[at] >> 32;
+                if high != last {
+                    (edges[next], offsets[next]) = ([v as i32, high as i32], at as i32);
+                    (last, next) = (high, next + 1);
+                }
+            }
+        }
+    });
+    Topology { edges, offsets, incident }
+}
+
+/// Sides below which one thread does all.
+const FEW: usize = 1 << 14;
+
+/// Of each side the lower and the higher corner, and whether they differ.
+fn sides(t: &[i32; 3]) -> [(usize, u64, bool); 3] {
+    let [p, q, r] = *t;
+    [(p, q), (q, r), (r, p)].map(|(a, b)| (a.min(b) as usize, a.max(b) as u64, a != b))
+}
+
+/// Vertices in so many ranges of about as many sides each.
+fn ranges(first: &[u32], count: usize) -> Vec<Range<usize>> {
+    let total = u64::from(first[first.len() - 1]);
+    let end =
+        |k: usize| first.partition_point(|&f| u64::from(f) * (count as u64) < total * k as u64).min(first.len() - 1);
+    let mut out = Vec::with_capacity(count);
+    let mut start = 0;
+    for k in 1..=count {
+        let end = if k == count { first.len() - 1 } else { end(k).max(start) };
+        out.push(start..end);
+        start = end;
+    }
+    out
+}
+
+/// A slice in pieces of these lengths, one after another.
+fn parted<T>(mut rest: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
+    lengths
+        .map(|length| {
+            let (piece, after) = std::mem::take(&mut rest).split_at_mut(length);
+            rest = after;
+            piece
+        })
+        .collect()
+}
+
+/// The sides whose lower corner is in `range`, as higher corner and triangle, sorted around each vertex; and how many edges
+/// they make.
+fn fans(triangles: &[[i32; 3]], first: &[u32], range: &Range<usize>, around: &mut [u64]) -> usize {
+    let base = first[range.start];
+    let mut next: Vec<u32> = first[range.clone()].iter().map(|f| f - base).collect();
     for (t, corners) in triangles.iter().enumerate() {
         for (low, high, proper) in sides(corners) {
-            if proper {
-                around[next[low] as usize] = (high << 32) | t as u64;
-                next[low] += 1;
+            if proper && range.contains(&low) {
+                let place = &mut next[low - range.start];
+                around[*place as usize] = (high << 32) | t as u64;
+                *place += 1;
             }
         }
     }
-    let mut out = Topology {
-        edges: Vec::with_capacity(total / 2),
-        offsets: Vec::with_capacity(total / 2 + 1),
-        incident: Vec::with_capacity(total),
-    };
-    for v in 0..n_points {
-        let fan = &mut around[first[v] as usize..first[v + 1] as usize];
+    let mut count = 0;
+    for v in range.clone() {
+        let fan = &mut around[(first[v] - base) as usize..(first[v + 1] - base) as usize];
         fan.sort_unstable();
-        let mut last = u64::MAX;
-        for &side in fan.iter() {
-            let high = side >> 32;
-            if high != last {
-                out.offsets.push(out.incident.len() as i32);
-                out.edges.push([v as i32, high as i32]);
-                last = high;
-            }
-            out.incident.push((side & 0xffff_ffff) as i32);
-        }
+        count += fan.chunk_by(|a, b| a >> 32 == b >> 32).count();
     }
-    out.offsets.push(out.incident.len() as i32);
-    out
+    count
+}
+
+/// Whether two triangles have the same three corners, in whatever order.
+pub fn repeated(triangles: &[[i32; 3]], topology: &Topology) -> bool {
+    let Topology { edges, offsets, incident } = topology;
+    (0..edges.len()).into_par_iter().any(|e| {
+        let around = &incident[offsets[e] as usize..offsets[e + 1] as usize];
+        let third = |t: i32| triangles[t as usize].iter().map(|&v| i64::from(v)).sum::<i64>();
+        match around {
+            [] | [_] => false,
+            [s, t] => s != t && third(*s) == third(*t),
+            _ => {
+                // A triangle with a corner twice is there twice itself.
+                let mut all: Vec<(i64, i32)> = around.iter().map(|&t| (third(t), t)).collect();
+                all.sort_unstable();
+                all.dedup();
+                all.windows(2).any(|w| w[0].0 == w[1].0)
+            }
+        }
+    })
 }
 
 /// Per edge, triangles that run along it minus triangles that run against it: zero everywhere on a closed, consistently
@@ -149,6 +221,29 @@ mod tests {
         let t = topology(&[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], 4);
         assert_eq!(t.edges, [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]);
         assert!(t.offsets.windows(2).all(|w| w[1] - w[0] == 2));
+    }
+
+    #[test]
+    fn several_threads_find_the_same_edges() {
+        // A grid of 100 x 100 squares, its vertices in no order.
+        let number = |i: usize, j: usize| ((i * 101 + j) * 7919 % 10201) as i32;
+        let squares = (0..100).flat_map(|i| (0..100).map(move |j| (i, j)));
+        let mut triangles: Vec<[i32; 3]> = squares
+            .flat_map(|(i, j)| {
+                let [a, b, c, d] = [number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)];
+                [[a, b, c], [a, c, d]]
+            })
+            .collect();
+        let pool = |n| rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
+        let one = pool(1).install(|| topology(&triangles, 10201));
+        assert_eq!(one.edges.len(), 2 * 100 * 101 + 100 * 100);
+        assert!(one.edges.is_sorted() && !repeated(&triangles, &one));
+        for threads in [2, 3, 7] {
+            let many = pool(threads).install(|| topology(&triangles, 10201));
+            assert!(many.edges == one.edges && many.offsets == one.offsets && many.incident == one.incident);
+        }
+        triangles[500] = [2, 0, 1].map(|k| triangles[19_000][k]);
+        assert!(repeated(&triangles, &topology(&triangles, 10201)));
     }
 
     #[test]

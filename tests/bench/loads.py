@@ -1,0 +1,169 @@
+"""Mesh files and meshes of millions of triangles: processor time and memory, each measurement in a process of its own.
+
+    python tests/bench/loads.py                     five formats of one torus; a million triangles as arrays
+    python tests/bench/loads.py --tori 125          ten million
+
+1. `hlr draw` from its start to the SVG on disk, as a multiple of `python -c "import numpy"` in the same run
+2. `hlr.draw` of arrays in memory, with the share of each stage
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+RINGS, SIDES = 293, 23
+"""A torus of 13,478 triangles."""
+FINE = (202, 200)
+"""One of 80,800."""
+
+
+def torus(rings: int, sides: int) -> tuple[np.ndarray, np.ndarray]:
+    """Points and triangles; radii 30 and 10."""
+    u, v = np.meshgrid(*(np.arange(n) * 2 * np.pi / n for n in (rings, sides)), indexing="ij")
+    out = 30 + 10 * np.cos(v)
+    points = np.stack([out * np.cos(u), out * np.sin(u), 10 * np.sin(v)], axis=2).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(rings), np.arange(sides), indexing="ij")
+    a, b, c, d = (((i + k) % rings) * sides + (j + m) % sides for k, m in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    triangles = np.stack([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)], axis=2)
+    return points, triangles.reshape(-1, 3).astype(np.int32)
+
+
+def tori(count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """So many turned tori on a grid, in one pair of arrays."""
+    one, triangles = torus(*FINE)
+    rng = np.random.default_rng(seed)
+    points = np.empty((count * len(one), 3))
+    corners = np.empty((count * len(triangles), 3), np.int32)
+    side = int(np.ceil(count ** (1 / 3)))
+    for k in range(count):
+        turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        turn[:, 0] *= np.sign(np.linalg.det(turn))
+        place = np.array([k % side, k // side % side, k // side**2]) * 85.0
+        points[k * len(one) : (k + 1) * len(one)] = one @ turn.T + place
+        corners[k * len(triangles) : (k + 1) * len(triangles)] = triangles + k * len(one)
+    return points, corners
+
+
+def binary_stl(points: np.ndarray, triangles: np.ndarray) -> bytes:
+    rows = np.zeros(len(triangles), np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")]))
+    rows["corners"] = points[triangles]
+    return bytes(80) + struct.pack("<I", len(triangles)) + rows.tobytes()
+
+
+def text_stl(points: np.ndarray, triangles: np.ndarray) -> bytes:
+    facet = "facet normal 0 0 0\nouter loop\n" + "vertex {:.6e} {:.6e} {:.6e}\n" * 3 + "endloop\nendfacet\n"
+    facets = "".join(facet.format(*row) for row in points[triangles].reshape(-1, 9).tolist())
+    return f"solid torus\n{facets}endsolid torus\n".encode()
+
+
+def _rows(lead: str, table: np.ndarray) -> str:
+    return "".join(lead + " ".join(map(repr, row)) + "\n" for row in table.tolist())
+
+
+def obj(points: np.ndarray, triangles: np.ndarray) -> bytes:
+    return (_rows("v ", points) + _rows("f ", triangles + 1)).encode()
+
+
+def off(points: np.ndarray, triangles: np.ndarray) -> bytes:
+    return f"OFF\n{len(points)} {len(triangles)} 0\n{_rows('', points)}{_rows('3 ', triangles)}".encode()
+
+
+def ply(points: np.ndarray, triangles: np.ndarray) -> bytes:
+    faces = np.zeros(len(triangles), np.dtype([("count", "u1"), ("corners", "<i4", 3)]))
+    faces["count"], faces["corners"] = 3, triangles
+    xyz = "".join(f"property double {axis}\n" for axis in "xyz")
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n{xyz}element face {len(triangles)}\n"
+    return f"{head}property list uchar int vertex_indices\nend_header\n".encode() + points.tobytes() + faces.tobytes()
+
+
+FILES: dict[str, Callable[[np.ndarray, np.ndarray], bytes]] = {
+    "binary.stl": binary_stl,
+    "text.stl": text_stl,
+    "torus.obj": obj,
+    "torus.off": off,
+    "torus.ply": ply,
+}
+
+
+def processor_seconds(command: Sequence[str]) -> tuple[float, float]:
+    """Of a process and its children, and the largest memory of one of them, MB."""
+    pid = os.spawnv(os.P_NOWAIT, command[0], list(command))
+    _, status, used = os.wait4(pid, 0)
+    if status:
+        raise RuntimeError(f"{' '.join(command)} ended with {status}")
+    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
+
+
+def files(repeat: int) -> None:
+    """The first table."""
+    mesh = torus(RINGS, SIDES)
+    with tempfile.TemporaryDirectory() as folder:
+        commands = {"import numpy": [sys.executable, "-c", "import numpy"]}
+        for name, write in FILES.items():
+            path = Path(folder, name)
+            path.write_bytes(write(*mesh))
+            out = str(path.with_suffix(".svg"))
+            commands[name] = [sys.executable, "-m", "hlr", "draw", str(path), "-q", "-o", out]
+        # Side by side: whatever else the machine does falls on all of them.
+        rows = [{name: processor_seconds(command) for name, command in commands.items()} for _ in range(repeat)]
+    plain = statistics.median(row["import numpy"][0] for row in rows)
+    print(f"| {len(mesh[1]):,} triangles | processor time | as a multiple | memory |")
+    print("| --- | --- | --- | --- |")
+    for name in commands:
+        seconds = statistics.median(row[name][0] for row in rows)
+        memory = statistics.median(row[name][1] for row in rows)
+        print(f"| {name} | {seconds:.2f} s | {seconds / plain:.1f} | {memory:.0f} MB |")
+
+
+ARRAYS = """
+import json, resource, sys, time
+sys.path.insert(0, sys.argv[1])
+from loads import tori
+points, triangles = tori(int(sys.argv[2]))
+import hlr
+began, used = time.perf_counter(), time.process_time()
+drawing = hlr.draw((points, triangles))
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+stages = {name: value for name, value in drawing.timings.items() if isinstance(value, float)}
+print(json.dumps({"triangles": len(triangles), "seconds": time.perf_counter() - began,
+                  "processor": time.process_time() - used, "peak": peak, "stages": stages}))
+"""
+
+
+def arrays(count: int) -> None:
+    """The second table."""
+    command = [sys.executable, "-c", ARRAYS, str(Path(__file__).parent), str(count)]
+    found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    stages = ", ".join(f"{name} {seconds:.2f}" for name, seconds in found["stages"].items() if seconds >= 0.01)
+    print("| triangles | time | processor time | memory | stages, s |")
+    print("| --- | --- | --- | --- | --- |")
+    print(
+        f"| {found['triangles']:,} | {found['seconds']:.1f} s | {found['processor']:.1f} s | {found['peak']:.0f} MB "
+        f"| {stages} |"
+    )
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Both tables, as Markdown."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--tori", type=int, default=13, help="of 80,800 triangles each")
+    given = parser.parse_args(arguments)
+    files(given.repeat)
+    print()
+    arrays(given.tori)
+
+
+if __name__ == "__main__":
+    main()
