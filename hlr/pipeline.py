@@ -28,7 +28,6 @@ from hlr.view.camera import resolve
 from hlr.view.clip import clipped
 from hlr.view.scale import place
 from hlr.view.silhouettes import with_silhouettes
-from hlr.visibility.ends import at_outlines
 from hlr.visibility.segments import solve
 
 
@@ -87,7 +86,7 @@ def drawing_of(
     started = lap(clock, "plan", started)
     lift = None if seen.silhouettes is None else seen.silhouettes.lift
     lifted = projected if lift is None else camera.project(seen.points + lift, plan.divide)
-    segments = at_outlines(seen, camera, solve(seen, plan, lifted, threads))
+    segments = solve(seen, plan, lifted, threads)
     started = lap(clock, "visibility", started)
     lines = draw_lines(
         seen, curves, plan, segments, camera, projected, at.per_model, at.tolerances, options.hidden, threads

@@ -70,6 +70,9 @@ OUTLINE_LIFT = 2.5
 OUTLINE_SPARE = 0.3
 """In deflections: what an outline is moved by where no facet stands out beyond it. Its own chords may be off by 0.2."""
 
+OWN_LIFT = 1.5
+"""In deflections: how far off its own face a line is compared with the triangles of that face. They are off by one."""
+
 UNDER = 3.0
 INK = 0.25
 """A hidden line this many accuracies from a visible one lies under its ink, if that is as wide: half a wide ISO 128

@@ -96,7 +96,6 @@ def decide(
     role[may_fold] |= OUTLINE
     if scene.silhouettes is not None:
         role[scene.silhouettes.hidden] = 0
-        role[scene.silhouettes.meeting_probe] = DRAWN
     delta, cap = _contact(scene, camera, tolerances)
     groups, used = scene.groups, np.isfinite(scene.groups.low[:, 0])
     faced = np.zeros(len(used), bool)

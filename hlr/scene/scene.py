@@ -63,24 +63,50 @@ class TrueSurfaces:
 
 
 @dataclass(frozen=True, slots=True)
+class OwnFaces:
+    """Edges whose own faces are seen nearly edge-on, or stretches of them between places where a face turns over.
+
+    edge (s,) ascending, range (s, 2): parameters of the stretch on the edge's image; line (s,): the edge that is the
+    stretch, beside (s,) uint8: its faces, those of a closed body, show it (1), hide it (2), or it is not known (0),
+    dented (s,) bool: its own triangles fold over there, though the faces do not
+    offsets (s + 1,): its faces are face (k,) of all parts' faces, off (k,): the edge that is the stretch off that face.
+    Of line and off none has triangles or is ever drawn, but where the stretch is all of the edge.
+    first (p,) the number of each part's first face; sheet (f,) one number for faces that go on smoothly into others
+    """
+
+    edge: Ints
+    range: Floats
+    line: Ints
+    beside: npt.NDArray[np.uint8]
+    dented: npt.NDArray[np.bool_]
+    offsets: Ints
+    face: Ints
+    off: Ints
+    first: Ints
+    sheet: Ints
+
+    @staticmethod
+    def none() -> OwnFaces:
+        """Of a scene without curved faces."""
+        no = np.zeros(0, np.int32)
+        few, never = no.astype(np.uint8), no.astype(bool)
+        return OwnFaces(no, np.zeros((0, 2)), no, few, never, np.zeros(1, np.int32), no, no, no, no)
+
+
+@dataclass(frozen=True, slots=True)
 class Silhouettes:
     """What the scene knows of the outlines of its true surfaces, which are lines without triangles among its edges.
 
     lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
     facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
-    dents (k,): edges of faces turned toward the viewer, beside a triangle that is not
     number (e,): of the outline to which an edge belongs, -1 for none
     curves of the outlines; NONE where one is straight, or runs along an edge of the model: source (o,) int32, else -1
-    meeting_edge (m,), meeting_at (m,): edges of the model that an outline reaches, and where, from the first vertex
-    meeting_probe (m,): the same edges once more, without triangles, moved like the outlines; they are never drawn
+    own: the faces that edges and outlines bound, where these are seen nearly edge-on
     """
 
     lift: Floats
     hidden: npt.NDArray[np.bool_]
-    meeting_edge: Ints
-    meeting_at: Floats
-    meeting_probe: Ints
-    dents: Ints
+    own: OwnFaces
     number: Ints
     curves: Curves
     source: Ints

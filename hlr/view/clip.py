@@ -15,7 +15,7 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.plan.effect import Facts, Planner
-from hlr.scene.scene import INTERIOR, Chains, Groups, Scene, Silhouettes
+from hlr.scene.scene import INTERIOR, Chains, Groups, OwnFaces, Scene, Silhouettes
 from hlr.scene.topology import keys
 from hlr.source.model import Floats, Ints
 from hlr.view.camera import NEAR, Camera, Vector, dot
@@ -193,23 +193,43 @@ def _cut(scene: Scene, height: Floats) -> Scene:
 def _cut_silhouettes(
     scene: Scene, crossing: np.ndarray, t: Floats, target: Ints, moved: Callable[[np.ndarray, int], np.ndarray]
 ) -> Silhouettes | None:
-    """With new points at (k, 1) parameters t of crossing edges; edges that were shortened meet nothing any more."""
+    """With new points at (k, 1) parameters t of crossing edges; what was shortened is compared with all alike."""
     old = scene.silhouettes
     if old is None:
         return None
     a, b = old.lift[scene.edges[crossing, 0]], old.lift[scene.edges[crossing, 1]]
-    probe = old.meeting_probe
-    whole = (target[old.meeting_edge] >= 0) & ~crossing[old.meeting_edge] & (target[probe] >= 0) & ~crossing[probe]
     return Silhouettes(
         lift=np.concatenate([old.lift, a + (b - a) * t]),
         hidden=moved(old.hidden, 0),
         number=moved(old.number, -1),
         curves=old.curves,
         source=old.source,
-        meeting_edge=target[old.meeting_edge[whole]],
-        meeting_at=old.meeting_at[whole],
-        meeting_probe=target[probe[whole]],
-        dents=target[old.dents][target[old.dents] >= 0],
+        own=_cut_own(old.own, np.where(crossing, -1, target)),
+    )
+
+
+def _cut_own(own: OwnFaces, target: Ints) -> OwnFaces:
+    """Those of edges of which nothing was cut off; target (e,): where each edge went, -1 for one that was."""
+    of = np.repeat(np.arange(len(own.edge)), np.diff(own.offsets))
+    lost = (target[own.edge] < 0) | (target[own.line] < 0)
+    lost[of[target[own.off] < 0]] = True
+    # The stretches of one edge are kept together.
+    lost = np.isin(own.edge, own.edge[lost])
+    kept = np.flatnonzero(~lost)
+    kept = kept[np.argsort(target[own.edge[kept]], kind="stable")]
+    count = np.diff(own.offsets)[kept]
+    offsets = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
+    member = np.arange(offsets[-1]) + np.repeat(own.offsets[kept] - offsets[:-1], count)
+    return replace(
+        own,
+        edge=target[own.edge[kept]],
+        range=own.range[kept],
+        line=target[own.line[kept]],
+        beside=own.beside[kept],
+        dented=own.dented[kept],
+        offsets=offsets,
+        face=own.face[member],
+        off=target[own.off[member]],
     )
 
 

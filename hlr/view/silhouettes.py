@@ -13,9 +13,8 @@ of them stands out beyond the outline, and hardly any lift is needed; where it i
         /|                      what bends the other way (concave along the sight) lies within its own body: hidden
        / |
 
-The chord of an edge of the model at which an outline ends is asked about twice: as a part of the mesh, which turns
-behind its own face at a node instead of at the outline's end, and moved like the outline, where that face does not hide
-it (`hlr.visibility.ends`).
+An outline, and an edge whose face is seen nearly edge-on, is compared with the triangles of that face as if it lay off
+the face by more than they do, on the side that is seen (`kernel/src/scan/own_faces.rs`).
 """
 
 from __future__ import annotations
@@ -30,11 +29,12 @@ from hlr import _kernel
 from hlr.plan.effect import Facts, Planner
 from hlr.plan.options import Options
 from hlr.plan.table import DRAWING
-from hlr.scene.scene import INTERIOR, Chains, Scene, Silhouettes, TrueSurfaces
+from hlr.scene.scene import INTERIOR, Chains, OwnFaces, Scene, Silhouettes, TrueSurfaces
 from hlr.scene.topology import joined
 from hlr.source.model import Curves, EdgeClass, Floats, Ints
-from hlr.tolerance import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, Tolerances
+from hlr.tolerance import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT, Tolerances
 from hlr.view.camera import Camera
+from hlr.view.own_faces import Grazing, with_own_faces
 
 
 def with_silhouettes(
@@ -136,21 +136,16 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
     inner[offsets[1:] - 1] = False
     start = np.flatnonzero(inner).astype(np.int32)
     line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
-    met = found["meeting_edge"]
-    k = n + len(found["points"]) + 2 * np.arange(len(met), dtype=np.int32)
     lines = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
-    edges = np.concatenate([lines, np.stack([k, k + 1], axis=1).astype(np.int32)])
     part = (np.searchsorted(on.first, face, side="right") - 1).astype(np.int32)
     # Groups follow faces: a face's triangles hang together.
     group_of_face = np.zeros(len(on.number), np.int32)
     group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
     group = group_of_face[face]
     inside_out = np.repeat(found["concave"] & ~scene.groups.cull[group], count)
-    lift = np.where(inside_out, -1.0, 1.0) * _lift(found["rise"], deflection)
-    own = np.repeat(found["meeting_normal"] * _lift(found["meeting_rise"], deflection)[:, None], 2, axis=0)
-    probed = scene.points[scene.edges[met].ravel()]
-    # Toward the viewer as well: moved off its curved face it may lie in the plane of the other one.
-    own += OUTLINE_SPARE * deflection * camera.toward(probed)
+    outward = np.where(inside_out, -1.0, 1.0)[:, None] * found["normals"]
+    distance = _lift(found["rise"], deflection)
+    lift = outward * distance[:, None]
     walks = Chains(
         offsets=(offsets - np.arange(m + 1)).astype(np.int32),
         edges=np.arange(len(lines), dtype=np.int32) + np.int32(len(scene.edges)),
@@ -163,32 +158,56 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
         straight=np.zeros(m, bool),
     )
     hidden = np.asarray(found["concave"] & scene.groups.cull[group])
-    more, probes = len(edges), len(met)
-    none = np.zeros(probes, bool)
-    return replace(
+    outlined = replace(
         scene,
-        points=np.concatenate([scene.points, found["points"], probed]),
-        edges=np.ascontiguousarray(np.concatenate([scene.edges, edges])),
-        offsets=np.concatenate([scene.offsets, np.full(more, scene.offsets[-1], np.int32)]),
-        edge_part=np.concatenate([scene.edge_part, part[line], scene.edge_part[met]]),
-        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line], scene.edge_group[met]])),
-        edge_kind=np.concatenate(
-            [scene.edge_kind, np.full(len(lines), EdgeClass.OUTLINE, np.uint8), np.full(probes, INTERIOR, np.uint8)]
-        ),
-        edge_curved=np.concatenate([scene.edge_curved, np.zeros(more, bool)]),
+        points=np.concatenate([scene.points, found["points"]]),
+        edges=np.ascontiguousarray(np.concatenate([scene.edges, lines])),
+        offsets=np.concatenate([scene.offsets, np.full(len(lines), scene.offsets[-1], np.int32)]),
+        edge_part=np.concatenate([scene.edge_part, part[line]]),
+        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line]])),
+        edge_kind=np.concatenate([scene.edge_kind, np.full(len(lines), EdgeClass.OUTLINE, np.uint8)]),
+        edge_curved=np.concatenate([scene.edge_curved, np.zeros(len(lines), bool)]),
         silhouettes=Silhouettes(
-            lift=np.concatenate([np.zeros((n, 3)), found["normals"] * lift[:, None], own]),
-            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line], none]),
-            meeting_edge=met,
-            meeting_at=found["meeting_at"],
-            meeting_probe=np.arange(probes, dtype=np.int32) + np.int32(len(scene.edges) + len(lines)),
-            dents=found["dents"],
-            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line, np.full(probes, -1, np.int32)]),
+            lift=np.concatenate([np.zeros((n, 3)), lift]),
+            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
+            own=OwnFaces.none(),
+            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line]),
             curves=Curves(*(found[f"curve_{name}"] for name in ("kind", "range", "offsets", "values"))),
             source=np.where(source >= 0, scene.chains.index[source], -1).astype(np.int32),
         ),
         chains=joined(scene.chains, walks),
     )
+    # Edges and outlines, those that their own body does not hide anyway.
+    bare = np.isin(scene.edge_kind[found["grazing_edge"]], (EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.SMOOTH))
+    closed = scene.groups.cull[scene.edge_group[found["grazing_edge"][bare]]]
+    # Of a closed body the outer side alone is seen, and whatever lies on it is within reach of the sight.
+    side = np.where(closed | found["grazing_front"][bare], 1.0, -1.0)[:, None, None]
+    beside = np.where(closed, found["grazing_beside"][bare], np.uint8(0))
+    # Beside the end of an outline the edge is moved like the outline: what touches the face there has facets too. And
+    # toward the viewer: moved off its curved face it may lie in the plane of the other one.
+    rise = found["grazing_rise"][bare]
+    turns = ((beside == 1) & (rise >= 0.0).all(axis=1))[:, None, None]
+    ends = scene.points[scene.edges[found["grazing_edge"][bare]]]
+    toward = camera.toward(ends.reshape(-1, 3)).reshape(ends.shape)
+    off = found["grazing_normals"][bare] * _lift(rise, deflection)[:, :, None] + OUTLINE_SPARE * deflection * toward
+    lift_there = np.where(turns, off, 0.0)
+    free = np.flatnonzero(~hidden[line]).astype(np.int32)
+    grazing = Grazing(
+        edge=np.concatenate([found["grazing_edge"][bare], free + np.int32(len(scene.edges))]),
+        range=np.concatenate([found["grazing_range"][bare], np.tile([0.0, 1.0], (len(free), 1))]),
+        face=np.concatenate([found["grazing_face"][bare], face[line[free]]]),
+        off=np.concatenate(
+            [
+                OWN_LIFT * deflection * side * found["grazing_normals"][bare],
+                # Not less than from everything else: its triangles may stand out by more.
+                (outward * np.maximum(distance, OWN_LIFT * deflection)[:, None])[lines[free] - n],
+            ]
+        ),
+        lift=np.concatenate([lift_there, np.zeros((len(free), 2, 3))]),
+        beside=np.concatenate([beside, np.zeros(len(free), np.uint8)]),
+        dented=np.concatenate([found["grazing_dented"][bare], np.zeros(len(free), bool)]),
+    )
+    return with_own_faces(outlined, on, grazing, camera)
 
 
 def _lift(rise: Floats, deflection: float) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -60,6 +61,7 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
         plan.crossings,
         plan.piercings,
         plan.pyramid,
+        _own_faces(scene),
     )
     found["counters"]["contacts"] = int((found["state"] >= WITHIN).sum())
     # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
@@ -82,3 +84,13 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
         counters=found["counters"],
         seconds=found["seconds"],
     )
+
+
+def _own_faces(scene: Scene) -> tuple[npt.NDArray[Any], ...] | None:
+    """`own` of the kernel."""
+    if scene.silhouettes is None or len(scene.silhouettes.own.edge) == 0:
+        return None
+    own = scene.silhouettes.own
+    face = (own.first[scene.triangle_part] + scene.triangle_face).astype(np.int32)
+    stretches = own.edge, own.range, own.line, own.beside, own.dented
+    return *stretches, own.offsets, own.face, own.off, face, own.sheet

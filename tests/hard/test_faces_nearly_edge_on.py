@@ -27,9 +27,8 @@ CASES = [
 ]
 
 
-@pytest.mark.xfail(strict=True, reason="triangles of a face seen nearly edge-on hide its own edges and outlines")
 @pytest.mark.parametrize(("name", "accuracy", "view"), CASES)
-def test_what_is_seen_is_drawn_and_nothing_else(name, accuracy, view):
+def test_what_is_seen_is_drawn_and_nothing_else(name, accuracy, view, picture):
     shape = sheets.SHEETS[name]()
     truth = edge_on.Truth(shape, grid=200)
     drawing = hlr.draw(shape, view, accuracy=accuracy)
@@ -37,6 +36,8 @@ def test_what_is_seen_is_drawn_and_nothing_else(name, accuracy, view):
     assert found.seen > 200 and found.judged > 50
     assert not found.gaps, found.gaps[:5]
     assert not found.wrong, found.wrong[:5]
+    if (name, accuracy) == ("twisted", 0.05):
+        picture(drawing)
 
 
 def test_the_judge_can_find_both_faults():

@@ -15,6 +15,8 @@ from peers import reference
 
 import hlr
 
+UNDER_THE_HEAD = 16
+"""The edge at which the cone of the head meets the flank of the thread."""
 SCREW = Path(__file__).parents[1] / "data" / "M6-1x12-countersunk-screw.step"
 
 
@@ -24,6 +26,15 @@ def test_not_one_sample_is_wrong():
         assert len(drawing.lines) > 20
         count += 1
     assert count == 4
+
+
+def test_coarsely_drawn_an_edge_is_seen_as_far_as_its_outline_goes_on():
+    """The edge under the head is concave: it is hidden from where the cone turns away and its outline begins."""
+    (drawing,) = faultless(SCREW, reference.read_shape(SCREW), ["iso"], 533)
+    ends = np.array([line.points[k] for line in drawing.visible if line.kind == "outline" for k in (0, -1)])
+    under = np.array([line.points[k] for line in drawing.visible if line.edge == UNDER_THE_HEAD for k in (0, -1)])
+    gaps = np.linalg.norm(under[:, None] - ends[None], axis=2).min(axis=1)
+    assert gaps.min() < 0.05 * drawing.accuracy.used
 
 
 def test_it_is_as_large_on_paper_as_the_model():

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from hlr.scene.scene import OwnFaces
 from hlr.visibility import segments
 from hlr.visibility.segments import DIVING, HIDDEN, VISIBLE, WITHIN
 
@@ -32,7 +33,7 @@ def solve(monkeypatch):
     monkeypatch.setattr(segments._kernel, "visibility", visibility)
 
     def call(tight=(False, False), hidden=None, contact=True):
-        silhouettes = None if hidden is None else SimpleNamespace(hidden=np.array(hidden))
+        silhouettes = None if hidden is None else SimpleNamespace(hidden=np.array(hidden), own=OwnFaces.none())
         scene = SimpleNamespace(
             groups=SimpleNamespace(tight=np.array(tight)), edge_group=np.array([0, 1, 1, 0]), silhouettes=silhouettes
         )

@@ -11,6 +11,7 @@ use super::running::run;
 use crate::exact::arithmetic::{Double, Exact, Single};
 use crate::exact::snap::Grid;
 use crate::scan::mesh::{Mesh, Part};
+use crate::scan::own_faces::OwnFaces;
 use crate::scan::sweep::{self, Counters, Outcome, Seconds, Steps};
 use crate::scan::topology;
 use crate::stitch;
@@ -114,10 +115,46 @@ pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangle
     Ok(())
 }
 
-type Pass = fn(&Mesh, Steps, &(dyn Fn() -> bool + Sync)) -> Option<Outcome>;
+type Pass = fn(&Mesh, Steps, &OwnFaces, &(dyn Fn() -> bool + Sync)) -> Option<Outcome>;
+
+/// `own` of `visibility`: edge, range, line, beside, dented, offsets, face, off, triangle_face, sheet.
+type Own<'py> = (
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, u8>,
+    PyReadonlyArray1<'py, bool>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+    PyReadonlyArray1<'py, i32>,
+);
+
+fn own_faces<'a>(own: &'a Own<'_>, edges: usize, triangles: usize) -> PyResult<OwnFaces<'a>> {
+    let (edge, range, line) =
+        (flat(&own.0, "own edge")?, rows::<f64, 2>(&own.1, "own range")?, flat(&own.2, "own line")?);
+    let (beside, dented) = (flat(&own.3, "own beside")?, flat(&own.4, "own dented")?);
+    let (offsets, face, off) = (flat(&own.5, "own offsets")?, flat(&own.6, "own face")?, flat(&own.7, "own off")?);
+    let (triangle_face, sheet) = (flat(&own.8, "triangle_face")?, flat(&own.9, "sheet")?);
+    expect_len("own range", range.len(), edge.len())?;
+    expect_len("own line", line.len(), edge.len())?;
+    expect_len("own offsets", offsets.len(), edge.len() + 1)?;
+    expect_len("own off", off.len(), face.len())?;
+    expect_len("own beside", beside.len(), edge.len())?;
+    expect_len("own dented", dented.len(), edge.len())?;
+    expect_len("triangle_face", triangle_face.len(), triangles)?;
+    expect_below("own edge", edge.iter().chain(line).chain(off).copied(), edges)?;
+    expect_below("own offsets", offsets.iter().copied(), face.len() + 1)?;
+    expect_below("triangle_face", triangle_face.iter().chain(face).copied(), sheet.len())?;
+    if edge.windows(2).any(|w| w[0] > w[1]) || offsets.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("own edge and own offsets must ascend"));
+    }
+    Ok(OwnFaces { edge, range, line, beside, dented, offsets, face, off, triangle_face, sheet, depth_scale: 1.0 })
+}
 
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0, arithmetic = "exact", crossings = true, piercings = true, pyramid = false))]
+#[pyo3(signature = (points, triangles, triangle_part, edges, offsets, incident, edge_part, role, cull, sound, delta, cap, tight, threads = 0, arithmetic = "exact", crossings = true, piercings = true, pyramid = false, own = None))]
 #[allow(clippy::too_many_arguments)] // one argument per array of the scene: the stub names them
 pub fn visibility<'py>(
     py: Python<'py>,
@@ -139,6 +176,7 @@ pub fn visibility<'py>(
     crossings: bool,
     piercings: bool,
     pyramid: bool,
+    own: Option<Own<'py>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let pass: Pass = match arithmetic {
         "exact" => sweep::visibility_by::<Exact>,
@@ -166,6 +204,7 @@ pub fn visibility<'py>(
     expect_below("triangle_part", triangle_part.iter().copied(), cull.len())?;
     expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
     check_incidence(edges.len(), offsets, incident, triangles.len())?;
+    let own = own.as_ref().map(|own| own_faces(own, edges.len(), triangles.len())).transpose()?;
     let outcome = run(py, threads, triangles.len(), |stopped| {
         let grid = Grid::around(points)?.with_room(delta.iter().copied().fold(0.0, f64::max));
         let mesh = Mesh {
@@ -187,7 +226,8 @@ pub fn visibility<'py>(
                 })
                 .collect(),
         };
-        Some(pass(&mesh, Steps { crossings, piercings, pyramid }, stopped))
+        let own = own.map_or(OwnFaces::NONE, |own| OwnFaces { depth_scale: grid.scale_z / grid.scale_xy, ..own });
+        Some(pass(&mesh, Steps { crossings, piercings, pyramid }, &own, stopped))
     })?;
     let Some(outcome) = outcome else {
         return Err(PyValueError::new_err("points hold coordinates that are not finite"));
@@ -214,6 +254,7 @@ fn seconds<'py>(py: Python<'py>, s: &Seconds) -> PyResult<Bound<'py, PyDict>> {
         ("crossings", s.crossings),
         ("piercings", s.piercings),
         ("counting", s.counting),
+        ("own_faces", s.own_faces),
     ] {
         out.set_item(name, value)?;
     }
@@ -241,6 +282,7 @@ fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> 
         ("by_culling_alone", c.by_culling_alone),
         ("pyramid_parts", c.pyramid_parts),
         ("hidden_by_pyramid", c.hidden_by_pyramid),
+        ("freed_of_own_faces", c.freed_of_own_faces),
     ] {
         out.set_item(name, value)?;
     }

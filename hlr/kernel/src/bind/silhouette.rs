@@ -115,7 +115,7 @@ pub fn silhouettes<'py>(
         view,
         chord,
     };
-    let Traced { silhouettes: found, meetings, dents } =
+    let Traced { silhouettes: found, grazing } =
         run(py, threads, model.triangles.len(), |stopped| trace(&model, stopped))?
             .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     let mut starts = vec![0i32];
@@ -147,13 +147,18 @@ pub fn silhouettes<'py>(
     out.set_item("curve_values", curve_values.into_pyarray(py))?;
     out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("rise", rise.into_pyarray(py))?;
-    let k = meetings.len();
-    let meeting_normal: Vec<f64> = meetings.iter().flat_map(|m| m.normal).collect();
-    out.set_item("meeting_edge", meetings.iter().map(|m| m.edge).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("meeting_at", meetings.iter().map(|m| m.at).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("meeting_normal", meeting_normal.into_pyarray(py).reshape([k, 3])?)?;
-    out.set_item("meeting_rise", meetings.iter().map(|m| m.rise).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("dents", dents.iter().map(|&e| e as i32).collect::<Vec<_>>().into_pyarray(py))?;
+    let k = grazing.len();
+    let range: Vec<f64> = grazing.iter().flat_map(|g| g.range).collect();
+    let normals_there: Vec<f64> = grazing.iter().flat_map(|g| g.normals).flatten().collect();
+    out.set_item("grazing_edge", grazing.iter().map(|g| g.edge as i32).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("grazing_range", range.into_pyarray(py).reshape([k, 2])?)?;
+    out.set_item("grazing_face", grazing.iter().map(|g| g.face).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("grazing_normals", normals_there.into_pyarray(py).reshape([k, 2, 3])?)?;
+    out.set_item("grazing_dented", grazing.iter().map(|g| g.dented).collect::<Vec<_>>().into_pyarray(py))?;
+    let rises: Vec<f64> = grazing.iter().flat_map(|g| g.rise.unwrap_or([-1.0; 2])).collect();
+    out.set_item("grazing_rise", rises.into_pyarray(py).reshape([k, 2])?)?;
+    out.set_item("grazing_beside", grazing.iter().map(|g| g.beside as u8).collect::<Vec<_>>().into_pyarray(py))?;
+    out.set_item("grazing_front", grazing.iter().map(|g| g.front).collect::<Vec<_>>().into_pyarray(py))?;
     out.set_item("traced", traced.into_pyarray(py))?;
     Ok(out)
 }

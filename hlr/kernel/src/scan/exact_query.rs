@@ -11,6 +11,7 @@ use super::invisibility::{Event, Segment, walk};
 use super::mesh::Mesh;
 use super::piercing::pierce;
 use super::polygon_table::PolygonTable;
+use crate::exact::Point;
 use crate::exact::arithmetic::{Arithmetic, Ring};
 use crate::exact::predicates::crossing;
 
@@ -40,15 +41,26 @@ impl<'a> ExactQuery<'a> {
 
     /// Segments of one drawn edge; false if even these counts contradict each other.
     pub fn decide<A: Arithmetic>(&self, edge: usize, out: &mut Vec<Segment>) -> bool {
+        let (a, b) = self.mesh.ends(edge);
+        self.decide_by::<A>(self.mesh.edge_part[edge], Aabb::of(&[a, b]), |_| Some((a, b)), out)
+    }
+
+    /// The same where a segment is elsewhere for some polygons, or not compared with them at all: `ends` tells where for
+    /// each; reach: around all these places.
+    pub fn decide_by<'p, A: Arithmetic>(
+        &self,
+        part: i32,
+        mut reach: Aabb,
+        ends: impl Fn(usize) -> Option<(&'p Point, &'p Point)>,
+        out: &mut Vec<Segment>,
+    ) -> bool {
         let mesh = self.mesh;
-        let (a, b) = mesh.ends(edge);
-        let part = mesh.edge_part[edge];
-        let mut shadow = Aabb::of(&[a, b]);
-        shadow.low[2] = i32::MIN;
+        reach.low[2] = i32::MIN;
         let (mut start, mut end) = (Count::default(), Count::default());
         let mut events: Vec<Event<A::Parameter>> = Vec::new();
-        self.tree().query(&shadow, |t| {
+        self.tree().query(&reach, |t| {
             let t = t as usize;
+            let Some((a, b)) = ends(t) else { return };
             let Some(cover) = mesh.cover::<A>(t) else { return };
             let delta = mesh.delta(part, mesh.triangle_part[t]);
             let (plain, moved) = cover.hides_end(a, b, delta);

@@ -11,6 +11,7 @@
 //! 6. `piercing`       where drawn edges pass through polygons of other, or of unsound, parts
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
+//! 9. `own_faces`      the same for edges whose own faces are seen nearly edge-on: these hide them only if they turn over
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `one_sheet` (a convex body: culling alone
 //! decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
@@ -29,6 +30,7 @@ pub mod exact_query;
 pub mod invisibility;
 pub mod mesh;
 pub mod one_sheet;
+pub mod own_faces;
 pub mod piercing;
 pub mod polygon_table;
 pub mod sweep;

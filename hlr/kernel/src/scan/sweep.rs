@@ -12,6 +12,7 @@ use super::exact_query::ExactQuery;
 use super::invisibility::{Event, Segment, State, walk};
 use super::mesh::Mesh;
 use super::one_sheet::one_sheet;
+use super::own_faces::OwnFaces;
 use super::piercing::{Piercings, piercings};
 use super::polygon_table::PolygonTable;
 use crate::exact::arithmetic::{Arithmetic, Exact};
@@ -44,6 +45,8 @@ pub struct Counters {
     pub by_culling_alone: u64,
     pub pyramid_parts: u64,
     pub hidden_by_pyramid: u64,
+    /// Edges that triangles of their own faces would hide or show otherwise than these faces do.
+    pub freed_of_own_faces: u64,
 }
 
 /// Seconds of the steps.
@@ -55,6 +58,7 @@ pub struct Seconds {
     pub crossings: f64,
     pub piercings: f64,
     pub counting: f64,
+    pub own_faces: f64,
 }
 
 pub struct Outcome {
@@ -82,11 +86,16 @@ impl Steps {
 
 /// None if `stopped` said so.
 pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
-    visibility_by::<Exact>(mesh, Steps::ALL, stopped)
+    visibility_by::<Exact>(mesh, Steps::ALL, &OwnFaces::NONE, stopped)
 }
 
 /// The same with any numbers: with others than exact ones pieces may be wrong, and counts contradict each other.
-pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, steps: Steps, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
+pub fn visibility_by<A: Arithmetic>(
+    mesh: &Mesh,
+    steps: Steps,
+    own: &OwnFaces,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Outcome> {
     let mut clock = Clock::start();
     let mut seconds = Seconds::default();
     // 1. facing, contours, drawn edges
@@ -107,7 +116,9 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, steps: Steps, stopped: &(dyn Fn
         let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
         counters.by_culling_alone = edges.drawn.len() as u64;
         seconds.counting = clock.lap();
-        let pieces = gathered(walked, &edges.hidden, &mut counters);
+        let mut pieces = gathered(walked, &edges.hidden, &mut counters);
+        (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
+        seconds.own_faces = clock.lap();
         return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
     }
     // What was taken for a convex body may pass through itself as well.
@@ -151,8 +162,14 @@ pub fn visibility_by<A: Arithmetic>(mesh: &Mesh, steps: Steps, stopped: &(dyn Fn
         ..counters
     };
     // 6. with the edges that culling and the pyramid decided
-    let pieces = gathered(walked, &edges.hidden, &mut counters);
+    let mut pieces = gathered(walked, &edges.hidden, &mut counters);
     seconds.counting = clock.lap();
+    // 7. what own faces seen edge-on hide
+    (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
+    seconds.own_faces = clock.lap();
+    if stopped() {
+        return None;
+    }
     Some(Outcome { pieces, facing: table.facing, counters, seconds })
 }
 

@@ -11,12 +11,10 @@
 use rayon::prelude::*;
 
 use super::face::{Face, Place, mean, root};
+use super::grazing::{Grazing, grazed};
 use super::refine::{outward, rise};
 use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub, unit};
-
-/// Sine: a triangle seen at less is edge-on, and rounding decides what it hides.
-const EDGE_ON: f64 = 1e-6;
 
 /// A change of sign on an edge, on one face of it, or on both where they are one surface.
 #[derive(Clone, Copy, Debug)]
@@ -54,20 +52,19 @@ pub struct Fold {
 pub struct Contour {
     pub crossings: Vec<Crossing>,
     pub folds: Vec<Fold>,
-    /// Borders of faces turned toward the viewer whose triangle there is turned away: the chord cuts a bend off.
-    pub dents: Vec<u32>,
+    pub grazing: Vec<Grazing>,
 }
 
 /// One triangle at an edge a-b: f at both, and the parameters of both.
-struct Side<'a> {
-    triangle: i32,
-    number: i32,
-    corners: [i32; 2],
-    uv: [[f64; 2]; 2],
-    f: [f64; 2],
+pub struct Side<'a> {
+    pub triangle: i32,
+    pub number: i32,
+    pub corners: [i32; 2],
+    pub uv: [[f64; 2]; 2],
+    pub f: [f64; 2],
     /// None on planes.
-    face: Option<Face<'a>>,
-    normal: Vector,
+    pub face: Option<Face<'a>>,
+    pub normal: Vector,
 }
 
 impl Side<'_> {
@@ -75,12 +72,12 @@ impl Side<'_> {
         self.f[end] >= -TIE
     }
 
-    fn changes(&self) -> bool {
+    pub fn changes(&self) -> bool {
         self.away(0) != self.away(1)
     }
 
     /// The parameter of the change along a-b.
-    fn change(&self) -> f64 {
+    pub fn change(&self) -> f64 {
         let Some(face) = &self.face else { return 0.5 };
         let back = usize::from(!self.away(0));
         if self.f[back] <= TIE {
@@ -89,7 +86,7 @@ impl Side<'_> {
         root(face, self.uv[0], self.uv[1], self.f[0], self.f[1])
     }
 
-    fn at(&self, t: f64) -> Option<Place> {
+    pub fn at(&self, t: f64) -> Option<Place> {
         let uv = [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * t);
         // At a pole the normal is that of a place close by.
         self.face.as_ref()?.at_toward(uv, self.uv[usize::from(t < 0.5)])
@@ -128,9 +125,9 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
         .into_par_iter()
         .chunks(1024)
         .map(|edges| {
-            let (mut crossings, mut folds, mut dents) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut crossings, mut folds, mut grazing) = (Vec::new(), Vec::new(), Vec::new());
             if stopped() {
-                return Contour { crossings, folds, dents };
+                return Contour { crossings, folds, grazing };
             }
             for e in edges {
                 let around = &model.incident[model.offsets[e] as usize..model.offsets[e + 1] as usize];
@@ -151,9 +148,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     .filter(|&&t| traced(t) && (curved(t) || model.smooth[e]))
                     .filter_map(|&t| side(model, values, e, t))
                     .collect();
-                if sides.iter().any(|side| dented(model, side)) {
-                    dents.push(e as u32);
-                }
+                grazed(model, e, around, &sides, &mut grazing);
                 let mut at = [None; 2];
                 for (k, side) in sides.iter().enumerate() {
                     if side.changes() && side.face.is_some() {
@@ -169,13 +164,13 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     folded(model, e, &sides, at, &mut folds);
                 }
             }
-            Contour { crossings, folds, dents }
+            Contour { crossings, folds, grazing }
         })
         .collect();
-    let mut out = Contour { crossings: Vec::new(), folds: Vec::new(), dents: Vec::new() };
+    let mut out = Contour { crossings: Vec::new(), folds: Vec::new(), grazing: Vec::new() };
     for part in found {
         let first = out.crossings.len() as u32;
-        out.dents.extend(part.dents);
+        out.grazing.extend(part.grazing);
         out.crossings.extend(part.crossings);
         out.folds.extend(part.folds.into_iter().map(|mut fold| {
             for end in &mut fold.ends {
@@ -204,16 +199,6 @@ fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
         (Some(x), Some(y)) => x == y || (values[x as usize].is_nan() && values[y as usize].is_nan()),
         _ => false,
     })
-}
-
-fn dented(model: &Model, side: &Side) -> bool {
-    // A wall along the sight is not turned toward the viewer.
-    if side.face.is_none() || side.f.iter().any(|&f| f > TIE) || side.f.iter().all(|&f| f >= -TIE) {
-        return false;
-    }
-    let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
-    let normal = cross(&sub(&q, &p), &sub(&r, &p));
-    dot(&normal, &model.sight(&p)) > -EDGE_ON * length(&normal)
 }
 
 fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Side<'a>> {

@@ -9,6 +9,7 @@
 //!    `wrinkle`  where the surface turns over and back within less than the tolerance it does not turn
 //! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at an
 //!               edge do not change at the same place, the edge itself folds between, so that no gap is left
+//!    `grazing`  borders of faces that are seen nearly edge-on, and what these faces do to them
 //! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
 //! 4. `trace`    joined into curves, which part where the face, the edge or the way the surface curves changes
 //! 5. `exact`    circles, and cubic pieces through the points with their tangents
@@ -22,6 +23,7 @@ pub mod contour;
 pub mod cut;
 pub mod exact;
 pub mod face;
+pub mod grazing;
 pub mod refine;
 pub mod trace;
 pub mod wrinkle;

@@ -9,6 +9,7 @@ use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::cut::{canonical, in_order, turns_back, unwound};
 use super::exact::{circle, through};
 use super::face::Face;
+use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
 use super::wrinkle::flatten;
 use hlr_brep::geometry::curve::Curve;
@@ -28,22 +29,10 @@ pub struct Silhouette {
     pub source: i32,
 }
 
-/// Where a silhouette reaches an edge of the model: the parameter from that edge's first to its second vertex.
-#[derive(Clone, Copy, Debug)]
-pub struct Meeting {
-    pub edge: i32,
-    pub at: f64,
-    pub normal: Vector,
-    /// As in a `Stretch`.
-    pub rise: f64,
-}
-
-/// All that is found: the curves, and where they meet edges of the model.
+/// All that is found: the curves, and the edges whose faces are seen nearly edge-on.
 pub struct Traced {
     pub silhouettes: Vec<Silhouette>,
-    pub meetings: Vec<Meeting>,
-    /// As `Contour` says.
-    pub dents: Vec<u32>,
+    pub grazing: Vec<Grazing>,
 }
 
 /// Of the chord tolerance: a fold shorter than this closes a gap that is none.
@@ -65,7 +54,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     if stopped() {
         return None;
     }
-    let Contour { crossings, mut folds, dents } = contour(model, &values, stopped);
+    let Contour { crossings, mut folds, grazing } = contour(model, &values, stopped);
     let same = Same::new(&crossings, &folds, GAP * model.chord);
     let (across, lone) = over_triangles(&crossings);
     folds.extend(lone.into_iter().filter_map(|(t, c)| into_apex(model, &values, t, c, &crossings[c as usize])));
@@ -109,23 +98,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     }
     // The order of triangles is not to be seen.
     out.sort_by(|a, b| a.face.cmp(&b.face).then_with(|| in_order(&a.points, &b.points)));
-    Some(Traced { silhouettes: out, meetings: meetings(model, &crossings), dents })
-}
-
-fn meetings(model: &Model, crossings: &[Crossing]) -> Vec<Meeting> {
-    crossings
-        .iter()
-        .filter_map(|c| {
-            let e = c.border?;
-            let [a, b] = model.edges[e as usize].map(|v| model.points[v as usize]);
-            let (way, to) = (sub(&b, &a), sub(&c.place.point, &a));
-            let square = dot(&way, &way);
-            let at = (dot(&way, &to) / square).clamp(0.0, 1.0);
-            let (point, normal) = (c.place.point, c.place.normal);
-            let rise = rise(model, &c.triangles, &point, &normal);
-            (square > 0.0).then_some(Meeting { edge: e as i32, at, normal, rise })
-        })
-        .collect()
+    Some(Traced { silhouettes: out, grazing })
 }
 
 /// A triangle and its two crossings.

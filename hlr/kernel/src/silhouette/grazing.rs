@@ -1,0 +1,156 @@
+//! The borders of faces that are seen nearly edge-on, parted where a face turns over, and what the faces there do to them.
+//!
+//! Right where it is, an edge of a closed body is seen if its faces let it be: one face turned toward the viewer is enough
+//! where the edge is convex, both have to be where it is concave.
+//!
+//! ```text
+//!        \   /  sight                  sight \    /
+//!      ___\ v                                 v  |
+//!     front|  back: seen                 front ___|  back: hidden
+//! ```
+
+use super::contour::Side;
+use super::face::root;
+use super::refine::rise;
+use super::{Model, TIE};
+use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
+
+/// A stretch of the border of a face that is seen nearly edge-on there: of an edge from one parameter to another, between
+/// places where a face at this edge turns over.
+#[derive(Clone, Copy, Debug)]
+pub struct Grazing {
+    pub edge: u32,
+    pub range: [f64; 2],
+    pub face: i32,
+    /// The face's outward unit normals at both ends, and whether its outer side is seen.
+    pub normals: [Vector; 2],
+    pub front: bool,
+    pub beside: Beside,
+    /// The face is turned toward the viewer, but its triangle here is not: the chord cuts a bend off.
+    pub dented: bool,
+    /// At both ends, as in a `Stretch`, of the first face that turns over along this edge; nothing of others.
+    pub rise: Option<[f64; 2]>,
+}
+
+/// What the faces at an edge of a closed body do to it themselves, right where it is: seen is a convex edge of which any
+/// face is turned toward the viewer, and a concave one of which all are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Beside {
+    /// A face is a wall along the sight, or there are not two.
+    Unknown = 0,
+    Seen = 1,
+    Hidden = 2,
+}
+
+/// |N . v|: a face seen more openly than this does not get in front of its own border by what its triangles are off.
+const GRAZE: f64 = 0.3;
+
+/// |N . v|: a face, or a triangle, seen at less is a wall along the sight: rounding decides what it hides.
+const WALL: f64 = 1e-6;
+
+/// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single chord,
+/// however often the face turns over along it.
+const ASKED: usize = 8;
+
+pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut Vec<Grazing>) {
+    let grazes = |side: &&Side| side.face.is_some() && (side.f.iter().any(|f| f.abs() < GRAZE) || dented(model, side));
+    let found: Vec<(&Side, Vec<(f64, f64)>)> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
+    let mut stops: Vec<f64> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
+    stops.extend([0.0, 1.0]);
+    stops.sort_by(f64::total_cmp);
+    stops.dedup();
+    for range in stops.windows(2) {
+        let range = [range[0], range[1]];
+        let beside = beside(model, e, around, sides, 0.5 * (range[0] + range[1]));
+        let turning = found.iter().position(|(_, turns)| turns.len() > 1);
+        for (at, (side, turns)) in found.iter().enumerate() {
+            let Some(f) = turns.iter().rev().find(|turn| turn.0 <= range[0]).map(|turn| turn.1) else { continue };
+            if f == 0.0 {
+                continue;
+            }
+            let normals = [0, 1].map(|k| side.at(range[k]).map_or(side.normal, |place| place.normal));
+            let rise = (turning == Some(at))
+                .then(|| [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, range[k]), &normals[k])));
+            let (front, dented) = (f < 0.0, dented(model, side));
+            out.push(Grazing { edge: e as u32, range, face: side.number, normals, front, beside, dented, rise });
+        }
+    }
+}
+
+fn dented(model: &Model, side: &Side) -> bool {
+    // A wall along the sight is not turned toward the viewer.
+    if side.f.iter().any(|&f| f > TIE) || side.f.iter().all(|&f| f >= -TIE) {
+        return false;
+    }
+    let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
+    let normal = cross(&sub(&q, &p), &sub(&r, &p));
+    dot(&normal, &model.sight(&p)) > -WALL * length(&normal)
+}
+
+fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
+    let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
+    along(&a, &sub(&b, &a), t)
+}
+
+/// What the two faces of an edge do to it at one parameter, if the body is closed.
+fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Beside {
+    let &[s, u] = around else { return Beside::Unknown };
+    let sight = model.sight(&on_edge(model, e, t));
+    let normal = |triangle: i32| match sides.iter().find(|side| side.triangle == triangle) {
+        Some(side) => Some(side.at(t).map_or(side.normal, |place| place.normal)),
+        None if model.faces[model.triangle_face[triangle as usize] as usize].curved => None,
+        None => {
+            let [p, q, r] = model.triangles[triangle as usize].map(|v| model.points[v as usize]);
+            unit(&cross(&sub(&q, &p), &sub(&r, &p)))
+        }
+    };
+    let (Some(m), Some(n)) = (normal(s), normal(u)) else { return Beside::Unknown };
+    let corners = model.triangles[s as usize];
+    let forward = (0..3).any(|k| [corners[k], corners[(k + 1) % 3]] == model.edges[e]);
+    let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
+    let way = if forward { sub(&b, &a) } else { sub(&a, &b) };
+    let concave = !model.smooth[e] && dot(&cross(&m, &n), &way) < 0.0;
+    let f = [dot(&m, &sight), dot(&n, &sight)];
+    let (front, back) = (f.iter().filter(|f| **f < -WALL).count(), f.iter().filter(|f| **f > WALL).count());
+    match concave {
+        false if front > 0 => Beside::Seen,
+        false if back == 2 => Beside::Hidden,
+        true if back > 0 => Beside::Hidden,
+        true if front == 2 => Beside::Seen,
+        _ => Beside::Unknown,
+    }
+}
+
+/// Where a face turns over along its edge, from 0 on, and the sign of f from there on: 0 where it is a wall along the sight.
+fn turns(side: &Side) -> Vec<(f64, f64)> {
+    let Some(face) = &side.face else { return Vec::new() };
+    let uv = |t: f64| [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t);
+    let sign = |f: f64| if f.abs() <= TIE { 0.0 } else { f.signum() };
+    let asked: Vec<(f64, f64)> = (0..=ASKED)
+        .map(|k| {
+            let t = k as f64 / ASKED as f64;
+            match k {
+                0 => (t, side.f[0]),
+                ASKED => (t, side.f[1]),
+                _ => (t, face.f(uv(t)).unwrap_or(0.0)),
+            }
+        })
+        .filter(|&(_, f)| sign(f) != 0.0)
+        .collect();
+    let Some(&(_, first)) = asked.first() else { return vec![(0.0, 0.0)] };
+    let mut out = vec![(0.0, sign(first))];
+    for pair in asked.windows(2) {
+        let [(s, f), (t, g)] = [pair[0], pair[1]];
+        if sign(f) != sign(g) {
+            let at = if side.changes() && asked.iter().filter(|a| sign(a.1) != sign(first)).all(|a| a.0 >= t) {
+                // The outline's own end.
+                side.change()
+            } else {
+                s + (t - s) * root(face, uv(s), uv(t), f, g)
+            };
+            out.push((at.clamp(s, t), sign(g)));
+        }
+    }
+    out
+}
