@@ -1,5 +1,6 @@
 //! Curves and surfaces of a B-rep, as their records say: evaluated with derivatives, without OpenCASCADE.
 
+mod basis;
 pub mod curve;
 pub mod jet;
 pub mod moved_surface;

@@ -1,6 +1,8 @@
 //! B-splines, rational or not, in homogeneous coordinates.
 //! (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997: A2.1 find span, A2.3 basis functions and derivatives.)
 
+use super::basis::Basis;
+
 /// Highest degree that is evaluated; OpenCASCADE's own limit is 25.
 pub const MOST_DEGREE: usize = 25;
 
@@ -104,11 +106,18 @@ impl Nurbs {
 
     /// Homogeneous point, first and second derivative.
     pub fn homogeneous(&self, t: f64) -> [[f64; 4]; 3] {
-        let span = find_span(&self.knots, self.degree, self.poles.len(), t);
-        let basis = basis(&self.knots, self.degree, span, t);
+        match self.degree {
+            0..=3 => self.by_basis::<4>(t),
+            4..=7 => self.by_basis::<8>(t),
+            _ => self.by_basis::<{ MOST_DEGREE + 1 }>(t),
+        }
+    }
+
+    fn by_basis<const N: usize>(&self, t: f64) -> [[f64; 4]; 3] {
+        let basis = Basis::<N>::at(&self.knots, self.degree, self.poles.len(), t);
         let mut out = [[0.0; 4]; 3];
-        for (row, values) in out.iter_mut().zip(&basis) {
-            for (pole, value) in self.poles[span - self.degree..=span].iter().zip(values) {
+        for (row, values) in out.iter_mut().zip(&basis.rows) {
+            for (pole, value) in self.poles[basis.first..=basis.first + self.degree].iter().zip(values) {
                 for (sum, c) in row.iter_mut().zip(pole) {
                     *sum += c * value;
                 }

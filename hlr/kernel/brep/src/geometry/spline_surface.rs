@@ -1,8 +1,8 @@
 //! Tensor-product B-splines, rational or not: points and first derivatives.
 //!
-//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.2 and (2.7) (basis functions, and derivatives from
-//! those of lower degree), A3.6 and A4.4 (surface points and derivatives).
+//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A3.6 and A4.4 (surface points and derivatives).
 
+use super::basis::Basis;
 use super::jet::Jet;
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
@@ -20,13 +20,6 @@ pub struct SplineSurface {
     knots: [Vec<f64>; 2],
     /// (x w, y w, z w, w), v fastest.
     poles: Vec<[f64; 4]>,
-}
-
-/// Values, first and second derivatives of the basis functions that are not zero at a parameter, and the first one's number.
-/// N: at least one more than the degree.
-struct Basis<const N: usize> {
-    first: usize,
-    rows: [[f64; N]; 3],
 }
 
 impl SplineSurface {
@@ -181,47 +174,7 @@ impl SplineSurface {
     }
 
     fn basis<const N: usize>(&self, side: usize, x: f64) -> Basis<N> {
-        let (p, knots) = (self.degree[side], &self.knots[side]);
-        let x = self.inside(side, x);
-        // The span of non-zero length that holds x; beyond the ends the outermost polynomial goes on.
-        let mut span = knots.partition_point(|&k| k <= x).clamp(p + 1, self.count[side]) - 1;
-        while span > p && knots[span + 1] <= knots[span] {
-            span -= 1;
-        }
-        let width = |q: usize, r: usize| knots[span + r + 1] - knots[span + 1 + r - q];
-        // Of degree p, p - 1 and p - 2.
-        let mut by_degree = [[0.0; N]; 3];
-        let mut value = [0.0; N];
-        value[0] = 1.0;
-        for q in 0..=p {
-            if q > 0 {
-                let mut saved = 0.0;
-                for r in 0..q {
-                    let share = value[r] / width(q, r);
-                    value[r] = saved + (knots[span + r + 1] - x) * share;
-                    saved = (x - knots[span + 1 + r - q]) * share;
-                }
-                value[q] = saved;
-            }
-            if p - q < 3 {
-                by_degree[p - q] = value;
-            }
-        }
-        let derived = |lower: &[f64; N], q: usize| {
-            let mut out = [0.0; N];
-            let mut before = 0.0;
-            for r in 0..q {
-                let share = q as f64 * lower[r] / width(q, r);
-                out[r] = before - share;
-                before = share;
-            }
-            out[q] = before;
-            out
-        };
-        let [values, lower, lowest] = by_degree;
-        let slopes = derived(&lower, p);
-        let bends = if p > 1 { derived(&derived(&lowest, p - 1), p) } else { [0.0; N] };
-        Basis { first: span - p, rows: [values, slopes, bends] }
+        Basis::at(&self.knots[side], self.degree[side], self.count[side], self.inside(side, x))
     }
 }
 

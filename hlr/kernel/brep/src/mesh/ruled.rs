@@ -14,9 +14,8 @@ use crate::geometry::vector::{along, cross, dot, from_line, sub, unit};
 
 /// Where the sweep does not get through, v is made so short that Delaunay's triangles are as narrow in u as they can be.
 const FLAT: f64 = 1e-3;
-/// Shares of an edge at which gaps are measured, and how much more they may be beside these.
-const PLACES: [f64; 7] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875];
-const MARGIN: f64 = 1.016;
+/// What a parabola through three gaps along an edge may be less than the greatest one.
+const MARGIN: f64 = 1.02;
 
 /// The parameter, u (0) or v (1), along which a surface is straight and does not turn; a plane is so in any direction.
 pub fn straight_along(surface: &Surface) -> Option<usize> {
@@ -87,7 +86,7 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
             };
             let (from, to) = (flat(a[0]), flat(b[0]));
             let height = |t: f64| from_line(&flat(a[0] + t * (b[0] - a[0])), &from, &to);
-            MARGIN * PLACES.map(height).into_iter().fold(0.0, f64::max)
+            MARGIN * peak([0.25, 0.5, 0.75].map(height))
         }
         // The distance between the edge and the straight lines of the surface that it passes.
         Surface::Spline(s) => {
@@ -104,8 +103,14 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
                 let n = if parallel { None } else { unit(&n) };
                 n.map_or_else(|| from_line(&p, &from, &to), |n| dot(&n, &sub(&p, &from)).abs())
             };
-            MARGIN * PLACES.map(apart).into_iter().fold(0.0, f64::max)
+            MARGIN * peak([0.25, 0.5, 0.75].map(apart))
         }
         _ => 0.0,
     }
+}
+
+/// Greatest of three values at even distances, and of the parabola through them.
+fn peak([a, b, c]: [f64; 3]) -> f64 {
+    let (most, bend) = (a.max(b).max(c), 2.0 * b - a - c);
+    if bend > 0.0 && (c - a).abs() < 2.0 * bend { most.max(b + (c - a) * (c - a) / (8.0 * bend)) } else { most }
 }
