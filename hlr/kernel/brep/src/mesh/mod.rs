@@ -68,8 +68,16 @@ pub enum Fault {
     NotCertified(f64),
 }
 
-/// The mesh of a face: chord error at most `deflection` in the surface's unit, at most `angle` radians between
-/// neighbouring normals.
+/// The mesh of a face: chord error at most `deflection` in the surface's unit. Inner points are laid out so that the surface
+/// turns by about `angle` radians from one to the next; triangles that are long beside flat directions turn by up to twice
+/// as much.
+///
+/// The loops' points are kept as they are. The chord error is counted from the loops' own places: what these are off the
+/// surface is not in it. On a sphere it is exact, on cylinders and cones in closed form; elsewhere it follows from the second
+/// derivatives at the corners, with a margin, and is measured where these change unevenly.
+///
+/// # Errors
+/// The loops cross, do not close, or the deflection cannot be shown to be kept with chords as coarse as the border's.
 pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f64) -> Result<FaceMesh, Fault> {
     let bent = |straight| bent::triangulate(surface, loops, deflection, angle, straight);
     let made = match (surface, ruled::straight_along(surface)) {

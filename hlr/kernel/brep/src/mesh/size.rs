@@ -21,7 +21,7 @@ const FILL: f64 = 0.85;
 const LONGEST: f64 = 12.0;
 /// Of the angle asked for: between the normals at the ends of an edge inside the face. Neighbouring triangles, whose middles
 /// are nearer to one another, differ by less than the angle.
-const TURN: f64 = 1.5;
+const TURN: f64 = 1.1;
 /// Radians between the directions of coordinate lines at the ends of an edge: about a pole.
 const FAN: f64 = 0.8;
 /// In deflections: what would be seen by shorter edges is less than the deflection.

@@ -1,9 +1,11 @@
 //! Spheres, tori, splines: chord error held against dense samples, and how many triangles it takes.
 
+use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::shapes::*;
 use crate::geometry::surface::Surface;
+use crate::geometry::vector::{cross, dot, sub, unit};
 use crate::mesh::{FaceMesh, mesh_face};
 
 /// Chords of an arc at half the deflection.
@@ -148,4 +150,37 @@ fn an_offset_patch() {
     }
     let s = Surface::read(9, &data).unwrap();
     meshed(&s, &[frame([0.0, 0.0], [1.0, 1.0], 60, 60)], 0.01, 1e9);
+}
+
+/// Greatest angle between neighbouring triangles.
+fn turning(mesh: &FaceMesh) -> f64 {
+    let normal = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| mesh.points[i as usize]);
+        unit(&cross(&sub(&b, &a), &sub(&c, &a)))
+    };
+    let mut worst = 0.0f64;
+    let mut sides = HashMap::new();
+    for t in &mesh.triangles {
+        for k in 0..3 {
+            sides.insert((t[k], t[(k + 1) % 3]), normal(t));
+        }
+    }
+    for (&(a, b), one) in &sides {
+        if let (Some(one), Some(Some(other))) = (one, sides.get(&(b, a))) {
+            worst = worst.max(dot(one, other).clamp(-1.0, 1.0).acos());
+        }
+    }
+    worst
+}
+
+#[test]
+fn neighbours_keep_the_angle_where_the_deflection_is_coarse() {
+    let sphere = surface(4, &[100.0]);
+    let torus = surface(5, &[100.0, 30.0]);
+    let coarse = 8.0;
+    let on_sphere = meshed(&sphere, &[whole_sphere(chords(100.0, PI, coarse))], coarse, 1e9);
+    let on_torus = meshed(&torus, &[frame([0.0, 0.0], [TAU, TAU], 14, 14)], coarse, 1e9);
+    let turns = [turning(&on_sphere), turning(&on_torus)];
+    // Where a surface bends in one direction only, triangles are long, and neighbours turn by up to twice as much.
+    assert!(turns[0] < 0.5 && turns[1] < 1.0, "{turns:?}");
 }
