@@ -4,6 +4,7 @@ A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap
 no points.
 """
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -198,6 +199,59 @@ Lens = tuple[
     tuple[int, int],
 ]
 """right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: `src/preview/lens.rs`."""
+
+class BrepModel:
+    """Parts, faces and edges of an OpenCASCADE dump of a compound, each underlying face and edge once.
+
+    Faces are numbered in the order in which an explorer meets them; a part's edges as in its TopExp edge map.
+    """
+
+    def __new__(cls, dump: bytes, threads: int = 0) -> BrepModel: ...
+    @property
+    def n_faces(self) -> int: ...
+    def planar(self, tolerance: float) -> Bools: ...
+    def surface_records(self, numbers: Ints) -> tuple[Bytes, Ints, Floats]: ...
+    def edge_curves(self, part: Ints, edge: Ints) -> tuple[Bytes, Floats, Ints, Floats]: ...
+    def mesh(
+        self, deflection: float, angle: float, progress: Callable[[float], None] | None = None, threads: int = 0
+    ) -> BrepMesh: ...
+
+class BrepMesh:
+    """The mesh of a model at one chord error (model units) and turning angle (radians)."""
+
+    def faults(self) -> list[tuple[int, str]]: ...
+    def replace(
+        self, face: int, points: Floats, uv: Floats, triangles: Ints, borders: list[tuple[list[int], list[float]]]
+    ) -> bool: ...
+    def parts(self, planar: Bools, threads: int = 0) -> BrepParts: ...
+
+class BrepParts:
+    """Part meshes one after another: part p owns points[point_start[p]:point_start[p + 1]] and so on.
+
+    triangles, edge_nodes and corner count within the part; edge_offsets through all edges.
+
+    corner (m, 3) of triangles counts nodes of faces, into uv (k, 2); face_shape, face_place (f, 3, 4) and face_reversed
+    per face: number of the underlying face, where it stands in the part, whether its surface's normal points inward.
+    """
+
+    point_start: Ints
+    points: Floats
+    triangle_start: Ints
+    triangles: Ints
+    triangle_face: Ints
+    face_start: Ints
+    face_planar: Bools
+    face_shape: Ints
+    face_place: Floats
+    face_reversed: Bools
+    edge_start: Ints
+    edge_offsets: Ints
+    edge_nodes: Ints
+    edge_index: Ints
+    edge_class: Bytes
+    node_start: Ints
+    corner: Ints
+    uv: Floats
 
 class ShadedModel:
     """A triangle mesh with normals and colours, for any number of pictures."""

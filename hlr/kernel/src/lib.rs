@@ -43,6 +43,9 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::ink::dashes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
     m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
+    m.add_class::<bind::brep::BrepModel>()?;
+    m.add_class::<bind::brep::BrepMesh>()?;
+    m.add_class::<bind::brep::BrepParts>()?;
     m.add_class::<bind::preview::ShadedModel>()?;
     m.add_function(wrap_pyfunction!(bind::preview::stroke_picture, m)?)?;
     m.add_function(wrap_pyfunction!(bind::fill::filled_areas, m)?)?;

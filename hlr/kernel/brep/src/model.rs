@@ -2,11 +2,15 @@
 
 use std::collections::HashMap;
 
+use rayon::prelude::*;
+
+use crate::classes::{Classes, classes};
 use crate::explore::{self, Part};
 use crate::format::{Damaged, Dump, Kind, Locations, Matrix, On, Orientation, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
+use crate::laid::{LaidPart, laid};
 
 /// A vertex as a shape sees it that holds it: underlying shape and location.
 pub type Vertex = (u32, u32);
@@ -19,6 +23,9 @@ pub struct Model {
     pub edges: Vec<Edge>,
     pub faces: Vec<Face>,
     pub parts: Vec<Part>,
+    pub laid: Vec<LaidPart>,
+    /// By part and edge.
+    pub classes: Vec<Vec<Classes>>,
     /// In (u, v), as curves in space with z = 0.
     pub curves2: Vec<Option<Curve>>,
 }
@@ -40,6 +47,8 @@ pub struct Edge {
     pub polygon: Option<Vec<[f64; 3]>>,
     /// Of an edge without a curve in space: number of its curve in (u, v), and the surface in the edge's frame.
     pub only_on: Option<(usize, Surface)>,
+    /// Parameters at which its polyline has a corner, ascending.
+    pub joints: Vec<f64>,
 }
 
 /// An edge's curves in (u, v) of a surface, one for each sense where the edge is a seam.
@@ -74,6 +83,13 @@ pub struct Use {
     pub curve2: Option<(usize, [f64; 2])>,
 }
 
+impl Edge {
+    /// First and last vertex; one that there is not is the edge's own.
+    pub fn ends(&self, number: u32) -> [Vertex; 2] {
+        self.ends.map(|end| end.unwrap_or((NO_VERTEX | number, 0)))
+    }
+}
+
 impl Model {
     /// The parts are the children of the dump's root, a compound.
     ///
@@ -85,10 +101,30 @@ impl Model {
         let mut triangulations: Vec<_> = std::mem::take(&mut dump.triangulations).into_iter().map(Some).collect();
         let edges: Vec<Edge> = found.edges.iter().map(|&shape| edge(&mut dump, shape)).collect();
         let number: HashMap<u32, u32> = (0..).zip(&found.edges).map(|(i, &shape)| (shape, i)).collect();
-        let faces =
+        let faces: Vec<Face> =
             found.faces.iter().map(|&shape| face(&mut dump, shape, &number, &edges, &mut triangulations)).collect();
-        let Dump { locations, curves2, .. } = dump;
-        Ok(Model { locations, edges, faces, parts: found.parts, curves2 })
+        let Dump { mut locations, curves2, .. } = dump;
+        let laid: Vec<LaidPart> = found.parts.iter().map(|part| laid(part, &faces, &edges, &mut locations)).collect();
+        let mut model = Model { locations, edges, faces, parts: found.parts, laid, classes: Vec::new(), curves2 };
+        model.classify();
+        Ok(model)
+    }
+
+    /// How the faces of all parts meet; where that changes along an edge, its polyline gets a corner.
+    fn classify(&mut self) {
+        let of_part = |part: &LaidPart| -> Vec<Classes> {
+            (0..part.edges.len()).into_par_iter().map(|edge| classes(self, part, edge)).collect()
+        };
+        self.classes = self.laid.par_iter().map(of_part).collect();
+        for (part, classes) in self.laid.iter().zip(&self.classes) {
+            for (laid, classes) in part.edges.iter().zip(classes) {
+                self.edges[laid.edge as usize].joints.extend(&classes.joints);
+            }
+        }
+        for edge in &mut self.edges {
+            edge.joints.sort_unstable_by(f64::total_cmp);
+            edge.joints.dedup();
+        }
     }
 }
 
@@ -107,6 +143,7 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
         on: Vec::new(),
         polygon: None,
         only_on: None,
+        joints: Vec::new(),
     };
     for on in on {
         match on {
@@ -199,10 +236,8 @@ fn face(
             });
             let curve2 = curve2.filter(|(_, range)| range.iter().all(|t| t.is_finite()));
             let place = (stands != 0).then(|| dump.locations.matrix(stands));
-            let ends = edges[edge as usize].ends.map(|end| match end {
-                Some((shape, location)) => (shape, dump.locations.product(stands, location)),
-                None => (NO_VERTEX | edge, stands),
-            });
+            let ends = edges[edge as usize].ends(edge);
+            let ends = ends.map(|(shape, location)| (shape, dump.locations.product(stands, location)));
             uses.push(Use { edge, location: stands, place, orientation, ends, curve2 });
         }
         wires.push(uses);

@@ -55,13 +55,16 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
     let faces_of = faces_of_edges(model);
     let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
+    // Faces whose coarse chords cannot be divided any more: they are meshed with these.
+    let mut settled: BTreeSet<usize> = BTreeSet::new();
     for round in 0..=MOST_ROUNDS {
         let tries = each(
             &mut wanted,
             model,
             &lines,
-            |face| {
-                let tried = try_face(model, face, &lines, deflection, angle, round < MOST_ROUNDS);
+            |i| {
+                let divisible = round < MOST_ROUNDS && !settled.contains(&i);
+                let tried = try_face(model, &model.faces[i], &lines, deflection, angle, divisible);
                 if round == 0 {
                     watch.done.fetch_add(1, Ordering::Relaxed);
                 }
@@ -69,10 +72,15 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
             },
             watch,
         )?;
+        let last = round == MOST_ROUNDS;
         let mut divided: BTreeSet<(u32, u32)> = BTreeSet::new();
-        for (i, Tried { face, coarse }) in tries {
+        let mut waiting = Vec::new();
+        for (i, Tried { face, coarse, waits }) in tries {
+            if waits {
+                waiting.push(i);
+            }
             let uncertified = matches!(face.fault, Some(Fault::NotCertified(_)));
-            if !uncertified || round < ROUNDS_UNCERTIFIED {
+            if !last && (!uncertified || round < ROUNDS_UNCERTIFIED) {
                 divided.extend(coarse);
             }
             faces[i] = face;
@@ -81,12 +89,17 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
         for (edge, chords) in by_edge(&divided) {
             if let Some(line) = &mut lines[edge as usize]
                 && line.points.len() < MOST_CORNERS
-                && line.divide(model, &model.edges[edge as usize], &chords)
+                && line.divide(model, &model.edges[edge as usize], &chords, deflection)
             {
                 changed.insert(edge);
             }
         }
-        let again: BTreeSet<usize> = changed.iter().flat_map(|&e| faces_of[e as usize].iter().copied()).collect();
+        let mut again: BTreeSet<usize> = changed.iter().flat_map(|&e| faces_of[e as usize].iter().copied()).collect();
+        for i in waiting {
+            if again.insert(i) {
+                settled.insert(i);
+            }
+        }
         wanted = again.into_iter().collect();
         if wanted.is_empty() {
             break;
@@ -130,7 +143,7 @@ fn each<T: Send + Sync>(
     wanted: &mut [usize],
     model: &Model,
     lines: &[Option<Polyline>],
-    work: impl Fn(&Face) -> T + Sync,
+    work: impl Fn(usize) -> T + Sync,
     watch: &Watch,
 ) -> Option<Vec<(usize, T)>> {
     let corners = |i: usize| -> usize {
@@ -153,7 +166,7 @@ fn each<T: Send + Sync>(
             if k >= wanted.len() || (watch.stopped)() {
                 return;
             }
-            let _ = results[k].set(work(&model.faces[wanted[k]]));
+            let _ = results[k].set(work(wanted[k]));
         }
     };
     if wanted.len() == 1 || rayon::current_num_threads() == 1 {
@@ -173,6 +186,8 @@ struct Tried {
     face: MeshedFace,
     /// Chords that are to be divided: edge and chord along it.
     coarse: Vec<(u32, u32)>,
+    /// For that: it was not tried.
+    waits: bool,
 }
 
 /// divisible: chords that are too coarse may still be divided; the face is not meshed before they are.
@@ -184,7 +199,11 @@ fn try_face(
     angle: f64,
     divisible: bool,
 ) -> Tried {
-    let failed = |fault, coarse| Tried { face: MeshedFace { fault: Some(fault), ..MeshedFace::default() }, coarse };
+    let failed = |fault, coarse| Tried {
+        face: MeshedFace { fault: Some(fault), ..MeshedFace::default() },
+        coarse,
+        waits: false,
+    };
     if let Some(own) = &face.own {
         let uv = if own.uv.is_empty() { vec![[f64::NAN; 2]; own.points.len()] } else { own.uv.clone() };
         let mesh = FaceMesh {
@@ -194,7 +213,7 @@ fn try_face(
             nodes: Vec::new(),
             triangles: own.triangles.clone(),
         };
-        return Tried { face: MeshedFace { mesh, ..MeshedFace::default() }, coarse: Vec::new() };
+        return Tried { face: MeshedFace { mesh, ..MeshedFace::default() }, coarse: Vec::new(), waits: false };
     }
     let Some(surface) = &face.surface else { return failed(Fault::Degenerate, Vec::new()) };
     let found = match border(model, face, lines, deflection) {
@@ -203,19 +222,24 @@ fn try_face(
     };
     let coarse = if divisible { found.coarse(surface, deflection) } else { Vec::new() };
     if !coarse.is_empty() {
-        return failed(Fault::NotCertified(f64::INFINITY), coarse);
+        return Tried { waits: true, ..failed(Fault::NotCertified(f64::INFINITY), coarse) };
     }
     let Border { mut loops, nodes, chords, .. } = found;
     // What two edges enclose that are one and the same chord is nothing at this deflection.
     let encloses = |l: &Vec<crate::mesh::LoopPoint>| l.len() > 2;
     let kept: Vec<usize> = (0..loops.loops.len()).filter(|&i| encloses(&loops.loops[i])).collect();
     if kept.is_empty() {
-        return Tried { face: MeshedFace { nodes, ..MeshedFace::default() }, coarse: Vec::new() };
+        // An edge and its own copy.
+        let one = |row: &Vec<Option<(u32, u32)>>| row.iter().all(|c| c.map(|c| c.0) == row[0].map(|c| c.0));
+        if chords.iter().all(one) {
+            return failed(Fault::Open, Vec::new());
+        }
+        return Tried { face: MeshedFace { nodes, ..MeshedFace::default() }, coarse: Vec::new(), waits: false };
     }
     let chords: Vec<_> = kept.iter().map(|&i| &chords[i]).collect();
     loops.loops.retain(encloses);
     match mesh_face(surface, &loops, deflection, angle) {
-        Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None }, coarse: Vec::new() },
+        Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None }, coarse: Vec::new(), waits: false },
         Err(fault) => {
             let coarse = match &fault {
                 Fault::Crossing(pairs) => {
@@ -226,6 +250,18 @@ fn try_face(
                 _ => Vec::new(),
             };
             failed(fault, coarse)
+        }
+    }
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Fault::Crossing(_) => write!(f, "its borders cross"),
+            Fault::Open => write!(f, "its border does not close"),
+            Fault::Degenerate => write!(f, "its surface has no normal"),
+            Fault::TooFine => write!(f, "it would need too many points"),
+            Fault::NotCertified(error) => write!(f, "its chord error may be {error:.3e}"),
         }
     }
 }

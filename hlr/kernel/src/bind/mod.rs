@@ -1,5 +1,6 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry.
 
+pub mod brep;
 pub mod clash;
 pub mod fill;
 pub mod geometry;

@@ -34,9 +34,20 @@ pub fn run<T: Send>(
     size: usize,
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
 ) -> PyResult<T> {
+    run_telling(py, threads, size, |_| Ok(()), work)
+}
+
+/// The same; what waits calls `tell` every few milliseconds, and stops the work where that fails.
+pub fn run_telling<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    size: usize,
+    tell: impl Fn(Python<'_>) -> PyResult<()> + Send + Sync,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+) -> PyResult<T> {
     if size > FEW {
         let pool = pool(threads).map_err(not_started)?;
-        return waited(py, &pool, work);
+        return waited(py, &pool, tell, work);
     }
     let result = py.detach(|| {
         HERE.with(|here| {
@@ -77,6 +88,7 @@ fn pool(threads: usize) -> Result<Arc<ThreadPool>, rayon::ThreadPoolBuildError> 
 fn waited<T: Send>(
     py: Python<'_>,
     pool: &ThreadPool,
+    tell: impl Fn(Python<'_>) -> PyResult<()> + Send + Sync,
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
 ) -> PyResult<T> {
     let stop = AtomicBool::new(false);
@@ -95,7 +107,7 @@ fn waited<T: Send>(
                     Ok(result) => return failure.map_or(Ok(result), Err),
                     Err(RecvTimeoutError::Timeout) => {
                         if failure.is_none()
-                            && let Err(error) = Python::attach(|py| py.check_signals())
+                            && let Err(error) = Python::attach(|py| py.check_signals().and_then(|()| tell(py)))
                         {
                             stop.store(true, Ordering::Relaxed);
                             failure = Some(error);

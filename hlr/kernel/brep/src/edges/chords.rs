@@ -1,6 +1,6 @@
 //! Where a curve is divided into chords: as few as keep the error and the turning, each with its share of both.
 
-use std::f64::consts::FRAC_PI_3;
+use std::f64::consts::{FRAC_PI_3, TAU};
 
 use super::hull::chord_error;
 use crate::geometry::curve::Curve;
@@ -48,7 +48,11 @@ fn stretch(curve: &Curve, low: f64, high: f64, deflection: f64, angle: f64, out:
     {
         // 1 - cos(h / 2) of the radius.
         let step = 2.0 * (1.0 - (deflection / length(a)).min(0.5)).acos();
-        let count = ((high - low) / step.min(angle).min(FRAC_PI_3) - 1e-9).ceil().clamp(1.0, MOST_CHORDS as f64);
+        let mut count = ((high - low) / step.min(angle).min(FRAC_PI_3) - 1e-9).ceil().clamp(1.0, MOST_CHORDS as f64);
+        if high - low > TAU - 1e-9 {
+            // A whole circle is as wide as it is high.
+            count = 4.0 * (count / 4.0).ceil();
+        }
         out.extend((1..count as usize).map(|i| low + (high - low) * i as f64 / count));
         out.push(high);
         return;
@@ -132,10 +136,10 @@ mod tests {
     #[test]
     fn a_circle_is_divided_evenly_and_no_more_than_needed() {
         let circle = Curve::Ellipse { p: [0.0; 3], a: [10.0, 0.0, 0.0], b: [0.0, 10.0, 0.0] };
-        let found = chords(&circle, [0.0, std::f64::consts::TAU], 0.05, 1.0);
+        let found = chords(&circle, [0.0, TAU], 0.05, 1.0);
         assert_eq!(found.len() - 1, 32);
         assert!(chord_error(&circle, found[0], found[1]) <= 0.05);
-        assert_eq!(chords(&circle, [0.0, std::f64::consts::TAU], 1e3, 9.0).len() - 1, 6);
+        assert_eq!(chords(&circle, [0.0, TAU], 1e3, 9.0).len() - 1, 8);
     }
 
     #[test]

@@ -14,8 +14,9 @@ pub struct Polyline {
 }
 
 impl Polyline {
-    /// The chords with these numbers, ascending, are halved; whether any was.
-    pub fn divide(&mut self, model: &Model, edge: &Edge, chords: &[usize]) -> bool {
+    /// The chords with these numbers, ascending, are halved, as far as the edge is known so well; whether any was.
+    pub fn divide(&mut self, model: &Model, edge: &Edge, chords: &[usize], deflection: f64) -> bool {
+        let shortest = 2.0 * NEAR_END * edge.tolerance.min(KNOWN * deflection).max(SAME);
         let at = |t: f64| match (&edge.curve, &edge.only_on) {
             (Some(curve), _) => Some(curve.point(t)),
             (None, Some((curve, surface))) => {
@@ -30,6 +31,9 @@ impl Polyline {
                 continue;
             };
             let middle = 0.5 * (from + to);
+            if length(&sub(&self.points[chord + 1], &self.points[chord])) <= shortest {
+                continue;
+            }
             if let Some(point) = at(middle)
                 && from < middle
                 && middle < to
@@ -47,6 +51,11 @@ impl Polyline {
 const POLE_PARTS: f64 = 16.0;
 /// Of the deflection: what is left for places that were not looked at.
 const SAMPLED: f64 = 0.5;
+/// Tolerances from an end within which a polyline has no corner; what OpenCASCADE takes as the same point.
+const NEAR_END: f64 = 2.0;
+/// Of the deflection: as if edges were known as well as that.
+const KNOWN: f64 = 0.05;
+const SAME: f64 = 1e-7;
 const MOST_HALVINGS: u32 = 14;
 
 /// The polyline of an edge at a chord error and a turning angle.
@@ -69,7 +78,12 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
     }
     let (parameters, mut points) = match (&edge.curve, on) {
         (Some(curve), _) => {
-            let parameters = chords(curve, edge.range, deflection, angle);
+            let mut parameters = vec![first];
+            let inner = edge.joints.iter().copied().filter(|t| *t > first && *t < last);
+            for to in inner.chain([last]) {
+                let from = parameters[parameters.len() - 1];
+                parameters.extend(&chords(curve, [from, to], deflection, angle)[1..]);
+            }
             let points = parameters.iter().map(|&t| curve.point(t)).collect::<Vec<_>>();
             (parameters, points)
         }
@@ -97,6 +111,8 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
     if edge.end_points == [None, None] && length(&sub(&points[0], &points[end])) <= edge.tolerance {
         points[end] = points[0];
     }
+    let (parameters, points) = apart(parameters, points, edge.tolerance.min(KNOWN * deflection));
+    let end = points.len() - 1;
     let finite = points.iter().flatten().all(|c| c.is_finite());
     // A closed edge of one chord would be none.
     if finite && end == 1 && points[0] == points[end] {
@@ -107,6 +123,18 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
         return Some(Polyline { parameters: vec![first, inner[0], inner[1], inner[2], last], points: points.to_vec() });
     }
     finite.then_some(Polyline { parameters, points })
+}
+
+/// Without inner corners that are no further from an end than the edge is known: a chord from there may run anywhere.
+fn apart(parameters: Vec<f64>, points: Vec<Vec3>, tolerance: f64) -> (Vec<f64>, Vec<Vec3>) {
+    let end = points.len() - 1;
+    let far =
+        |k: usize| [0, end].iter().all(|&e| length(&sub(&points[k], &points[e])) > NEAR_END * tolerance.max(SAME));
+    if (1..end).all(far) {
+        return (parameters, points);
+    }
+    let kept: Vec<usize> = (0..=end).filter(|&k| k == 0 || k == end || far(k)).collect();
+    (kept.iter().map(|&k| parameters[k]).collect(), kept.iter().map(|&k| points[k]).collect())
 }
 
 fn sampled(at: &dyn Fn(f64) -> Vec3, to: f64, end: Vec3, most: f64, depth: u32, rows: &mut Vec<(f64, Vec3)>) {

@@ -30,6 +30,8 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
         let [start, mut end] = runs[first].uv_ends();
         let (start_vertex, mut vertex) = (runs[first].ends[0], runs[first].ends[1]);
         let mut found: Loop = vec![(first, [0.0; 2])];
+        // After which edge (u, v) jump: at a pole that has no edge of its own.
+        let mut pole = None;
         loop {
             let here = vertex == start_vertex;
             let before = &runs[found[found.len() - 1].0];
@@ -40,10 +42,13 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
                 .filter(|&(_, &i)| runs[i].ends[0] == vertex)
                 .map(|(k, &i)| {
                     let at = runs[i].uv_ends()[0];
-                    let shift = turns(end, at);
                     let back = runs[i].edge == before.edge && runs[i].location == before.location;
                     let far = gap(end, at);
-                    let near = gap(end, plus(at, shift));
+                    let (mut shift, mut near) = (turns(end, at), gap(end, plus(at, turns(end, at))));
+                    if near > NEAR {
+                        shift = found[found.len() - 1].1;
+                        near = gap(end, plus(at, shift));
+                    }
                     // Steps of the tolerance: what is near is equally near.
                     let step = |g: f64| if g <= NEAR { 0.0 } else { g };
                     ((step(near), back, step(far)), (k, i, shift))
@@ -61,9 +66,19 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
                 break;
             }
             left.remove(k);
+            if near > NEAR {
+                pole = Some(found.len());
+            }
             end = plus(runs[i].uv_ends()[1], shift);
             vertex = runs[i].ends[1];
             found.push((i, shift));
+        }
+        // Where (u, v) jump they may jump by a turn more or less: so that the loop closes.
+        let over = turns(end, start);
+        if let Some(pole) = pole
+            && gap(end, plus(start, over)) <= NEAR
+        {
+            found[pole..].iter_mut().for_each(|(_, shift)| *shift = [shift[0] - over[0], shift[1] - over[1]]);
         }
         loops.push(found);
     }

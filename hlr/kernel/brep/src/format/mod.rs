@@ -14,7 +14,7 @@ mod shapes;
 mod surfaces;
 mod triangles;
 
-pub use locations::{Locations, Matrix, chained, determinant, moved, turned};
+pub use locations::{IDENTITY, Locations, Matrix, chained, determinant, moved, turned};
 pub use shapes::{Kind, On, Orientation, Shape, Sub};
 pub use surfaces::SurfaceRecord;
 pub use triangles::Triangulation;

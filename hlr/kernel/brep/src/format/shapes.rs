@@ -20,6 +20,11 @@ pub enum Orientation {
 }
 
 impl Orientation {
+    /// Whether what stands so bounds something.
+    pub fn bounds(self) -> bool {
+        matches!(self, Orientation::Forward | Orientation::Reversed)
+    }
+
     /// As one in the frame of a parent that stands like `self`: an internal or external shape stays so, a reversed
     /// parent turns the child round.
     pub fn compose(self, inner: Orientation) -> Orientation {

@@ -2,6 +2,7 @@
 
 mod basis;
 pub mod curve;
+pub mod flat;
 pub mod jet;
 pub mod moved_surface;
 pub mod nurbs;

@@ -1,6 +1,15 @@
 //! Surfaces of faces, with OpenCASCADE's parameters: points, first derivatives, normals.
 //!
-//! The records are those of `hlr/source/surfaces.py`.
+//! A record is a kind and a run of numbers:
+//!
+//! ```text
+//! 1-5 plane, cylinder, cone, sphere, torus   origin, x, y, z directions, then the radii (cone: radius, half angle)
+//! 6 revolution   a point of the axis, its direction, the kind of the curve, its numbers (`curve.rs`)
+//! 7 extrusion    the direction, the kind of the curve, its numbers
+//! 8 spline       degrees u, v; pole counts u, v; periods u, v (0: none); knots u, v with repetition; poles
+//!                (x, y, z, w), v fastest
+//! 9 offset       the distance, the kind of the basis, the basis's numbers
+//! ```
 
 use std::f64::consts::TAU;
 

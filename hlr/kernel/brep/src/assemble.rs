@@ -1,0 +1,190 @@
+//! Parts put together from the meshes of their faces: one node for each place, whatever face it is seen from.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use crate::faces::Node;
+use crate::format::{IDENTITY, Matrix, moved};
+use crate::laid::LaidPart;
+use crate::model::{Model, Vertex};
+use crate::tessellate::Tessellation;
+
+/// One part's mesh. Triangles are counterclockwise seen from outside.
+#[derive(Default)]
+pub struct PartMesh {
+    pub points: Vec<[f64; 3]>,
+    pub triangles: Vec<[i32; 3]>,
+    pub triangle_face: Vec<i32>,
+    /// Polylines of edges into points, one after another; number and class of each edge.
+    pub edge_nodes: Vec<i32>,
+    pub edge_counts: Vec<i32>,
+    pub edge_index: Vec<i32>,
+    pub edge_class: Vec<u8>,
+    /// Corners of the triangles in uv: a point on an edge has different parameters on each of its faces.
+    pub corner: Vec<[i32; 3]>,
+    pub uv: Vec<[f64; 2]>,
+    pub face_shape: Vec<i32>,
+    pub face_place: Vec<Matrix>,
+    pub face_reversed: Vec<bool>,
+}
+
+pub fn assemble(model: &Model, meshed: &Tessellation) -> Vec<PartMesh> {
+    (0..model.laid.len()).into_par_iter().map(|p| part(model, meshed, p)).collect()
+}
+
+/// Places of edges in a part: of each edge's polyline the numbers of its corners.
+struct Corners {
+    start: Vec<u32>,
+    of_edge: Vec<u32>,
+    vertices: HashMap<Vertex, u32>,
+    points: Vec<[f64; 3]>,
+}
+
+impl Corners {
+    fn of(&self, edge: usize) -> &[u32] {
+        &self.of_edge[self.start[edge] as usize..self.start[edge + 1] as usize]
+    }
+}
+
+fn corners(meshed: &Tessellation, laid: &LaidPart) -> Corners {
+    let mut out = Corners { start: vec![0], of_edge: Vec::new(), vertices: HashMap::new(), points: Vec::new() };
+    for edge in &laid.edges {
+        if let Some(line) = &meshed.lines[edge.edge as usize] {
+            let place = |p: &[f64; 3]| edge.place.as_ref().map_or(*p, |m| moved(m, p));
+            let last = line.points.len() - 1;
+            for (k, point) in line.points.iter().enumerate() {
+                let next = out.points.len() as u32;
+                let number = match k {
+                    0 => *out.vertices.entry(edge.ends[0]).or_insert(next),
+                    k if k == last => *out.vertices.entry(edge.ends[1]).or_insert(next),
+                    _ => next,
+                };
+                if number == next {
+                    out.points.push(place(point));
+                }
+                out.of_edge.push(number);
+            }
+        }
+        out.start.push(out.of_edge.len() as u32);
+    }
+    out
+}
+
+fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
+    let laid = &model.laid[number];
+    let mut corners = corners(meshed, laid);
+    let mut out = PartMesh::default();
+    let mut degenerate_ends: HashMap<Vertex, u32> = HashMap::new();
+    let edge_number: HashMap<(u32, u32), u32> =
+        (0..).zip(&laid.edges).map(|(i, edge)| ((edge.edge, edge.location), i)).collect();
+    for (f, face) in laid.faces.iter().enumerate() {
+        let found = &meshed.faces[face.face as usize];
+        let mesh = &found.mesh;
+        let place = |p: &[f64; 3]| face.place.as_ref().map_or(*p, |m| moved(m, p));
+        // Nodes of the face as points of the part; an edge's nodes stand one after another.
+        let mut last: Option<((u32, u32), u32)> = None;
+        let nodes: Vec<u32> = found
+            .nodes
+            .iter()
+            .map(|node| match *node {
+                Node::Vertex((shape, location)) => {
+                    let key = (shape, face.location(location));
+                    let known = corners.vertices.get(&key).or_else(|| degenerate_ends.get(&key));
+                    known.copied().unwrap_or_else(|| {
+                        // Of edges without a polyline: it is placed with the first point that has its number.
+                        let next = corners.points.len() as u32;
+                        degenerate_ends.insert(key, next);
+                        corners.points.push([f64::NAN; 3]);
+                        next
+                    })
+                }
+                Node::Edge(edge, location, corner) => {
+                    let edge = match last {
+                        Some((key, number)) if key == (edge, location) => number,
+                        _ => {
+                            let number = edge_number[&(edge, face.location(location))];
+                            last = Some(((edge, location), number));
+                            number
+                        }
+                    };
+                    corners.of(edge as usize)[corner as usize]
+                }
+            })
+            .collect();
+        let first_uv = out.uv.len() as i32;
+        out.uv.extend(&mesh.uv);
+        let mut point_of: Vec<u32> = Vec::with_capacity(mesh.points.len());
+        for (i, point) in mesh.points.iter().enumerate() {
+            let number = match mesh.nodes.get(i) {
+                Some(&node) => nodes[node as usize],
+                None => {
+                    corners.points.push([f64::NAN; 3]);
+                    corners.points.len() as u32 - 1
+                }
+            };
+            if corners.points[number as usize][0].is_nan() {
+                corners.points[number as usize] = place(point);
+            }
+            point_of.push(number);
+        }
+        let turned = face.reversed != face.mirrored;
+        for &[a, b, c] in &mesh.triangles {
+            let t = if turned { [a, c, b] } else { [a, b, c] };
+            let points = t.map(|i| point_of[i as usize] as i32);
+            if points[0] != points[1] && points[1] != points[2] && points[2] != points[0] {
+                out.triangles.push(points);
+                out.triangle_face.push(f as i32);
+                out.corner.push(t.map(|i| first_uv + i as i32));
+            }
+        }
+        out.face_shape.push(face.face as i32);
+        out.face_place.push(face.place.unwrap_or(IDENTITY));
+        out.face_reversed.push(face.reversed);
+    }
+    lines(model, meshed, number, &corners, &mut out);
+    compress(corners.points, &mut out);
+    out
+}
+
+fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners, out: &mut PartMesh) {
+    for (e, laid) in model.laid[number].edges.iter().enumerate() {
+        let edge = &model.edges[laid.edge as usize];
+        let Some(line) = meshed.lines[laid.edge as usize].as_ref().filter(|_| !edge.degenerate) else { continue };
+        let all = corners.of(e);
+        let classes = &model.classes[number][e];
+        let mut begin = 0;
+        for (piece, class) in classes.of_pieces.iter().enumerate() {
+            let end = classes.joints.get(piece).map_or(all.len() - 1, |joint| {
+                let at = line.parameters.partition_point(|t| t < joint);
+                at.clamp(begin, all.len() - 1)
+            });
+            let mut nodes: Vec<i32> = all[begin..=end].iter().map(|&n| n as i32).collect();
+            nodes.dedup();
+            if nodes.len() > 1 {
+                out.edge_counts.push(nodes.len() as i32);
+                out.edge_nodes.extend(nodes);
+                out.edge_index.push(e as i32);
+                out.edge_class.push(*class as u8);
+            }
+            begin = end;
+        }
+    }
+}
+
+/// Points that something uses, in their order.
+fn compress(points: Vec<[f64; 3]>, out: &mut PartMesh) {
+    let mut number = vec![-1i32; points.len()];
+    for &i in out.triangles.iter().flatten().chain(&out.edge_nodes) {
+        number[i as usize] = 0;
+    }
+    for (n, point) in number.iter_mut().zip(points) {
+        if *n == 0 {
+            *n = out.points.len() as i32;
+            out.points.push(point);
+        }
+    }
+    for i in out.triangles.iter_mut().flatten().chain(&mut out.edge_nodes) {
+        *i = number[*i as usize];
+    }
+}

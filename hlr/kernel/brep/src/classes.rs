@@ -1,0 +1,92 @@
+//! Why an edge of a part is drawn: sharp, smooth, seam or border, in pieces where that changes.
+
+use crate::format::Orientation;
+use crate::laid::{LaidFace, LaidPart};
+use crate::model::{Face, Model, Use};
+use crate::tangency::{Meeting, NEARLY_TANGENT, Side, meeting, worst};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum EdgeClass {
+    Sharp = 0,
+    Smooth = 1,
+    Seam = 2,
+    Boundary = 3,
+}
+
+/// Of one edge of a part: its pieces' classes, and the parameters on the edge's curve where they join.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Classes {
+    pub of_pieces: Vec<EdgeClass>,
+    pub joints: Vec<f64>,
+}
+
+/// An edge of two faces is smooth where the surface normals agree along it; a seam whose normals do not agree is a
+/// crease. Edges of more than two faces, and edges of none, are sharp; those of one face are its border.
+pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
+    let laid = &part.edges[number];
+    let edge = &model.edges[laid.edge as usize];
+    let whole = |class| Classes { of_pieces: vec![class], joints: Vec::new() };
+    let sharp_or = |smooth: bool, class| if smooth { class } else { EdgeClass::Sharp };
+    match laid.faces[..] {
+        [one] if laid.twice => {
+            let sides = sides_of_seam(model, &part.faces[one as usize], number as u32);
+            let agree = match sides.as_ref().map(|sides| (sides.iter().any(|s| s.free), worst(sides))) {
+                Some((false, _)) => true,
+                Some((true, Some(angle))) => angle <= NEARLY_TANGENT,
+                Some((true, None)) | None => edge.tangent,
+            };
+            whole(sharp_or(agree, EdgeClass::Seam))
+        }
+        [_] if !laid.inner => whole(EdgeClass::Boundary),
+        [one, two] => {
+            let found = [one, two].map(|face| side(model, &part.faces[face as usize], number as u32));
+            let met = match found {
+                [Some(one), Some(two)] => meeting(&[one, two], edge.tangent),
+                _ => Meeting::Unknown,
+            };
+            match met {
+                Meeting::Unknown => whole(sharp_or(edge.tangent, EdgeClass::Smooth)),
+                Meeting::Whole(smooth) => whole(sharp_or(smooth, EdgeClass::Smooth)),
+                Meeting::Pieces(smooth, shares) => {
+                    let [first, last] = edge.range;
+                    Classes {
+                        of_pieces: smooth.into_iter().map(|s| sharp_or(s, EdgeClass::Smooth)).collect(),
+                        joints: shares.into_iter().map(|s| first + s * (last - first)).collect(),
+                    }
+                }
+            }
+        }
+        _ => whole(EdgeClass::Sharp),
+    }
+}
+
+fn uses<'a>(model: &'a Model, laid: &'a LaidFace, number: u32) -> impl Iterator<Item = &'a Use> {
+    let face: &Face = &model.faces[laid.face as usize];
+    laid.uses.iter().zip(face.wires.iter().flatten()).filter(move |(edge, _)| **edge == number).map(|(_, used)| used)
+}
+
+fn side<'a>(model: &'a Model, laid: &'a LaidFace, number: u32) -> Option<Side<'a>> {
+    one_side(model, laid, uses(model, laid, number).next()?)
+}
+
+fn one_side<'a>(model: &'a Model, laid: &'a LaidFace, used: &Use) -> Option<Side<'a>> {
+    let face = &model.faces[laid.face as usize];
+    let curve = used.curve2.and_then(|(curve, range)| Some((model.curves2[curve].as_ref()?, range)));
+    let free = face.record.as_ref().is_some_and(|r| r.kind > LAST_ELEMENTARY);
+    Some(Side { surface: face.surface.as_ref()?, curve, place: laid.place.as_ref(), reversed: laid.reversed, free })
+}
+
+/// Plane, cylinder, cone, sphere, torus.
+const LAST_ELEMENTARY: u8 = 5;
+
+/// None where the face does not have the edge once in each sense.
+fn sides_of_seam<'a>(model: &'a Model, laid: &'a LaidFace, number: u32) -> Option<[Side<'a>; 2]> {
+    let both: Vec<&Use> = uses(model, laid, number).collect();
+    match both[..] {
+        [one, two] if one.orientation != two.orientation && two.orientation != Orientation::Internal => {
+            Some([one_side(model, laid, one)?, one_side(model, laid, two)?])
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,271 @@
+//! Where two faces are tangent along their common edge, from their true surfaces and along the whole of it.
+//!
+//! The corners of an edge's polyline are no fair sample of it: a straight edge has two, however its free-form faces turn
+//! between them, and where a tessellation falls must not decide whether a line is drawn. So the surfaces at every edge of
+//! a free-form face are compared at places of the edge itself, close enough to be sure:
+//!
+//! ```text
+//! knots of the curve in (u, v)   |               |               |
+//! knots of either surface          |    |    |      |    |    |
+//! places compared                ........................... ...
+//! ```
+//!
+//! Between two breaks surfaces and curve are smooth, and a span has several places. Where the faces are tangent along one
+//! stretch and meet at an angle along another, the edge falls into pieces, each of its own class.
+
+use std::f64::consts::PI;
+
+use crate::format::{Matrix, moved, turned};
+use crate::geometry::curve::Curve;
+use crate::geometry::surface::Surface;
+use crate::geometry::vector::{Vector, cross, dot, length, scaled, sub};
+
+/// Radians: surfaces that meet at less are tangent; what STEP and IGES readers assume as well.
+const TANGENT: f64 = 0.01;
+/// Radians: surfaces that were fitted to one another waver about TANGENT along an edge. They are tangent where no place
+/// is worse than the one, and the root of the mean square is less than the other.
+const WAVERING: f64 = 0.02;
+const MOSTLY_TANGENT: f64 = 0.008;
+/// Radians: an edge recorded as tangent is believed where its sides come as close as this somewhere, and faces that meet
+/// at less do not interrupt a tangent edge.
+pub const NEARLY_TANGENT: f64 = 0.1;
+/// Least parts of an edge, and of a span of its curves in (u, v), in which crossed knots are sought; each is a break.
+const STEPS: usize = 16;
+const STEPS_OF_SPAN: usize = 2;
+/// Parts of an edge whose surfaces cannot turn to and fro between the places.
+const STEPS_SIMPLE: usize = 3;
+/// Shares of the way from break to break at which the faces are compared: at a knot, on either side of it.
+const PLACES: [f64; 3] = [1e-6, 0.5, 1.0 - 1e-6];
+/// Of one edge; surfaces with more knots across it are compared at fewer.
+const MOST_BREAKS: usize = 1000;
+/// Of an edge's length: an angle along less says nothing of the edge. Where a face runs out to a point, its surface has
+/// no normal to speak of.
+const SHORT_FOLD: f64 = 0.02;
+/// Of an edge's length: along less, faces that meet at an angle elsewhere may come tangent without the line being
+/// interrupted, as where two pipes of one size cross.
+const LONG_REST: f64 = 0.1;
+/// Of the step between two places, to find where faces begin to meet at an angle.
+const HALVINGS: u32 = 24;
+
+/// An edge on one of its faces.
+pub struct Side<'a> {
+    pub surface: &'a Surface,
+    /// In (u, v), with its range; a plane needs none.
+    pub curve: Option<(&'a Curve, [f64; 2])>,
+    pub place: Option<&'a Matrix>,
+    pub reversed: bool,
+    /// Not one of the elementary surfaces.
+    pub free: bool,
+}
+
+/// How two faces meet at an edge.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meeting {
+    /// The surfaces cannot be asked.
+    Unknown,
+    Whole(bool),
+    /// Whether smooth, piece by piece, and the shares of the edge's length between them.
+    Pieces(Vec<bool>, Vec<f64>),
+}
+
+/// recorded: a file or a modeller says that they are tangent.
+pub fn meeting(sides: &[Side; 2], recorded: bool) -> Meeting {
+    if sides.iter().any(|s| s.curve.is_none() && !matches!(s.surface, Surface::Plane(_))) {
+        return Meeting::Unknown;
+    }
+    let free = sides.iter().any(|s| s.free);
+    let found: Vec<(f64, f64, Vector)> = places(sides, free)
+        .into_iter()
+        .filter_map(|share| angle(sides, share).map(|(angle, point)| (share, angle, point)))
+        .collect();
+    if found.is_empty() {
+        return Meeting::Unknown;
+    }
+    let least = found.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
+    let most = found.iter().map(|f| f.1).fold(0.0, f64::max);
+    if most <= TANGENT {
+        return Meeting::Whole(true);
+    }
+    if least > NEARLY_TANGENT {
+        return Meeting::Whole(false);
+    }
+    if free {
+        return pieces(&found, recorded, &|share| angle(sides, share).map(|a| a.0));
+    }
+    let mean = found.iter().map(|f| f.1.sin().powi(2)).sum::<f64>() / found.len() as f64;
+    Meeting::Whole(recorded || (most <= WAVERING && mean <= MOSTLY_TANGENT.sin().powi(2)))
+}
+
+/// The largest angle between the two sides of a seam; None where it cannot be told.
+pub fn worst(sides: &[Side; 2]) -> Option<f64> {
+    let free = sides.iter().any(|s| s.free);
+    places(sides, free).into_iter().filter_map(|share| angle(sides, share)).map(|a| a.0).reduce(f64::max)
+}
+
+impl Side<'_> {
+    /// Place and outward normal; None where there is none.
+    fn at(&self, share: f64) -> Option<(Vector, Vector)> {
+        let uv = self.uv(share);
+        let (mut point, mut du, mut dv) = self.surface.d1(uv);
+        if let Some(place) = self.place {
+            (point, du, dv) = (moved(place, &point), turned(place, &du), turned(place, &dv));
+        }
+        let normal = cross(&du, &dv);
+        let area = length(&normal);
+        let longest = dot(&du, &du).max(dot(&dv, &dv));
+        let sound = area > 1e-7 * longest;
+        sound.then(|| (point, scaled(&normal, if self.reversed { -1.0 } else { 1.0 } / area)))
+    }
+
+    fn uv(&self, share: f64) -> [f64; 2] {
+        self.curve.map_or([0.0; 2], |(curve, [first, last])| {
+            let [u, v, _] = curve.point(first + share * (last - first));
+            [u, v]
+        })
+    }
+
+    /// Shares at which its curve in (u, v) may have a corner.
+    fn breaks(&self, out: &mut Vec<f64>) {
+        if let Some((Curve::Spline(n), [first, last])) = self.curve {
+            out.extend(n.knots.iter().map(|k| (k - first) / (last - first)).filter(|s| *s > 0.0 && *s < 1.0));
+        }
+    }
+}
+
+/// Angle between the faces, and the place.
+fn angle(sides: &[Side; 2], share: f64) -> Option<(f64, Vector)> {
+    let ((point, one), (other, two)) = (sides[0].at(share)?, sides[1].at(share)?);
+    let point = if sides[0].curve.is_some() { point } else { other };
+    Some((length(&cross(&one, &two)).atan2(dot(&one, &two)), point))
+}
+
+fn ascending(shares: &mut Vec<f64>) {
+    shares.sort_unstable_by(f64::total_cmp);
+    shares.dedup_by(|b, a| *b - *a <= 1e-9);
+}
+
+fn places(sides: &[Side; 2], free: bool) -> Vec<f64> {
+    if sides.iter().all(|s| matches!(s.surface, Surface::Plane(_))) {
+        return vec![0.5];
+    }
+    let mut spans = vec![0.0, 1.0];
+    sides.iter().for_each(|side| side.breaks(&mut spans));
+    ascending(&mut spans);
+    let parts = if free { STEPS.div_ceil(spans.len() - 1).max(STEPS_OF_SPAN) } else { STEPS_SIMPLE };
+    let mut breaks: Vec<f64> = spans
+        .windows(2)
+        .flat_map(|w| (0..parts).map(move |i| w[0] + (w[1] - w[0]) * i as f64 / parts as f64))
+        .chain([1.0])
+        .collect();
+    if free {
+        let mut crossed = Vec::new();
+        for side in sides {
+            let uv: Vec<[f64; 2]> = breaks.iter().map(|&share| side.uv(share)).collect();
+            let knots = [0, 1].map(|k| {
+                let values = uv.iter().map(|uv| uv[k]);
+                let (low, high) =
+                    (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+                side.surface.knots(k, low, high)
+            });
+            for (step, pair) in uv.windows(2).enumerate() {
+                for (k, knots) in knots.iter().enumerate() {
+                    let (here, there) = (pair[0][k], pair[1][k]);
+                    let first = knots.partition_point(|&x| x <= here.min(there));
+                    let last = knots.partition_point(|&x| x < here.max(there));
+                    for &knot in knots.get(first..last).unwrap_or_default() {
+                        let way = (knot - here) / (there - here);
+                        crossed.push(breaks[step] + way * (breaks[step + 1] - breaks[step]));
+                    }
+                }
+            }
+        }
+        breaks.extend(crossed);
+        ascending(&mut breaks);
+        let every = breaks.len() / MOST_BREAKS + 1;
+        let last = breaks.len() - 1;
+        let mut at = 0;
+        breaks.retain(|_| {
+            at += 1;
+            at - 1 == last || (at - 1) % every == 0
+        });
+    }
+    breaks.windows(2).flat_map(|w| PLACES.map(|p| w[0] + p * (w[1] - w[0]))).collect()
+}
+
+/// The pieces of one edge, from shares of its length, angles between its faces there, and places; closer: the angles at
+/// other shares.
+fn pieces(found: &[(f64, f64, Vector)], recorded: bool, closer: &dyn Fn(f64) -> Option<f64>) -> Meeting {
+    let n = found.len();
+    let mut long = vec![0.0; n];
+    for i in 1..n {
+        let half = 0.5 * length(&sub(&found[i].2, &found[i - 1].2));
+        long[i - 1] += half;
+        long[i] += half;
+    }
+    let total: f64 = long.iter().sum();
+    long.iter_mut().for_each(|l| *l = if total > 0.0 { *l / total } else { 1.0 / n as f64 });
+    let mut angle: Vec<f64> = found.iter().map(|f| f.1).collect();
+    let of = |angle: &[f64], keep: &dyn Fn(usize) -> bool| -> f64 {
+        (0..angle.len()).filter(|&i| keep(i)).map(|i| long[i]).sum()
+    };
+    if of(&angle, &|i| angle[i] <= TANGENT) >= LONG_REST {
+        // Where the parameters of a surface run back for a while, its normal is turned round and says nothing.
+        angle.iter_mut().for_each(|a| *a = if *a > PI - NEARLY_TANGENT { 0.0 } else { *a });
+    }
+    let mut smooth: Vec<bool> = angle.iter().map(|a| *a <= TANGENT).collect();
+    let sums = run_sums(&smooth, &long);
+    let short: Vec<bool> = (0..n).map(|i| !smooth[i] && sums[i] < SHORT_FOLD).collect();
+    if of(&angle, &|i| short[i]) < 2.0 * SHORT_FOLD {
+        for i in (0..n).filter(|&i| short[i]) {
+            (smooth[i], angle[i]) = (true, 0.0);
+        }
+    }
+    // An angle that is hardly one makes no piece of its own: it waves, and the whole edge is tangent or is not.
+    let peaks = by_run(&smooth, &angle, 0.0, f64::max);
+    let clear: Vec<bool> = (0..n).map(|i| !smooth[i] && peaks[i] > NEARLY_TANGENT).collect();
+    if !clear.contains(&true) {
+        let most = angle.iter().copied().fold(0.0, f64::max);
+        let square: f64 = (0..n).map(|i| long[i] * angle[i] * angle[i]).sum();
+        let wavering = most <= WAVERING && square.sqrt() <= MOSTLY_TANGENT;
+        return Meeting::Whole(most <= TANGENT || wavering || recorded);
+    }
+    let sums = run_sums(&smooth, &long);
+    for i in 0..n {
+        smooth[i] &= sums[i] >= LONG_REST;
+    }
+    let changes: Vec<usize> = (1..n).filter(|&i| smooth[i] != smooth[i - 1]).collect();
+    if changes.is_empty() {
+        return Meeting::Whole(smooth[0]);
+    }
+    let mut kinds = vec![smooth[0]];
+    let mut at = Vec::new();
+    for i in changes {
+        kinds.push(smooth[i]);
+        let (mut low, mut high) = (found[i - 1].0, found[i].0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let same = closer(middle).is_some_and(|a| a <= TANGENT) == smooth[i - 1];
+            if same { low = middle } else { high = middle }
+        }
+        at.push(0.5 * (low + high));
+    }
+    Meeting::Pieces(kinds, at)
+}
+
+fn run_sums(flag: &[bool], long: &[f64]) -> Vec<f64> {
+    by_run(flag, long, 0.0, |a, b| a + b)
+}
+
+/// For each place what its run of equal flags comes to.
+fn by_run(flag: &[bool], values: &[f64], zero: f64, join: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(flag.len());
+    for run in flag.chunk_by(|a, b| a == b) {
+        let here = &values[out.len()..out.len() + run.len()];
+        let all = here.iter().fold(zero, |a, b| join(a, *b));
+        out.extend(std::iter::repeat_n(all, run.len()));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

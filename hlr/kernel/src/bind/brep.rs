@@ -1,0 +1,256 @@
+//! Boundary representations as Python sees them: a model from a dump, its meshes, their parts as arrays.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+
+use super::guard::caught;
+use super::running::{run, run_telling};
+use super::scan::{expect_below, expect_len, flat, rows as rows_of};
+use hlr_brep::assemble::{PartMesh, assemble};
+use hlr_brep::geometry::flat::is_flat;
+use hlr_brep::model::Model;
+use hlr_brep::patch::{Border, Foreign, patched};
+use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
+
+type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
+type Curves<'py> =
+    (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
+
+/// Parts, faces and edges of a dump, each underlying face and edge once.
+#[pyclass(frozen)]
+pub struct BrepModel(Arc<Model>);
+
+#[pymethods]
+impl BrepModel {
+    #[new]
+    #[pyo3(signature = (dump, threads = 0))]
+    fn new(py: Python<'_>, dump: &[u8], threads: usize) -> PyResult<BrepModel> {
+        caught(py, || {
+            let read = run(py, threads, dump.len(), |_| Model::read(dump))?;
+            let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
+            Ok(BrepModel(Arc::new(model)))
+        })
+    }
+
+    /// Number of underlying faces; their numbers follow the order in which an explorer meets them.
+    #[getter]
+    fn n_faces(&self) -> usize {
+        self.0.faces.len()
+    }
+
+    /// (faces,) whether each departs from a plane by no more than the tolerance.
+    fn planar<'py>(&self, py: Python<'py>, tolerance: f64) -> Bound<'py, PyArray1<bool>> {
+        let planar = |r: &hlr_brep::format::SurfaceRecord| is_flat(r.kind, &r.data, tolerance);
+        let all: Vec<bool> = self.0.faces.iter().map(|f| f.record.as_ref().is_some_and(planar)).collect();
+        all.into_pyarray(py)
+    }
+
+    /// kind, offsets, data of the surfaces of faces.
+    fn surface_records<'py>(&self, py: Python<'py>, numbers: PyReadonlyArray1<'py, i32>) -> PyResult<Records<'py>> {
+        let numbers = flat(&numbers, "numbers")?;
+        expect_below("numbers", numbers.iter().copied(), self.0.faces.len())?;
+        let (mut kind, mut offsets, mut data) = (Vec::new(), vec![0i32], Vec::new());
+        for &i in numbers {
+            let record = self.0.faces[i as usize].record.as_ref();
+            kind.push(record.map_or(0, |r| r.kind));
+            data.extend(record.into_iter().flat_map(|r| &r.data));
+            offsets.push(data.len() as i32);
+        }
+        Ok((kind.into_pyarray(py), offsets.into_pyarray(py), data.into_pyarray(py)))
+    }
+
+    /// kind, range, offsets, values of the curves of edges, given as parts and numbers in their edge maps, in the frames
+    /// of their parts.
+    fn edge_curves<'py>(
+        &self,
+        py: Python<'py>,
+        part: PyReadonlyArray1<'py, i32>,
+        edge: PyReadonlyArray1<'py, i32>,
+    ) -> PyResult<Curves<'py>> {
+        let (part, edge) = (flat(&part, "part")?, flat(&edge, "edge")?);
+        expect_len("edge", edge.len(), part.len())?;
+        expect_below("part", part.iter().copied(), self.0.laid.len())?;
+        let (mut kind, mut range, mut offsets, mut values) = (Vec::new(), Vec::new(), vec![0i32], Vec::new());
+        for (&p, &e) in part.iter().zip(edge) {
+            let laid = &self.0.laid[p as usize].edges;
+            expect_below("edge", [e].into_iter(), laid.len())?;
+            let laid = &laid[e as usize];
+            let edge = &self.0.edges[laid.edge as usize];
+            kind.push(match (&edge.curve, &laid.place) {
+                (None, _) => 0,
+                (Some(curve), None) => curve.record(&mut values),
+                (Some(curve), Some(place)) => curve.moved(place).record(&mut values),
+            });
+            range.extend(edge.range);
+            offsets.push(values.len() as i32);
+        }
+        let range = range.into_pyarray(py).reshape([part.len(), 2])?;
+        Ok((kind.into_pyarray(py), range, offsets.into_pyarray(py), values.into_pyarray(py)))
+    }
+
+    /// `progress`: called with the share of faces that are done.
+    #[pyo3(signature = (deflection, angle, progress = None, threads = 0))]
+    fn mesh(
+        &self,
+        py: Python<'_>,
+        deflection: f64,
+        angle: f64,
+        progress: Option<Py<PyAny>>,
+        threads: usize,
+    ) -> PyResult<BrepMesh> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        if !positive(deflection) || !positive(angle) {
+            return Err(PyValueError::new_err("deflection and angle must be positive"));
+        }
+        let (model, done) = (&self.0, AtomicUsize::new(0));
+        let tell = |py: Python<'_>| {
+            let share = done.load(Ordering::Relaxed) as f64 / model.faces.len().max(1) as f64;
+            progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (share,)).map(|_| ()))
+        };
+        let work =
+            |stopped: &(dyn Fn() -> bool + Sync)| tessellate(model, deflection, angle, &Watch { stopped, done: &done });
+        // A face is worth many points.
+        let meshed = run_telling(py, threads, 100 * model.faces.len(), tell, work)?;
+        let meshed = meshed.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+        Ok(BrepMesh { model: model.clone(), meshed: Mutex::new(meshed) })
+    }
+}
+
+/// The mesh of a model at one chord error.
+#[pyclass(frozen)]
+pub struct BrepMesh {
+    model: Arc<Model>,
+    meshed: Mutex<Tessellation>,
+}
+
+#[pymethods]
+impl BrepMesh {
+    /// Numbers of the faces without a mesh, each with the reason.
+    fn faults(&self) -> Vec<(usize, String)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let of = |(i, face): (usize, &hlr_brep::tessellate::MeshedFace)| Some((i, face.fault.as_ref()?.to_string()));
+        meshed.faces.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// Give a face the triangles of another mesher: points (n, 3) in the face's frame, uv (n, 2), triangles (m, 3)
+    /// counterclockwise in (u, v), and for each edge in each wire its nodes and their parameters, in the edge's sense.
+    /// Whether they fit the face.
+    fn replace(
+        &self,
+        face: usize,
+        points: PyReadonlyArray2<'_, f64>,
+        uv: PyReadonlyArray2<'_, f64>,
+        triangles: PyReadonlyArray2<'_, i32>,
+        borders: Vec<(Vec<u32>, Vec<f64>)>,
+    ) -> PyResult<bool> {
+        let (points, uv) = (rows_of::<f64, 3>(&points, "points")?, rows_of::<f64, 2>(&uv, "uv")?);
+        let triangles = rows_of::<i32, 3>(&triangles, "triangles")?;
+        expect_len("uv", uv.len(), points.len())?;
+        expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+        expect_below("face", [face as i32].into_iter(), self.model.faces.len())?;
+        if borders.iter().flat_map(|b| &b.0).any(|&i| i as usize >= points.len()) {
+            return Err(PyValueError::new_err("borders must count points"));
+        }
+        let foreign = Foreign {
+            points: points.to_vec(),
+            uv: uv.to_vec(),
+            triangles: triangles.iter().map(|t| t.map(|i| i as u32)).collect(),
+            borders: borders.into_iter().map(|(nodes, parameters)| Border { nodes, parameters }).collect(),
+        };
+        let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = patched(&self.model, &meshed, face, foreign);
+        Ok(found.map(|found| meshed.faces[face] = found).is_some())
+    }
+
+    /// planar: (faces,) as `BrepModel.planar` tells them.
+    #[pyo3(signature = (planar, threads = 0))]
+    fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>, threads: usize) -> PyResult<BrepParts> {
+        let planar = flat(&planar, "planar")?;
+        expect_len("planar", planar.len(), self.model.faces.len())?;
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let parts = run(py, threads, 100 * planar.len(), |_| assemble(&self.model, &meshed))?;
+        BrepParts::together(py, parts, planar)
+    }
+}
+
+/// Part meshes one after another: part p owns points[point_start[p]:point_start[p + 1]] and so on.
+#[pyclass(frozen, get_all)]
+pub struct BrepParts {
+    point_start: Py<PyArray1<i32>>,
+    points: Py<PyArray2<f64>>,
+    triangle_start: Py<PyArray1<i32>>,
+    triangles: Py<PyArray2<i32>>,
+    triangle_face: Py<PyArray1<i32>>,
+    face_start: Py<PyArray1<i32>>,
+    face_planar: Py<PyArray1<bool>>,
+    face_shape: Py<PyArray1<i32>>,
+    face_place: Py<PyArray3<f64>>,
+    face_reversed: Py<PyArray1<bool>>,
+    edge_start: Py<PyArray1<i32>>,
+    edge_offsets: Py<PyArray1<i32>>,
+    edge_nodes: Py<PyArray1<i32>>,
+    edge_index: Py<PyArray1<i32>>,
+    edge_class: Py<PyArray1<u8>>,
+    node_start: Py<PyArray1<i32>>,
+    corner: Py<PyArray2<i32>>,
+    uv: Py<PyArray2<f64>>,
+}
+
+impl BrepParts {
+    fn together(py: Python<'_>, parts: Vec<PartMesh>, planar: &[bool]) -> PyResult<BrepParts> {
+        let too_many = || PyValueError::new_err("more than 2^31 items in one mesh");
+        let starts = |count: fn(&PartMesh) -> usize| -> PyResult<Py<PyArray1<i32>>> {
+            let mut sum = 0usize;
+            let mut out = vec![0i32];
+            for part in &parts {
+                sum += count(part);
+                out.push(i32::try_from(sum).map_err(|_| too_many())?);
+            }
+            Ok(out.into_pyarray(py).unbind())
+        };
+        let mut offsets = vec![0i32];
+        for count in parts.iter().flat_map(|p| &p.edge_counts) {
+            offsets.push(offsets[offsets.len() - 1].checked_add(*count).ok_or_else(too_many)?);
+        }
+        let shapes: Vec<i32> = joined(&parts, |p| &p.face_shape);
+        let faces = shapes.len();
+        let face_planar: Vec<bool> = shapes.iter().map(|&i| planar[i as usize]).collect();
+        let places: Vec<f64> = joined(&parts, |p| p.face_place.as_flattened().as_flattened());
+        Ok(BrepParts {
+            point_start: starts(|p| p.points.len())?,
+            points: rows(py, joined(&parts, |p| p.points.as_flattened()), 3)?,
+            triangle_start: starts(|p| p.triangles.len())?,
+            triangles: rows(py, joined(&parts, |p| p.triangles.as_flattened()), 3)?,
+            triangle_face: joined(&parts, |p| &p.triangle_face).into_pyarray(py).unbind(),
+            face_start: starts(|p| p.face_shape.len())?,
+            face_planar: face_planar.into_pyarray(py).unbind(),
+            face_shape: shapes.into_pyarray(py).unbind(),
+            face_place: places.into_pyarray(py).reshape([faces, 3, 4])?.unbind(),
+            face_reversed: joined(&parts, |p| &p.face_reversed).into_pyarray(py).unbind(),
+            edge_start: starts(|p| p.edge_index.len())?,
+            edge_offsets: offsets.into_pyarray(py).unbind(),
+            edge_nodes: joined(&parts, |p| &p.edge_nodes).into_pyarray(py).unbind(),
+            edge_index: joined(&parts, |p| &p.edge_index).into_pyarray(py).unbind(),
+            edge_class: joined(&parts, |p| &p.edge_class).into_pyarray(py).unbind(),
+            node_start: starts(|p| p.uv.len())?,
+            corner: rows(py, joined(&parts, |p| p.corner.as_flattened()), 3)?,
+            uv: rows(py, joined(&parts, |p| p.uv.as_flattened()), 2)?,
+        })
+    }
+}
+
+/// One list of all parts' items.
+fn joined<T: Copy>(parts: &[PartMesh], of: impl Fn(&PartMesh) -> &[T]) -> Vec<T> {
+    let mut out = Vec::with_capacity(parts.iter().map(|p| of(p).len()).sum());
+    parts.iter().for_each(|p| out.extend(of(p)));
+    out
+}
+
+fn rows<T: numpy::Element>(py: Python<'_>, values: Vec<T>, width: usize) -> PyResult<Py<PyArray2<T>>> {
+    let count = values.len() / width;
+    Ok(values.into_pyarray(py).reshape([count, width])?.unbind())
+}

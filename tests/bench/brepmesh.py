@@ -1,0 +1,159 @@
+"""Meshing beside OpenCASCADE's BRepMesh at the same deflection: time, triangles, measured chord error, conformity.
+
+    python tests/bench/brepmesh.py MODEL... [--share 5e-5] [--runs 3]
+
+share: of the model's diagonal, the deflection. Both mesh the same shapes in memory, on all cores, without triangles at
+the beginning. Errors are distances between middles of triangles and of their sides and the true surface at the same
+(u, v), in deflections, across the triangle: of the worst triangle, and of the median.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import statistics
+import time
+from pathlib import Path
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.source import open_source
+from hlr.source.parts import compound, explored
+
+ANGLE = 0.35
+"""Radians."""
+SHARES = np.array([(1 / 3, 1 / 3, 1 / 3), (0.5, 0.5, 0.0), (0.5, 0.0, 0.5), (0.0, 0.5, 0.5)])
+
+
+def dumped(roots):
+    from OCP.BinTools import BinTools, BinTools_FormatVersion
+
+    stream = io.BytesIO()
+    version = BinTools_FormatVersion.BinTools_FormatVersion_VERSION_4
+    BinTools.Write_s(compound(roots), stream, False, False, version)
+    return stream.getvalue()
+
+
+def off(model, face, points, uv):
+    """Errors of triangles of curved faces: face (m,) the underlying face; points and uv (m, 3, ..) of the corners."""
+    used, which = np.unique(face, return_inverse=True)
+    kind, offsets, data = model.surface_records(used.astype(np.int32))
+    normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+    size = np.linalg.norm(normal, axis=1)
+    keep = (size > 0) & (kind[which] > 1) & np.isfinite(uv).all(axis=(1, 2))
+    worst = np.zeros(int(keep.sum()))
+    for share in SHARES:
+        place = np.ascontiguousarray((uv[keep] * share[:, None]).sum(axis=1))
+        true = _kernel.surface_points(kind, offsets, data, which[keep].astype(np.int32), place)[:, 0]
+        apart = ((true - points[keep, 0]) * normal[keep]).sum(axis=1) / size[keep]
+        worst = np.maximum(worst, np.abs(apart))
+    return worst
+
+
+def ours(roots, deflection, runs):
+    times = []
+    for _ in range(runs):
+        begin = time.perf_counter()
+        model = _kernel.BrepModel(dumped(roots))
+        meshed = model.mesh(deflection, ANGLE)
+        times.append(time.perf_counter() - begin)
+    found = meshed.parts(model.planar(1e-9))
+    face = np.repeat(found.face_start[:-1], np.diff(found.triangle_start)) + found.triangle_face
+    # In the frame of the part: bare roots have their faces where they stand, or moved by face_place.
+    place = found.face_place[face]
+    turned = np.einsum("mji,mkj->mki", place[:, :, :3], _corners(found) - place[:, None, :, 3])
+    # Node parameters count within the part.
+    corner = found.corner + np.repeat(found.node_start[:-1], np.diff(found.triangle_start))[:, None]
+    errors = off(model, found.face_shape[face], turned, found.uv[corner])
+    return statistics.median(times), len(found.triangles), errors, len(meshed.faults()), _open(found)
+
+
+def _corners(found):
+    part = np.repeat(found.point_start[:-1], np.diff(found.triangle_start))
+    return found.points[found.triangles + part[:, None]]
+
+
+def _open(found):
+    """Sides with other than two triangles; borders of open parts among them."""
+    count = 0
+    for i in range(len(found.point_start) - 1):
+        t = found.triangles[found.triangle_start[i] : found.triangle_start[i + 1]]
+        ends = np.sort(np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]), axis=1)
+        count += int((np.unique(ends, axis=0, return_counts=True)[1] != 2).sum()) if len(ends) else 0
+    return count
+
+
+def theirs(roots, deflection, runs):
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.BRepTools import BRepTools
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS
+
+    everything = compound(roots)
+    times = []
+    for _ in range(runs):
+        BRepTools.Clean_s(everything)
+        begin = time.perf_counter()
+        BRepMesh_IncrementalMesh(everything, deflection, False, ANGLE, True)
+        times.append(time.perf_counter() - begin)
+    model = _kernel.BrepModel(dumped(roots))
+    seen, number, count, empty = set(), 0, 0, 0
+    faces, points, uv = [], [], []
+    for root in roots:
+        for shape in explored(root, Kind.TopAbs_FACE):
+            new = shape.TShape() not in seen
+            mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(shape), TopLoc_Location())
+            count += 0 if mesh is None else mesh.NbTriangles()
+            if not new:
+                continue
+            seen.add(shape.TShape())
+            if mesh is None:
+                empty += 1
+            elif mesh.HasUVNodes():
+                nodes = range(1, mesh.NbNodes() + 1)
+                xyz = np.array([mesh.Node(i).Coord() for i in nodes])
+                par = np.array([mesh.UVNode(i).Coord() for i in nodes])
+                corners = np.array([mesh.Triangle(i).Get() for i in range(1, mesh.NbTriangles() + 1)]) - 1
+                points.append(xyz[corners])
+                uv.append(par[corners])
+                faces.append(np.full(len(corners), number))
+            number += 1
+    BRepTools.Clean_s(everything)
+    joined = (np.concatenate(x) for x in (faces, points, uv))
+    return statistics.median(times), count, off(model, *joined), empty
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("models", nargs="+", type=Path)
+    parser.add_argument("--share", type=float, default=5e-5)
+    parser.add_argument("--runs", type=int, default=3)
+    given = parser.parse_args()
+    print("| model | ours s | triangles | worst | median | faults | open ", end="")
+    print("| BRepMesh s | triangles | worst | median | empty |")
+    print("|---" * 12 + "|")
+    ratios = []
+    for path in given.models:
+        source = open_source(path)
+        low, high = source.bounds()
+        deflection = given.share * float(np.linalg.norm(high - low))
+        roots = [root for root, counts in zip(source._roots, source._counts, strict=True) if counts[0]]
+        a, b = ours(roots, deflection, given.runs), theirs(roots, deflection, given.runs)
+        ratios.append((b[0] / a[0], a[1] / max(b[1], 1)))
+
+        def told(errors, deflection=deflection):
+            if not len(errors):
+                return "- | -"
+            return f"{errors.max() / deflection:.2f} | {np.median(errors) / deflection:.2f}"
+
+        row = f"{path.name} | {a[0]:.3f} | {a[1]} | {told(a[2])} | {a[3]} | {a[4]}"
+        print(f"| {row} | {b[0]:.3f} | {b[1]} | {told(b[2])} | {b[3]} |", flush=True)
+    times, triangles = np.log(np.array(ratios)).mean(axis=0)
+    print(f"geometric means: {np.exp(times):.1f} times as fast, {np.exp(triangles):.2f} times the triangles")
+
+
+if __name__ == "__main__":
+    main()
