@@ -169,9 +169,14 @@ fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
         }
         [(a, b), (b, c), (c, a)].iter().map(|(x, y)| from_segment(p, x, y)).fold(f64::INFINITY, f64::min)
     };
+    // All corners at a pole are one.
+    let mut at_node = BTreeMap::new();
+    let place: Vec<usize> = (0..mesh.points.len())
+        .map(|i| mesh.nodes.get(i).map_or(i, |&node| *at_node.entry(node).or_insert(i)))
+        .collect();
     let mut around = vec![Vec::new(); mesh.points.len()];
     for (k, t) in mesh.triangles.iter().enumerate() {
-        t.iter().for_each(|&i| around[i as usize].push(k));
+        t.iter().for_each(|&i| around[place[i as usize]].push(k));
     }
     let corners = |k: usize| mesh.triangles[k].map(|i| mesh.points[i as usize]);
     let mut worst = 0.0f64;
@@ -182,7 +187,7 @@ fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
             let p = surface.d1(at).0;
             let own = from_triangle(&p, corners(k));
             if own > worst {
-                let beside = t.iter().flat_map(|&i| &around[i as usize]);
+                let beside = t.iter().flat_map(|&i| &around[place[i as usize]]);
                 worst = worst.max(beside.fold(own, |least, &k| least.min(from_triangle(&p, corners(k)))));
             }
         }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::geometry::surface::Surface;
-use crate::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub};
+use crate::geometry::vector::{Vector, cross, dot, length, scaled, sub};
 use crate::mesh::{FaceLoops, FaceMesh, LoopPoint};
 
 const FRAME: [f64; 12] = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 0.6, 0.8, 0.0, -0.8, 0.6];
@@ -129,14 +129,4 @@ pub fn enclosed(loops: &FaceLoops) -> f64 {
             .sum()
     };
     loops.loops.iter().map(of).sum()
-}
-
-/// Area of the triangles in space.
-#[allow(dead_code)]
-pub fn size(mesh: &FaceMesh) -> Vector {
-    let of = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|i| mesh.points[i as usize]);
-        scaled(&cross(&sub(&b, &a), &sub(&c, &a)), 0.5)
-    };
-    mesh.triangles.iter().fold([0.0; 3], |sum, t| add(&sum, &along(&[0.0; 3], &of(t), 1.0)))
 }
