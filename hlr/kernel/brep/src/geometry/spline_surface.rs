@@ -154,16 +154,18 @@ impl SplineSurface {
         };
         let chords: Vec<[Vector; 2]> =
             (0..self.count[1 - side]).map(|i| [0, 1].map(|end| sub(&pole(i, end).0, &pole(0, end).0))).collect();
-        let (mut up, mut square, mut size) = (0.0, 0.0, 0.0f64);
+        let (mut up, mut squares, mut size) = (0.0, [0.0; 2], 0.0f64);
         for [a, b] in &chords {
             up += dot(a, b);
-            square += dot(a, a);
+            squares = [squares[0] + dot(a, a), squares[1] + dot(b, b)];
             size = size.max(length(a)).max(length(b));
         }
         let far = (0..self.count[1 - side]).map(|i| length(&sub(&pole(i, 1).0, &pole(i, 0).0))).fold(size, f64::max);
-        let scale = if square > 0.0 { up / square } else { return false };
+        // The smaller end, which may be an apex, from the larger one.
+        let large = usize::from(squares[1] > squares[0]);
+        let scale = if squares[large] > 0.0 { up / squares[large] } else { return false };
         scale >= 0.0
-            && chords.iter().all(|[a, b]| length(&along(b, a, -scale)) <= SAME * far)
+            && chords.iter().all(|c| length(&along(&c[1 - large], &c[large], -scale)) <= SAME * far)
             && (0..chords.len()).all(|i| (pole(i, 0).1 / pole(i, 1).1 - 1.0).abs() <= SAME)
     }
 

@@ -98,6 +98,9 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
                 let x = a[0] + t * (b[0] - a[0]);
                 let (p, q) = (at([x, low]), at([x, high]));
                 let line = sub(&q, &p);
+                if dot(&edge, &edge) <= 1e-24 * dot(&line, &line) {
+                    return 0.0; // within an apex
+                }
                 let n = cross(&edge, &line);
                 let parallel = dot(&n, &n) <= 1e-18 * dot(&edge, &edge) * dot(&line, &line);
                 let n = if parallel { None } else { unit(&n) };
