@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
@@ -14,7 +15,8 @@ from hlr.plan.options import Options
 from hlr.plan.table import BREP_KINDS, DRAWING
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
-from hlr.source.model import Progress, Source
+from hlr.shading.through import glass_of, opacity_of, without_glass
+from hlr.source.model import Look, Progress, Source
 from hlr.view.camera import Camera
 from hlr.view.scale import Placed
 from hlr.view.silhouettes import with_silhouettes
@@ -106,3 +108,14 @@ def _surfaces(planner: Planner, scene: Scene) -> None:
     planner.on("triangulation of planar faces", facts)
     planner.spent("meshing of curved faces", curved_triangles=bent)
     planner.spent("triangulation of planar faces", planar_triangles=triangles - bent)
+
+
+def seen_through(scene: Scene, looks: Mapping[str, Look], view: Staged, options: Options) -> Staged:
+    """The view in which what is transparent hides nothing, where that is asked for."""
+    least = min(map(opacity_of, looks.values()), default=1.0)
+    if not view.planner.on("seeing through glass", Facts(opacity=least)):
+        return view
+    glass = glass_of(scene, looks)
+    view.planner.spent("seeing through glass", glass_triangles=int(glass.sum()))
+    outlined = view.outlined or with_silhouettes(scene, view.camera, view.at.tolerances, options.threads, view.planner)
+    return replace(view, outlined=without_glass(outlined, glass))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import Any
@@ -11,19 +11,19 @@ from hlr.clock import Clock, lap
 from hlr.drawing import Drawing
 from hlr.errors import StrictError
 from hlr.finished import finished
-from hlr.fitting import Staged, staged
+from hlr.fitting import Staged, seen_through, staged
 from hlr.linework.exact import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
 from hlr.notes import Note
-from hlr.plan.effect import Facts, Planner
+from hlr.plan.effect import Planner
 from hlr.plan.options import Options, Request, View
 from hlr.plan.plan import decide
 from hlr.plan.request import checked, checked_views
 from hlr.plan.table import DRAWING
 from hlr.scene.scene import Scene
-from hlr.shading.through import glass_of, hiding, opacity_of, without_glass
+from hlr.shading.through import hiding
 from hlr.source.chosen import open_chosen
-from hlr.source.model import Look, Progress, Source
+from hlr.source.model import Progress, Source
 from hlr.view.camera import resolve
 from hlr.view.clip import clipped
 from hlr.view.scale import place
@@ -58,12 +58,11 @@ def draw_views(
     scene, curves, seen = staged(opened, cameras, placed, options, tell, clock, Planner(DRAWING, options))
 
     out = []
-    looks = opened.looks()
-    facts = Facts(opacity=min(map(opacity_of, looks.values()), default=1.0))
+    looks = opened.looks() if opened.transparent() else {}
     remarks = [] if options.see_through else hiding(scene, looks)
     for i, (view, at) in enumerate(zip(views, seen, strict=True)):
         tell("visibility", i / len(cameras))
-        through = _through(scene, looks, at, options) if at.planner.on("seeing through glass", facts) else at
+        through = seen_through(scene, looks, at, options)
         drawing = drawing_of(opened, scene, curves, through, options, dict(clock))
         out.append(replace(drawing, request=Request(view, options), notes=(*drawing.notes, *remarks)))
     tell("linework", 1.0)
@@ -93,14 +92,6 @@ def drawing_of(
     )
     started = lap(clock, "linework", started)
     return finished(opened, scene, seen, view, options, plan, segments, lines, clock)
-
-
-def _through(scene: Scene, looks: Mapping[str, Look], view: Staged, options: Options) -> Staged:
-    """The view in which what is transparent hides nothing."""
-    glass = glass_of(scene, looks)
-    view.planner.spent("seeing through glass", glass_triangles=int(glass.sum()))
-    outlined = view.outlined or with_silhouettes(scene, view.camera, view.at.tolerances, options.threads, view.planner)
-    return replace(view, outlined=without_glass(outlined, glass))
 
 
 def refuse_warnings(notes: Sequence[Note]) -> None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hlr.drawing import Bounds
-from hlr.fitting import staged
+from hlr.fitting import seen_through, staged
 from hlr.plan.effect import Decision, Planner
 from hlr.plan.options import Options, View
 from hlr.plan.plan import decide
@@ -50,7 +50,9 @@ def plan_views(
     placed = [place(c, options, opened, bounds) for c in cameras]
     scene, _, seen = staged(opened, cameras, placed, options, tell, {}, Planner(DRAWING, options))
     out = []
-    for view in seen:
+    looks = opened.looks() if opened.transparent() else {}
+    for at in seen:
+        view = seen_through(scene, looks, at, options)
         outlined = view.outlined or with_silhouettes(
             scene, view.camera, view.at.tolerances, options.threads, view.planner
         )

@@ -134,6 +134,10 @@ class BrepSource:
         self._maps: dict[tuple[int, Any], Any] = {}
         self._root_of = {part.name: part.root for part in self._parts}
 
+    def transparent(self) -> bool:
+        """Some part has an opacity below one."""
+        return any(part.leaf.opacity < 1.0 or part.leaf.opacities for part in self._parts)
+
     def looks(self) -> dict[str, Look]:
         """Colours and opacities of parts and faces."""
         return {part.name: look(part, self._roots[part.root]) for part in self._parts}

@@ -149,6 +149,10 @@ class MeshSource:
         chosen._parts = [part for part, _, _ in chosen._drawn]
         return chosen
 
+    def transparent(self) -> bool:
+        """The file says something of colours."""
+        return any(instance.mesh is not None for _, instance, _ in self._drawn)
+
     def looks(self) -> dict[str, Look]:
         """Materials, and colours of vertices and faces where there is no material."""
         from hlr.source.meshlooks import look

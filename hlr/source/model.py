@@ -228,5 +228,8 @@ class Source(Protocol):
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""
 
+    def transparent(self) -> bool:
+        """Some part may be transparent; cheap, and sure where it says no."""
+
     def looks(self) -> Mapping[str, Look]:
         """How the parts look, by name; gathered when it is asked for, for a drawing has no use of it."""
