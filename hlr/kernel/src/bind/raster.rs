@@ -112,7 +112,7 @@ impl RasterScene {
             _ => on.true_depth(f, (k % canvas.width) as i64, (k / canvas.width) as i64),
         };
         // There is none where nobody asked for it.
-        let mut trace = canvas.trace.take().unwrap_or_else(Vec::new);
+        let mut trace: Vec<Write> = canvas.trace.take().into_iter().flatten().collect();
         trace.iter_mut().for_each(|w| w.facet = id(w.facet) as u32);
         let mut visits = std::mem::take(&mut canvas.visits);
         visits.iter_mut().filter(|v| v.facet != NONE).for_each(|v| v.facet = id(v.facet) as u32);

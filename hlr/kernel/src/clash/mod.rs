@@ -1,8 +1,7 @@
 //! Where surfaces pass through one another: the intersection lines of clashing solids, and whether a solid passes
 //! through itself.
 //!
-//! 1. `search`  which triangles may meet: boxes of groups, then boxes of triangles, only where boxes overlap
-//!               `tree`: the hierarchies of boxes that are searched side by side
+//! 1. `search`  which triangles may meet: boxes of groups, then the boxes of triangles that `tree` searches side by side
 //! 2. `meet`    the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`    ends that fall on one grid point are one point
 //!

@@ -7,13 +7,10 @@ use super::{Fault, MeshFile, Piece, Stop, counted, polled};
 pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
     let mut lines = Lines::new(data);
     let head = lines.next_row().unwrap_or_default();
-    let mut counts = head;
     // The counts may stand behind the format's name.
-    let mut row = words(head).skip(1).peekable();
-    if row.peek().is_none() {
-        counts = lines.next_row().unwrap_or_default();
-        row = words(counts).skip(0).peekable();
-    }
+    let behind = words(head).nth(1).is_some();
+    let counts = if behind { head } else { lines.next_row().unwrap_or_default() };
+    let mut row = words(counts).skip(usize::from(behind));
     let mut count = || row.next().and_then(whole).and_then(|n| usize::try_from(n).ok());
     let (Some(vertices), Some(faces)) = (count(), count()) else {
         return Err(Fault::Broken(format!(

@@ -8,6 +8,9 @@ use super::{Fault, Stop};
 /// Corners beyond this are not looked at closely: what takes so many is a fan, or was made to take long.
 const MOST_CORNERS: usize = 4096;
 
+/// Triangles, and for each its face; None where face and triangle are one and the same.
+pub type Cut = (Vec<[i32; 3]>, Option<Vec<u32>>);
+
 /// Corners of faces, one face after another.
 #[derive(Default)]
 pub struct Faces {
@@ -41,7 +44,7 @@ impl Faces {
     }
 
     /// Triangles of all faces in order, and for each its face; None where face and triangle are one and the same.
-    pub fn triangles(self, points: &[[f64; 3]], stop: Stop) -> Result<(Vec<[i32; 3]>, Option<Vec<u32>>), Fault> {
+    pub fn triangles(self, points: &[[f64; 3]], stop: Stop) -> Result<Cut, Fault> {
         if self.ends.is_empty() {
             return Ok((self.corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect(), None));
         }

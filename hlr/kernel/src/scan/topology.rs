@@ -42,8 +42,8 @@ pub fn topology(triangles: &[[i32; 3]], n_points: usize) -> Topology {
         let mut next = 0;
         for v in range.clone() {
             let mut last = u64::MAX;
-            for at in first[v] as usize..first[v + 1] as usize {
-                let high = around[at] >> 32;
+            for (at, side) in (first[v]..).zip(&around[first[v] as usize..first[v + 1] as usize]) {
+                let high = side >> 32;
                 if high != last {
                     (edges[next], offsets[next]) = ([v as i32, high as i32], at as i32);
                     (last, next) = (high, next + 1);
