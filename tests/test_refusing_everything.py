@@ -11,6 +11,8 @@ HERE = Path(__file__).resolve().parent
 CONTENT = {
     "test_every_error_is_an_hlr_error",
     "test_another_error_would_be_noticed",
+    "test_every_error_is_a_sentence",  # these two ask for the wording, and draw nothing
+    "test_every_note_in_the_source_is_a_sentence",
     "test_any_arrays",  # hardly any is a model; test_arrays_of_each_kind has some of each
     "test_anything_as_a_source",  # nor here; test_a_pair_of_lists_as_a_source has one
 }

@@ -266,7 +266,7 @@ class _Shared:
             # Tessellated geometry: faces are loose triangles, and what they share must be found by position.
             joined = clean(self.points, self.triangles)
             self.points, self.triangles = joined.points, joined.triangles
-            self.triangle_face = self.triangle_face[joined.kept]
+            self.triangle_face = joined.of_kept(self.triangle_face)
             # Of a round of few facets a face may be one: it may show an outline though it is flat.
             self.face_planar = np.zeros(len(self.face_planar), dtype=bool)
             self.brep = False

@@ -59,6 +59,9 @@ class Disturbed:
     def boxes(self) -> list[Floats]:
         return self._source.boxes()
 
+    def transparent(self) -> bool:
+        return False
+
     def mesh(self, *_: Any) -> Meshed:
         return self._meshed
 

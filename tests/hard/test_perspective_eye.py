@@ -109,7 +109,7 @@ def test_an_eye_at_its_target_is_refused_in_words():
 def test_an_eye_that_sees_nothing_says_so():
     drawing = hlr.draw(AHEAD, perspective=looking((0, 0, 0), (0, -10, 0)))
     assert drawing.lines == ()
-    assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view"),)
+    assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view."),)
 
 
 def test_from_far_away_perspective_becomes_parallel():

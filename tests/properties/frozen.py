@@ -38,6 +38,9 @@ class Frozen:
     def notes(self) -> list[str]:
         return []
 
+    def transparent(self) -> bool:
+        return False
+
     @property
     def points(self) -> np.ndarray:
         return np.concatenate([part.points for part in self.parts])

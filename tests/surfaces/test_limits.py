@@ -87,7 +87,16 @@ def test_memory_does_not_abort_the_process():
     assert done.stdout.startswith("refused: bsp needs more than")
 
 
+@pytest.fixture
+def interruptible():
+    """A suite that is started in the background of a shell inherits that interrupts are ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals as in POSIX")
+@pytest.mark.usefixtures("interruptible")
 def test_interrupts_end_the_work():
     main = threading.main_thread().ident
     for work in (
