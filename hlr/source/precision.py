@@ -39,7 +39,8 @@ def precision(points: Floats) -> float:
         return 0.0
     corners = box(points)
     size = float(np.abs(corners).max())
-    if size == 0.0 or not np.isfinite(size):
+    # From half the largest number on differences overflow.
+    if size == 0.0 or not np.isfinite(2.0 * size):
         return 0.0
     rounded = _rounded(points, corners, size)
     return rounded if rounded <= COARSEST * float((corners[1] - corners[0]).max()) else 2.0**-53 * size

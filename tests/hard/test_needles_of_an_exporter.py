@@ -100,3 +100,7 @@ def test_precision_of_coordinates():
     assert precision(np.round(points, 10)) < 1e-13
     assert precision(points) < 1e-13
     assert precision(np.zeros((0, 3))) == 0.0
+
+
+def test_differences_that_overflow_tell_no_step() -> None:
+    assert precision(np.array([[0, 0, 1e300], [0, 0, 0], [0, 0, -1.79769312e308]])) == 0.0
