@@ -40,9 +40,9 @@ class Verbs(click.Group):
 def _version(ctx: click.Context, parameter: click.Parameter, wanted: Any) -> None:
     if not wanted or ctx.resilient_parsing:
         return
-    from hlr.version import own_version
+    from importlib.metadata import version
 
-    click.echo(f"hlr {own_version()}")
+    click.echo(f"hlr {version('hlr-drawing')}")
     ctx.exit()
 
 

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework", "shading", "window", "writers")
 
 # What every stage may import: no stage, and none of them imports one.
-COMMON = ("distinct", "endings", "version", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
+COMMON = ("distinct", "endings", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")
@@ -122,6 +122,15 @@ def test_there_is_one_version():
 
     with open(ROOT / "pyproject.toml", "rb") as file:
         assert tomllib.load(file)["project"]["version"] == hlr.__version__ == version("hlr-drawing")
+
+
+def test_what_build123d_needs_is_what_hlr_needs_but_cadquery():
+    with open(ROOT / "pyproject.toml", "rb") as file:
+        needed = tomllib.load(file)["project"]["dependencies"]
+    lines = (ROOT / "hlr/compat/build123d.txt").read_text().splitlines()
+    listed = [line for line in lines if not line.startswith("#")]
+    assert listed[0].startswith("build123d>=")
+    assert listed[1:] == [each for each in needed if not each.startswith("cadquery")]
 
 
 def test_every_folder_is_packaged():

@@ -98,13 +98,13 @@ def check_png(path: str | Path) -> Path:
 
 
 def _encoded(picture: Picture, pixels: Any, more: dict[str, str]) -> bytes:
-    from hlr.version import own_version
+    from importlib.metadata import version
 
     image_module, plugin = _pillow("Image"), _pillow("PngImagePlugin")
     view = picture.view
     direction = ",".join(f"{c:.6g}" for c in view.direction)
     told = {
-        "Software": f"hlr {own_version()}",
+        "Software": f"hlr {version('hlr-drawing')}",
         "Source": picture.source,
         "View": view.name,
         "Projection": view.projection,
