@@ -6,6 +6,7 @@
 pub mod obj;
 pub mod off;
 pub mod ply;
+mod ply_type;
 pub mod polygon;
 pub mod stl;
 pub mod text;
