@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.linework.exact import CUBIC, DrawnLines
+from hlr.source.geometry import starts
 from hlr.source.model import Floats, Ints
-from hlr.source.tables import starts
 from hlr.view.camera import Camera
 
 

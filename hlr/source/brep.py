@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from hlr import _kernel
 from hlr.errors import SourceError, counted
 from hlr.notes import Note, NoteCode
 from hlr.source.bindings import collection
-from hlr.source.edge_curves import EdgeCurveReader
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
 from hlr.source.model import (
@@ -31,7 +31,6 @@ from hlr.source.model import (
 )
 from hlr.source.parts import Leaf, Part, Parts, compound, look
 from hlr.source.tessellate import Tessellator
-from hlr.source.topology import Meshes
 from hlr.source.weld import clean
 
 
@@ -130,7 +129,6 @@ class BrepSource:
         self._roots, self._counts = roots, counts
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
-        self._curves = EdgeCurveReader(roots)
         self._maps: dict[tuple[int, Any], Any] = {}
         self._root_of = {part.name: part.root for part in self._parts}
 
@@ -210,7 +208,7 @@ class BrepSource:
         meshes, notes = self._tessellator.mesh(deflection, angle, progress)
         meshed = Meshed(parts=[], notes=notes)
         kept: list[Part] = []
-        surfaces = self._tessellator.surfaces
+        surfaces = self._tessellator
         shared = [_Shared(meshes, number, surfaces) for number in range(len(self._roots))]
         places = _placed_points([(part, shared[part.root].points) for part in self._parts])
         for part, points in zip(self._parts, places, strict=True):
@@ -228,7 +226,10 @@ class BrepSource:
         transforms = np.array([part.transform[:3] for part in kept])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
-            return self._curves.read(roots[part], edge, part, transforms)
+            keys = np.stack([roots[part], edge], axis=1)
+            distinct, which = np.unique(keys, axis=0, return_inverse=True)
+            found = surfaces.edge_curves(*np.ascontiguousarray(distinct.T, np.int32))
+            return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
 
         meshed.edge_curves = edge_curves
         return meshed
@@ -237,24 +238,24 @@ class BrepSource:
 class _Shared:
     """One root's arrays, shared by all its placements."""
 
-    def __init__(self, meshes: Meshes, number: int, surfaces: Surfaces) -> None:
+    def __init__(self, meshes: _kernel.BrepParts, number: int, surfaces: Surfaces) -> None:
         a, b = meshes.point_start[number : number + 2]
         c, d = meshes.triangle_start[number : number + 2]
         e, f = meshes.edge_start[number : number + 2]
         g, h = meshes.face_start[number : number + 2]
         self.points = meshes.points[a:b]
-        self.triangles = meshes.triangles[c:d] - a
+        self.triangles = meshes.triangles[c:d]
         self.triangle_face = meshes.triangle_face[c:d]
         self.face_planar = meshes.face_planar[g:h]
         offsets = meshes.edge_offsets[e : f + 1]
-        self.edge_nodes = meshes.edge_nodes[offsets[0] : offsets[-1]] - a
+        self.edge_nodes = meshes.edge_nodes[offsets[0] : offsets[-1]]
         self.edge_offsets = offsets - offsets[0]
         self.edge_index = meshes.edge_index[e:f]
         self.edge_class = meshes.edge_class[e:f]
         self.face_shape = meshes.face_shape[g:h]
         i, j = meshes.node_start[number : number + 2]
         self.on_surfaces: OnSurfaces | None = OnSurfaces(
-            corner=meshes.corner[c:d] - i,
+            corner=meshes.corner[c:d],
             uv=meshes.uv[i:j],
             number=meshes.face_shape[g:h],
             place=meshes.face_place[g:h],

@@ -15,25 +15,21 @@ NAMED = 5
 
 @dataclass(slots=True)
 class Faults:
-    """Numbers of underlying faces: without triangles; meshed on a mended copy; filled wrongly all the same."""
+    """Numbers of underlying faces: without triangles; meshed by OpenCASCADE's mesher instead of ours."""
 
     lost: list[int] = field(default_factory=list)
     rescued: list[int] = field(default_factory=list)
-    unfilled: list[int] = field(default_factory=list)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part; face_shape: the number of the underlying face of each of its faces."""
-        lost, rescued, unfilled = (
-            np.flatnonzero(np.isin(face_shape, numbers)).tolist()
-            for numbers in (self.lost, self.rescued, self.unfilled)
+        lost, rescued = (
+            np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
+            for numbers in (self.lost, self.rescued)
         )
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
         if lost:
             notes.append(Note("not-meshed", f"{of.format(len(lost))} could not be meshed ({_named(lost)})."))
-        if unfilled:
-            text = f"{of.format(len(unfilled))} were meshed only in part, or folded ({_named(unfilled)})."
-            notes.append(Note("not-meshed", text))
         if rescued:
             text = f"{of.format(len(rescued))} were meshed only after their outlines were mended ({_named(rescued)})."
             notes.append(Note("faces-mended", text))

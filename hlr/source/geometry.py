@@ -22,7 +22,6 @@ import numpy.typing as npt
 
 from hlr.source.locations import moved
 from hlr.source.model import Curves, Floats, Ints
-from hlr.source.tables import starts
 
 NONE, LINE, ELLIPSE, PARABOLA, HYPERBOLA, SPLINE = range(6)
 
@@ -37,6 +36,15 @@ Record = tuple[int, float, float, Floats]
 """(kind, first, last, values) of one curve."""
 
 UNKNOWN: Record = (NONE, 0.0, 0.0, np.zeros(0))
+
+
+def starts(counts: Ints | list[int]) -> Ints:
+    """(n+1,) running sums from 0: where each of n consecutive groups begins."""
+    result = np.zeros(len(counts) + 1, dtype=np.int64)
+    np.cumsum(counts, out=result[1:])
+    if result[-1] >= 2**31:
+        raise MemoryError("more than 2^31 items in one table")
+    return result.astype(np.int32)
 
 
 def packed(records: Sequence[Record]) -> Curves:

@@ -43,8 +43,8 @@ class Surfaces(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class SurfaceRecords:
-    """kind (n,) uint8 as `hlr.source.surfaces` numbers them; the numbers of record i are
-    data[offsets[i]:offsets[i + 1]]."""
+    """kind (n,) uint8 as the kernel's `brep/src/geometry/surface.rs` numbers them, 0 where it is not known; the numbers
+    of record i are data[offsets[i]:offsets[i + 1]]."""
 
     kind: npt.NDArray[np.uint8]
     offsets: Ints

@@ -1,14 +1,15 @@
-"""Faces that OpenCASCADE's mesher leaves empty, or fills wrongly: meshed on a copy with a mended outline.
+"""Faces that the kernel cannot mesh: OpenCASCADE's mesher tries them, on a copy with a mended outline.
 
 Most of them have sound curves and surfaces, but the curves of their edges in (u, v) do not make a closed outline: one
 lies a whole period beside the others, or is not the edge's at all. What is tried, the cheap first:
 
-1. the same curves in (u, v), each moved by whole periods to where the one before it ends;
-2. curves in (u, v) found anew, from the edges in space;
-3. OpenCASCADE's own repair of a face.
+1. the copy as it is;
+2. the same curves in (u, v), each moved by whole periods to where the one before it ends;
+3. curves in (u, v) found anew, from the edges in space;
+4. OpenCASCADE's own repair of a face.
 
-A copy counts only where its triangles fill its outline, in (u, v) and in space, and every edge of the face is on it.
-Then the face gets the copy's triangles. Nothing else of the caller's shape is touched.
+A copy counts only where the kernel finds that its triangles fill the face's outline. They are then joined to the edges'
+polylines, which stay as they are: so do the neighbours. Nothing of the caller's shape is touched.
 """
 
 from __future__ import annotations
@@ -19,53 +20,51 @@ from typing import Any
 
 import numpy as np
 
-from hlr.source.dump import DumpError, read_dump
-from hlr.source.filled import unfilled
+from hlr import _kernel
 from hlr.source.mesher import run_mesher
-from hlr.source.outlines import chained, periods, projected_anew
-from hlr.source.parts import compound, explored
-from hlr.source.refine import evaluated
-
-LEAST_AREA, MOST_AREA = 0.75, 1.05
-"""Triangles' area over that of the surface above them: chords of half a radian take away two hundredths."""
+from hlr.source.model import Floats, Ints
+from hlr.source.outlines import chained, projected_anew
+from hlr.source.parts import explored
 
 Copied = tuple[Any, Callable[[Any], Any]]
 """A face, and which edge of it stands for an edge of the original."""
 
+Border = tuple[list[int], list[float]]
+"""Nodes on an edge and their parameters, in the sense of the edge."""
 
-def rescue(face: Any, deflection: float, angle: float) -> bool:
-    """Give a TopoDS_Face a triangulation from a mended copy of it; whether one could be had."""
+
+def rescue(meshed: _kernel.BrepMesh, number: int, face: Any, deflection: float, angle: float) -> bool:
+    """Give the face with this number, a TopoDS_Face, triangles of OpenCASCADE's; whether any fit."""
+    from OCP.TopAbs import TopAbs_Orientation
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS
 
-    # The triangulation lies in the frame of the face before its placement.
-    here = TopoDS.Face(face.Located(TopLoc_Location(), False))
+    here = TopoDS.Face(face.Located(TopLoc_Location(), False).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
     for copied in _copies(here):
         with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the next way is tried
             copy, counterpart = copied()
             run_mesher(copy, deflection, angle, delabella=False)
-            if _sound(copy, deflection) and _taken_over(here, copy, counterpart):
+            points, uv, triangles = _triangles(copy)
+            if meshed.replace(number, points, uv, triangles, _borders(here, copy, counterpart, triangles)):
                 return True
     return False
 
 
 def _copies(face: Any) -> Iterator[Callable[[], Copied]]:
-    def copied() -> Copied:
+    def as_it_is() -> Copied:
         from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
-        from OCP.TopAbs import TopAbs_Orientation
         from OCP.TopoDS import TopoDS
 
-        forward = face.Oriented(TopAbs_Orientation.TopAbs_FORWARD)
-        copier = BRepBuilderAPI_Copy(forward, True, False)
+        copier = BRepBuilderAPI_Copy(face, True, False)
         return TopoDS.Face(copier.Shape()), copier.ModifiedShape
 
     def same_curves() -> Copied:
-        copy, counterpart = copied()
+        copy, counterpart = as_it_is()
         chained(copy)
         return copy, counterpart
 
     def new_curves() -> Copied:
-        copy, counterpart = copied()
+        copy, counterpart = as_it_is()
         projected_anew(copy)
         chained(copy)
         return copy, counterpart
@@ -74,67 +73,90 @@ def _copies(face: Any) -> Iterator[Callable[[], Copied]]:
         from OCP.ShapeFix import ShapeFix_Face
         from OCP.TopoDS import TopoDS
 
-        copy, counterpart = copied()
+        copy, counterpart = as_it_is()
         fixer = ShapeFix_Face(copy)
         fixer.Perform()
         context = fixer.Context()
         return TopoDS.Face(fixer.Result()), lambda edge: context.Apply(counterpart(edge))
 
+    yield as_it_is
     yield same_curves
     yield new_curves
     yield repaired
 
 
-def _sound(face: Any, deflection: float) -> bool:
-    """Whether a face's triangles fill its outline, and lie on its surface."""
-    from OCP.BRepAdaptor import BRepAdaptor_Surface
+def _triangles(face: Any) -> tuple[Floats, Floats, Ints]:
+    """Points, parameters and triangles of a meshed TopoDS_Face."""
+    from OCP.BRep import BRep_Tool
+    from OCP.TopLoc import TopLoc_Location
 
-    try:
-        tables = read_dump(compound([compound([]), face]))
-    except DumpError:
-        from hlr.source.walk import walk
-
-        tables = walk(compound([compound([]), face]))
-    if len(tables.tri_start) != 2 or len(unfilled(tables, deflection, np.array([periods(face)]))):
-        return False
-    p, q, r = (tables.nodes[tables.triangles[:, k]] for k in range(3))
-    area = 0.5 * np.sqrt((np.cross(q - p, r - p) ** 2).sum(axis=1)).sum()
-    a, b, c = (tables.uv[tables.triangles[:, k]] for k in range(3))
-    _, along, across = evaluated(BRepAdaptor_Surface(face, False), (a + b + c) / 3.0)
-    spread = np.sqrt((np.cross(along, across) ** 2).sum(axis=1))
-    below = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    exact = (spread * below).sum()
-    return bool(exact > 0.0 and LEAST_AREA < area / exact < MOST_AREA)
+    triangulation = BRep_Tool.Triangulation_s(face, TopLoc_Location())
+    numbers = range(1, triangulation.NbNodes() + 1)
+    points = np.array([triangulation.Node(i).Coord() for i in numbers])
+    uv = np.array([triangulation.UVNode(i).Coord() for i in numbers])
+    triangles = [triangulation.Triangle(i).Get() for i in range(1, triangulation.NbTriangles() + 1)]
+    return points, uv, np.array(triangles, np.int32) - np.int32(1)
 
 
-def _taken_over(face: Any, copy: Any, counterpart: Callable[[Any], Any]) -> bool:
-    """Move the triangulation of the copy, and the polygons of its edges, to the face; unless an edge has no polygon."""
-    from OCP.BRep import BRep_Builder, BRep_Tool
-    from OCP.BRepTools import BRepTools
+def _borders(face: Any, copy: Any, counterpart: Callable[[Any], Any], triangles: Ints) -> list[Border]:
+    """The polygon of each edge in each wire of the face on the copy's triangles.
+
+    Raises:
+        ValueError: an edge has none.
+    """
+    from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_Orientation
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS
+    from OCP.TopoDS import TopoDS, TopoDS_Iterator
 
     place = TopLoc_Location()
     triangulation = BRep_Tool.Triangulation_s(copy, place)
-    found = []
-    for shape in explored(face, Kind.TopAbs_EDGE):
-        edge = TopoDS.Edge(shape)
-        twin = TopoDS.Edge(counterpart(edge))
-        one, two = (
-            BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge(twin.Oriented(way)), triangulation, place)
-            for way in (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED)
-        )
-        if one is None or BRep_Tool.Degenerated_s(twin) != BRep_Tool.Degenerated_s(edge):
-            return False
-        found.append((edge, one, two if BRep_Tool.IsClosed_s(twin, triangulation, place) else None))
-    builder = BRep_Builder()
-    BRepTools.Clean_s(face)
-    builder.UpdateFace(face, triangulation)
-    for edge, one, two in found:
-        if two is None:
-            builder.UpdateEdge(edge, one, triangulation)
-        else:
-            builder.UpdateEdge(edge, one, two, triangulation)
-    return True
+    sides = {(t[k], t[k - 2]) for t in triangles.tolist() for k in range(3)}
+    found: list[Border] = []
+    for wire in _children(face, Kind.TopAbs_WIRE, TopoDS_Iterator):
+        for shape in _children(wire, Kind.TopAbs_EDGE, TopoDS_Iterator):
+            twin, backward = counterpart(shape), shape.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
+            ways = (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED)
+            both = [
+                BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge(twin.Oriented(w)), triangulation, place) for w in ways
+            ]
+            # A seam has two; the one with triangles to its left is meant.
+            borders = [_border(polygon) for polygon in both if polygon is not None and polygon.HasParameters()]
+            if not borders:
+                raise ValueError("an edge without a polygon")
+            fits = [b for b in borders if (b[0][1], b[0][0]) in sides] if backward else []
+            fits = fits or [b for b in borders if not backward and (b[0][0], b[0][1]) in sides]
+            found.append((fits or borders)[0])
+    return found
+
+
+def _border(polygon: Any) -> Border:
+    numbers = range(1, polygon.NbNodes() + 1)
+    return [polygon.Node(i) - 1 for i in numbers], [polygon.Parameter(i) for i in numbers]
+
+
+def _children(shape: Any, kind: Any, iterator: Any) -> Iterator[Any]:
+    """Sub-shapes of a kind in the order in which they are kept."""
+    at = iterator(shape)
+    while at.More():
+        if at.Value().ShapeType() == kind:
+            yield at.Value()
+        at.Next()
+
+
+def faces_of(roots: list[Any], numbers: set[int]) -> dict[int, Any]:
+    """The underlying faces with these numbers, as TopoDS_Face: counted as an explorer of the roots meets them."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopoDS import TopoDS
+
+    known: set[Any] = set()
+    found = {}
+    for root in roots if numbers else ():
+        for shape in explored(root, Kind.TopAbs_FACE):
+            underlying = shape.TShape()
+            if underlying not in known:
+                if len(known) in numbers:
+                    found[len(known)] = TopoDS.Face(shape)
+                known.add(underlying)
+    return found
