@@ -1,7 +1,7 @@
 //! Meshes every face of a dump (`BinTools.Write` of a shape without triangles) and prints what came of it.
 //!
 //! ```text
-//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--sample] [--faults] [--slow] [--kinds] [--only FACE] [--loops FACE] [--driver]
+//! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--faults] [--slow] [--kinds] [--only FACE] [--loops FACE] [--driver]
 //! ```
 
 use std::collections::BTreeMap;
@@ -11,8 +11,7 @@ use std::time::Instant;
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
-use hlr_brep::mesh::{FaceMesh, Fault, border_share, mesh_face};
+use hlr_brep::mesh::{Fault, border_share, mesh_face};
 use hlr_brep::model::Model;
 use hlr_brep::tessellate::{Watch, tessellate};
 
@@ -40,7 +39,7 @@ fn main() {
         model.edges.iter().zip(&shares).map(|(e, share)| polyline(&model, e, share * deflection, 0.5)).collect();
     let edges = start.elapsed().as_secs_f64();
     let (mut triangles, mut points, mut kinds, mut faults) = (0, 0, BTreeMap::new(), BTreeMap::new());
-    let (mut bordering, mut worst) = (0.0, (0.0f64, 0));
+    let mut bordering = 0.0;
     for (number, face) in model.faces.iter().enumerate() {
         let Some(surface) = &face.surface else {
             *faults.entry("no surface").or_insert(0) += 1;
@@ -77,18 +76,6 @@ fn main() {
                 if has("--slow") && time > 0.005 {
                     println!("face {number} {} {} triangles {time:.4} s", kind(surface), mesh.triangles.len());
                 }
-                if has("--sample") {
-                    // What the edges themselves are off the surface is the file's.
-                    let points = border.iter().flat_map(|b| b.loops.loops.iter().flatten());
-                    let off = points.map(|p| length(&sub(&p.point, &surface.point(p.uv)))).fold(0.0, f64::max);
-                    let error = (sampled(surface, &mesh) - off).max(0.0) / deflection;
-                    if error > worst.0 {
-                        worst = (error, number);
-                    }
-                    if has("--faults") && error > 1.0 {
-                        println!("face {number} {}: {error:.2} deflections", kind(surface));
-                    }
-                }
             }
             Err(fault) => {
                 let name = match &fault {
@@ -115,9 +102,6 @@ fn main() {
         for (name, (faces, triangles, time)) in &kinds {
             println!("  {name:10} {faces:6} faces {triangles:8} triangles {:9.1} us", time * 1e6);
         }
-    }
-    if has("--sample") {
-        println!("  worst chord error {:.3} deflections, face {}", worst.0, worst.1);
     }
 }
 
@@ -150,47 +134,4 @@ fn kind(surface: &Surface) -> &'static str {
         Surface::Spline(..) => "spline",
         Surface::Offset(..) => "offset",
     }
-}
-
-/// Greatest distance of surface points amid triangles and their edges to the triangles around.
-fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
-    let from_segment = |p: &Vector, a: &Vector, b: &Vector| {
-        let (d, q) = (sub(b, a), sub(p, a));
-        let square = dot(&d, &d);
-        let t = if square > 0.0 { (dot(&q, &d) / square).clamp(0.0, 1.0) } else { 0.0 };
-        length(&sub(&q, &scaled(&d, t)))
-    };
-    let from_triangle = |p: &Vector, [a, b, c]: [Vector; 3]| {
-        let n = cross(&sub(&b, &a), &sub(&c, &a));
-        let square = dot(&n, &n);
-        let inside = |from: &Vector, to: &Vector| dot(&cross(&sub(to, from), &sub(p, from)), &n) >= 0.0;
-        if square > 0.0 && inside(&a, &b) && inside(&b, &c) && inside(&c, &a) {
-            return dot(&sub(p, &a), &n).abs() / square.sqrt();
-        }
-        [(a, b), (b, c), (c, a)].iter().map(|(x, y)| from_segment(p, x, y)).fold(f64::INFINITY, f64::min)
-    };
-    // All corners at a pole are one.
-    let mut at_node = BTreeMap::new();
-    let place: Vec<usize> = (0..mesh.points.len())
-        .map(|i| mesh.nodes.get(i).map_or(i, |&node| *at_node.entry(node).or_insert(i)))
-        .collect();
-    let mut around = vec![Vec::new(); mesh.points.len()];
-    for (k, t) in mesh.triangles.iter().enumerate() {
-        t.iter().for_each(|&i| around[place[i as usize]].push(k));
-    }
-    let corners = |k: usize| mesh.triangles[k].map(|i| mesh.points[i as usize]);
-    let mut worst = 0.0f64;
-    for (k, t) in mesh.triangles.iter().enumerate() {
-        let uv = t.map(|i| mesh.uv[i as usize]);
-        for [x, y] in [[0.33, 0.33], [0.5, 0.25], [0.25, 0.5], [0.25, 0.25], [0.45, 0.45], [0.1, 0.45], [0.45, 0.1]] {
-            let at = [0, 1].map(|k| x * uv[0][k] + y * uv[1][k] + (1.0 - x - y) * uv[2][k]);
-            let p = surface.d1(at).0;
-            let own = from_triangle(&p, corners(k));
-            if own > worst {
-                let beside = t.iter().flat_map(|&i| &around[place[i as usize]]);
-                worst = worst.max(beside.fold(own, |least, &k| least.min(from_triangle(&p, corners(k)))));
-            }
-        }
-    }
-    worst
 }

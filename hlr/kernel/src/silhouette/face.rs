@@ -98,19 +98,21 @@ impl<'a> Face<'a> {
         Some((along(&centre, &away, -dot(&arm, &arm) / dot(&away, &away)), unit(&away)?))
     }
 
-    /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before and
-    /// behind, so that the sight passes over it; negative where it bends toward it and the sight lies within the body.
-    pub fn radial(&self, uv: [f64; 2]) -> f64 {
+    /// Steps of u and v for a unit of length along the sight, as far as it lies in the tangent plane.
+    pub fn along_sight(&self, uv: [f64; 2]) -> Option<[f64; 2]> {
         let (p, du, dv) = self.surface.d1(uv);
         let (du, dv, sight) = (self.turned(&du), self.turned(&dv), self.model.sight(&self.moved(&p)));
         let n = cross(&du, &dv);
         let square = dot(&n, &n);
-        if square == 0.0 {
-            return 0.0;
-        }
-        // sight = a du + b dv in the tangent plane
-        let a = dot(&cross(&sight, &dv), &n) / square;
-        let b = dot(&cross(&du, &sight), &n) / square;
+        let way = [dot(&cross(&sight, &dv), &n) / square, dot(&cross(&du, &sight), &n) / square];
+        way.iter().all(|x| x.is_finite()).then_some(way)
+    }
+
+    /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before and
+    /// behind, so that the sight passes over it; negative where it bends toward it and the sight lies within the body.
+    pub fn radial(&self, uv: [f64; 2]) -> f64 {
+        let Some([a, b]) = self.along_sight(uv) else { return 0.0 };
+        let sight = self.model.sight(&self.point(uv));
         let step = 0.1 * self.model.chord;
         let at = |s: f64| self.normal([uv[0] + s * a, uv[1] + s * b]).map(|n| dot(&n, &sight));
         match (at(step), at(-step)) {

@@ -3,7 +3,8 @@
 //! Spline surfaces have them at their knots, where one patch dips against the next by a hair. Wherever a node of the mesh
 //! happens to lie in one, N . v changes its sign and changes back, and the drawing would show a row of dashes beside
 //! nothing. A patch of nodes is taken for its surroundings if, from each of them, the surface turns back that soon.
-//! How far it has risen over that way w along the sight is some N . v times w at most.
+//! How far it has risen over that way w along the sight is some N . v times w at most. Next to the patch's rim that is told
+//! by the mesh; from nodes amid the patch the line of sight is followed on the surface, so that a finer mesh says the same.
 //!
 //! ```text
 //!     +     +     +
@@ -50,9 +51,6 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
             rim[n] |= apart;
         }
     }
-    for (&p, rim) in patch.iter().zip(rim) {
-        wide[p] |= !rim;
-    }
     let mut around = vec![f64::NEG_INFINITY; values.len()];
     for tie in &ties {
         let [a, b] = tie.nodes.map(|n| patch[n as usize]);
@@ -70,11 +68,39 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
             around[own] = around[own].max(f[1 - k]);
         }
     }
+    // A patch without surroundings is none; of a part without any change of sign nothing is asked.
+    for tie in &ties {
+        for n in tie.nodes.map(|n| n as usize) {
+            let own = patch[n];
+            if rim[n] || wide[own] || !around[own].is_finite() {
+                continue;
+            }
+            rim[n] = true; // asked once
+            let turned = Face::new(model, tie.face).is_some_and(|face| turns_back(&face, model, n, values[n]));
+            wide[own] = !turned;
+        }
+    }
     for (n, &p) in patch.iter().enumerate() {
         if !wide[p] && around[p].is_finite() {
             values[n] = around[p];
         }
     }
+}
+
+/// Steps of a walk on the surface.
+const STEPS: u32 = 16;
+
+/// Whether f changes its sign on the way along the sight, ahead or back, before the surface has risen above the tolerance.
+fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
+    let step = HEIGHT * model.chord / (f.abs() * f64::from(STEPS));
+    [step, -step].into_iter().any(|step| {
+        let mut uv = model.uv[node];
+        (0..STEPS).any(|_| {
+            let Some(way) = face.along_sight(uv) else { return false };
+            uv = [0, 1].map(|k| uv[k] + step * way[k]);
+            face.f(uv).is_some_and(|here| here.is_finite() && (here > 0.0) != (f > 0.0))
+        })
+    })
 }
 
 /// NaN is the value of a pole, and of nodes of faces that are not traced.

@@ -6,6 +6,7 @@ mod invert;
 mod uses;
 
 pub use border::{Border, Node, border};
+pub use invert::near;
 
 #[cfg(test)]
 mod tests;
