@@ -71,12 +71,19 @@ def hlr_command(hlr_real, monkeypatch):
     return hlr_real
 
 
+def as_from_a_terminal():
+    """Whatever the tests' own program ignores (it may run under nohup, or in the background): children do not."""
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
 @pytest.fixture
 def started(tmp_path):
     """Start a program with arguments in an empty folder; what still runs of its group after the test is killed."""
     processes = []
 
     def start(program, *arguments, **options):
+        options.setdefault("preexec_fn", as_from_a_terminal)
         process = subprocess.Popen([*program, *arguments], cwd=tmp_path, **options | {"start_new_session": True})
         processes.append(process)
         return process

@@ -10,7 +10,7 @@
 //! ```
 
 use super::contour::Side;
-use super::face::root;
+use super::face::{Face, root};
 use super::refine::rise;
 use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
@@ -48,6 +48,9 @@ const GRAZE: f64 = 0.3;
 
 /// |N . v|: a face, or a triangle, seen at less is a wall along the sight: rounding decides what it hides.
 const WALL: f64 = 1e-6;
+
+/// Of the square of its longer side: a triangle with less area has no normal to be trusted.
+const NEEDLE: f64 = 1e-9;
 
 /// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single chord,
 /// however often the face turns over along it.
@@ -93,6 +96,19 @@ fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
     along(&a, &sub(&b, &a), t)
 }
 
+/// Outward unit normal of the planar face of a triangle; None where its plane is not known and the triangle is a needle.
+fn plane_normal(model: &Model, triangle: i32) -> Option<Vector> {
+    let t = triangle as usize;
+    let of_face = |face: Face| face.normal(model.uv[model.corner[t][0] as usize]);
+    Face::new(model, model.triangle_face[t]).and_then(of_face).or_else(|| {
+        let [p, q, r] = model.triangles[t].map(|v| model.points[v as usize]);
+        let (a, b) = (sub(&q, &p), sub(&r, &p));
+        let normal = cross(&a, &b);
+        let size = dot(&a, &a).max(dot(&b, &b));
+        if length(&normal) > NEEDLE * size { unit(&normal) } else { None }
+    })
+}
+
 /// What the two faces of an edge do to it at one parameter, if the body is closed.
 fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Beside {
     let &[s, u] = around else { return Beside::Unknown };
@@ -100,10 +116,8 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     let normal = |triangle: i32| match sides.iter().find(|side| side.triangle == triangle) {
         Some(side) => Some(side.at(t).map_or(side.normal, |place| place.normal)),
         None if model.faces[model.triangle_face[triangle as usize] as usize].curved => None,
-        None => {
-            let [p, q, r] = model.triangles[triangle as usize].map(|v| model.points[v as usize]);
-            unit(&cross(&sub(&q, &p), &sub(&r, &p)))
-        }
+        // The plane's own: a triangle between points that are nearly in one line has any normal.
+        None => plane_normal(model, triangle),
     };
     let (Some(m), Some(n)) = (normal(s), normal(u)) else { return Beside::Unknown };
     let corners = model.triangles[s as usize];
@@ -153,4 +167,45 @@ fn turns(side: &Side) -> Vec<(f64, f64)> {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::FaceRecord;
+    use super::*;
+    use crate::lines::View;
+    use hlr_brep::geometry::surface::Surface;
+
+    /// Corners of a planar face on one border line, off it by rounding: the needle between them is turned any way.
+    #[test]
+    fn a_needle_has_the_normal_of_its_plane() {
+        let points =
+            [[-70.0, -0.100000000043331, 0.0], [-93.0, -0.1, 1e-13], [-87.0, -0.1, 1e-13], [-80.0, -0.1, -60.0]];
+        let plane = Surface::read(1, &[0.0, -0.1, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0]);
+        let face = |surface| FaceRecord {
+            surface,
+            place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
+            sign: 1.0,
+            curved: false,
+        };
+        let model = |surface| Model {
+            points: &points,
+            triangles: &[[0, 1, 2], [0, 1, 3]],
+            triangle_face: &[0, 0],
+            edges: &[],
+            offsets: &[0],
+            incident: &[],
+            smooth: &[],
+            source: &[],
+            corner: &[[0, 1, 2], [0, 1, 3]],
+            uv: &[[0.0; 2]; 4],
+            faces: vec![face(surface)],
+            surfaces: vec![plane.clone()],
+            view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
+            chord: 0.01,
+        };
+        assert_eq!(plane_normal(&model(Some(0)), 0), Some([0.0, 1.0, 0.0]));
+        assert_eq!(plane_normal(&model(None), 0), None);
+        assert!(plane_normal(&model(None), 1).is_some_and(|n| n[1].abs() > 0.999));
+    }
 }
