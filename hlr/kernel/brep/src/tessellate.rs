@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
-use crate::mesh::{FaceMesh, Fault, border_share, mesh_face};
+use crate::mesh::{FaceMesh, Fault, Steps, Told, border_share, mesh_face};
 use crate::model::{Face, Model};
 
 /// Rounds of dividing chords.
@@ -39,7 +39,7 @@ pub struct MeshedFace {
 /// How far the work is, and whether it is to be stopped.
 pub struct Watch<'a> {
     pub stopped: &'a (dyn Fn() -> bool + Sync),
-    /// Faces done in the first round.
+    /// Grows by `OF_A_FACE` for each face.
     pub done: &'a AtomicUsize,
 }
 
@@ -57,6 +57,7 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
     // Faces whose coarse chords cannot be divided any more: they are meshed with these.
     let mut settled: BTreeSet<usize> = BTreeSet::new();
+    let told: Vec<AtomicUsize> = model.faces.iter().map(|_| AtomicUsize::new(0)).collect();
     for round in 0..=MOST_ROUNDS {
         let tries = each(
             &mut wanted,
@@ -64,11 +65,13 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
             &lines,
             |i| {
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
-                let tried = try_face(model, &model.faces[i], &lines, deflection, angle, divisible);
-                if round == 0 {
-                    watch.done.fetch_add(1, Ordering::Relaxed);
+                let steps = Steps::new(watch.stopped, Some(Told { all: watch.done, face: &told[i] }));
+                let face = &model.faces[i];
+                let tried = steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?;
+                if !tried.waits {
+                    steps.reached(1.0);
                 }
-                tried
+                Some(tried)
             },
             watch,
         )?;
@@ -138,12 +141,13 @@ fn faces_of_edges(model: &Model) -> Vec<Vec<usize>> {
     out
 }
 
-/// Calls `work` for the faces, those with the longest borders first, and returns its results in the faces' order.
+/// Calls `work` for the faces, those with the longest borders first, and returns its results in the faces' order; None
+/// where it was stopped.
 fn each<T: Send + Sync>(
     wanted: &mut [usize],
     model: &Model,
     lines: &[Option<Polyline>],
-    work: impl Fn(usize) -> T + Sync,
+    work: impl Fn(usize) -> Option<T> + Sync,
     watch: &Watch,
 ) -> Option<Vec<(usize, T)>> {
     let corners = |i: usize| -> usize {
@@ -166,7 +170,8 @@ fn each<T: Send + Sync>(
             if k >= wanted.len() || (watch.stopped)() {
                 return;
             }
-            let _ = results[k].set(work(wanted[k]));
+            let Some(result) = work(wanted[k]) else { return };
+            let _ = results[k].set(result);
         }
     };
     if wanted.len() == 1 || rayon::current_num_threads() == 1 {
@@ -198,6 +203,7 @@ fn try_face(
     deflection: f64,
     angle: f64,
     divisible: bool,
+    steps: &Steps,
 ) -> Tried {
     let failed = |fault, coarse| Tried {
         face: MeshedFace { fault: Some(fault), ..MeshedFace::default() },
@@ -238,7 +244,7 @@ fn try_face(
     }
     let chords: Vec<_> = kept.iter().map(|&i| &chords[i]).collect();
     loops.loops.retain(encloses);
-    match mesh_face(surface, &loops, deflection, angle) {
+    match mesh_face(surface, &loops, deflection, angle, steps) {
         Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None }, coarse: Vec::new(), waits: false },
         Err(fault) => {
             let coarse = match &fault {

@@ -8,11 +8,12 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 use super::guard::caught;
-use super::running::{run, run_telling};
+use super::running::{FEW, run, run_telling};
 use super::scan::{expect_below, expect_len, flat, rows as rows_of};
 use hlr_brep::assemble::{PartMesh, assemble};
 use hlr_brep::geometry::flat::is_flat;
-use hlr_brep::model::Model;
+use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
+use hlr_brep::model::{Face, Model};
 use hlr_brep::patch::{Border, Foreign, patched};
 use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
 
@@ -108,13 +109,15 @@ impl BrepModel {
         }
         let (model, done) = (&self.0, AtomicUsize::new(0));
         let tell = |py: Python<'_>| {
-            let share = done.load(Ordering::Relaxed) as f64 / model.faces.len().max(1) as f64;
+            let share = done.load(Ordering::Relaxed) as f64 / (OF_A_FACE * model.faces.len().max(1)) as f64;
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (share,)).map(|_| ()))
         };
         let work =
             |stopped: &(dyn Fn() -> bool + Sync)| tessellate(model, deflection, angle, &Watch { stopped, done: &done });
-        // A face is worth many points.
-        let meshed = run_telling(py, threads, 100 * model.faces.len(), tell, work)?;
+        // A face is worth many points; one that bends both ways may have any number inside.
+        let bent = |face: &Face| face.surface.as_ref().is_some_and(bends_both_ways);
+        let size = 100 * model.faces.len() + if model.faces.iter().any(bent) { FEW } else { 0 };
+        let meshed = run_telling(py, threads, size, tell, work)?;
         let meshed = meshed.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
         Ok(BrepMesh { model: model.clone(), meshed: Mutex::new(meshed) })
     }

@@ -7,6 +7,7 @@ use super::delaunay::Delaunay;
 use super::outline::Outline;
 use super::plane::distance2;
 use super::size::Field;
+use super::steps::Steps;
 use super::{FaceLoops, Fault, Made, lattice};
 use crate::geometry::surface::Surface;
 
@@ -26,12 +27,13 @@ pub fn triangulate(
     deflection: f64,
     angle: f64,
     straight: bool,
+    steps: &Steps,
 ) -> Result<Result<Made, Box<Outline>>, Fault> {
     let bounds = Outline::new(loops, |_, _, _| ())?.bounds();
     if !(0..2).all(|k| bounds[0][k] < bounds[1][k]) {
         return Err(Fault::Open);
     }
-    let field = Field::new(surface, bounds, deflection, angle, straight).ok_or(Fault::Degenerate)?;
+    let field = Field::new(surface, bounds, deflection, angle, straight, steps).ok_or(Fault::Degenerate)?;
     let outline = Outline::new(loops, |from, to, shares| {
         let (a, b) = (field.to_chart(from), field.to_chart(to));
         let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
@@ -39,11 +41,14 @@ pub fn triangulate(
         shares.extend((1..count).map(|k| k as f64 / count as f64));
     })?;
     let chart = outline.mapped(|uv| field.to_chart(uv));
-    let inner = lattice::points(&field, &Border::new(&chart), MOST).ok_or(Fault::TooFine)?;
-    let Some(mesh) = Delaunay::new(&chart, &inner) else { return Ok(Err(Box::new(outline))) };
+    let inner = lattice::points(&field, &Border::new(&chart), MOST, steps).ok_or(Fault::TooFine)?;
+    steps.reached(DONE[0]);
+    let Some(mesh) = Delaunay::new(&chart, &inner, steps) else { return Ok(Err(Box::new(outline))) };
+    steps.reached(DONE[1]);
     let (mut corners, mut bends): (Vec<Corner>, Vec<Bend>) =
         outline.uv.iter().zip(&outline.points).map(|(&uv, &p)| corner(surface, uv, Some(p))).unzip();
     for &xy in &inner {
+        steps.step();
         let (corner, bend) = corner(surface, field.on_surface(xy), None);
         corners.push(corner);
         bends.push(bend);
@@ -51,17 +56,21 @@ pub fn triangulate(
     let spans = corners.iter().map(|c| field.span(c.uv)).collect();
     let mut places = chart.uv.clone();
     places.extend(inner);
-    let mut work = Work { surface, field: &field, chart: &chart, mesh, corners, bends, spans, places, deflection };
+    let mut work =
+        Work { surface, field: &field, chart: &chart, mesh, corners, bends, spans, places, deflection, steps };
     let (triangles, error) = work.refine();
     let Work { corners, mesh, .. } = work;
     Ok(Ok(Made { outline, corners, triangles, stand_in: mesh.stand_in, error }))
 }
 
+/// Of the work on a face, about: when its inner points are known, when they are joined, when they are judged once.
+const DONE: [f64; 3] = [0.2, 0.6, 0.8];
+
 struct Work<'a> {
     surface: &'a Surface,
     field: &'a Field,
     chart: &'a Outline,
-    mesh: Delaunay,
+    mesh: Delaunay<'a>,
     corners: Vec<Corner>,
     bends: Vec<Bend>,
     /// Between which knots the corners are.
@@ -69,6 +78,7 @@ struct Work<'a> {
     /// Of the corners, in the chart.
     places: Vec<[f64; 2]>,
     deflection: f64,
+    steps: &'a Steps<'a>,
 }
 
 impl Work<'_> {
@@ -79,6 +89,7 @@ impl Work<'_> {
         for t in self.mesh.inside() {
             self.judge(t, &mut worst, &mut coarse);
         }
+        self.steps.reached(DONE[2]);
         for _ in 0..ROUNDS {
             let known = self.corners.len();
             if coarse.is_empty() || known > MOST || !self.divide(&mut coarse) {
@@ -99,6 +110,7 @@ impl Work<'_> {
 
     /// Whether a triangle keeps the deflection, or is as good as the border lets it be.
     fn judge(&self, t: [u32; 3], worst: &mut f64, coarse: &mut Vec<(Gap, [u32; 3])>) {
+        self.steps.step();
         let at = t.map(|i| i as usize);
         let (corners, bends) = (at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
         let spans = at.map(|i| self.spans[i]);

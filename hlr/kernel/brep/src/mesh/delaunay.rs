@@ -4,22 +4,27 @@ use spade::handles::{DirectedEdgeHandle, FixedVertexHandle};
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::outline::Outline;
+use super::steps::Steps;
 
-struct Corner {
+struct Corner<'a> {
     place: Point2<f64>,
     number: u32,
+    steps: &'a Steps<'a>,
 }
 
-impl HasPosition for Corner {
+impl HasPosition for Corner<'_> {
     type Scalar = f64;
 
+    /// Asked at every step: that is where one can stop.
     fn position(&self) -> Point2<f64> {
+        self.steps.step();
         self.place
     }
 }
 
-pub struct Delaunay {
-    mesh: ConstrainedDelaunayTriangulation<Corner>,
+pub struct Delaunay<'a> {
+    mesh: ConstrainedDelaunayTriangulation<Corner<'a>>,
+    steps: &'a Steps<'a>,
     /// Of points of the outline at one place, the first one.
     pub stand_in: Vec<u32>,
     /// Of all numbers.
@@ -28,9 +33,9 @@ pub struct Delaunay {
     slits: Vec<[u32; 2]>,
 }
 
-impl Delaunay {
+impl<'a> Delaunay<'a> {
     /// Inner points are numbered after those of the outline. None where chords cross or points are out of range.
-    pub fn new(outline: &Outline, inner: &[[f64; 2]]) -> Option<Delaunay> {
+    pub fn new(outline: &Outline, inner: &[[f64; 2]], steps: &'a Steps<'a>) -> Option<Delaunay<'a>> {
         let stand_in = stand_ins(outline);
         let count = outline.len();
         let mut corners = Vec::with_capacity(count + inner.len());
@@ -40,13 +45,13 @@ impl Delaunay {
             place[i] = corners.len();
             if stand_in[i] == c {
                 let [x, y] = outline.uv[i];
-                corners.push(Corner { place: Point2::new(x, y), number: c });
+                corners.push(Corner { place: Point2::new(x, y), number: c, steps });
             } else {
                 place[i] = place[stand_in[i] as usize];
             }
         }
         for (&[x, y], number) in inner.iter().zip(count as u32..) {
-            corners.push(Corner { place: Point2::new(x, y), number });
+            corners.push(Corner { place: Point2::new(x, y), number, steps });
         }
         let chords: Vec<_> = outline.chords().map(|c| [place[c as usize], place[outline.after(c) as usize]]).collect();
         if chords.iter().any(|[a, b]| a == b) {
@@ -71,7 +76,7 @@ impl Delaunay {
             .collect();
         let mut crossed = false;
         let mesh = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(corners, chords, |_| crossed = true).ok()?;
-        (!crossed).then_some(Delaunay { mesh, stand_in, handles, slits })
+        (!crossed).then_some(Delaunay { mesh, steps, stand_in, handles, slits })
     }
 
     /// One more inner point near a known one, which gets the next number. False where it is no new one, or lies on a chord.
@@ -83,7 +88,7 @@ impl Delaunay {
             OnEdge(edge) => !self.mesh.directed_edge(edge).is_constraint_edge(),
             _ => false,
         };
-        let corner = Corner { place, number: self.handles.len() as u32 };
+        let corner = Corner { place, number: self.handles.len() as u32, steps: self.steps };
         let Some(handle) = free.then(|| self.mesh.insert_with_hint(corner, near).ok()).flatten() else { return false };
         self.handles.push(handle);
         true

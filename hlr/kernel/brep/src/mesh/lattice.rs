@@ -7,6 +7,7 @@
 
 use super::border::Border;
 use super::size::Field;
+use super::steps::Steps;
 
 /// Height of an equilateral triangle.
 const HEIGHT: f64 = 0.866;
@@ -18,8 +19,8 @@ const MARGIN: f64 = 0.45;
 const HAIR: f64 = 0.05;
 
 /// Points inside the loops; None where they would be more than `most`.
-pub fn points(field: &Field, border: &Border, most: usize) -> Option<Vec<[f64; 2]>> {
-    let mut lattice = Lattice { field, border, points: Vec::new(), crossed: Vec::new(), most };
+pub fn points(field: &Field, border: &Border, most: usize, steps: &Steps) -> Option<Vec<[f64; 2]>> {
+    let mut lattice = Lattice { field, border, points: Vec::new(), crossed: Vec::new(), most, steps };
     let counts = field.counts();
     lattice.block([0, counts[0]], [0, counts[1]])?;
     Some(lattice.points)
@@ -31,6 +32,7 @@ struct Lattice<'a> {
     points: Vec<[f64; 2]>,
     crossed: Vec<f64>,
     most: usize,
+    steps: &'a Steps<'a>,
 }
 
 impl Lattice<'_> {
@@ -111,6 +113,7 @@ impl Lattice<'_> {
                 continue;
             }
             for k in from..=to as usize {
+                self.steps.step();
                 let p = [left + (k as f64 + shift) * step, y];
                 if !self.border.is_near(p, MARGIN * spacing) {
                     self.points.push(p);

@@ -12,11 +12,13 @@ mod outline;
 mod plane;
 mod ruled;
 mod size;
+mod steps;
 mod sweep;
 
 use crate::geometry::surface::Surface;
 use bound::Corner;
 use outline::Outline;
+pub use steps::{OF_A_FACE, Steps, Told};
 
 /// A point of a loop: a corner of an edge's polyline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,10 +80,16 @@ pub enum Fault {
 ///
 /// # Errors
 /// The loops cross, do not close, or the deflection cannot be shown to be kept with chords as coarse as the border's.
-pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f64) -> Result<FaceMesh, Fault> {
-    let bent = |straight| bent::triangulate(surface, loops, deflection, angle, straight);
+pub fn mesh_face(
+    surface: &Surface,
+    loops: &FaceLoops,
+    deflection: f64,
+    angle: f64,
+    steps: &Steps,
+) -> Result<FaceMesh, Fault> {
+    let bent = |straight| bent::triangulate(surface, loops, deflection, angle, straight, steps);
     let made = match (surface, ruled::straight_along(surface)) {
-        (Surface::Plane(_), _) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection)),
+        (Surface::Plane(_), _) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection, steps)),
         (_, Some(straight)) => {
             let bent = 1 - straight;
             let mut turns: Vec<f64> = loops.loops.iter().flatten().map(|p| p.uv[bent]).collect();
@@ -93,7 +101,7 @@ pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f
                 shares.extend(turns.iter().map(share).filter(|t| *t > 0.0 && *t < 1.0));
                 shares.sort_unstable_by(f64::total_cmp);
             })?;
-            proved(flat(surface, outline, deflection))
+            proved(flat(surface, outline, deflection, steps))
         }
         _ => match proved(bent(false)?) {
             Ok(made) => Ok(made),
@@ -113,7 +121,12 @@ pub fn mesh_face(surface: &Surface, loops: &FaceLoops, deflection: f64, angle: f
 
 /// Of the deflection: how coarse the border of a face may be, so that the triangles beside it can keep the whole.
 pub fn border_share(surface: &Surface) -> f64 {
-    if ruled::straight_along(surface).is_some() { 1.0 } else { 0.5 }
+    if bends_both_ways(surface) { 0.5 } else { 1.0 }
+}
+
+/// Whether its faces have points inside.
+pub fn bends_both_ways(surface: &Surface) -> bool {
+    ruled::straight_along(surface).is_none()
 }
 
 /// With all points of the loops, and proved to fill them; the outline where that is not so.
@@ -138,8 +151,8 @@ struct Made {
 }
 
 /// Without inner points. Where the loops cannot be filled, their outline.
-fn flat(surface: &Surface, outline: Outline, deflection: f64) -> Result<Made, Box<Outline>> {
-    let Some((triangles, stand_in, error)) = ruled::triangulate(surface, &outline, deflection) else {
+fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Steps) -> Result<Made, Box<Outline>> {
+    let Some((triangles, stand_in, error)) = ruled::triangulate(surface, &outline, deflection, steps) else {
         return Err(Box::new(outline));
     };
     let corner = |(&uv, &point): (&[f64; 2], &[f64; 3])| match surface {

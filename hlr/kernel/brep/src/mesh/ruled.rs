@@ -8,6 +8,7 @@
 use super::delaunay::Delaunay;
 use super::flip::flip;
 use super::outline::Outline;
+use super::steps::Steps;
 use super::sweep;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, from_line, sub, unit};
@@ -27,30 +28,34 @@ pub fn straight_along(surface: &Surface) -> Option<usize> {
 }
 
 /// Triangles and the error that is shown for them.
-pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64) -> Option<Triangles> {
+pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64, steps: &Steps) -> Option<Triangles> {
     if straight_along(surface) == Some(0) {
-        let (mut triangles, stand_in, error) = upright(surface, &outline.mapped(|[u, v]| [v, u]), true, deflection)?;
+        let (mut triangles, stand_in, error) =
+            upright(surface, &outline.mapped(|[u, v]| [v, u]), true, deflection, steps)?;
         triangles.iter_mut().for_each(|t| t.swap(1, 2));
         return Some((triangles, stand_in, error));
     }
-    upright(surface, outline, false, deflection)
+    upright(surface, outline, false, deflection, steps)
 }
 
 type Triangles = (Vec<[u32; 3]>, Vec<u32>, f64);
 
 /// `swapped`: the outline has (v, u) in place of (u, v).
-fn upright(surface: &Surface, outline: &Outline, swapped: bool, deflection: f64) -> Option<Triangles> {
-    let (mut triangles, stand_in) = match sweep::triangulate(outline) {
+fn upright(surface: &Surface, outline: &Outline, swapped: bool, deflection: f64, steps: &Steps) -> Option<Triangles> {
+    let (mut triangles, stand_in) = match sweep::triangulate(outline, steps) {
         Some(triangles) => (triangles, (0..outline.len() as u32).collect()),
         None => {
             let [low, high] = outline.bounds();
             let size = [0, 1].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
             let flat = outline.mapped(|p| [(p[0] - low[0]) / size[0], FLAT * (p[1] - low[1]) / size[1]]);
-            let mesh = Delaunay::new(&flat, &[])?;
+            let mesh = Delaunay::new(&flat, &[], steps)?;
             (mesh.inside(), mesh.stand_in)
         }
     };
-    let error = |a: u32, b: u32| edge_error(surface, outline.uv[a as usize], outline.uv[b as usize], swapped);
+    let error = |a: u32, b: u32| {
+        steps.step();
+        edge_error(surface, outline.uv[a as usize], outline.uv[b as usize], swapped)
+    };
     let worst = |triangles: &[[u32; 3]]| {
         let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
         edges.fold(0.0f64, |most, [a, b]| if a < b { most.max(error(a, b)) } else { most })

@@ -6,6 +6,7 @@
 
 use std::f64::consts::LN_2;
 
+use super::steps::Steps;
 use crate::geometry::jet::Jet;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, length, unit};
@@ -53,6 +54,7 @@ impl Field {
         deflection: f64,
         angle: f64,
         straight: bool,
+        steps: &Steps,
     ) -> Option<Field> {
         let knots = [0, 1].map(|k| surface.knots(k, low[k], high[k]));
         // Turned about an axis, a surface is the same for all u.
@@ -60,7 +62,7 @@ impl Field {
         let mut parts = [0, 1].map(|k| if round && k == 0 { 1 } else { FEWEST.div_ceil(knots[k].len() + 1) });
         loop {
             let lines = [0, 1].map(|k| subdivided(&knots[k], low[k], high[k], parts[k]));
-            let needs = sampled(surface, &lines, deflection, angle)?;
+            let needs = sampled(surface, &lines, deflection, angle, steps)?;
             let counts = lines.each_ref().map(|l| l.len() - 1);
             let points: f64 = needs.iter().map(Need::points).sum();
             let rough = [0, 1].map(|k| needs.iter().fold(1.0f64, |m, n| m.max(n.rough[k])));
@@ -142,10 +144,11 @@ fn subdivided(knots: &[f64], low: f64, high: f64, parts: usize) -> Vec<f64> {
 }
 
 /// The least spacings of each cell's corners and middle.
-fn sampled(surface: &Surface, lines: &[Vec<f64>; 2], deflection: f64, angle: f64) -> Option<Vec<Need>> {
+fn sampled(surface: &Surface, lines: &[Vec<f64>; 2], deflection: f64, angle: f64, steps: &Steps) -> Option<Vec<Need>> {
     let counts = [0, 1].map(|k| lines[k].len() - 1);
     let whole = [0, 1].map(|k| lines[k][counts[k]] - lines[k][0]);
     let at = |u: f64, v: f64| {
+        steps.step();
         let wanted = spacing(&surface.jet([u, v]), deflection, angle);
         [0, 1].map(|k| wanted[k].min(whole[k]))
     };

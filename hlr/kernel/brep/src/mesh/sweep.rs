@@ -16,9 +16,10 @@
 
 use super::outline::Outline;
 use super::plane::{precedes, side};
+use super::steps::Steps;
 
 /// Triangles, counterclockwise. None where chords meet outside their ends, lie upon one another, or have no length.
-pub fn triangulate(outline: &Outline) -> Option<Vec<[u32; 3]>> {
+pub fn triangulate(outline: &Outline, steps: &Steps) -> Option<Vec<[u32; 3]>> {
     let points = &outline.uv;
     let mut order = Vec::with_capacity(points.len());
     for i in outline.chords() {
@@ -39,6 +40,7 @@ pub fn triangulate(outline: &Outline) -> Option<Vec<[u32; 3]>> {
     });
     let mut sweep = Sweep::new(outline);
     for (_, kind, i) in order {
+        steps.step();
         match kind {
             Kind::Begin => sweep.begin(i)?,
             Kind::Pass => sweep.pass(i)?,
