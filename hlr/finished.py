@@ -60,6 +60,7 @@ def finished(
         planner.spent(name, sum(segments.seconds[s] for s in steps))
     decisions = planner.decisions(counters)
     cuts = {d.name: sum(d.counts.values()) for d in decisions if d.name.endswith("clipping")}
+    rescued = {name: count for d in decisions if d.name == "rescue of faces" for name, count in d.counts.items()}
     return Drawing(
         source=opened.name,
         view=stated,
@@ -76,7 +77,7 @@ def finished(
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),
         lines=lines,
         notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *(empty or _empty(lines, fill))))),
-        counters={**counters, "clipping_planes": sum(cuts.values())},
+        counters={**counters, **rescued, "clipping_planes": sum(cuts.values())},
         timings=clock,
         fill=fill,
         plan=decisions,

@@ -16,7 +16,7 @@ from hlr.plan.table import BREP_KINDS, DRAWING
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.shading.through import glass_of, opacity_of, without_glass
-from hlr.source.model import Look, Progress, Source
+from hlr.source.model import Look, Meshed, Progress, Source
 from hlr.view.camera import Camera
 from hlr.view.scale import Placed
 from hlr.view.silhouettes import with_silhouettes
@@ -69,6 +69,8 @@ def staged(
         placed = [view.at for view in views]
         if min(at.tolerances.deflection for at in placed) > 0.8 * finest:
             break
+    for view in views:
+        _rescued(view.planner, scene, meshed)
     return scene, meshed.edge_curves, views
 
 
@@ -108,6 +110,13 @@ def _surfaces(planner: Planner, scene: Scene) -> None:
     planner.on("triangulation of planar faces", facts)
     planner.spent("meshing of curved faces", curved_triangles=bent)
     planner.spent("triangulation of planar faces", planar_triangles=triangles - bent)
+
+
+def _rescued(planner: Planner, scene: Scene, meshed: Meshed) -> None:
+    """What became of the faces that the kernel could not mesh."""
+    failed = meshed.rescued + meshed.lost
+    planner.on("rescue of faces", Facts(failed=failed, faces=scene.true_surfaces is not None))
+    planner.spent("rescue of faces", rescued_faces=meshed.rescued, lost_faces=meshed.lost)
 
 
 def seen_through(scene: Scene, looks: Mapping[str, Look], view: Staged, options: Options) -> Staged:

@@ -33,7 +33,7 @@ CODES: dict[NoteCode, str] = {
     "free-edges-left-out": "a part of a file has edges without faces beside it: construction lines, axes, sketches",
     "annotation-left-out": "faces that a STEP file hides, or calls supplemental geometry, were left out as annotation",
     "not-meshed": "faces or a whole part could not be triangulated, or not all of a face",
-    "faces-mended": "outlines of faces are broken in the model; they were mended to be triangulated",
+    "faces-mended": "outlines of faces are broken in the model: OpenCASCADE meshed them, if need be mended",
     "defects": "a part is drawn as it is, though it is open, doubled, turned inside out or the like",
     "more-defects": "more parts have defects than are named",
     "paper-size": "at 1:1, which nobody asked for, the drawing is very small or very large",
@@ -48,7 +48,15 @@ CODES: dict[NoteCode, str] = {
 """What each code means. A code keeps its meaning; new ones may be added."""
 
 REMARKS: frozenset[NoteCode] = frozenset(
-    {"annotation-left-out", "free-edges-left-out", "glass-hides", "paper-size", "script-shape", "stray-parts"}
+    {
+        "annotation-left-out",
+        "faces-mended",
+        "free-edges-left-out",
+        "glass-hides",
+        "paper-size",
+        "script-shape",
+        "stray-parts",
+    }
 )
 """Codes of what is worth knowing, though the drawing is what was asked for: `strict` makes no errors of them."""
 

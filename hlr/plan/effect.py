@@ -28,6 +28,7 @@ class Facts:
     parts, groups  how many there are; groups: surfaces that the visibility pass treats as one
     curved, planar faces of either kind
     faces          planar and curved ones together are known at all: there is a B-rep
+    failed         faces that the kernel could not mesh
     repeated       two triangles of a part have the same corners, or two of its points the same place
     borders        of parts without B-rep: sides that only one triangle has
     meeting        groups whose boxes meet those of others
@@ -49,6 +50,7 @@ class Facts:
     curved: int = 0
     planar: int = 0
     faces: bool = True
+    failed: int = 0
     repeated: bool = False
     borders: int = 0
     meeting: int = 0

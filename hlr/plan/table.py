@@ -61,6 +61,14 @@ def _planar(f: Facts, _o: Options) -> Answer:
     return f.planar > 0, _count(f.planar, "planar face") if f.planar else "all faces are curved"
 
 
+def _rescue(f: Facts, _o: Options) -> Answer:
+    if not f.faces:
+        return False, "a mesh has no faces to be meshed"
+    if not f.failed:
+        return False, "the kernel has meshed every face"
+    return True, f"the kernel could not mesh {_count(f.failed, 'face')}: OpenCASCADE tries"
+
+
 def _repair(f: Facts, _o: Options) -> Answer:
     return (
         f.repeated,
@@ -176,6 +184,7 @@ DRAWING: tuple[Effect, ...] = (
     Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
     Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),
+    Effect("rescue of faces", SCENE, _rescue, ("rescued_faces", "lost_faces")),
     Effect("repair", SCENE, _repair, ("doubled_triangles",)),
     Effect("stitching of borders", SCENE, _stitching, ("seams",)),
     Effect("intersection search", SCENE, _clash, ("clash_tests",)),

@@ -37,8 +37,7 @@ from hlr.source.weld import clean
 class BrepSource:
     """Leaves of an assembly as a source.
 
-    Lengths are millimetres, z is up. The caller's shapes are not copied: as with every OpenCASCADE mesher, their
-    triangulation is replaced by ours.
+    Lengths are millimetres, z is up. The caller's shapes are neither copied nor changed: triangles that they have stay.
     """
 
     def __init__(self, name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note] = ()) -> None:
@@ -205,15 +204,16 @@ class BrepSource:
         if self._tessellator is None:
             low, high = self.bounds()
             self._tessellator = Tessellator(self._roots, float(np.sqrt(((high - low) ** 2).sum())))
-        meshes, notes = self._tessellator.mesh(deflection, angle, progress)
-        meshed = Meshed(parts=[], notes=notes)
+        meshes = self._tessellator.mesh(deflection, angle, progress)
+        faults = self._tessellator.faults
+        meshed = Meshed(parts=[], rescued=len(faults.rescued), lost=len(faults.lost))
         kept: list[Part] = []
         surfaces = self._tessellator
         shared = [_Shared(meshes, number, surfaces) for number in range(len(self._roots))]
         places = _placed_points([(part, shared[part.root].points) for part in self._parts])
         for part, points in zip(self._parts, places, strict=True):
             mesh = shared[part.root]
-            meshed.notes += self._tessellator.faults.notes(part.name, mesh.face_shape)
+            meshed.notes += faults.notes(part.name, mesh.face_shape)
             if len(mesh.triangles):
                 meshed.parts.append(mesh.placed(part, points))
                 kept.append(part)

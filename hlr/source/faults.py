@@ -31,7 +31,8 @@ class Faults:
         if lost:
             notes.append(Note("not-meshed", f"{of.format(len(lost))} could not be meshed ({_named(lost)})."))
         if rescued:
-            text = f"{of.format(len(rescued))} were meshed only after their outlines were mended ({_named(rescued)})."
+            was = "was" if len(rescued) == 1 else "were"
+            text = f"{of.format(len(rescued))} {was} meshed by OpenCASCADE ({_named(rescued)})."
             notes.append(Note("faces-mended", text))
         return notes
 

@@ -183,10 +183,13 @@ class Meshed:
     """All parts of a source, tessellated.
 
     edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
+    rescued, lost: how many underlying faces OpenCASCADE meshed instead of the kernel, and how many nobody could
     """
 
     parts: list[PartMesh]
     notes: list[Note] = field(default_factory=list)
+    rescued: int = 0
+    lost: int = 0
     edge_curves: Callable[[Ints, Ints], EdgeCurves] | None = None
 
 

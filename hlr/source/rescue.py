@@ -8,8 +8,8 @@ lies a whole period beside the others, or is not the edge's at all. What is trie
 3. curves in (u, v) found anew, from the edges in space;
 4. OpenCASCADE's own repair of a face.
 
-A copy counts only where the kernel finds that its triangles fill the face's outline. They are then joined to the edges'
-polylines, which stay as they are: so do the neighbours. Nothing of the caller's shape is touched.
+A copy counts only where the kernel finds that its triangles fill the face's outline and have its area. They are then
+joined to the edges' polylines, which stay as they are: so do the neighbours. Nothing of the caller's shape is touched.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from typing import Any
 import numpy as np
 
 from hlr import _kernel
-from hlr.source.mesher import run_mesher
 from hlr.source.model import Floats, Ints
 from hlr.source.outlines import chained, projected_anew
 from hlr.source.parts import explored
@@ -43,11 +42,27 @@ def rescue(meshed: _kernel.BrepMesh, number: int, face: Any, deflection: float, 
     for copied in _copies(here):
         with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the next way is tried
             copy, counterpart = copied()
-            run_mesher(copy, deflection, angle, delabella=False)
+            run_mesher(copy, deflection, angle)
             points, uv, triangles = _triangles(copy)
-            if meshed.replace(number, points, uv, triangles, _borders(here, copy, counterpart, triangles)):
+            borders = _borders(here, copy, counterpart, triangles)
+            if meshed.replace(number, points, uv, triangles, borders):
                 return True
     return False
+
+
+def run_mesher(face: Any, deflection: float, angle: float) -> None:
+    """OpenCASCADE's mesher, by its older algorithm: the newer one may crash, or run on for ever.
+
+    deflection: chord error, model units; angle: turning per chord, radians.
+    """
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.IMeshTools import IMeshTools_MeshAlgoType, IMeshTools_Parameters
+
+    parameters = IMeshTools_Parameters()
+    parameters.MeshAlgo = IMeshTools_MeshAlgoType.IMeshTools_MeshAlgoType_Watson
+    parameters.Deflection = deflection
+    parameters.Angle = angle
+    BRepMesh_IncrementalMesh(face, parameters)
 
 
 def _copies(face: Any) -> Iterator[Callable[[], Copied]]:

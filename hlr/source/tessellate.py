@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from hlr import _kernel
-from hlr.notes import Note
 from hlr.source.faults import Faults
 from hlr.source.model import Curves, Ints, Progress, SurfaceRecords
 from hlr.source.parts import compound
@@ -35,10 +34,8 @@ class Tessellator:
         self._planar = self._model.planar(FLAT * size)
         self.faults = Faults()
 
-    def mesh(
-        self, deflection: float, angle: float, progress: Progress | None = None
-    ) -> tuple[_kernel.BrepParts, list[Note]]:
-        """All roots at this chord error and turning angle (radians), and notes on what failed."""
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> _kernel.BrepParts:
+        """All roots at this chord error and turning angle (radians); `faults` then says what failed."""
         if progress is not None:
             progress("tessellate", 0.0)
         tell = None if progress is None else lambda done: progress("tessellate", done)
@@ -46,7 +43,7 @@ class Tessellator:
         self.faults = self._rescued(meshed, deflection, angle)
         if progress is not None:
             progress("tessellate", 1.0)
-        return meshed.parts(self._planar), []
+        return meshed.parts(self._planar)
 
     def _rescued(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> Faults:
         """What became of the faces that the kernel could not mesh."""

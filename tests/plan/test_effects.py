@@ -8,6 +8,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
+from hard.test_rim_whose_parameter_curve_is_a_scrawl import scrawled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from linework.models import box, parts, rotation, sheet, solids
@@ -61,6 +62,7 @@ def two_sheets(gap):
 SCENES = {
     "meshing of curved faces": ((ball, {}), (lambda: cq.Workplane().box(9, 8, 7), {})),
     "triangulation of planar faces": ((lambda: cq.Workplane().box(9, 8, 7), {}), (ball, {})),
+    "rescue of faces": ((lambda: scrawled()[0], {}), (ball, {})),
     "repair": ((twice, {}), (lambda: box((20, 20, 20)), {})),
     "stitching of borders": ((lambda: two_sheets(1e-4), {}), (lambda: box((20, 20, 20)), {})),
     "intersection search": ((lambda: solids(*CROSSING), {}), (lambda: solids(*APART), {})),

@@ -6,6 +6,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
+from hard.test_rim_whose_parameter_curve_is_a_scrawl import scrawled
 
 from hlr.source import open_source
 from hlr.source.model import EdgeClass, OnSurfaces, PartMesh
@@ -216,17 +217,62 @@ def test_a_damaged_dump_is_refused():
         _kernel.BrepModel(whole[:-9])
 
 
-def test_the_triangles_that_a_shape_brings_stay():
+def carried(shape):
+    """The triangulations of a TopoDS_Shape's faces and the polygons of its edges, None where there is none."""
     from OCP.BRep import BRep_Tool
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopLoc import TopLoc_Location
+    from OCP.TopoDS import TopoDS
 
-    ball = cq.Workplane().sphere(3).val()
-    BRepMesh_IncrementalMesh(ball.wrapped, 0.5)
-    before = [BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()) for face in ball.Faces()]
-    open_source(ball).mesh(0.01, 0.3)
-    after = [BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()) for face in ball.Faces()]
-    assert [a.NbTriangles() for a in after] == [b.NbTriangles() for b in before]
+    from hlr.source.parts import explored
+
+    found = []
+    for shape_of_face in explored(shape, Kind.TopAbs_FACE):
+        mesh = BRep_Tool.Triangulation_s(TopoDS.Face(shape_of_face), TopLoc_Location())
+        found.append(mesh)
+        for edge in explored(shape_of_face, Kind.TopAbs_EDGE) if mesh is not None else ():
+            found.append(BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge(edge), mesh, TopLoc_Location()))
+    return found
+
+
+def values(carried):
+    """What is in them."""
+    return [
+        (x.NbNodes(), *(x.Node(i).Coord() if hasattr(x, "NbTriangles") else x.Node(i) for i in (1, x.NbNodes())))
+        for x in carried
+        if x is not None
+    ]
+
+
+OWNERS = {
+    "cadquery": lambda: cq.Workplane().sphere(3).union(cq.Workplane().box(8, 1, 1)).val(),
+    "to be rescued": lambda: scrawled()[0],
+}
+
+
+@pytest.mark.parametrize("name", [*OWNERS, "build123d"])
+@pytest.mark.parametrize("meshed", [True, False])
+def test_the_triangles_that_a_caller_s_shape_brings_stay(name, meshed):
+    """The same objects, and the same in them; none where there were none. The drawing is finer than they are."""
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+
+    import hlr
+
+    if name == "build123d":
+        bd = pytest.importorskip("build123d")
+        owner = bd.Sphere(3) + bd.Box(8, 1, 1)
+    else:
+        owner = OWNERS[name]()
+    if meshed:
+        BRepMesh_IncrementalMesh(owner.wrapped, 0.5)
+    before = carried(owner.wrapped)
+    inside = values(before)
+    assert bool(inside) == meshed
+    drawing = hlr.draw(owner, "iso", accuracy=0.01)
+    hlr.info(owner)
+    assert drawing.counters["triangles"] > 100 and drawing.counters["rescued_faces"] == (name == "to be rescued")
+    after = carried(owner.wrapped)
+    assert after == before and values(after) == inside
 
 
 def test_two_runs_give_the_same_bytes():

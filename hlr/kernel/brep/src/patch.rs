@@ -14,6 +14,8 @@ use std::collections::HashMap;
 
 use crate::faces::Node;
 use crate::format::{Orientation, moved};
+use crate::geometry::surface::Surface;
+use crate::geometry::vector::{cross, length, sub};
 use crate::mesh::FaceMesh;
 use crate::model::Model;
 use crate::tessellate::{MeshedFace, Tessellation};
@@ -33,7 +35,7 @@ pub struct Foreign {
     pub borders: Vec<Border>,
 }
 
-/// The face with that mesh; None where its border is not that of the face.
+/// The face with that mesh; None where its border is not that of the face, or where it has another area than the surface.
 pub fn patched(model: &Model, meshed: &Tessellation, number: usize, mut foreign: Foreign) -> Option<MeshedFace> {
     let face = &model.faces[number];
     let uses: Vec<_> = face.wires.iter().flatten().collect();
@@ -49,6 +51,7 @@ pub fn patched(model: &Model, meshed: &Tessellation, number: usize, mut foreign:
         if steps == 0 || border.parameters.len() != border.nodes.len() {
             return None;
         }
+        let place = |k: usize| used.place.as_ref().map_or(line.points[k], |m| moved(m, &line.points[k]));
         let corner = |k: usize| match k {
             0 => Node::Vertex(used.ends[0]),
             k if k == last => Node::Vertex(used.ends[1]),
@@ -56,6 +59,7 @@ pub fn patched(model: &Model, meshed: &Tessellation, number: usize, mut foreign:
         };
         let (mut before, mut before_node) = (0, border.nodes[0]);
         node_of.entry(before_node).or_insert_with(|| corner(0));
+        foreign.points[before_node as usize] = place(0);
         for j in 1..=steps {
             let at = border.nodes[j];
             let k = if j == steps { last } else { nearest(&line.parameters, border.parameters[j]).clamp(before, last) };
@@ -63,14 +67,14 @@ pub fn patched(model: &Model, meshed: &Tessellation, number: usize, mut foreign:
                 node_of.insert(at, corner(0));
             } else {
                 node_of.entry(at).or_insert_with(|| corner(k));
+                foreign.points[at as usize] = place(k);
                 // Corners that the foreign mesh does not have.
                 let mut between = Vec::new();
                 for inner in before + 1..k {
                     let share = (inner - before) as f64 / (k - before) as f64;
                     let [p, q] = [before_node, at].map(|n| foreign.uv[n as usize]);
                     let new = foreign.points.len() as u32;
-                    let point = line.points[inner];
-                    foreign.points.push(used.place.as_ref().map_or(point, |m| moved(m, &point)));
+                    foreign.points.push(place(inner));
                     foreign.uv.push([0, 1].map(|c| p[c] + share * (q[c] - p[c])));
                     node_of.insert(new, corner(inner));
                     between.push(new);
@@ -88,8 +92,28 @@ pub fn patched(model: &Model, meshed: &Tessellation, number: usize, mut foreign:
     }
     let mut triangles = Vec::with_capacity(foreign.triangles.len());
     foreign.triangles.iter().for_each(|t| divide(*t, &fans, &mut triangles));
+    if !face.surface.as_ref().is_none_or(|surface| covers(surface, &foreign, &triangles)) {
+        return None;
+    }
     Some(ordered(foreign, triangles, &node_of, face.surface.as_ref()))
 }
+
+/// Whether triangles have the area in space that the surface has where they are in (u, v): those that join both sides of
+/// a seam have none, those that lie in folds have more.
+fn covers(surface: &Surface, foreign: &Foreign, triangles: &[[u32; 3]]) -> bool {
+    let (mut flat, mut true_area) = (0.0, 0.0);
+    for t in triangles {
+        let [a, b, c] = t.map(|i| foreign.points[i as usize]);
+        flat += 0.5 * length(&cross(&sub(&b, &a), &sub(&c, &a)));
+        let uv = t.map(|i| foreign.uv[i as usize]);
+        let (_, du, dv) = surface.d1([0, 1].map(|k| (uv[0][k] + uv[1][k] + uv[2][k]) / 3.0));
+        true_area += area(&uv[0], &uv[1], &uv[2]) * length(&cross(&du, &dv));
+    }
+    (flat - true_area).abs() <= OTHER_AREA * true_area
+}
+
+/// Of the area: what chords may leave out of it.
+const OTHER_AREA: f64 = 0.1;
 
 /// Whether no triangle is turned over in (u, v), and each side has its counterpart: a side of a neighbour, or a chord of
 /// the border in the right sense.
@@ -97,8 +121,8 @@ fn is_sound(foreign: &Foreign, orientations: impl Iterator<Item = Orientation>) 
     let mut sides: HashMap<[u32; 2], i32> = HashMap::new();
     for t in &foreign.triangles {
         let [a, b, c] = t.map(|i| foreign.uv[i as usize]);
-        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-        if area.is_nan() || area < 0.0 {
+        let size = area(&a, &b, &c);
+        if size.is_nan() || size < 0.0 {
             return false;
         }
         for k in 0..3 {
@@ -117,6 +141,10 @@ fn is_sound(foreign: &Foreign, orientations: impl Iterator<Item = Orientation>) 
         }
     }
     sides.iter().all(|([a, b], count)| *count == 1 && sides.get(&[*b, *a]) == Some(&1))
+}
+
+fn area(a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
+    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 }
 
 fn nearest(parameters: &[f64], t: f64) -> usize {

@@ -1,0 +1,122 @@
+"""A cylinder one of whose rims has, in (u, v) of the side, a curve that has nothing to do with it and crosses itself.
+
+In space all is sound, but the outline in (u, v) encloses nothing: our mesher gives the side up. OpenCASCADE's meshes it
+on a copy whose curves in (u, v) were found anew; the rims and the discs stay as they are. A remark says so.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+
+import cadquery as cq
+import numpy as np
+import pytest
+
+import hlr
+from hlr.notes import Note
+from hlr.source import open_source
+
+NOTE = Note("faces-mended", 'Part "part": 1 of 3 faces was meshed by OpenCASCADE (face 0).')
+EFFECT = "rescue of faces"
+
+
+def scrawled():
+    """A cylinder of diameter 6 and height 10; and its side, a TopoDS_Face."""
+    from OCP.BRep import BRep_Builder
+    from OCP.Geom2d import Geom2d_BezierCurve
+    from OCP.Geom2dConvert import Geom2dConvert
+    from OCP.gp import gp_Pnt2d
+    from OCP.TColgp import TColgp_Array1OfPnt2d
+    from OCP.TColStd import TColStd_Array1OfReal
+
+    solid = cq.Workplane().cylinder(10, 3).val()
+    (side,) = (face.wrapped for face in solid.Faces() if face.geomType() == "CYLINDER")
+    poles, knots = TColgp_Array1OfPnt2d(1, 4), TColStd_Array1OfReal(1, 2)
+    for i, (u, v) in enumerate([(0, 0), (9, 30), (-7, -30), (2, 5)]):
+        poles.SetValue(i + 1, gp_Pnt2d(u, v))
+    for i, knot in enumerate((0.0, 2 * math.pi)):
+        knots.SetValue(i + 1, knot)
+    curve = Geom2dConvert.CurveToBSplineCurve_s(Geom2d_BezierCurve(poles))
+    curve.SetKnots(knots)
+    rim = next(edge.wrapped for edge in cq.Shape.cast(side).Edges() if edge.geomType() == "CIRCLE")
+    BRep_Builder().UpdateEdge(rim, curve, side, 1e-7)
+    return solid, side
+
+
+def test_it_is_drawn_like_a_sound_one():
+    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3), "iso"), hlr.draw(scrawled()[0], "iso")
+    assert drawing.notes == (NOTE,) and sound.notes == ()
+
+    def told(drawing):
+        return sorted((line.kind, line.visible, sorted(line.points[[0, -1]].tolist())) for line in drawing.lines)
+
+    for one, other in zip(told(drawing), told(sound), strict=True):
+        # Where the hidden half of the rim begins, its curve runs along the outline.
+        assert one[:2] == other[:2] and np.allclose(one[2], other[2], atol=0.3)
+
+
+def test_it_becomes_a_closed_mesh_on_its_surface():
+    (part,) = open_source(scrawled()[0]).mesh(0.01, 0.2).parts
+    a, b, c = (part.points[part.triangles[:, k]] for k in range(3))
+    assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(math.pi * 90, rel=0.01)
+    middle = ((a + b + c) / 3)[part.triangle_face == 0]
+    assert np.abs(np.hypot(middle[:, 0], middle[:, 1]) - 3).max() < 0.03
+
+
+def test_what_was_rescued_is_counted_and_told():
+    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3)), hlr.draw(scrawled()[0])
+    assert [drawing.counters[name] for name in ("rescued_faces", "lost_faces")] == [1, 0]
+    assert [sound.counters[name] for name in ("rescued_faces", "lost_faces")] == [0, 0]
+    (row,) = (d for d in drawing.plan if d.name == EFFECT)
+    assert row.on and row.counts == {"rescued_faces": 1, "lost_faces": 0}
+    assert row.reason == "the kernel could not mesh 1 face: OpenCASCADE tries"
+    (row,) = (d for d in sound.plan if d.name == EFFECT)
+    assert not row.on and row.reason == "the kernel has meshed every face"
+    assert hlr.info(scrawled()[0]).notes == (NOTE,)
+    # Once, though its scale is found only after a first mesh, at which it was rescued, too.
+    assert hlr.draw(scrawled()[0], fit=(20, 20)).counters["rescued_faces"] == 1
+
+
+def test_it_is_a_remark_and_no_warning():
+    assert not NOTE.is_warning
+    assert hlr.draw(scrawled()[0], strict=True).notes == (NOTE,)
+
+
+def test_the_caller_s_shape_stays_as_it_is():
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepAdaptor import BRepAdaptor_Curve2d
+    from OCP.TopLoc import TopLoc_Location
+
+    solid, side = scrawled()
+
+    def curves():
+        found = [BRepAdaptor_Curve2d(edge.wrapped, side) for edge in cq.Shape.cast(side).Edges()]
+        values = [c.Value(t) for c in found for t in (c.FirstParameter(), 0.3, c.LastParameter())]
+        return [(p.X(), p.Y()) for p in values]
+
+    before = curves()
+    hlr.draw(solid)
+    assert curves() == before
+    assert [BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()) for face in solid.Faces()] == [None] * 3
+
+
+def test_the_command_tells_all_this(tmp_path):
+    scrawled()[0].exportBrep(str(tmp_path / "part.brep"))
+
+    def command(*arguments):
+        words = [sys.executable, "-m", "hlr", *arguments]
+        return subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=120)
+
+    done = command("draw", "part.brep", "-o", "part.json", "--strict", "--explain")
+    assert f"hlr: note: {NOTE.text}" in done.stderr.splitlines()
+    (row,) = (line for line in (done.stdout + done.stderr).splitlines() if line.startswith(EFFECT))
+    assert "1 rescued faces" in row
+    document = json.loads((tmp_path / "part.json").read_text())
+    assert document["notes"] == [NOTE.as_dict()]
+    assert document["counters"]["rescued_faces"] == 1 and document["counters"]["lost_faces"] == 0
+    done = command("info", "part.brep")
+    assert NOTE.text in done.stdout + done.stderr
+    assert json.loads(command("info", "part.brep", "--json").stdout)["notes"] == [NOTE.as_dict()]
