@@ -175,6 +175,30 @@ mod tests {
     }
 
     #[test]
+    fn knots_are_those_of_the_curve_or_of_the_surface_and_come_again_after_a_period() {
+        let curve = [5.0, 1.0, 2.0, 0.0, 5.0, 5.0, 8.0, 8.0, 1.0, 0.0, 0.0, 1.0, 2.0, 0.0, 1.0, 1.0];
+        let line = [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+        let revolved = |of: &[f64]| Surface::read(6, &[&[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], of].concat()).unwrap();
+        let extruded = |of: &[f64]| [&[0.0, 0.0, 1.0], of].concat();
+        let both = |s: &Surface| [0, 1].map(|side| s.knots(side, 0.0, 10.0));
+        assert_eq!(both(&revolved(&curve)), [vec![], vec![5.0, 8.0]]);
+        assert_eq!(both(&revolved(&line)), [vec![], vec![]]);
+        let plain = Surface::read(7, &extruded(&curve)).unwrap();
+        assert_eq!(both(&plain), [vec![5.0, 8.0], vec![]]);
+        let offset = Surface::read(9, &[&[0.5, 7.0], &extruded(&curve)[..]].concat()).unwrap();
+        assert_eq!(both(&offset), both(&plain));
+        assert_eq!(both(&Surface::read(7, &extruded(&line)).unwrap()), [vec![], vec![]]);
+        // Both ends are left out.
+        assert_eq!(plain.knots(0, 5.0, 8.0), [0.0; 0]);
+        // Degrees 1, three poles along u, two along v; periods 10 and none.
+        let poles: Vec<f64> = (0..6).flat_map(|i| [f64::from(i), f64::from(i * i), 0.0, 1.0]).collect();
+        let head = [1.0, 1.0, 3.0, 2.0, 10.0, 0.0, 0.0, 0.0, 4.0, 10.0, 10.0, 0.0, 0.0, 1.0, 1.0];
+        let spline = Surface::read(8, &[&head[..], &poles].concat()).unwrap();
+        assert_eq!(spline.knots(0, -7.0, 17.0), [-6.0, 0.0, 4.0, 10.0, 14.0]);
+        assert_eq!(spline.knots(1, -7.0, 17.0), [0.0, 1.0]);
+    }
+
+    #[test]
     fn derivatives_are_those_of_the_points() {
         let h = 1e-5;
         for surface in surfaces() {

@@ -53,3 +53,50 @@ fn is_filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u3
         })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{FaceLoops, LoopPoint};
+
+    /// A square, or a square with a square hole.
+    fn outline(hole: bool) -> Outline {
+        let square = |low: f64, high: f64| [[low, low], [high, low], [high, high], [low, high]];
+        let mut loops = vec![square(0.0, 4.0).to_vec()];
+        if hole {
+            loops.push(square(1.0, 3.0).into_iter().rev().collect());
+        }
+        let mut node = 0;
+        let mut point = |uv: [f64; 2]| {
+            node += 1;
+            LoopPoint { uv, point: [uv[0], uv[1], 0.0], node }
+        };
+        let loops = loops.into_iter().map(|l| l.into_iter().map(&mut point).collect()).collect();
+        Outline::new(&FaceLoops { loops, periods: [0.0; 2] }, |_, _, _| {}).unwrap()
+    }
+
+    fn sound(outline: &Outline, triangles: &[[u32; 3]]) -> bool {
+        let same: Vec<u32> = (0..outline.uv.len() as u32).collect();
+        is_sound(outline, &outline.uv, &same, triangles)
+    }
+
+    #[test]
+    fn a_lost_turned_doubled_or_foreign_triangle_is_found() {
+        // Around the hole, whose corners are 4 upper left, 5 upper right, 6 lower right, 7 lower left.
+        let ring = [[0, 1, 7], [1, 6, 7], [1, 2, 6], [2, 5, 6], [2, 3, 5], [3, 4, 5], [3, 0, 4], [0, 7, 4]];
+        for (outline, whole) in [(outline(false), &[[0u32, 1, 2], [0, 2, 3]][..]), (outline(true), &ring[..])] {
+            assert!(sound(&outline, whole));
+            for k in 0..whole.len() {
+                let mut fewer = whole.to_vec();
+                let [a, b, c] = fewer.remove(k);
+                assert!(!sound(&outline, &fewer), "without {k}");
+                assert!(!sound(&outline, &[&fewer[..], &[[a, c, b]]].concat()), "{k} turned");
+                assert!(!sound(&outline, &[whole, &[[a, b, c]]].concat()), "{k} twice");
+                assert!(!sound(&outline, &[whole, &[[a, b, c], [a, c, b]]].concat()), "{k} and a fold");
+            }
+            assert!(!sound(&outline, &[]));
+        }
+        // The hole filled as well.
+        assert!(!sound(&outline(true), &[&ring[..], &[[4, 7, 6], [4, 6, 5]]].concat()));
+    }
+}

@@ -27,6 +27,9 @@ fn of(angle: impl Fn(f64) -> f64) -> (Vec<bool>, Vec<f64>) {
 #[test]
 fn one_class_throughout() {
     assert_eq!(of(|_| 0.0), (vec![true], vec![]));
+    // A hundredth of a radian is the limit, where it does not waver.
+    assert_eq!(of(|_| 0.0099), (vec![true], vec![]));
+    assert_eq!(of(|_| 0.0101), (vec![false], vec![]));
     assert_eq!(of(|_| 0.5), (vec![false], vec![]));
 }
 
@@ -45,10 +48,23 @@ fn a_short_fold_says_nothing() {
     // Less than a fiftieth of the length.
     assert_eq!(of(between(0.495, 0.505, 0.5, 0.001)), (vec![true], vec![]));
     assert_eq!(of(between(0.485, 0.515, 0.5, 0.001)).0, [true, false, true]);
-    // Three of them, each short, and together more than two may have.
+    // Three of them, together less than two may have; and five, together more.
+    let three = |at: f64| if [0.2, 0.5, 0.8].iter().any(|s: &f64| (at - s).abs() < 0.005) { 0.5 } else { 0.001 };
+    assert_eq!(of(three), (vec![true], vec![]));
     let several = [0.2, 0.35, 0.5, 0.65, 0.8];
     let folds = |at: f64| if several.iter().any(|s: &f64| (at - s).abs() < 0.005) { 0.5 } else { 0.001 };
     assert_ne!(of(folds).0, [true]);
+}
+
+#[test]
+fn the_last_place_counts_half_a_step() {
+    for end in [0.0f64, 1.0] {
+        // Of three places at an end, two and a half steps are more than a fiftieth; of two, less.
+        let fold = |width: f64| move |at: f64| if (at - end).abs() < width { 0.5 } else { 0.001 };
+        assert_eq!(of(fold(0.005)), (vec![true], vec![]));
+        assert_eq!(of(fold(0.015)), (vec![true], vec![]));
+        assert_eq!(of(fold(0.025)).0, if end == 0.0 { [false, true] } else { [true, false] });
+    }
 }
 
 #[test]
@@ -83,6 +99,26 @@ fn length_counts_and_not_the_number_of_places() {
 }
 
 #[test]
+fn length_is_a_share_whatever_the_size() {
+    for size in [1e-3, 10.0] {
+        let smooth = |high: f64| {
+            let angle = between(0.495, high, 0.5, 0.001);
+            let found: Vec<_> = even(100).iter().map(|&s| (s, angle(s), [size * s, 0.0, 0.0])).collect();
+            pieces(&found, false, &|share| Some(angle(share)))
+        };
+        assert_eq!(smooth(0.505), Meeting::Whole(true), "{size}");
+        assert!(matches!(smooth(0.525), Meeting::Pieces(smooth, _) if smooth == [true, false, true]), "{size}");
+    }
+}
+
+#[test]
+fn a_joint_lies_where_the_class_changes() {
+    let (smooth, joints) = of(between(0.3123, 0.6456, 0.5, 0.001));
+    assert_eq!(smooth, [true, false, true]);
+    assert_eq!(joints, [3.123, 6.456]);
+}
+
+#[test]
 fn an_edge_without_length_is_one_class() {
     for (angle, smooth) in [(0.001, true), (0.5, false)] {
         let found = [0.0, 0.5, 1.0].map(|share| (share, angle, [0.0; 3]));
@@ -105,4 +141,54 @@ fn faces_that_meet_at_hardly_an_angle_are_tangent() {
         assert_eq!(meeting(&sides, false), Meeting::Whole(smooth), "{turn}");
         assert_eq!(meeting(&sides, true), Meeting::Whole(true), "{turn}");
     }
+}
+
+#[test]
+fn elementary_faces_that_waver_about_tangency_are_tangent_where_they_mostly_are() {
+    // A cone that is nearly flat, and a plane: the angle between them goes from one's tilt less the other's to their sum.
+    let frame = |turn: f64| {
+        let (sin, cos) = f64::sin_cos(turn);
+        [0.0, 0.0, 0.0, cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos]
+    };
+    let round = Curve::Line { p: [0.0, 1.0, 0.0], a: [1.0, 0.0, 0.0] };
+    for (cone_tilt, plane_tilt, smooth) in [(0.0054, 0.0054, true), (0.002, 0.0088, false), (0.015, 0.015, false)] {
+        let cone = Surface::read(3, &[&frame(0.0)[..], &[1.0, 0.5 * PI - cone_tilt]].concat()).unwrap();
+        let plane = Surface::read(1, &frame(plane_tilt)).unwrap();
+        let curve = Some((&round, [0.0, 2.0 * PI]));
+        let sides = [
+            Side { surface: &cone, curve, place: None, reversed: true, free: false },
+            Side { surface: &plane, curve: None, place: None, reversed: false, free: false },
+        ];
+        let found = places(&sides, false).into_iter().map(|s| angle(&sides, s).unwrap().0).fold(0.0, f64::max);
+        assert!((found - cone_tilt - plane_tilt).abs() < 1e-6, "{found}");
+        assert_eq!(meeting(&sides, false), Meeting::Whole(smooth), "{cone_tilt} {plane_tilt}");
+    }
+}
+
+/// Two flat patches side by side, the one with knots at every fifth of v, the edge along v; and the other without any.
+fn patch(knots: &[f64]) -> Surface {
+    let (mut data, n) = (vec![1.0, 1.0, 2.0, knots.len() as f64, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, knots[0]], knots.len());
+    data.extend(knots);
+    data.push(knots[n - 1]);
+    for u in [0.0, 1.0] {
+        data.extend(knots.iter().flat_map(|&v| [u, v, 0.0, 1.0]));
+    }
+    Surface::read(8, &data).unwrap()
+}
+
+#[test]
+fn faces_are_compared_on_either_side_of_each_knot_that_an_edge_passes() {
+    let (fine, plain) = (patch(&[0.0, 0.21, 0.4, 0.63, 1.0]), patch(&[0.0, 1.0]));
+    let along = Curve::Line { p: [1.0, 0.0, 0.0], a: [0.0, 1.0, 0.0] };
+    let side = |surface| Side { surface, curve: Some((&along, [0.0, 1.0])), place: None, reversed: false, free: true };
+    let found = places(&[side(&fine), side(&plain)], true);
+    for knot in [0.21, 0.4, 0.63] {
+        for beside in [-1e-5, 1e-5] {
+            let (low, high) = if beside < 0.0 { (knot + beside, knot) } else { (knot, knot + beside) };
+            assert!(found.iter().any(|s| low < *s && *s < high), "{knot} {beside}: {found:?}");
+        }
+    }
+    assert!(found.windows(2).all(|w| w[0] < w[1] && w[1] - w[0] < 1.0 / 16.0));
+    // Without them there are fewer.
+    assert!(places(&[side(&plain), side(&plain)], true).len() < found.len());
 }
