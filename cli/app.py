@@ -14,6 +14,7 @@ VERBS = {
     "methods": "Time the visible-surface methods side by side.",
     "study": "What accuracy costs, beside others.",
     "info": "Parts, faces, edges, triangles and defects of a model.",
+    "cache": "Where models that were read before are kept.",
 }
 
 

@@ -69,13 +69,15 @@ def tell_report(drawings: Sequence[Drawing]) -> None:
 
 
 def tell_plan(drawings: Sequence[Drawing]) -> None:
-    """The table of effects, on standard error."""
+    """The table of effects, and how the model was come by, on standard error."""
     from hlr.plan.effect import explained
 
     for drawing in drawings:
         if len(drawings) > 1:
             click.echo(drawing.view.name, err=True)
         click.echo(explained(drawing.plan), err=True)
+    if drawings and drawings[0].reading:
+        click.echo(f"{drawings[0].reading}.", err=True)
 
 
 def tell_written(text: str, quiet: bool) -> None:

@@ -48,6 +48,22 @@ ANNOTATIONS = click.option(
     "--annotations", is_flag=True, help="STEP: also faces of annotation, hidden or supplemental in the file."
 )
 
+
+def _uncached(ctx: click.Context, _parameter: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        from hlr.cache.folder import without_cache
+
+        ctx.with_resource(without_cache())
+
+
+NO_CACHE = click.option(
+    "--no-cache",
+    is_flag=True,
+    expose_value=False,
+    callback=_uncached,
+    help="STEP, IGES and BREP: read the file, even where it was read before, and keep nothing.",
+)
+
 CHOICE = (
     click.option(
         "--only",
@@ -58,8 +74,9 @@ CHOICE = (
     click.option("--hide", metavar="PART", multiple=True, help="Leave these parts out. May be repeated."),
     click.option("--var", metavar="NAME", help="Scripts: the variable to draw, instead of what the script shows."),
     ANNOTATIONS,
+    NO_CACHE,
 )
-"""Which parts are drawn."""
+"""Which parts are drawn, and where they come from."""
 
 CAMERA = (
     click.option("--up", type=Vector(), metavar="X,Y,Z", help="What points up on paper."),

@@ -4,7 +4,7 @@ A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap
 no points.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -203,12 +203,15 @@ Lens = tuple[
 class BrepModel:
     """Parts, faces and edges of an OpenCASCADE dump of a compound, each underlying face and edge once.
 
-    Faces are numbered in the order in which an explorer meets them; a part's edges as in its TopExp edge map.
+    The parts are the compound's children: all of them, or those with the numbers `chosen`, in that order. Faces are
+    numbered in the order in which an explorer meets them; a part's edges as in its TopExp edge map.
     """
 
-    def __new__(cls, dump: bytes, threads: int = 0) -> BrepModel: ...
+    def __new__(cls, dump: bytes, chosen: Sequence[int] | None = None, threads: int = 0) -> BrepModel: ...
     @property
     def n_faces(self) -> int: ...
+    @property
+    def faces_of_parts(self) -> list[int]: ...
     def planar(self, tolerance: float) -> Bools: ...
     def surface_records(self, numbers: Ints) -> tuple[Bytes, Ints, Floats]: ...
     def edge_curves(self, part: Ints, edge: Ints) -> tuple[Bytes, Floats, Ints, Floats]: ...

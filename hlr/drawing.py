@@ -189,7 +189,7 @@ def bounds_of(lines: Sequence[Line]) -> Bounds:
 class Drawing(ByValue):
     """Visible and hidden lines of one view. points = (P.right, P.up) * unit * scale - origin.
 
-    Drawings are equal that show and state the same; what was asked for (`request`) and `timings` do not count.
+    Drawings are equal that show and state the same; `request`, `timings` and `reading` do not count.
 
     source    base name of what was drawn
     accuracy  what was asked for and what was used
@@ -201,6 +201,7 @@ class Drawing(ByValue):
     reached   the errors that were measured; None unless asked for
     plan      what was decided of each effect, why, and what it cost
     window    the rectangle on paper that lines and fill were cut by; None: nothing was cut off
+    reading   how a CAD file was come by, read or out of the cache, for people; in no file
     """
 
     source: str
@@ -220,6 +221,7 @@ class Drawing(ByValue):
     reached: Reached | None = None
     plan: tuple[Decision, ...] = ()
     window: Bounds | None = None
+    reading: str = field(default="", compare=False)
 
     def __repr__(self) -> str:
         from hlr.writers.style import ratio

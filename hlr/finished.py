@@ -82,6 +82,7 @@ def finished(
         fill=fill,
         plan=decisions,
         window=window,
+        reading=getattr(opened, "reading", ""),
     )
 
 

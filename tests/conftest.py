@@ -6,20 +6,40 @@ package, which has no compiled kernel.
 The ordinary run tries the same examples every time, so that a red test means a changed program. To look for new
 examples: pytest --hypothesis-profile=explore
 
+The cache of models is a folder of this run, another one for each test: what one test reads, the next reads anew.
+
 Without CadQuery (build123d on OpenCASCADE 8 cannot share an environment with it) the tests that build their shapes with
 it are left out.
 """
 
 import ast
+import os
 import sys
 from importlib.util import find_spec
+from itertools import count
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+import pytest
 from hypothesis import Phase, settings
 
 HERE = str(Path(__file__).resolve().parent)
 if HERE not in sys.path:
     sys.path.append(HERE)
+
+CACHE = TemporaryDirectory(prefix="hlr-tests-")
+os.environ["HLR_CACHE"] = CACHE.name
+os.environ.pop("HLR_CACHE_SIZE", None)
+NUMBERS = count()
+
+
+@pytest.fixture(autouse=True)
+def own_cache(monkeypatch):
+    """The cache's folder, which is not there yet."""
+    folder = Path(CACHE.name, str(next(NUMBERS)))
+    monkeypatch.setenv("HLR_CACHE", str(folder))
+    return folder
+
 
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)

@@ -12,10 +12,22 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 
 # The order in which a drawing passes through the stages: each imports only those before it.
-STAGES = ("source", "scene", "view", "plan", "visibility", "surfaces", "linework", "shading", "window", "writers")
+STAGES = (
+    "cache",
+    "source",
+    "scene",
+    "view",
+    "plan",
+    "visibility",
+    "surfaces",
+    "linework",
+    "shading",
+    "window",
+    "writers",
+)
 
 # What every stage may import: no stage, and none of them imports one.
-COMMON = ("distinct", "endings", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
+COMMON = ("distinct", "endings", "cache", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")

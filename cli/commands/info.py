@@ -12,7 +12,7 @@ from ..meter import meter
 from ..streams import result_only
 from ..telling import tell_notes
 from ..verb import Verb
-from ..view_options import ANNOTATIONS
+from ..view_options import ANNOTATIONS, NO_CACHE
 
 if TYPE_CHECKING:
     from hlr.scene.report import ModelInfo, PartReport
@@ -32,6 +32,7 @@ _LONGEST_NAME = 40
 )
 @click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
 @ANNOTATIONS
+@NO_CACHE
 @click.option("--json", "as_json", is_flag=True, help="For machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def info(source: str, crease: float, var: str | None, annotations: bool, as_json: bool, quiet: bool) -> None:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hlr.endings import ENDINGS
 from hlr.errors import OptionError, SourceError
 from hlr.source.model import Source
+
+if TYPE_CHECKING:
+    from hlr.source.brep import BrepSource
 
 __all__ = ["ENDINGS", "open_source"]
 
@@ -85,14 +88,10 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
         return open_script(path, var)
     if var is not None:
         raise OptionError(f"var names a variable of a script, and {path.name} is no script: leave it out.")
-    if kind in ("step", "iges"):
-        from hlr.source.step import open_iges, open_step
+    if kind in ("step", "iges", "brep"):
+        from hlr.source.stored import through_cache
 
-        return open_step(path, annotations) if kind == "step" else open_iges(path)
-    if kind == "brep":
-        from hlr.source.brepfile import open_brep
-
-        return open_brep(path)
+        return through_cache(path, kind, annotations and kind == "step", lambda: _read_cad(path, kind, annotations))
     if kind in ("3mf", "glb"):
         from hlr.source.packed import open_packed
 
@@ -100,3 +99,14 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
     from hlr.source.meshfile import open_mesh_file
 
     return open_mesh_file(path, kind)
+
+
+def _read_cad(path: Path, kind: str, annotations: bool) -> BrepSource:
+    """A STEP, IGES or BREP file as OpenCASCADE reads it."""
+    if kind == "brep":
+        from hlr.source.brepfile import open_brep
+
+        return open_brep(path)
+    from hlr.source.step import open_iges, open_step
+
+    return open_step(path, annotations) if kind == "step" else open_iges(path)

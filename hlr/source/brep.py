@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from hlr import _kernel
-from hlr.errors import SourceError, counted
-from hlr.notes import Note, NoteCode
+from hlr.errors import SourceError
+from hlr.notes import Note
 from hlr.source.bindings import collection
 from hlr.source.extent import checked
 from hlr.source.locations import determinant_sign, moved, moved_each
@@ -29,56 +29,26 @@ from hlr.source.model import (
     Progress,
     Surfaces,
 )
-from hlr.source.parts import Leaf, Part, Parts, compound, look
+from hlr.source.parts import Part, compound
+from hlr.source.roots import Roots
 from hlr.source.tessellate import Tessellator
 from hlr.source.weld import clean
 
 
 class BrepSource:
-    """Leaves of an assembly as a source.
+    """Parts on roots as a source: from leaves of an assembly (`hlr.source.leaves`), or out of the cache.
 
     Lengths are millimetres, z is up. The caller's shapes are neither copied nor changed: triangles that they have stay.
+    reading: how the model was come by, for people; "" where there is nothing to say.
     """
 
-    def __init__(self, name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note] = ()) -> None:
-        """Split the leaves into parts.
-
-        Raises:
-            SourceError: nothing to draw: no shapes, or none with faces.
-        """
-        self._name, self._kind = name, kind
-        found = Parts()
-        for leaf in leaves:
-            found.add(leaf)
-        self._notes = [*notes, *found.notes]
-        self._roots = found.roots
-        self._counts = [_counts(root) for root in self._roots]
-        self._parts = [part for part in found.parts if self._counts[part.root][0]]
-        wires = [part for part in found.parts if not self._counts[part.root][0]]
-        edges = sum(self._counts[part.root][1] for part in wires)
-        if not found.parts:
-            raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
-        if not self._parts:
-            raise SourceError(
-                f"{name} holds {counted(edges, 'edge')} but no faces: a hidden-line drawing needs surfaces "
-                "(export solids or shells instead of wires)."
-            )
-        # In a file, wires under the name of a part that is drawn are its construction lines, axes or sketches. Few
-        # drawings miss them: a remark. Wires under a name of their own, and those that a caller put there, may be
-        # something that the reader of the drawing looks for: a warning.
-        drawn = {part.product for part in self._parts if kind not in ("object", "script")}
-        self._note_wires("free-edges-left-out", [part for part in wires if part.product in drawn])
-        self._note_wires("wires-left-out", [part for part in wires if part.product not in drawn])
+    def __init__(self, name: str, kind: str, parts: Sequence[Part], roots: Roots, notes: Sequence[Note] = ()) -> None:
+        """Parts, at least one, that stand on `roots` and have faces."""
+        self._name, self._kind, self._notes = name, kind, list(notes)
+        self._roots = roots
         self.choice: Choice | None = None
-        self._hold(self._roots, self._counts)
-
-    def _note_wires(self, code: NoteCode, wires: list[Part]) -> None:
-        if wires:
-            edges = sum(self._counts[part.root][1] for part in wires)
-            names = sorted({part.product for part in wires})
-            beside = f' beside "{names[0]}"' if code == "free-edges-left-out" and len(names) == 1 else ""
-            text = f"{_some(wires)} without faces ({counted(edges, 'edge')}){beside} left out."
-            self._notes.append(Note(code, text))
+        self.reading = ""
+        self._hold(parts)
 
     @property
     def name(self) -> str:
@@ -102,42 +72,46 @@ class BrepSource:
 
     def infos(self) -> list[PartInfo]:
         """Counts of every part's index maps."""
-        return [PartInfo(part.name, *self._counts[part.root]) for part in self._parts]
+        return [PartInfo(part.name, *self._roots.counts[part.root].tolist()) for part in self._parts]
 
     def boxes(self) -> list[Floats]:
         """Corners of every part's box, (8, 3), or none where it has no extent."""
-        boxes = [_box(root) for root in self._roots]
-        return [
-            moved(boxes[part.root], part.transform) if len(boxes[part.root]) else np.empty((0, 3))
-            for part in self._parts
-        ]
+        boxes = self._roots.boxes
+        return [moved(_corners(*boxes[part.root].tolist()), part.transform) for part in self._parts]
 
     def of_parts(self, names: Collection[str], choice: Choice) -> BrepSource:
         """The same source with these parts only; nothing else of it is meshed."""
         chosen = copy(self)
         chosen.choice = choice
-        parts = [part for part in self._parts if part.name in names]
-        used = sorted({part.root for part in parts})
-        number = {root: i for i, root in enumerate(used)}
-        chosen._parts = [replace(part, root=number[part.root]) for part in parts]
-        chosen._hold([self._roots[root] for root in used], [self._counts[root] for root in used])
+        chosen._hold([part for part in self._parts if part.name in names])
         return chosen
 
-    def _hold(self, roots: list[Any], counts: list[tuple[int, int, int]]) -> None:
-        """What is known of shapes, and what will be."""
-        self._roots, self._counts = roots, counts
+    def _hold(self, parts: Sequence[Part]) -> None:
+        """The parts that are drawn, and what will be known of them."""
+        self._parts = list(parts)
+        self._used = sorted({part.root for part in parts})
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._maps: dict[tuple[int, Any], Any] = {}
         self._root_of = {part.name: part.root for part in self._parts}
 
+    @property
+    def parts(self) -> list[Part]:
+        """The parts that are drawn."""
+        return self._parts
+
+    @property
+    def roots(self) -> Roots:
+        """What they stand on, and parts that are left out as well."""
+        return self._roots
+
     def transparent(self) -> bool:
         """Some part has an opacity below one."""
-        return any(part.leaf.opacity < 1.0 or part.leaf.opacities for part in self._parts)
+        return any(part.transparent for part in self._parts)
 
     def looks(self) -> dict[str, Look]:
         """Colours and opacities of parts and faces."""
-        return {part.name: look(part, self._roots[part.root]) for part in self._parts}
+        return {part.name: part.look() for part in self._parts}
 
     def bounds(self) -> Floats:
         """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
@@ -180,7 +154,7 @@ class BrepSource:
         key = self._root_of[part], kind
         if key not in self._maps:
             self._maps[key] = collection("shape_map")
-            TopExp.MapShapes_s(self._roots[key[0]], kind, self._maps[key])
+            TopExp.MapShapes_s(self._roots.shapes[key[0]], kind, self._maps[key])
         return self._maps[key]
 
     def shape(self) -> Any:
@@ -192,7 +166,7 @@ class BrepSource:
         for part in self._parts:
             move = gp_Trsf()
             move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
-            placed.append(self._roots[part.root].Moved(TopLoc_Location(move), False))
+            placed.append(self._roots.shapes[part.root].Moved(TopLoc_Location(move), False))
         return compound(placed)
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
@@ -203,13 +177,13 @@ class BrepSource:
         """
         if self._tessellator is None:
             low, high = self.bounds()
-            self._tessellator = Tessellator(self._roots, float(np.sqrt(((high - low) ** 2).sum())))
+            self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
         meshes = self._tessellator.mesh(deflection, angle, progress)
         faults = self._tessellator.faults
         meshed = Meshed(parts=[], rescued=len(faults.rescued), lost=len(faults.lost))
         kept: list[Part] = []
         surfaces = self._tessellator
-        shared = [_Shared(meshes, number, surfaces) for number in range(len(self._roots))]
+        shared = {root: _Shared(meshes, number, surfaces) for number, root in enumerate(self._used)}
         places = _placed_points([(part, shared[part.root].points) for part in self._parts])
         for part, points in zip(self._parts, places, strict=True):
             mesh = shared[part.root]
@@ -222,7 +196,8 @@ class BrepSource:
                 meshed.notes.append(Note("part-left-out", text))
         if not any(len(part.triangles) for part in meshed.parts):
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
-        roots = np.array([part.root for part in kept], np.int32)
+        number = {root: i for i, root in enumerate(self._used)}
+        roots = np.array([number[part.root] for part in kept], np.int32)
         transforms = np.array([part.transform[:3] for part in kept])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
@@ -319,35 +294,9 @@ SMALL_PART = 1000
 """Points: up to here moving part by part costs more in calls than in arithmetic."""
 
 
-def _some(parts: list[Part]) -> str:
-    return f'Part "{parts[0].name}"' if len(parts) == 1 else f"{len(parts)} parts"
-
-
-def _counts(root: Any) -> tuple[int, int, int]:
-    """(faces, edges, solids) of the index maps of a shape."""
-    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-    from OCP.TopExp import TopExp
-
-    counts = []
-    for kind in (Kind.TopAbs_FACE, Kind.TopAbs_EDGE, Kind.TopAbs_SOLID):
-        found = collection("shape_map")
-        TopExp.MapShapes_s(root, kind, found)
-        counts.append(found.Extent())
-    return counts[0], counts[1], counts[2]
-
-
-def _box(root: Any) -> Floats:
-    """(8, 3) corners of a shape's box, or none where it has no extent."""
-    from OCP.Bnd import Bnd_Box
-    from OCP.BRepBndLib import BRepBndLib
-
-    box = Bnd_Box()
-    # From the geometry, not from a triangulation that an earlier drawing may have left: the accuracy depends on it, and
-    # the same shape is to give the same drawing twice. Faces that are nothing but a triangulation have only that.
-    BRepBndLib.Add_s(root, box, False)
-    if box.IsVoid():
-        BRepBndLib.Add_s(root, box, True)
-    if box.IsVoid():
+def _corners(low: list[float], high: list[float]) -> Floats:
+    """(8, 3) corners of a box, or none where there is none."""
+    if low > high:
         return np.empty((0, 3))
-    (x0, y0, z0), (x1, y1, z1) = box.CornerMin().Coord(), box.CornerMax().Coord()
-    return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
+    sides = list(zip(low, high, strict=True))
+    return np.array([(x, y, z) for x in sides[0] for y in sides[1] for z in sides[2]])

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
+from hlr.source.leaves import source_of
 from hlr.source.occt import quiet, ready
 from hlr.source.parts import Leaf
 
@@ -47,4 +48,4 @@ def open_brep(path: Path) -> BrepSource:
         raise SourceError(f"{path.name} cannot be read as BREP ({type(error).__name__}): the file is broken.") from None
     if shape.IsNull():
         raise SourceError(f"{path.name} cannot be read as BREP: the file is broken or incomplete.")
-    return BrepSource(path.name, "brep", [Leaf(shape, path.stem)])
+    return source_of(path.name, "brep", [Leaf(shape, path.stem)])

@@ -8,6 +8,7 @@ from typing import Any
 
 from hlr.errors import SourceError
 from hlr.source.brep import BrepSource
+from hlr.source.leaves import source_of
 from hlr.source.model import Color
 from hlr.source.occt import ready
 from hlr.source.paint import wrapped_paint
@@ -25,7 +26,7 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
     leaves = to_leaves(thing, "part")
     if not leaves:
         raise SourceError(f"{label} holds no shapes: there is nothing to draw.")
-    return BrepSource(label, "object", leaves)
+    return source_of(label, "object", leaves)
 
 
 def is_shape_like(thing: Any) -> bool:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -31,17 +33,19 @@ class Leaf:
 
 @dataclass(slots=True)
 class Part:
-    """A part to draw: the number of its root (a shape without placement), and where it stands.
+    """A part to draw: the number of its root (a shape without placement), and where it stands, a (4, 4) matrix.
 
-    name: its own; product: that of its leaf, which several parts may share.
+    name: its own; product: that of its leaf, which several parts may share. transparent: it may be, in part; look: says
+    how it looks.
     """
 
-    leaf: Leaf
     name: str
     product: str
     color: Color | None
     root: int
     transform: Floats
+    transparent: bool
+    look: Callable[[], Look]
 
 
 @dataclass(slots=True)
@@ -84,12 +88,13 @@ class Parts:
             suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
             self.parts.append(
                 Part(
-                    leaf=leaf,
                     name=self._unique(leaf.name + suffix, several and piece.solid),
                     product=leaf.name,
                     color=piece.color or leaf.color,
                     root=piece.root,
                     transform=_four(place if piece.place is _HERE else chained(place, piece.place)),
+                    transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
+                    look=partial(_look, leaf, self.roots[piece.root]),
                 )
             )
 
@@ -150,11 +155,10 @@ def _majority(shape: Any, leaf: Leaf) -> Color | None:
     return max(counts, key=lambda color: counts[color]) if counts else None
 
 
-def look(part: Part, root: Any) -> Look:
-    """How a part looks; root: its shape, without placement."""
+def _look(leaf: Leaf, root: Any) -> Look:
+    """How a part of a leaf looks; root: its shape, without placement."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-    leaf = part.leaf
     own = _painted(leaf, root)
     faces = {}
     if leaf.colors:

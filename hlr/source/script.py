@@ -23,6 +23,7 @@ from typing import Any
 from hlr.errors import OptionError, SourceError
 from hlr.notes import Note
 from hlr.source.brep import BrepSource
+from hlr.source.leaves import source_of
 from hlr.source.objects import is_shape_like, to_leaves
 from hlr.source.occt import explain, ready
 from hlr.source.paint import Paint, paint_of
@@ -57,7 +58,7 @@ def open_script(path: Path, var: str | None = None) -> BrepSource:
         raise SourceError(
             f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
         )
-    return BrepSource(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
+    return source_of(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
 
 
 def _chosen(path: Path, shown: list[Shown], values: dict[str, Any], var: str | None) -> tuple[list[Shown], str]:

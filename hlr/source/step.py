@@ -14,6 +14,7 @@ from hlr.source.annotation import note as left_out
 from hlr.source.bindings import collection
 from hlr.source.brep import BrepSource
 from hlr.source.files import check_head
+from hlr.source.leaves import source_of
 from hlr.source.model import Color, Rgba
 from hlr.source.occt import quiet, ready
 from hlr.source.parts import Leaf, explored, located
@@ -93,7 +94,7 @@ def _read(path: Path, kind: str, reader: Any, notes: Sequence[Note] = (), annota
         tree.leaves = [_sewn(leaf) for leaf in tree.leaves]
     if not tree.leaves:
         raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
-    return BrepSource(path.name, kind, tree.leaves, [*notes, *tree.notes])
+    return source_of(path.name, kind, tree.leaves, [*notes, *tree.notes])
 
 
 class _Tree:

@@ -1,18 +1,16 @@
-"""From shapes to part meshes: OpenCASCADE dumps the shapes, the kernel reads and meshes them."""
+"""From roots to part meshes: the kernel reads and meshes OpenCASCADE's dump; what fails goes back to OpenCASCADE."""
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from hlr import _kernel
 from hlr.source.faults import Faults
 from hlr.source.model import Curves, Ints, Progress, SurfaceRecords
-from hlr.source.parts import compound
 from hlr.source.rescue import faces_of, rescue
+from hlr.source.roots import Roots
 
 FLAT = 1e-7
 """A free-form surface is planar where it departs from a plane by less than this share of the model's size."""
@@ -25,17 +23,17 @@ MOST_TRIES = 200
 
 
 class Tessellator:
-    """Meshes a list of roots (shapes without placement), each underlying face once. The shapes stay as they are."""
+    """Meshes roots (shapes without placement), each underlying face once. The shapes stay as they are."""
 
-    def __init__(self, roots: list[Any], size: float) -> None:
-        """`size`: the model's diagonal, to judge planarity."""
-        self._roots = roots
-        self._model = _kernel.BrepModel(dumped(roots))
+    def __init__(self, roots: Roots, chosen: Sequence[int], size: float) -> None:
+        """chosen: numbers of the roots that are meshed, ascending; size: the model's diagonal, to judge planarity."""
+        self._roots, self._chosen = roots, chosen
+        self._model = roots.model_of(chosen)
         self._planar = self._model.planar(FLAT * size)
         self.faults = Faults()
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> _kernel.BrepParts:
-        """All roots at this chord error and turning angle (radians); `faults` then says what failed."""
+        """The roots at this chord error and turning angle (radians); `faults` then says what failed."""
         if progress is not None:
             progress("tessellate", 0.0)
         tell = None if progress is None else lambda done: progress("tessellate", done)
@@ -49,7 +47,12 @@ class Tessellator:
         """What became of the faces that the kernel could not mesh."""
         failed = {number for number, _ in meshed.faults()}
         faults = Faults()
-        for number, face in sorted(faces_of(self._roots, failed).items()):
+        if not failed:
+            return faults
+        # Of the shapes as they were dumped: a model out of the cache has no others, and is to give the same triangles.
+        shapes = self._roots.read_back
+        faces = faces_of([shapes[number] for number in self._chosen], failed)
+        for number, face in sorted(faces.items()):
             hopeless = len(faults.lost) >= MOST_TRIES
             if not hopeless and rescue(meshed, number, face, deflection, angle):
                 faults.rescued.append(number)
@@ -64,12 +67,3 @@ class Tessellator:
     def edge_curves(self, roots: Ints, edges: Ints) -> Curves:
         """Curves of edges (m,) in the TopExp edge maps of roots (m,)."""
         return Curves(*self._model.edge_curves(roots, edges))
-
-
-def dumped(roots: list[Any]) -> bytes:
-    """OpenCASCADE's binary dump of a compound of the shapes, without triangles except where they are all there is."""
-    from OCP.BinTools import BinTools, BinTools_FormatVersion
-
-    stream = io.BytesIO()
-    BinTools.Write_s(compound(roots), stream, False, False, BinTools_FormatVersion.BinTools_FormatVersion_VERSION_4)
-    return stream.getvalue()

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.distinct import distinct
 from hlr.scene.scene import INTERIOR, OwnFaces, Scene, TrueSurfaces
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.view.camera import Camera
@@ -97,7 +98,8 @@ def _sheets(scene: Scene, on: TrueSurfaces) -> Ints:
     count = np.diff(scene.offsets)
     tangent = np.flatnonzero(np.isin(scene.edge_kind, (EdgeClass.SMOOTH, EdgeClass.SEAM)) & (count == 2))
     pair = np.stack([face[scene.incident[scene.offsets[tangent] + k]] for k in (0, 1)], axis=1)
-    pair = np.unique(pair, axis=0).astype(np.int32)
+    key = distinct(pair[:, 0].astype(np.int64) << 32 | pair[:, 1])
+    pair = np.stack([key >> 32, key & 0xFFFFFFFF], axis=1).astype(np.int32)
     sheet = np.arange(len(on.number), dtype=np.int32)
     if len(pair):
         joined = np.asarray(_kernel.edge_components(np.ascontiguousarray(pair), len(sheet)), np.int32)

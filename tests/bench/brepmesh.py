@@ -140,7 +140,7 @@ def main() -> None:
         source = open_source(path)
         low, high = source.bounds()
         deflection = given.share * float(np.linalg.norm(high - low))
-        roots = [root for root, counts in zip(source._roots, source._counts, strict=True) if counts[0]]
+        roots = [root for root, counts in zip(source.roots.shapes, source.roots.counts, strict=True) if counts[0]]
         a, b = ours(roots, deflection, given.runs), theirs(roots, deflection, given.runs)
         ratios.append((b[0] / a[0], a[1] / max(b[1], 1)))
 

@@ -2,6 +2,7 @@
 
     python tests/bench/loads.py                     five formats of one torus; a million triangles as arrays
     python tests/bench/loads.py --tori 125          ten million
+    python tests/bench/loads.py --cad MODEL...      CAD files, read and out of the cache
 
 1. `hlr draw` from its start to the SVG on disk, as a multiple of `python -c "import numpy"` in the same run
 2. `hlr.draw` of arrays in memory, with the share of each stage
@@ -126,6 +127,38 @@ def files(repeat: int) -> None:
         print(f"| {name} | {seconds:.2f} s | {seconds / plain:.1f} | {memory:.0f} MB |")
 
 
+READ = """
+import sys
+from pathlib import Path
+from OCP.STEPControl import STEPControl_Reader
+from OCP.IGESControl import IGESControl_Reader
+reader = (IGESControl_Reader if Path(sys.argv[1]).suffix.lower() in (".igs", ".iges") else STEPControl_Reader)()
+reader.ReadFile(sys.argv[1])
+reader.TransferRoots()
+"""
+
+
+def cad(models: Sequence[Path], repeat: int) -> None:
+    """CAD files: OpenCASCADE's import and its plain reader alone, the command without a cache, and out of it."""
+    print("| | import numpy | OpenCASCADE, read alone | hlr, no cache | of that | hlr, cached | import numpy x |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
+    for path in models:
+        with tempfile.TemporaryDirectory() as folder:
+            os.environ["HLR_CACHE"] = str(Path(folder, "cache"))
+            draw = [sys.executable, "-m", "hlr", "draw", str(path), "-q", "-o", str(Path(folder, "out.svg"))]
+            commands = [
+                [sys.executable, "-c", "import numpy"],
+                [sys.executable, "-c", READ, str(path)],
+                [*draw, "--no-cache"],
+                draw,
+            ]
+            processor_seconds(draw)
+            rows = [[processor_seconds(command)[0] for command in commands] for _ in range(repeat)]
+        plain, alone, cold, cached = (statistics.median(column) for column in zip(*rows, strict=True))
+        print(f"| {path.name} | {plain:.2f} | {alone:.2f} | {cold:.2f} | {cold / alone:.2f} ", end="")
+        print(f"| {cached:.2f} | {cached / plain:.1f} |")
+
+
 ARRAYS = """
 import json, resource, sys, time
 sys.path.insert(0, sys.argv[1])
@@ -159,7 +192,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument("--tori", type=int, default=13, help="of 80,800 triangles each")
+    parser.add_argument("--cad", type=Path, nargs="+", metavar="MODEL", help="instead: CAD files, read and cached")
     given = parser.parse_args(arguments)
+    if given.cad:
+        cad(given.cad, given.repeat)
+        return
     files(given.repeat)
     print()
     arrays(given.tori)

@@ -37,8 +37,8 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
-    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source._roots]
-    parts = {part.name: part for part in source._parts}
+    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    parts = {part.name: part for part in source.parts}
     known: dict[tuple[str, int], Any] = {}
 
     def at(name: str, edge: int) -> Any:

@@ -82,8 +82,8 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
     from hlr.source.parts import explored
 
     curves = true_curves(source)
-    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source._roots]
-    parts = {part.name: part for part in source._parts}
+    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    parts = {part.name: part for part in source.parts}
 
     def true(name: str, edge: int) -> Floats | None:
         try:

@@ -77,8 +77,8 @@ def measured(path: Path, view: Any, options: Options) -> tuple[int, int, int, fl
     tolerances: Tolerances = at.tolerances
     meshed = source.mesh(tolerances.deflection, tolerances.angle)
     scene = with_silhouettes(build(meshed, options.crease, tolerances.deflection), camera, tolerances, 0)
-    faces = [explored(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source._roots]
-    parts, values, count = source._parts, [np.zeros((0, 2))], 0
+    faces = [explored(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.roots.shapes]
+    parts, values, count = source.parts, [np.zeros((0, 2))], 0
     for part, face, points in outlines(scene):
         own = parts[part]
         values.append(judged(TopoDS.Face_s(faces[own.root][face]), np.array(own.transform), points, camera))

@@ -10,7 +10,7 @@ import pytest
 from hard.test_terrain import terrain
 
 from hlr import _kernel
-from hlr.source.tessellate import dumped
+from hlr.source.roots import dumped
 
 MINUTE = 1e-4
 """Chord error, millimetres, of millions of triangles."""

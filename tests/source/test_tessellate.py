@@ -107,8 +107,8 @@ def test_indices_are_those_of_the_index_maps(name, data):
 
     source = open_source(data / name)
     parts = source.mesh(0.005, 0.1).parts
-    for part, entry in list(zip(parts, source._parts, strict=True))[:6]:
-        root = source._roots[entry.root]
+    for part, entry in list(zip(parts, source.parts, strict=True))[:6]:
+        root = source.roots.shapes[entry.root]
         faces, edges = TopTools_IndexedMapOfShape(), TopTools_IndexedMapOfShape()
         TopExp.MapShapes_s(root, Kind.TopAbs_FACE, faces)
         TopExp.MapShapes_s(root, Kind.TopAbs_EDGE, edges)
@@ -174,7 +174,7 @@ def test_triangles_of_another_mesher_are_joined_to_the_edges(name):
     tessellator = source._tessellator
     (ours,) = source.mesh(0.05, 0.3).parts
     meshed = tessellator._model.mesh(HALF * 0.05, 0.3)
-    faces = faces_of(source._roots, set(range(tessellator._model.n_faces)))
+    faces = faces_of(source.roots.shapes, set(range(tessellator._model.n_faces)))
     for number, face in faces.items():
         assert rescue(meshed, number, face, 0.08, 0.5)
         found = meshed.parts(tessellator._planar)
@@ -209,7 +209,7 @@ def test_triangles_that_do_not_fill_the_face_are_refused():
 
 def test_a_damaged_dump_is_refused():
     from hlr import _kernel
-    from hlr.source.tessellate import dumped
+    from hlr.source.roots import dumped
 
     whole = dumped([cq.Workplane().box(1, 2, 3).val().wrapped])
     assert _kernel.BrepModel(whole).n_faces == 6

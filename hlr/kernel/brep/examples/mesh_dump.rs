@@ -22,7 +22,7 @@ fn main() {
     let has = |name: &str| arguments.iter().any(|a| a == name);
     let bytes = std::fs::read(file).expect("a file");
     let start = Instant::now();
-    let model = Model::read(&bytes).expect("a dump");
+    let model = Model::read(&bytes, None).expect("a dump");
     let parsed = start.elapsed().as_secs_f64();
     if has("--driver") {
         return driven(&model, deflection, parsed);

@@ -54,17 +54,22 @@ struct Item {
     face: Option<u32>,
 }
 
+/// `chosen`: numbers of the root's children, which are the parts; None: all of them.
+///
 /// # Errors
-/// The root is no compound, or the parts hold more than can be.
-pub fn explore(dump: &mut Dump) -> Result<Explored, Damaged> {
+/// The root is no compound, it has no such child, or the parts hold more than can be.
+pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Damaged> {
     let root = &dump.shapes[dump.root.shape as usize];
     if root.kind != Kind::Compound {
         return Err(Damaged { what: "the root is no compound", at: 0 });
     }
+    let child =
+        |&i: &u32| root.subs.get(i as usize).copied().ok_or(Damaged { what: "a part that there is not", at: 0 });
+    let children = chosen.map_or_else(|| Ok(root.subs.clone()), |some| some.iter().map(child).collect())?;
     let mut found = Explored { faces: Vec::new(), edges: Vec::new(), parts: Vec::new() };
     let (mut faces, mut edges) = (HashMap::new(), HashMap::new());
     let (mut left, mut stack) = (MOST, Vec::new());
-    for child in root.subs.clone() {
+    for child in children {
         let mut part = Part::default();
         let (mut placed_faces, mut placed_edges) = (HashMap::new(), HashMap::new());
         stack.push(Item {

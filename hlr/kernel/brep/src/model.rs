@@ -91,13 +91,13 @@ impl Edge {
 }
 
 impl Model {
-    /// The parts are the children of the dump's root, a compound.
+    /// The parts are the children of the dump's root, a compound: all, or those with the numbers `chosen`.
     ///
     /// # Errors
-    /// The bytes are damaged, or their shapes nest beyond all measure.
-    pub fn read(bytes: &[u8]) -> Result<Model, Damaged> {
+    /// The bytes are damaged, their shapes nest beyond all measure, or there is no such child.
+    pub fn read(bytes: &[u8], chosen: Option<&[u32]>) -> Result<Model, Damaged> {
         let mut dump = crate::format::read(bytes)?;
-        let found = explore::explore(&mut dump)?;
+        let found = explore::explore(&mut dump, chosen)?;
         let mut triangulations: Vec<_> = std::mem::take(&mut dump.triangulations).into_iter().map(Some).collect();
         let edges: Vec<Edge> = found.edges.iter().map(|&shape| edge(&mut dump, shape)).collect();
         let number: HashMap<u32, u32> = (0..).zip(&found.edges).map(|(i, &shape)| (shape, i)).collect();

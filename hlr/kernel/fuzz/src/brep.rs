@@ -25,7 +25,7 @@ pub fn run(data: &[u8]) {
 }
 
 fn read(data: &[u8]) {
-    let Ok(model) = Model::read(data) else { return };
+    let Ok(model) = Model::read(data, None) else { return };
     let lines: Vec<_> = model.edges.iter().map(|edge| polyline(&model, edge, DEFLECTION, ANGLE)).collect();
     for line in lines.iter().flatten() {
         assert!(line.points.len() > 1 && line.points.len() == line.parameters.len());

@@ -28,10 +28,10 @@ pub struct BrepModel(Arc<Model>);
 #[pymethods]
 impl BrepModel {
     #[new]
-    #[pyo3(signature = (dump, threads = 0))]
-    fn new(py: Python<'_>, dump: &[u8], threads: usize) -> PyResult<BrepModel> {
+    #[pyo3(signature = (dump, chosen = None, threads = 0))]
+    fn new(py: Python<'_>, dump: &[u8], chosen: Option<Vec<u32>>, threads: usize) -> PyResult<BrepModel> {
         caught(py, || {
-            let read = run(py, threads, dump.len(), |_| Model::read(dump))?;
+            let read = run(py, threads, dump.len(), |_| Model::read(dump, chosen.as_deref()))?;
             let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
             Ok(BrepModel(Arc::new(model)))
         })
@@ -41,6 +41,12 @@ impl BrepModel {
     #[getter]
     fn n_faces(&self) -> usize {
         self.0.faces.len()
+    }
+
+    /// Faces of each part, each as often as it is placed there.
+    #[getter]
+    fn faces_of_parts(&self) -> Vec<usize> {
+        self.0.parts.iter().map(|part| part.faces.len()).collect()
     }
 
     /// (faces,) whether each departs from a plane by no more than the tolerance.

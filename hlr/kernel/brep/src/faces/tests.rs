@@ -18,7 +18,7 @@ fn area(border: &Border) -> f64 {
 
 #[test]
 fn the_side_of_a_cylinder_runs_up_one_side_of_its_seam_and_down_the_other() {
-    let model = Model::read(CYLINDER).unwrap();
+    let model = Model::read(CYLINDER, None).unwrap();
     let lines = lines(&model);
     let borders: Vec<Border> = model.faces.iter().map(|face| border(&model, face, &lines, 0.01).unwrap()).collect();
     assert_eq!(model.faces.len(), 3);
@@ -41,7 +41,7 @@ fn no_byte_of_damage_does_more_than_a_fault() {
         for flip in [1u8, 0xff] {
             let mut changed = CYLINDER.to_vec();
             changed[at] ^= flip;
-            let Ok(model) = Model::read(&changed) else { continue };
+            let Ok(model) = Model::read(&changed, None) else { continue };
             let lines = lines(&model);
             for face in &model.faces {
                 let _ = border(&model, face, &lines, 0.01);

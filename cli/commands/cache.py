@@ -1,0 +1,75 @@
+"""`hlr cache`: the models that are kept, how many bytes they take, and their end."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from hlr.cache.store import Store
+
+
+@click.group()
+def cache() -> None:
+    """STEP, IGES and BREP files that were read before need not be read again: what they hold is kept.
+
+    \b
+      HLR_CACHE=DIR        the folder, instead of the usual one for such files
+      HLR_CACHE=off        nothing is kept, and nothing of it used; --no-cache does so once
+      HLR_CACHE_SIZE=1GB   how large it may become; what was not used for longest goes first
+    """
+
+
+@cache.command()
+@click.option("--json", "as_json", is_flag=True, help="For machines.")
+def info(as_json: bool) -> None:
+    """Say where the cache is, and how large."""
+    store = _store()
+    entries = [] if store is None else store.entries()
+    size = sum(kept.size for kept in entries)
+    if as_json:
+        import json
+
+        folder = None if store is None else str(store.folder)
+        most = None if store is None else store.most
+        click.echo(json.dumps({"folder": folder, "models": len(entries), "bytes": size, "most_bytes": most}, indent=2))
+    elif store is None:
+        click.echo(_OFF)
+    else:
+        click.echo(f"{store.folder}: {_models(len(entries))}, {_mega(size)} of at most {_mega(store.most)}")
+
+
+@cache.command()
+def clear() -> None:
+    """Remove all models from the cache; other files in its folder stay."""
+    from hlr.errors import WriteError
+
+    store = _store()
+    if store is None:
+        click.echo(_OFF)
+        return
+    try:
+        gone = store.clear()
+    except OSError as error:
+        raise WriteError(f"{store.folder} cannot be cleared: {(error.strerror or str(error)).lower()}") from None
+    click.echo(f"{store.folder}: {_models(len(gone))} removed, {_mega(sum(kept.size for kept in gone))}")
+
+
+_OFF = "The cache is off (HLR_CACHE)."
+
+
+def _store() -> Store | None:
+    from hlr.cache.folder import folder, most_bytes
+    from hlr.cache.store import Store
+
+    where = folder()
+    return None if where is None else Store(where, most_bytes())
+
+
+def _models(count: int) -> str:
+    return "1 model" if count == 1 else f"{count} models"
+
+
+def _mega(size: int) -> str:
+    return f"{size / 1e6:,.1f} MB"

@@ -1,0 +1,137 @@
+"""The folder of entries: one file each, written beside and renamed, the least recently used removed when it is full."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+import time
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+_OURS = re.compile(r"[0-9a-f]{40}\.model")
+_HALF = re.compile(r"[0-9a-f]{40}\.model\.\w+\.part")
+"""What is being written, or was when its writer ended."""
+
+_FORGOTTEN = 3600.0
+"""Seconds after which nobody is writing a file any more."""
+
+
+class NotKeptError(Exception):
+    """Why an entry was not written, in a few words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A file of the folder, its bytes, and when it was last used (seconds since the epoch)."""
+
+    path: Path
+    size: int
+    used: float
+
+
+class Store:
+    """Entries by key, forty hexadecimal digits. Files of other names are nobody's business here."""
+
+    def __init__(self, folder: Path, most: int) -> None:
+        """most: bytes that all entries together may have."""
+        self.folder, self.most = folder, most
+
+    def path(self, key: str) -> Path:
+        """The file of an entry, whether it is there or not."""
+        return self.folder / f"{key}.model"
+
+    def read(self, key: str) -> bytes | None:
+        """An entry as it was written, or whatever lies in its place; None: nothing that can be read."""
+        flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+        with suppress(OSError):
+            number = os.open(self.path(key), flags)
+            with open(number, "rb") as file:
+                state = os.fstat(number)
+                if not stat.S_ISREG(state.st_mode) or state.st_size > self.most:
+                    return None
+                return file.read(state.st_size)
+        return None
+
+    def touch(self, key: str) -> None:
+        """The entry was of use: it is the last to go."""
+        with suppress(OSError):
+            os.utime(self.path(key))
+
+    def write(self, key: str, entry: Sequence[bytes]) -> int:
+        """Put an entry, in pieces, in the place of any other one of this key; its number of bytes.
+
+        Raises:
+            NotKeptError: the folder is read-only or full, or the entry is larger than the whole cache may be.
+        """
+        size = sum(map(len, entry))
+        if size > self.most:
+            raise NotKeptError(f"it has {_mega(size)}, and the cache may have {_mega(self.most)}")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            self._write(key, entry)
+        except OSError as error:
+            raise NotKeptError(f"{self.folder}: {(error.strerror or str(error)).lower()}") from None
+        self._shrink()
+        return size
+
+    def _write(self, key: str, entry: Sequence[bytes]) -> None:
+        from tempfile import mkstemp
+
+        target = self.path(key)
+        number, beside = mkstemp(dir=self.folder, prefix=f"{target.name}.", suffix=".part")
+        try:
+            with open(number, "wb") as file:
+                for piece in entry:
+                    file.write(piece)
+            os.replace(beside, target)
+        except BaseException:
+            with suppress(OSError):
+                os.unlink(beside)
+            raise
+
+    def entries(self) -> list[Kept]:
+        """All entries, the least recently used first."""
+        return sorted(self._files(_OURS), key=lambda kept: (kept.used, kept.path.name))
+
+    def clear(self) -> list[Kept]:
+        """Remove all entries, and halves of entries; what was removed.
+
+        Raises:
+            OSError: one could not be removed.
+        """
+        found = [*self.entries(), *self._files(_HALF)]
+        for kept in found:
+            kept.path.unlink(missing_ok=True)
+        return found
+
+    def _shrink(self) -> None:
+        entries = self.entries()
+        over = sum(kept.size for kept in entries) - self.most
+        for kept in entries:
+            if over <= 0:
+                break
+            with suppress(OSError):
+                kept.path.unlink()
+                over -= kept.size
+        for kept in self._files(_HALF):
+            if kept.used < time.time() - _FORGOTTEN:
+                with suppress(OSError):
+                    kept.path.unlink()
+
+    def _files(self, name: re.Pattern[str]) -> list[Kept]:
+        found = []
+        with suppress(OSError), os.scandir(self.folder) as files:
+            for file in files:
+                if name.fullmatch(file.name):
+                    with suppress(OSError):
+                        state = file.stat(follow_symlinks=False)
+                        if stat.S_ISREG(state.st_mode):
+                            found.append(Kept(Path(file.path), state.st_size, state.st_mtime))
+        return found
+
+
+def _mega(size: int) -> str:
+    return f"{size / 1e6:.3g} MB"
