@@ -27,7 +27,7 @@ def opened(shape):
     source = open_source(shape)
     source.mesh(0.02, 0.3)
     model = source._tessellator._model
-    faces = faces_of(source._roots, set(range(min(4, model.n_faces))))
+    faces = faces_of(source.roots.shapes, set(range(min(4, model.n_faces))))
     forward = TopAbs_Orientation.TopAbs_FORWARD
     return model.mesh(0.02, 0.3), {
         number: TopoDS.Face(face.Located(TopLoc_Location(), False).Oriented(forward)) for number, face in faces.items()

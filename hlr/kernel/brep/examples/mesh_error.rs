@@ -49,7 +49,7 @@ fn main() {
     let [file, deflection, ..] = arguments.as_slice() else { panic!("FILE DEFLECTION") };
     let deflection: f64 = deflection.parse().expect("a length");
     let all = arguments.iter().any(|a| a == "--all");
-    let model = Model::read(&std::fs::read(file).expect("a file")).expect("a dump");
+    let model = Model::read(&std::fs::read(file).expect("a file"), None).expect("a dump");
     let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
     let made = tessellate(&model, deflection, 0.35, &watch).expect("not stopped");
     let (mut most, mut above, mut real) = ([0.0f64; 2], 0, 0);
