@@ -74,6 +74,17 @@ def stitched(points: Floats, triangles: Ints, reach: float) -> tuple[Ints, Ints,
 def components(triangles: Ints, n_points: int) -> Ints: ...
 def edge_components(edges: Ints, n_points: int) -> Ints: ...
 def clashes(points: Floats, triangles: Ints, triangle_part: Ints, itself: Bools) -> dict[str, Any]: ...
+def reach(
+    points: Floats,
+    triangles: Ints,
+    edges: Ints,
+    offsets: Ints,
+    incident: Ints,
+    normals: Floats,
+    pairs: Ints,
+    at: Floats,
+    most: Floats,
+) -> Floats: ...
 def boxes_meet(low: Floats, high: Floats) -> Bools: ...
 def visibility(
     points: Floats,

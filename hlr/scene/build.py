@@ -111,8 +111,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     if len(met.edges):
         lines = met.edges + np.int32(len(points))
         points = np.concatenate([points, met.points])
-        met_walks = intersection_walks(met.edges, met.group, group_part, len(edges))
-        walks = joined(walks, met_walks)
+        walks = joined(walks, intersection_walks(met, group_part, len(edges)))
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
         groups, own_group = with_wires(groups, points, lines, pair, tight=True)
         edges, edge_part = (

@@ -15,6 +15,7 @@ plane, on both sides, by more than the contact tolerance.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +24,7 @@ from hlr import _kernel
 from hlr.distinct import distinct
 from hlr.scene.groups import touching
 from hlr.scene.scene import Chains, Groups
-from hlr.scene.topology import Keys, MeshFacts
+from hlr.scene.topology import STRAIGHT_ON, Keys, MeshFacts
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.tolerance import CONTACT
 
@@ -38,9 +39,9 @@ line there but its own edge. That has to be forgiven in view depth as well, whic
 PLANAR = 2.0
 """In deflections: what counts as touching where planar parts meet at a small angle."""
 
-SELF = 0.1
+SELF = 0.05
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
-solids facets cross by a fifth of a deflection at most."""
+solids facets cross by a sixth of a deflection at most, where this is a quarter."""
 
 BRIDGE = 4.0
 """In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point
@@ -100,6 +101,11 @@ def clashes(
     steep = found["sine"] >= SLIGHT_ANGLE
     known = steep[:, None] & ~curved[found["triangles"]]
     level = np.where(known, level * _lever(points, triangles, found["triangles"]), level)
+    # Facets of a bare mesh may be the shape itself, and bend by any angle.
+    true = ~groups.bare[group].any(axis=1)
+    here = _here(points, triangles, mesh, found, np.where(true, touch, 0.0))
+    here = np.where((steep & true)[:, None] & ~known & np.isfinite(here), here, np.minimum(level, here))
+    level = np.where(true[:, None], here, level)
     spare = (level - np.where(known, np.minimum(FLUSH * deflection, touch[:, None]), touch[:, None])).min(axis=1)
     # Of several triangles that meet along one segment (an edge in a plane) one is enough.
     pair = _ranked(group[:, 0].astype(np.int64) * len(itself) + group[:, 1])
@@ -182,6 +188,20 @@ def _reach(points: Floats, triangles: Ints, mesh: MeshFacts, pairs: Ints) -> tup
         height = np.where(taken, height, height[:, :1])
         level[:, s] = np.minimum(height.max(axis=1), -height.min(axis=1))
     return every, level
+
+
+def _here(points: Floats, triangles: Ints, mesh: MeshFacts, found: dict[str, Any], most: Floats) -> Floats:
+    """(m, 2) how far the other surface goes beyond the plane of each triangle, near their common segment, up to `most`.
+
+    ::
+
+                   .v----------A      the shaft's facet crosses a triangle at v, a corner on the rim of its bore: that A
+          bore   . ' ------           lies beyond the facet's plane, far away, says nothing about how deep the shaft
+                /     ----B           goes into the block, for there the rim is near
+    """
+    middle = found["points"][found["edges"]].mean(axis=1)
+    facts = mesh.edges, mesh.offsets, mesh.incident, mesh.normals
+    return _kernel.reach(points, triangles, *facts, found["triangles"], middle, most)
 
 
 def _lever(points: Floats, triangles: Ints, pairs: Ints) -> Floats:
@@ -269,10 +289,14 @@ def _figures(ends: Keys) -> Ints:
     return _kernel.edge_components(np.ascontiguousarray(ends, np.int32), int(ends.max()) + 1)
 
 
-def intersection_walks(edges: Ints, group: Ints, part_of_group: Ints, first: int) -> Chains:
-    """The segments chained per pair of groups. edges (m, 2), the scene's number of the first is `first`."""
+def intersection_walks(met: Clashes, part_of_group: Ints, first: int) -> Chains:
+    """The segments chained per pair of groups, the scene's number of the first is `first`.
+
+    Where two lines cross, as those of two cylinders of one radius do, each goes straight on.
+    """
+    group = met.group
     key = _ranked(group[:, 0].astype(np.int64) << 32 | group[:, 1])
-    offsets, order, backward = _kernel.chain(edges, key.astype(np.int32))
+    offsets, order, backward = _kernel.chain(met.edges, key.astype(np.int32), met.points, STRAIGHT_ON)
     parts = np.sort(part_of_group[group[order[offsets[:-1]]]], axis=1)
     return Chains(
         offsets=offsets,

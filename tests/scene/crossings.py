@@ -20,8 +20,10 @@ def assembly(*solids_):
     return out
 
 
-def across(radius, other, half=25):
+def across(radius, other, half=25, turn=0):
+    """Two cylinders at right angles, the first turned about its own axis."""
     along_x = cq.Workplane("YZ").workplane(offset=-half).circle(radius).extrude(2 * half)
+    along_x = along_x.rotate((0, 0, 0), (1, 0, 0), turn)
     return assembly(along_x, cq.Workplane().workplane(offset=-half).circle(other).extrude(2 * half))
 
 
@@ -29,6 +31,29 @@ def bore(angle):
     block = cq.Workplane().box(30, 30, 20).faces(">Z").workplane().hole(10)
     shaft = cq.Workplane(obj=cq.Solid.makeCylinder(5, 40, cq.Vector(0, 0, -20)))
     return assembly(block, shaft.rotate((0, 0, 0), (0, 0, 1), angle))
+
+
+def bored(body, x, turn):
+    """The body with a bore along z, and a shaft in it that is turned about its own axis."""
+
+    def cylinder(length):
+        return cq.Workplane(obj=cq.Solid.makeCylinder(5, length, cq.Vector(x, 0, -length / 2)))
+
+    return assembly(body.cut(cylinder(80)), cylinder(50).rotate((x, 0, 0), (x, 0, 1), turn))
+
+
+WEDGE = [(-15, -10), (15, -10), (15, 14), (-15, 6)]
+
+BORED = {
+    "box": (lambda: cq.Workplane().box(30, 30, 20), 0),
+    "disc": (lambda: cq.Workplane().circle(15).extrude(20), 0),
+    "wedge": (lambda: cq.Workplane("XZ").polyline(WEDGE).close().extrude(30).translate((0, 15, 0)), 0),
+    "rod": (lambda: cq.Workplane("YZ").circle(15).extrude(60).translate((-30, 0, 0)), 0),
+    "cone": (lambda: cq.Workplane(obj=cq.Solid.makeCone(20, 9, 20)), 0),
+    "ball": (lambda: cq.Workplane().sphere(15), 0),
+    "ring": (lambda: cq.Workplane(obj=cq.Solid.makeTorus(14, 9)), 14),
+    "strip": (lambda: cq.Workplane().box(300, 11, 20), 0),
+}
 
 
 def oblique():

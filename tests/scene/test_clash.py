@@ -12,7 +12,20 @@ import pytest
 import trimesh
 from hard import shapes
 from linework.models import box, parts, sheet, solids, turned
-from scene.crossings import CROSSING, THROUGH, TOUCHING, across, assembly, bent, bore, eight, overlapping_boxes, tube
+from scene.crossings import (
+    BORED,
+    CROSSING,
+    THROUGH,
+    TOUCHING,
+    across,
+    assembly,
+    bent,
+    bore,
+    bored,
+    eight,
+    overlapping_boxes,
+    tube,
+)
 
 from hlr.scene.build import build
 from hlr.scene.defects import MOST_NOTES
@@ -138,12 +151,14 @@ def test_a_bolt_through_a_plate_meets_it_in_two_ellipses(deflection):
         assert abs(turn[-1] - turn[0]) == pytest.approx(2 * np.pi)
 
 
+@pytest.mark.parametrize("turn", [0, 17])
 @pytest.mark.parametrize("deflection", [0.2, 0.1, 0.025, 0.005])
-def test_cylinders_of_one_radius_cross_without_a_gap(deflection):
-    """Where both are tangent to one plane their facets are all but parallel, and yet the lines run through."""
-    scene = scene_of(across(8, 8), deflection)
+def test_cylinders_of_one_radius_cross_without_a_gap(deflection, turn):
+    """Where both are tangent to one plane their facets are all but parallel, and yet the lines run through: two
+    ellipses, each of which goes straight on where they cross."""
+    scene = scene_of(across(8, 8, turn=turn), deflection)
     found = walks(scene)
-    assert found and all(w.closed for w in found), [w.points[[0, -1]] for w in found]
+    assert len(found) == 2 and all(w.closed for w in found), [w.points[[0, -1]] for w in found]
     points = np.concatenate([w.points for w in found])
     assert np.abs(np.hypot(points[:, 1], points[:, 2]) - 8).max() < 2 * deflection
     assert np.abs(np.hypot(points[:, 0], points[:, 1]) - 8).max() < 2 * deflection
@@ -174,6 +189,15 @@ def test_a_thin_cylinder_enters_and_leaves_a_thick_one(deflection):
 def test_what_touches_does_not_cross(name, deflection):
     scene = scene_of(TOUCHING[name](), deflection)
     assert not walks(scene) and not scene.notes
+
+
+@pytest.mark.parametrize("deflection", [0.5, 0.1, 0.05, 0.02, 0.005])
+@pytest.mark.parametrize("name", BORED)
+def test_a_shaft_in_the_bore_of_any_body_does_not_cross_it(name, deflection):
+    """Beside the rim the outer face may be cut into triangles whose corners lie far away on either side."""
+    body, x = BORED[name]
+    for turn in (5, 17, 41):
+        assert not walks(scene_of(bored(body(), x, turn), deflection)), turn
 
 
 @pytest.mark.parametrize(("n", "m"), [(64, 64), (64, 90), (90, 120), (200, 150)])

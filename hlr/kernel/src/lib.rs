@@ -34,6 +34,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(bind::clash::clashes, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::clash::reach, m)?)?;
     m.add_function(wrap_pyfunction!(bind::clash::boxes_meet, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::surface_points, m)?)?;

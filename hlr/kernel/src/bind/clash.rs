@@ -1,12 +1,14 @@
-//! `clashes` as Python sees it.
+//! `clashes` and `reach` as Python sees them.
 
-use numpy::{IntoPyArray, PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
+use crate::clash::reach::Sheet;
 use crate::clash::search::Surfaces;
 use crate::clash::weld::weld;
 use crate::exact::snap::Grid;
@@ -51,6 +53,54 @@ pub fn clashes<'py>(
     out.set_item("searched", found.searched)?;
     out.set_item("tests", found.tests)?;
     Ok(out)
+}
+
+/// (m, 2): how far the surface of the other triangle of a pair goes beyond the plane of each, near the place where they
+/// cross, on its shallower side: no more is told than `most`, and infinity where it cannot be told.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+pub fn reach<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    edges: PyReadonlyArray2<'py, i32>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    incident: PyReadonlyArray1<'py, i32>,
+    normals: PyReadonlyArray2<'py, f64>,
+    pairs: PyReadonlyArray2<'py, i32>,
+    at: PyReadonlyArray2<'py, f64>,
+    most: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    let (edges, offsets) = (rows::<i32, 2>(&edges, "edges")?, flat(&offsets, "offsets")?);
+    let (incident, normals) = (flat(&incident, "incident")?, rows::<f64, 3>(&normals, "normals")?);
+    let (pairs, at, most) = (rows::<i32, 2>(&pairs, "pairs")?, rows::<f64, 3>(&at, "at")?, flat(&most, "most")?);
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("incident", incident.iter().copied(), triangles.len())?;
+    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
+    expect_below("pairs", pairs.iter().flatten().copied(), triangles.len())?;
+    expect_len("offsets", offsets.len(), edges.len() + 1)?;
+    expect_len("normals", normals.len(), triangles.len())?;
+    expect_len("at", at.len(), pairs.len())?;
+    expect_len("most", most.len(), pairs.len())?;
+    if offsets.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("offsets must ascend"));
+    }
+    let found: Vec<[f64; 2]> = run(py, 0, pairs.len(), |stopped| {
+        let sheet = Sheet { points, triangles, edges, offsets, incident, normals };
+        (0..pairs.len())
+            .into_par_iter()
+            .map(|i| {
+                let [a, b] = pairs[i].map(|t| t as u32);
+                if stopped() {
+                    return [0.0; 2];
+                }
+                [sheet.reach(a, b, &at[i], most[i]), sheet.reach(b, a, &at[i], most[i])]
+            })
+            .collect()
+    })?;
+    let m = found.len();
+    found.into_flattened().into_pyarray(py).reshape([m, 2])
 }
 
 /// Whether each box (low, high) comes near another one: never no where it does, rarely yes where it does not.

@@ -12,6 +12,7 @@ use crate::lines::View;
 use crate::paper::arc::grow;
 use crate::paper::junction::{Border, Goal, Move, Route, junctions};
 use crate::paper::project::{Projection, Vec2};
+use crate::paper::shared_end::share_ends;
 use crate::paper::{Drawn, Form, Placed, located, piece};
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::curve::Vec3;
@@ -205,14 +206,16 @@ pub fn true_lines<'py>(
                 _ => {}
             }
         }
-        let drawn: Vec<(Option<Drawn>, Vec<f64>)> = routes
-            .into_par_iter()
+        let mut drawn: Vec<Option<Drawn>> = routes
+            .par_iter()
             .map(|route| {
-                let Some((p, ts)) = route.curve else { return (None, Vec::new()) };
-                (piece(p, [ts[0], ts[ts.len() - 1]], accuracy), ts)
+                let (p, ts) = route.curve.as_ref()?;
+                piece(p, [ts[0], ts[ts.len() - 1]], accuracy)
             })
             .collect();
-        (drawn, moved)
+        share_ends(&routes, &mut drawn, accuracy);
+        let tracks = routes.into_iter().map(|route| route.curve.map_or(Vec::new(), |(_, ts)| ts));
+        (drawn.into_iter().zip(tracks).collect::<Vec<_>>(), moved)
     })?;
     let (found, moved) = found;
     let (mut form, mut data_offsets, mut data) = (Vec::with_capacity(n), vec![0i32], Vec::<f64>::new());

@@ -4,12 +4,14 @@
 //! 1. `search`  which triangles may meet: boxes of groups, then the boxes of triangles that `tree` searches side by side
 //! 2. `meet`    the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`    ends that fall on one grid point are one point
+//! 4. `reach`   how far a surface goes beyond a triangle that it crosses: touching surfaces do, by what tessellation rounds
 //!
 //! Independent of any view: done once per scene, on a grid of its own in model space. What is found is drawn as edges
 //! without triangles, which the visibility pass treats like any wire: the ends, rounded to the grid, lie off both
 //! surfaces by less than the contact tolerance.
 
 pub mod meet;
+pub mod reach;
 pub mod search;
 pub mod tree;
 pub mod weld;

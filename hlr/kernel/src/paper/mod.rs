@@ -4,6 +4,7 @@
 //! 2. `project`  the curve on paper
 //! 3. `junction`  ends where another line hides this one moved to where the two curves cross
 //! 4. `straight`, `arc`, `bezier`, `fit`: the first of these that can say it exactly, or within its share
+//! 5. `shared_end`  ends of one edge's lines that met are one point again
 //!
 //! Contours of meshes have no such curve: `smooth` makes one within the accuracy of the polyline.
 //!
@@ -16,6 +17,7 @@ pub mod fit;
 pub mod junction;
 pub mod locate;
 pub mod project;
+pub mod shared_end;
 pub mod smooth;
 pub mod straight;
 
