@@ -15,16 +15,21 @@ NAMED = 5
 
 @dataclass(slots=True)
 class Faults:
-    """Numbers of underlying faces: without triangles; meshed by OpenCASCADE's mesher instead of ours."""
+    """Numbers of underlying faces.
+
+    lost: without triangles; rescued: meshed by OpenCASCADE's mesher instead of ours; turned: with an outline or a hole
+    that runs the wrong way round, which was taken as if it did not.
+    """
 
     lost: list[int] = field(default_factory=list)
     rescued: list[int] = field(default_factory=list)
+    turned: list[int] = field(default_factory=list)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part; face_shape: the number of the underlying face of each of its faces."""
-        lost, rescued = (
+        lost, rescued, turned = (
             np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
-            for numbers in (self.lost, self.rescued)
+            for numbers in (self.lost, self.rescued, self.turned)
         )
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
@@ -34,6 +39,10 @@ class Faults:
             was = "was" if len(rescued) == 1 else "were"
             text = f"{of.format(len(rescued))} {was} meshed by OpenCASCADE ({_named(rescued)})."
             notes.append(Note("faces-mended", text))
+        if turned:
+            have = "has" if len(turned) == 1 else "have"
+            what = f"{have} an outline or a hole that runs the wrong way round"
+            notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_named(turned)})."))
         return notes
 
 

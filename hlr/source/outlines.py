@@ -109,6 +109,8 @@ def _uses(wire: Any, face: Any) -> list[_Use]:
             continue
         backward = edge.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
         curve = BRepAdaptor_Curve2d(edge, face)
+        if curve.Curve() is None:
+            raise ValueError("an edge has no curve in (u, v) of its face")  # asked for a point, it would crash
         values = [curve.Value(t) for t in (curve.FirstParameter(), curve.LastParameter())]
         ends = np.array([(p.X(), p.Y()) for p in (reversed(values) if backward else values)])
         vertices = (TopExp.FirstVertex_s(edge, True), TopExp.LastVertex_s(edge, True))

@@ -46,7 +46,7 @@ class Tessellator:
     def _rescued(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> Faults:
         """What became of the faces that the kernel could not mesh."""
         failed = {number for number, _ in meshed.faults()}
-        faults = Faults()
+        faults = Faults(turned=[number for number, _ in meshed.turned()])
         if not failed:
             return faults
         # Of the shapes as they were dumped: a model out of the cache has no others, and is to give the same triangles.

@@ -58,6 +58,9 @@ fn main() {
         if let Some(fault) = &meshed.fault {
             println!("  face {number}: {fault}");
         }
+        if !meshed.mesh.turned.is_empty() {
+            println!("  face {number}: loops {:?} run the wrong way", meshed.mesh.turned);
+        }
         if matches!(surface, Surface::Plane(_)) {
             continue;
         }

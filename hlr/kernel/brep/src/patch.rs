@@ -202,6 +202,7 @@ fn ordered(
         nodes: of_border,
         triangles: triangles.iter().map(|t| t.map(|i| place[i as usize])).collect(),
         normals: order.iter().map(|i| surface.and_then(|s| s.normal(pick(i))).unwrap_or([0.0; 3])).collect(),
+        turned: Vec::new(),
     };
     MeshedFace { mesh, nodes, fault: None }
 }

@@ -218,6 +218,7 @@ fn try_face(
             points: own.points.clone(),
             nodes: Vec::new(),
             triangles: own.triangles.clone(),
+            turned: Vec::new(),
         };
         return Tried { face: MeshedFace { mesh, ..MeshedFace::default() }, coarse: Vec::new(), waits: false };
     }

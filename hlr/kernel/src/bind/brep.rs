@@ -145,6 +145,13 @@ impl BrepMesh {
         meshed.faces.iter().enumerate().filter_map(of).collect()
     }
 
+    /// Numbers of the faces with loops that run the wrong way, each with how many.
+    fn turned(&self) -> Vec<(usize, usize)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = meshed.faces.iter().map(|face| face.mesh.turned.len());
+        count.enumerate().filter(|&(_, loops)| loops > 0).collect()
+    }
+
     /// Give a face the triangles of another mesher: points (n, 3) in the face's frame, uv (n, 2), triangles (m, 3)
     /// counterclockwise in (u, v), and for each edge in each wire its nodes and their parameters, in the edge's sense.
     /// Whether they fit the face.

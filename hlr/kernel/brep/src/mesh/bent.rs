@@ -60,7 +60,7 @@ pub fn triangulate(
         Work { surface, field: &field, chart: &chart, mesh, corners, bends, spans, places, deflection, steps };
     let (triangles, error) = work.refine();
     let Work { corners, mesh, .. } = work;
-    Ok(Ok(Made { outline, corners, triangles, stand_in: mesh.stand_in, error }))
+    Ok(Ok(Made { outline, corners, triangles, stand_in: mesh.stand_in, error, turned: Vec::new() }))
 }
 
 /// Of the work on a face, about: when its inner points are known, when they are joined, when they are judged once.

@@ -1,16 +1,25 @@
 //! The proof of a face's triangles in the parameter plane.
 
+use std::collections::HashSet;
+
 use super::outline::Outline;
 use super::plane::area;
 
 /// Of the largest parameter times the triangle's width and height: what rounding makes of an area of nothing.
 const ROUNDING: f64 = 4e-15;
 
-/// Whether each chord has one triangle beside it, every other edge two that run along it in opposite senses, and no
-/// triangle is turned over. The triangles then fill exactly what the loops enclose, in (u, v).
+/// What is proved of triangles that fill what the loops enclose.
+pub struct Proof {
+    /// Whether each chord has its triangle to the left, as it should.
+    pub in_sense: bool,
+}
+
+/// A proof that each chord has one triangle beside it, every other edge two that run along it in opposite senses, and no
+/// triangle is turned over. The triangles then fill exactly what the loops enclose, in (u, v), by the rule of even and odd:
+/// whatever way a loop runs.
 ///
 /// `uv`: places of all vertices; `stand_in`: of points of the outline at one place, the one that is used.
-pub fn is_sound(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles: &[[u32; 3]]) -> bool {
+pub fn proof(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles: &[[u32; 3]]) -> Option<Proof> {
     let [low, high] = outline.bounds();
     let size = low.iter().chain(&high).fold(0.0f64, |m, x| m.max(x.abs()));
     let upright = |t: &[u32; 3]| {
@@ -18,10 +27,10 @@ pub fn is_sound(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles:
         let spread: f64 = [0, 1].iter().map(|&k| a[k].max(b[k]).max(c[k]) - a[k].min(b[k]).min(c[k])).sum();
         area(&a, &b, &c) >= -ROUNDING * size * spread
     };
-    triangles.iter().all(upright) && is_filled(outline, uv.len(), stand_in, triangles)
+    if triangles.iter().all(upright) { filled(outline, uv.len(), stand_in, triangles) } else { None }
 }
 
-fn is_filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 3]]) -> bool {
+fn filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 3]]) -> Option<Proof> {
     let chords = outline.chords().map(|c| [c, outline.after(c)].map(|p| stand_in[p as usize]));
     let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
     // Sorted by the lower end: a place for each, then within it by the upper one.
@@ -41,17 +50,33 @@ fn is_filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u3
     };
     edges.for_each(|e| put(e, 0));
     chords.for_each(|e| put(e, 1));
-    first.windows(2).all(|w| {
+    let mut in_sense = true;
+    let sound = first.windows(2).all(|w| {
         let part = &mut sorted[w[0] as usize..w[1] as usize];
         part.sort_unstable();
         // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit, or all of a face without area.
         part.chunk_by(|a, b| a.0 == b.0).all(|group| {
+            in_sense &= !matches!(group, [(_, 0), (_, 3)] | [(_, 1), (_, 2)]);
             matches!(
                 group,
                 [(_, 0), (_, 1)] | [(_, 0 | 1), (_, 2 | 3)] | [(_, 0), (_, 1), (_, 2), (_, 3)] | [(_, 2), (_, 3)]
             )
         })
-    })
+    });
+    sound.then_some(Proof { in_sense })
+}
+
+/// Numbers of the loops that have a triangle to the right of a chord.
+pub fn turned(outline: &Outline, stand_in: &[u32], triangles: &[[u32; 3]]) -> Vec<usize> {
+    let edges: HashSet<[u32; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    let against = |c: &u32| {
+        let [a, b] = [*c, outline.after(*c)].map(|p| stand_in[p as usize]);
+        !edges.contains(&[a, b]) && edges.contains(&[b, a])
+    };
+    let mut found: Vec<usize> =
+        outline.chords().filter(against).filter_map(|c| Some(outline.origin.get(c as usize)?.0)).collect();
+    found.dedup();
+    found
 }
 
 #[cfg(test)]
@@ -77,7 +102,7 @@ mod tests {
 
     fn sound(outline: &Outline, triangles: &[[u32; 3]]) -> bool {
         let same: Vec<u32> = (0..outline.uv.len() as u32).collect();
-        is_sound(outline, &outline.uv, &same, triangles)
+        proof(outline, &outline.uv, &same, triangles).is_some()
     }
 
     #[test]

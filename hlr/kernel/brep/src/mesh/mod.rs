@@ -34,7 +34,8 @@ pub struct LoopPoint {
     pub node: u32,
 }
 
-/// The border of a face: closed loops, the first point not repeated at the end. The inside is to the left in (u, v).
+/// The border of a face: closed loops, the first point not repeated at the end. The inside is to the left in (u, v): of a
+/// loop that runs the other way it is known which side is meant all the same, by the loops around it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceLoops {
     pub loops: Vec<Vec<LoopPoint>>,
@@ -53,6 +54,8 @@ pub struct FaceMesh {
     pub triangles: Vec<[u32; 3]>,
     /// Unit normals du x dv.
     pub normals: Vec<[f64; 3]>,
+    /// Numbers of the loops that run the wrong way. They were taken as if they did not.
+    pub turned: Vec<usize>,
 }
 
 /// Why a face has no mesh.
@@ -135,8 +138,13 @@ fn proved(made: Result<Made, Box<Outline>>) -> Result<Made, Box<Outline>> {
     made.outline.rejoin(&mut made.triangles);
     let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
     flip::upright(&uv, &mut made.triangles);
-    let sound = check::is_sound(&made.outline, &uv, &made.stand_in, &made.triangles);
-    if sound { Ok(made) } else { Err(Box::new(made.outline)) }
+    let Some(proof) = check::proof(&made.outline, &uv, &made.stand_in, &made.triangles) else {
+        return Err(Box::new(made.outline));
+    };
+    if !proof.in_sense {
+        made.turned = check::turned(&made.outline, &made.stand_in, &made.triangles);
+    }
+    Ok(made)
 }
 
 /// Triangles of a face, not yet proved.
@@ -148,6 +156,8 @@ struct Made {
     /// Of points of the outline at one place, the one that triangles have.
     stand_in: Vec<u32>,
     error: f64,
+    /// Loops that run the wrong way, once that is known.
+    turned: Vec<usize>,
 }
 
 /// Without inner points. Where the loops cannot be filled, their outline.
@@ -160,7 +170,7 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Steps) -> 
         _ => Corner { uv, point, normal: surface.normal(uv).unwrap_or_default() },
     };
     let corners = outline.uv.iter().zip(&outline.points).map(corner).collect();
-    Ok(Made { outline, corners, triangles, stand_in, error })
+    Ok(Made { outline, corners, triangles, stand_in, error, turned: Vec::new() })
 }
 
 const ROUNDING: f64 = 1e-9;
@@ -181,7 +191,7 @@ fn why(outline: &Outline) -> Fault {
 }
 
 fn finish(surface: &Surface, made: Made) -> FaceMesh {
-    let Made { outline, mut corners, mut triangles, .. } = made;
+    let Made { outline, mut corners, mut triangles, turned, .. } = made;
     // At poles triangles may have two corners in one place.
     let node = |i: u32| outline.nodes.get(i as usize);
     let apart = |a: u32, b: u32| node(a).is_none() || node(a) != node(b);
@@ -209,6 +219,7 @@ fn finish(surface: &Surface, made: Made) -> FaceMesh {
         nodes: outline.nodes,
         triangles,
         normals: corners.iter().map(|c| c.normal).collect(),
+        turned,
     }
 }
 

@@ -49,7 +49,7 @@ impl<'a> Steps<'a> {
     pub fn step(&self) {
         let count = self.count.get().wrapping_add(1);
         self.count.set(count);
-        if count % OFTEN == 0 && (self.stopped)() {
+        if count.is_multiple_of(OFTEN) && (self.stopped)() {
             // No panic: nothing is wrong, and no hook is called.
             resume_unwind(Box::new(Stopped));
         }

@@ -24,6 +24,42 @@ fn a_disc_with_holes() {
 }
 
 #[test]
+fn loops_that_run_the_wrong_way_are_named_and_change_nothing() {
+    let plane = surface(1, &[]);
+    let round = |forward: [bool; 3]| {
+        let [rim, hole, island] = forward;
+        let places =
+            [circle([0.0, 0.0], 5.0, 40, rim), circle([0.0, 0.0], 3.0, 20, hole), circle([0.0, 0.0], 1.0, 12, island)];
+        let mesh = mesh_face(&plane, &loops(&plane, &places), 0.1, 0.5, &Steps::free()).unwrap();
+        (area(&mesh), mesh.turned)
+    };
+    let (right, none) = round([true, false, true]);
+    assert!(none.is_empty());
+    for (sense, named) in [
+        ([false, false, true], vec![0]),
+        ([true, true, true], vec![1]),
+        ([true, false, false], vec![2]),
+        ([false, true, false], vec![0, 1, 2]),
+    ] {
+        let (area, found) = round(sense);
+        assert!((area - right).abs() < 1e-12 * right);
+        assert_eq!(found, named);
+    }
+}
+
+#[test]
+fn a_bent_face_with_a_hole_that_runs_the_wrong_way() {
+    let torus = surface(5, &[5.0, 2.0]);
+    let round = |hole| {
+        let places = [frame([0.0, 0.0], [2.0, 2.0], 8, 8), circle([1.0, 1.0], 0.4, 20, hole)];
+        mesh_face(&torus, &loops(&torus, &places), 0.05, 0.5, &Steps::free()).unwrap()
+    };
+    let (right, wrong) = (round(false), round(true));
+    assert!(right.turned.is_empty());
+    assert_eq!((wrong.turned, wrong.triangles.len()), (vec![1], right.triangles.len()));
+}
+
+#[test]
 fn a_plate_with_400_holes() {
     let plane = surface(1, &[]);
     let mut places = vec![frame([0.0, 0.0], [20.0, 20.0], 1, 1)];
