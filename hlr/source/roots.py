@@ -72,6 +72,13 @@ class LiveRoots(Roots):
         return self._shapes
 
     @cached_property
+    def model(self) -> _kernel.BrepModel:
+        """All of them in the kernel; the dump goes, and is made anew should it be asked for again."""
+        made = _kernel.BrepModel(self.dump)
+        self.__dict__.pop("dump")
+        return made
+
+    @cached_property
     def dump(self) -> bytes:  # type: ignore[override]
         """OpenCASCADE's binary dump, without triangles except where they are all there is."""
         return dumped(self._shapes)

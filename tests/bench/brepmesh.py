@@ -1,6 +1,6 @@
 """Meshing beside OpenCASCADE's BRepMesh at the same deflection: time, triangles, measured chord error, conformity.
 
-    python tests/bench/brepmesh.py MODEL... [--share 5e-5] [--runs 3]
+    python tests/bench/run.py --only meshing MODEL... [--share 5e-5]
 
 share: of the model's diagonal, the deflection. Both mesh the same shapes in memory, on all cores, without triangles at
 the beginning. Errors are distances between middles of triangles and of their sides and the true surface at the same
@@ -9,30 +9,23 @@ the beginning. Errors are distances between middles of triangles and of their si
 
 from __future__ import annotations
 
-import argparse
-import io
 import statistics
 import time
 from pathlib import Path
 
 import numpy as np
+from bench import scenes
+from bench.pairs import times
+from bench.table import Table, geometric_mean
 
 from hlr import _kernel
 from hlr.source import open_source
 from hlr.source.parts import compound, explored
+from hlr.source.roots import dumped
 
 ANGLE = 0.35
 """Radians."""
 SHARES = np.array([(1 / 3, 1 / 3, 1 / 3), (0.5, 0.5, 0.0), (0.5, 0.0, 0.5), (0.0, 0.5, 0.5)])
-
-
-def dumped(roots):
-    from OCP.BinTools import BinTools, BinTools_FormatVersion
-
-    stream = io.BytesIO()
-    version = BinTools_FormatVersion.BinTools_FormatVersion_VERSION_4
-    BinTools.Write_s(compound(roots), stream, False, False, version)
-    return stream.getvalue()
 
 
 def off(model, face, points, uv):
@@ -126,34 +119,31 @@ def theirs(roots, deflection, runs):
     return statistics.median(times), count, off(model, *joined), empty
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", nargs="+", type=Path)
-    parser.add_argument("--share", type=float, default=5e-5)
-    parser.add_argument("--runs", type=int, default=3)
-    given = parser.parse_args()
-    print("| model | ours s | triangles | worst | median | faults | open ", end="")
-    print("| BRepMesh s | triangles | worst | median | empty |")
-    print("|---" * 12 + "|")
-    ratios = []
-    for path in given.models:
-        source = open_source(path)
+def table(models, share, runs):
+    """One row for each scene or file."""
+    headings = ["model", "ours s", "triangles", "worst", "median", "faults", "open"]
+    headings += ["BRepMesh s", "triangles", "worst", "median", "empty", "ratio"]
+    rows, results = [], []
+    for name in models:
+        source = open_source(scenes.make(name) if name in scenes.SCENES else Path(name))
         low, high = source.bounds()
-        deflection = given.share * float(np.linalg.norm(high - low))
-        roots = [root for root, counts in zip(source.roots.shapes, source.roots.counts, strict=True) if counts[0]]
-        a, b = ours(roots, deflection, given.runs), theirs(roots, deflection, given.runs)
-        ratios.append((b[0] / a[0], a[1] / max(b[1], 1)))
+        deflection = share * float(np.linalg.norm(high - low))
+        roots = [root for root, counts in zip(source._roots.shapes, source._roots.counts, strict=True) if counts[0]]
+        a, b = ours(roots, deflection, runs), theirs(roots, deflection, runs)
 
         def told(errors, deflection=deflection):
-            if not len(errors):
-                return "- | -"
-            return f"{errors.max() / deflection:.2f} | {np.median(errors) / deflection:.2f}"
+            return (
+                [f"{value / deflection:.2f}" for value in (errors.max(), np.median(errors))]
+                if len(errors)
+                else ["-"] * 2
+            )
 
-        row = f"{path.name} | {a[0]:.3f} | {a[1]} | {told(a[2])} | {a[3]} | {a[4]}"
-        print(f"| {row} | {b[0]:.3f} | {b[1]} | {told(b[2])} | {b[3]} |", flush=True)
-    times, triangles = np.log(np.array(ratios)).mean(axis=0)
-    print(f"geometric means: {np.exp(times):.1f} times as fast, {np.exp(triangles):.2f} times the triangles")
-
-
-if __name__ == "__main__":
-    main()
+        row = [Path(name).name, f"{a[0]:.3f}", f"{a[1]:,}", *told(a[2]), str(a[3]), str(a[4])]
+        rows.append([*row, f"{b[0]:.3f}", f"{b[1]:,}", *told(b[2]), str(b[3]), times(b[0] / a[0])])
+        results.append(
+            {"model": Path(name).name, "seconds": a[0], "triangles": a[1], "peer": b[0], "peer_triangles": b[1]}
+        )
+    faster = geometric_mean(r["peer"] / r["seconds"] for r in results)
+    fewer = geometric_mean(r["triangles"] / max(r["peer_triangles"], 1) for r in results)
+    remark = f"Geometric means: {faster:.1f} times as fast, {fewer:.2f} times the triangles."
+    return Table(headings, rows, results, [remark])

@@ -1,8 +1,4 @@
-"""Mesh files and meshes of millions of triangles: processor time and memory, each measurement in a process of its own.
-
-    python tests/bench/loads.py                     five formats of one torus; a million triangles as arrays
-    python tests/bench/loads.py --tori 125          ten million
-    python tests/bench/loads.py --cad MODEL...      CAD files, read and out of the cache
+"""Meshes for the benchmarks of mesh files and of arrays, and what whole commands take: processor time and memory.
 
 1. `hlr draw` from its start to the SVG on disk, as a multiple of `python -c "import numpy"` in the same run
 2. `hlr.draw` of arrays in memory, with the share of each stage
@@ -10,7 +6,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import statistics
@@ -18,10 +13,11 @@ import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
+from bench.table import Table
 
 RINGS, SIDES = 293, 23
 """A torus of 13,478 triangles."""
@@ -97,66 +93,53 @@ FILES: dict[str, Callable[[np.ndarray, np.ndarray], bytes]] = {
 }
 
 
-def processor_seconds(command: Sequence[str]) -> tuple[float, float]:
+def processor_seconds(command: Sequence[str], env: Mapping[str, str] = os.environ) -> tuple[float, float]:
     """Of a process and its children, and the largest memory of one of them, MB."""
-    pid = os.spawnv(os.P_NOWAIT, command[0], list(command))
+    pid = os.spawnve(os.P_NOWAIT, command[0], list(command), env)
     _, status, used = os.wait4(pid, 0)
     if status:
         raise RuntimeError(f"{' '.join(command)} ended with {status}")
     return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
-def files(repeat: int) -> None:
-    """The first table."""
+def commands(repeat: int, model: Path | None = None) -> Table:
+    """Whole commands, as multiples of `python -c "import numpy"`; model: a STEP file, drawn in four ways."""
     mesh = torus(RINGS, SIDES)
+    rows = []
     with tempfile.TemporaryDirectory() as folder:
-        commands = {"import numpy": [sys.executable, "-c", "import numpy"]}
+        off, kept = {**os.environ, "HLR_CACHE": "off"}, {**os.environ, "HLR_CACHE": str(Path(folder, "cache"))}
+        jobs: dict[str, tuple[list[str], dict[str, str]]] = {"import numpy": (["-c", "import numpy"], off)}
         for name, write in FILES.items():
             path = Path(folder, name)
             path.write_bytes(write(*mesh))
             out = str(path.with_suffix(".svg"))
-            commands[name] = [sys.executable, "-m", "hlr", "draw", str(path), "-q", "-o", out]
+            jobs[name] = (["-m", "hlr", "draw", str(path), "-q", "-o", out], off)
+        if model is not None:
+            draw = ["-m", "hlr", "draw", str(model), "-q", "-o", str(Path(folder, "model.svg"))]
+            read = f"from hlr.source import open_source; open_source({str(model)!r})"
+            jobs[f"{model.name}, not from the cache"] = (draw, off)
+            jobs[f"{model.name}, from the cache"] = (draw, kept)
+            jobs[f"{model.name}, read alone"] = (["-c", read], off)
+            jobs["import OCP"] = (["-c", "import OCP.STEPCAFControl"], off)
+            processor_seconds([sys.executable, *draw], kept)
         # Side by side: whatever else the machine does falls on all of them.
-        rows = [{name: processor_seconds(command) for name, command in commands.items()} for _ in range(repeat)]
+        for _ in range(repeat):
+            rows.append({name: processor_seconds([sys.executable, *job], env) for name, (job, env) in jobs.items()})
     plain = statistics.median(row["import numpy"][0] for row in rows)
-    print(f"| {len(mesh[1]):,} triangles | processor time | as a multiple | memory |")
-    print("| --- | --- | --- | --- |")
-    for name in commands:
-        seconds = statistics.median(row[name][0] for row in rows)
-        memory = statistics.median(row[name][1] for row in rows)
-        print(f"| {name} | {seconds:.2f} s | {seconds / plain:.1f} | {memory:.0f} MB |")
-
-
-READ = """
-import sys
-from pathlib import Path
-from OCP.STEPControl import STEPControl_Reader
-from OCP.IGESControl import IGESControl_Reader
-reader = (IGESControl_Reader if Path(sys.argv[1]).suffix.lower() in (".igs", ".iges") else STEPControl_Reader)()
-reader.ReadFile(sys.argv[1])
-reader.TransferRoots()
-"""
-
-
-def cad(models: Sequence[Path], repeat: int) -> None:
-    """CAD files: OpenCASCADE's import and its plain reader alone, the command without a cache, and out of it."""
-    print("| | import numpy | OpenCASCADE, read alone | hlr, no cache | of that | hlr, cached | import numpy x |")
-    print("| --- | --- | --- | --- | --- | --- | --- |")
-    for path in models:
-        with tempfile.TemporaryDirectory() as folder:
-            os.environ["HLR_CACHE"] = str(Path(folder, "cache"))
-            draw = [sys.executable, "-m", "hlr", "draw", str(path), "-q", "-o", str(Path(folder, "out.svg"))]
-            commands = [
-                [sys.executable, "-c", "import numpy"],
-                [sys.executable, "-c", READ, str(path)],
-                [*draw, "--no-cache"],
-                draw,
-            ]
-            processor_seconds(draw)
-            rows = [[processor_seconds(command)[0] for command in commands] for _ in range(repeat)]
-        plain, alone, cold, cached = (statistics.median(column) for column in zip(*rows, strict=True))
-        print(f"| {path.name} | {plain:.2f} | {alone:.2f} | {cold:.2f} | {cold / alone:.2f} ", end="")
-        print(f"| {cached:.2f} | {cached / plain:.1f} |")
+    results = [
+        {
+            "what": name,
+            "processor": statistics.median(row[name][0] for row in rows),
+            "all": [row[name][0] for row in rows],
+            "peak_mb": statistics.median(row[name][1] for row in rows),
+        }
+        for name in jobs
+    ]
+    cells = [
+        [r["what"], f"{r['processor']:.2f} s", f"{r['processor'] / plain:.1f} x", f"{r['peak_mb']:.0f} MB"]
+        for r in results
+    ]
+    return Table([f"{len(mesh[1]):,} triangles", "processor time", "import numpy", "memory"], cells, results)
 
 
 ARRAYS = """
@@ -170,37 +153,15 @@ drawing = hlr.draw((points, triangles))
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 stages = {name: value for name, value in drawing.timings.items() if isinstance(value, float)}
 print(json.dumps({"triangles": len(triangles), "seconds": time.perf_counter() - began,
-                  "processor": time.process_time() - used, "peak": peak, "stages": stages}))
+                  "processor": time.process_time() - used, "peak_mb": peak, "stages": stages}))
 """
 
 
-def arrays(count: int) -> None:
-    """The second table."""
+def arrays(count: int) -> Table:
+    """`hlr.draw` of so many tori as a pair of arrays, with the share of each stage."""
     command = [sys.executable, "-c", ARRAYS, str(Path(__file__).parent), str(count)]
     found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     stages = ", ".join(f"{name} {seconds:.2f}" for name, seconds in found["stages"].items() if seconds >= 0.01)
-    print("| triangles | time | processor time | memory | stages, s |")
-    print("| --- | --- | --- | --- | --- |")
-    print(
-        f"| {found['triangles']:,} | {found['seconds']:.1f} s | {found['processor']:.1f} s | {found['peak']:.0f} MB "
-        f"| {stages} |"
-    )
-
-
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Both tables, as Markdown."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--repeat", type=int, default=5)
-    parser.add_argument("--tori", type=int, default=13, help="of 80,800 triangles each")
-    parser.add_argument("--cad", type=Path, nargs="+", metavar="MODEL", help="instead: CAD files, read and cached")
-    given = parser.parse_args(arguments)
-    if given.cad:
-        cad(given.cad, given.repeat)
-        return
-    files(given.repeat)
-    print()
-    arrays(given.tori)
-
-
-if __name__ == "__main__":
-    main()
+    row = [f"{found['triangles']:,}", f"{found['seconds']:.1f} s", f"{found['processor']:.1f} s"]
+    headings = ["triangles", "time", "processor time", "memory", "stages, s"]
+    return Table(headings, [[*row, f"{found['peak_mb']:.0f} MB", stages]], [found])

@@ -1,4 +1,7 @@
-"""One measurement in a process of its own, so that peak memory and caches are its own. Prints one JSON object."""
+"""Measurements of one scene in a process of their own, so that memory and caches are their own. Prints one JSON list.
+
+Several that are named together take turns: what else the machine does falls on all of them alike.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,7 @@ import resource
 import statistics
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,6 +27,15 @@ WHO = {
     "exact": "HLRBRep_Algo",
     "hlr-svg": "shape in memory to SVG on disk by hlr",
     "cadquery-svg": "the same by CadQuery",
+    "hlr-build123d": "project_to_viewport of hlr.compat.build123d, and build123d's ExportSVG",
+    "build123d": "the same by build123d's own project_to_viewport",
+    "memory": "nothing: what the scene itself takes",
+}
+SVG = {
+    "hlr-svg": ours.svg,
+    "cadquery-svg": occt.cadquery_svg,
+    "hlr-build123d": ours.build123d_svg,
+    "build123d": occt.build123d_svg,
 }
 
 
@@ -40,41 +53,44 @@ def _fresh(shape: Any) -> Any:
     return shape
 
 
-def measure(scene: str, who: str, repeat: int) -> dict[str, Any]:
-    """The median of some runs, and what else is worth knowing of them."""
+def measure(scene: str, who: Sequence[str], repeat: int, budget: float = float("inf")) -> list[dict[str, Any]]:
+    """Of each the median of some runs, in turns, and what else is worth knowing of them.
+
+    budget: seconds after which no further turn begins.
+    """
     shape = scenes.make(scene)
-    result: dict[str, Any] = {"scene": scene, "who": who}
+    results: list[dict[str, Any]] = [{"scene": scene, "who": each} for each in who]
+    seconds: list[list[float]] = [[] for _ in who]
     with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "drawing.svg"
-        run = _runner(shape, scenes.deflection(scene), who, out, result)
-        before = _megabytes()
-        seconds = [run() for _ in range(repeat)]
-        if out.exists():
-            text = out.read_bytes()
-            result["bytes"] = len(text)
-            result["lines"] = sum(text.count(f"<{name} ".encode()) for name in ("path", "circle", "ellipse"))
-    median, peak = statistics.median(seconds), _megabytes()
-    return result | {"seconds": median, "all": seconds, "peak_mb": peak, "grown_mb": peak - before}
+        outs = [Path(folder, f"{each}.svg") for each in who]
+        runners = [
+            _runner(shape, scenes.deflection(scene), each, out, result)
+            for each, out, result in zip(who, outs, results, strict=True)
+        ]
+        before, start = _megabytes(), time.perf_counter()
+        for turn in range(repeat):
+            if turn and time.perf_counter() - start > budget:
+                break
+            # To and fro: neither is always the one that comes first.
+            for k in range(len(who)) if turn % 2 == 0 else reversed(range(len(who))):
+                seconds[k].append(runners[k]())
+        peak = _megabytes()
+        for out, taken, result in zip(outs, seconds, results, strict=True):
+            if out.exists():
+                text = out.read_bytes()
+                names = ("path", "circle", "ellipse", "line", "polyline")
+                result |= {"bytes": len(text), "lines": sum(text.count(f"<{name} ".encode()) for name in names)}
+            result |= {"seconds": statistics.median(taken), "all": taken, "peak_mb": peak, "grown_mb": peak - before}
+    return results
 
 
 def _runner(shape: Any, deflection: float, who: str, out: Path, result: dict[str, Any]) -> Callable[[], float]:
     """What is run again and again; what it needs is prepared here and not timed."""
-    if who in {"poly", "exact", "kernel"}:
-        result["mesh"] = occt.mesh(shape, deflection, scenes.ANGLE)
-        result["triangles"] = occt.triangle_count(shape)
-    if who == "poly":
-        return lambda: occt.poly(shape)
-    if who == "exact":
-        return lambda: occt.exact(shape)
-    if who == "kernel":
-        kernel = ours.Kernel(shape, contact=deflection)
-
-        def run() -> float:
-            seconds = kernel.run()
-            result["counters"] = kernel.counters
-            return seconds
-
-        return run
+    if who == "memory":
+        return lambda: 0.0
+    if who in SVG:
+        export = SVG[who]
+        return lambda: export(_fresh(shape), out)
     if who == "draw":
 
         def run_draw() -> float:
@@ -82,17 +98,33 @@ def _runner(shape: Any, deflection: float, who: str, out: Path, result: dict[str
             return seconds
 
         return run_draw
-    export = occt.cadquery_svg if who == "cadquery-svg" else ours.svg
-    return lambda: export(_fresh(shape), out)
+    result["mesh"] = occt.mesh(shape, deflection, scenes.ANGLE)
+    result["triangles"] = occt.triangle_count(shape)
+    if who == "poly":
+        return lambda: occt.poly(shape)
+    if who == "exact":
+        return lambda: occt.exact(shape)
+    kernel = ours.Kernel(shape, contact=deflection)
+
+    def run() -> float:
+        seconds = kernel.run()
+        result["counters"] = kernel.counters
+        return seconds
+
+    return run
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scene")
-    parser.add_argument("who", choices=WHO)
+    parser.add_argument("who", type=lambda text: text.split(","), help="of " + ", ".join(WHO))
     parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--budget", type=float, default=float("inf"), help="seconds after which no further turn begins")
     given = parser.parse_args(arguments)
-    print(json.dumps(measure(given.scene, given.who, given.repeat)))
+    for each in given.who:
+        if each not in WHO:
+            parser.error(f"{each} is none of {', '.join(WHO)}")
+    print(json.dumps(measure(given.scene, given.who, given.repeat, given.budget)))
     return 0
 
 

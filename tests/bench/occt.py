@@ -86,6 +86,29 @@ def exact(shape: Any) -> float:
     return time.perf_counter() - start
 
 
+def build123d_svg(shape: Any, path: Path) -> float:
+    """build123d's `project_to_viewport` and its `ExportSVG`, without their import. Seconds."""
+    import build123d as bd
+
+    whole = bd.Compound(shape)
+    whole.center()
+    start = time.perf_counter()
+    write_build123d(*whole.project_to_viewport(tuple(1000 * c for c in DIRECTION)), path)
+    return time.perf_counter() - start
+
+
+def write_build123d(visible: Any, hidden: Any, path: Path) -> None:
+    """Two layers, as build123d's documentation does it."""
+    import build123d as bd
+
+    exporter = bd.ExportSVG()
+    exporter.add_layer("visible")
+    exporter.add_layer("hidden", line_type=bd.LineType.ISO_DOT)
+    exporter.add_shape(visible, layer="visible")
+    exporter.add_shape(hidden, layer="hidden")
+    exporter.write(str(path))
+
+
 def cadquery_svg(shape: Any, path: Path) -> float:
     """`cadquery.exporters.export(..., "SVG")` with hidden lines, without its import. Seconds."""
     import cadquery as cq

@@ -89,3 +89,17 @@ def svg(shape: Any, path: Path) -> float:
     start = time.perf_counter()
     hlr.draw(shape, view=DIRECTION, hidden=True).save(path)
     return time.perf_counter() - start
+
+
+def build123d_svg(shape: Any, path: Path) -> float:
+    """The drop-in of build123d's `project_to_viewport`, and build123d's own `ExportSVG`. Seconds."""
+    import build123d as bd
+    from bench.occt import write_build123d
+
+    from hlr.compat.build123d import project_to_viewport
+
+    whole = bd.Compound(shape)
+    whole.center()
+    start = time.perf_counter()
+    write_build123d(*project_to_viewport(whole, tuple(1000 * c for c in DIRECTION)), path)
+    return time.perf_counter() - start

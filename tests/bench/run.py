@@ -1,12 +1,18 @@
-"""Benchmarks against the peers, side by side in one run, each measurement in its own process.
+"""Benchmarks beside the peers: one command for all tables, in Markdown.
 
-    python tests/bench/run.py                        all but the slow ones, five repeats, medians
-    python tests/bench/run.py --scenes plate20,asm4000 --repeat 3 --json out.json
-    python tests/bench/run.py --slow --exact         asm16000 by PolyAlgo too (minutes), and the exact algorithm
-    python tests/bench/run.py --part svg FILE.step   shape in memory to SVG, with files of your own
+    python tests/bench/run.py                              all tables but the slow peers; medians of five
+    python tests/bench/run.py FOLDER FILE...               with STEP and BREP files of your own
+    python tests/bench/run.py --only svg,kernel --json out.json
+    python tests/bench/run.py --slow --tori 125            PolyAlgo on 888,872 triangles; ten million as arrays
 
-1. hidden-line removal of one isometric view, hidden lines on, against PolyAlgo on the same triangulation
-2. shape in memory to SVG on disk, tessellation included, against CadQuery's export
+meshing    B-reps to triangles, beside BRepMesh at the same deflection: time, triangles, errors
+svg        shape in memory to SVG on disk, triangulation included, beside CadQuery's export
+build123d  the same through the drop-in, beside build123d's own projection
+kernel     hidden-line removal of one view, beside HLRBRep_PolyAlgo on the same triangles
+arrays     `hlr.draw` of tori as arrays
+commands   whole commands: mesh files, and a STEP file with and without the cache (the first file that is given)
+
+Pairs are measured in turns in one process, memory in processes of their own. Ratios below one are lost, and stand out.
 """
 
 from __future__ import annotations
@@ -15,128 +21,82 @@ import argparse
 import json
 import os
 import platform
-import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
-from peers.report import markdown
+from bench import brepmesh, loads, scenes
+from bench.pairs import kernel_table, svg_table
+from bench.table import Table
 
 KERNEL_SCENES = ("plate20", "asm1000", "asm4000", "asm16000", "tori250")
-SVG_SCENES = ("plate20", "asm4000")
-WITHOUT_PEER = {"tori250"}
-SLOW = {("asm16000", "poly"), ("asm16000", "exact"), ("asm4000", "exact")}
-Result = dict[str, Any]
+SVG_SCENES = ("box", "filleted box", "sphere", "plate20", "asm1000", "asm4000")
+MESHING_SCENES = ("plate20", "asm1000", "asm4000")
 
 
-def measured(scene: str, who: str, repeat: int, timeout: float) -> Result:
-    """A failure is a result too: the table says so instead of lacking a row."""
-    script = Path(__file__).with_name("measure.py")
-    command = [sys.executable, str(script), scene, who, f"--repeat={repeat}"]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=timeout, check=False)
-    except subprocess.TimeoutExpired:
-        return {"scene": scene, "who": who, "failure": f"> {timeout:.0f} s"}
-    if done.returncode:
-        lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
-        return {"scene": scene, "who": who, "failure": lines[-1][:60]}
-    result: Result = json.loads(done.stdout.splitlines()[-1])
-    print(f"{scene} {who}: {result['seconds']:.4g} s", file=sys.stderr, flush=True)
-    return result
-
-
-def seconds(result: Result | None) -> str:
-    if result is None:
-        return "-"
-    return f"{result['seconds']:.3f}" if "seconds" in result else result["failure"]
-
-
-def ratio(peer: Result | None, own: Result) -> str:
-    if peer is None or "seconds" not in peer or "seconds" not in own:
-        return "-"
-    return f"{peer['seconds'] / own['seconds']:.1f} x"
-
-
-def memory(result: Result | None) -> str:
-    return f"{result['peak_mb']:.0f}" if result and "peak_mb" in result else "-"
-
-
-def kernel_table(scenes: Sequence[str], given: argparse.Namespace, results: list[Result]) -> str:
-    peers = ["poly", *(["exact"] if given.exact else [])]
-    headings = [
-        "scene",
-        "triangles",
-        "kernel s",
-        *[f"{peer} s" for peer in peers],
-        *[f"{peer} / kernel" for peer in peers],
+def models(given: argparse.Namespace) -> list[str]:
+    """The files that were given, and those of folders that hold a solid."""
+    return [
+        found for path in map(Path, given.files) for found in (scenes.solids(path) if path.is_dir() else [str(path)])
     ]
-    headings += ["stage of hlr.draw s", "poly / stage", "kernel MB", "poly MB"]
-    rows = []
-    for scene in scenes:
-        own = measured(scene, "kernel", given.repeat, given.timeout)
-        stage = measured(scene, "draw", given.repeat, given.timeout)
-        found = {}
-        for peer in peers:
-            slow = (scene, peer) in SLOW
-            if scene not in WITHOUT_PEER and (given.slow or not slow):
-                found[peer] = measured(scene, peer, 1 if slow else given.repeat, given.timeout)
-        results += [own, stage, *found.values()]
-        rows.append(
-            [
-                Path(scene).name,
-                str(own.get("triangles", "-")),
-                seconds(own),
-                *[seconds(found.get(peer)) for peer in peers],
-                *[ratio(found.get(peer), own) for peer in peers],
-                seconds(stage),
-                ratio(found.get("poly"), stage),
-                memory(own),
-                memory(found.get("poly")),
-            ]
-        )
-    return markdown(headings, rows)
 
 
-def svg_table(scenes: Sequence[str], given: argparse.Namespace, results: list[Result]) -> str:
-    headings = ["shape", "hlr s", "CadQuery s", "CadQuery / hlr", "hlr kB", "CadQuery kB", "CadQuery / hlr"]
-    headings += ["hlr lines", "CadQuery lines", "hlr MB", "CadQuery MB"]
-    rows = []
-    for scene in scenes:
-        own = measured(scene, "hlr-svg", given.repeat, given.timeout)
-        peer = measured(scene, "cadquery-svg", min(given.repeat, 3), given.timeout)
-        results += [own, peer]
-        both = (own, peer)
-        size = [f"{each['bytes'] / 1000:.0f}" if "bytes" in each else "-" for each in both]
-        size.append(f"{peer['bytes'] / own['bytes']:.1f} x" if all("bytes" in each for each in both) else "-")
-        lines = [str(each.get("lines", "-")) for each in both]
-        times = [seconds(own), seconds(peer), ratio(peer, own)]
-        rows.append([Path(scene).name, *times, *size, *lines, memory(own), memory(peer)])
-    return markdown(headings, rows)
+def tables(given: argparse.Namespace) -> dict[str, Callable[[], Table]]:
+    """What can be measured, by name."""
+    files = models(given)
+
+    def chosen(known: Sequence[str]) -> list[str]:
+        return [scene for scene in known if not given.scenes or scene in given.scenes]
+
+    step = next((Path(name) for name in files if name.lower().endswith((".step", ".stp"))), None)
+    shapes = [*chosen(SVG_SCENES), *files]
+    return {
+        "meshing": lambda: brepmesh.table([*chosen(MESHING_SCENES), *files], given.share, given.repeat),
+        "svg": lambda: svg_table(shapes, given, "hlr-svg", "cadquery-svg", "CadQuery"),
+        "build123d": lambda: svg_table(shapes, given, "hlr-build123d", "build123d", "build123d"),
+        "kernel": lambda: kernel_table(chosen(KERNEL_SCENES), given),
+        "arrays": lambda: loads.arrays(given.tori),
+        "commands": lambda: loads.commands(given.repeat, step),
+    }
+
+
+def machine() -> str:
+    """What it was measured on, and what else that did."""
+    load = ", ".join(f"{value:.1f}" for value in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
+    cores = os.cpu_count()
+    return f"{platform.platform()}, {cores} cores, Python {platform.python_version()}; load average {load}"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("files", nargs="*", help="STEP or BREP files for the second table")
-    parser.add_argument("--part", choices=("kernel", "svg", "both"), default="both")
-    parser.add_argument("--scenes", type=lambda text: text.split(","), help="only these scenes")
+    parser.add_argument("files", nargs="*", help="STEP or BREP files, or folders of them")
+    parser.add_argument("--only", type=lambda text: text.split(","), help="these tables, as listed above")
+    parser.add_argument("--scenes", type=lambda text: text.split(","), help="of the scenes built in, only these")
     parser.add_argument("--repeat", type=int, default=5)
+    parser.add_argument("--budget", type=float, default=300.0, help="seconds after which a pair has no further turn")
+    parser.add_argument("--timeout", type=float, default=1200.0, help="seconds for one process")
+    parser.add_argument("--no-memory", dest="memory", action="store_false", help="do not measure memory")
     parser.add_argument("--slow", action="store_true", help="peers that take minutes too, once each")
     parser.add_argument("--exact", action="store_true", help="OpenCASCADE's exact algorithm beside the polygonal one")
-    parser.add_argument("--timeout", type=float, default=1200.0, help="seconds for one measurement")
-    parser.add_argument("--json", type=Path, help="all figures")
+    parser.add_argument("--tori", type=int, default=13, help="of 80,800 triangles each")
+    parser.add_argument("--share", type=float, default=5e-5, help="of the model's diagonal: the deflection of meshing")
+    parser.add_argument("--json", type=Path, help="a file for all figures")
     given = parser.parse_args(arguments)
-    results: list[Result] = []
-    print(f"{platform.platform()}, {os.cpu_count()} cores, Python {platform.python_version()}, medians\n")
-    if given.part in {"kernel", "both"}:
-        print(kernel_table(given.scenes or KERNEL_SCENES, given, results) + "\n", flush=True)
-    if given.part in {"svg", "both"}:
-        chosen = [scene for scene in given.scenes or SVG_SCENES if scene in SVG_SCENES]
-        print(svg_table([*chosen, *given.files], given, results), flush=True)
-    if given.json:
-        given.json.write_text(json.dumps(results, indent=1))
+    known = tables(given)
+    for name in given.only or ():
+        if name not in known:
+            parser.error(f"--only takes {', '.join(known)}, not {name!r}")
+    figures: dict[str, object] = {"machine": machine()}
+    print(machine(), flush=True)
+    for name in given.only or known:
+        table = known[name]()
+        print(f"\n## {name}\n\n{table}", flush=True)
+        figures[name] = table.results
+        if given.json:
+            given.json.write_text(json.dumps(figures, indent=1))
+    print(f"\nLoad average at the end: {machine().rpartition('average ')[2]}")
     return 0
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 DEFLECTION = 0.1
@@ -66,6 +67,36 @@ def tori(count: int, seed: int = 1) -> Any:
     )
 
 
+def filleted(width: float, depth: float, height: float, radius: float) -> Any:
+    """A box with all its edges rounded."""
+    from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+    from OCP.TopAbs import TopAbs_EDGE
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    box = BRepPrimAPI_MakeBox(width, depth, height).Shape()
+    rounded, edges, known = BRepFilletAPI_MakeFillet(box), TopExp_Explorer(box, TopAbs_EDGE), set()
+    while edges.More():
+        if edges.Current().TShape() not in known:
+            known.add(edges.Current().TShape())
+            rounded.Add(radius, TopoDS.Edge_s(edges.Current()))
+        edges.Next()
+    return rounded.Shape()
+
+
+def box() -> Any:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+
+    return BRepPrimAPI_MakeBox(30, 20, 10).Shape()
+
+
+def sphere() -> Any:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeSphere
+
+    return BRepPrimAPI_MakeSphere(20).Shape()
+
+
 def compound(parts: list[Any]) -> Any:
     from OCP.BRep import BRep_Builder
     from OCP.TopoDS import TopoDS_Compound
@@ -103,6 +134,9 @@ SCENES: dict[str, Callable[[], Any]] = {
     "asm4000": lambda: assembly(4000),
     "asm16000": lambda: assembly(16000),
     "tori250": lambda: tori(250),
+    "box": box,
+    "filleted box": lambda: filleted(30, 20, 10, 3),
+    "sphere": sphere,
 }
 FINE = {"tori250": 0.02}
 """Scenes meshed with another deflection than DEFLECTION: tori250 to a million triangles."""
@@ -115,6 +149,16 @@ def make(name: str) -> Any:
     from peers.reference import read_shape
 
     return read_shape(name)
+
+
+def solids(folder: Path) -> list[str]:
+    """The STEP and BREP files of a folder that hold a solid."""
+    from OCP.TopAbs import TopAbs_SOLID
+    from OCP.TopExp import TopExp_Explorer
+
+    endings = {".step", ".stp", ".brep", ".brp"}
+    files = sorted(path for path in folder.iterdir() if path.suffix.lower() in endings)
+    return [str(path) for path in files if TopExp_Explorer(make(str(path)), TopAbs_SOLID).More()]
 
 
 def deflection(name: str) -> float:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import sys
+from argparse import Namespace
 
 import numpy as np
 import pytest
-from bench import loads, measure, occt, ours, run, scenes
+from bench import loads, measure, occt, ours, pairs, run, scenes
+from cadquery import Shape
 
 
 def test_scenes_have_the_parts_they_promise() -> None:
-    from cadquery import Shape
-
     plate = Shape.cast(scenes.plate(4))
     assert plate.isValid() and len(plate.Faces()) == 6 + 16
     assert plate.Volume() == pytest.approx(40 * 40 * 6 - 16 * 6 * 3.141592653589793 * 2.5**2, rel=1e-9)
@@ -26,8 +27,6 @@ def test_cells_of_exact_cubes() -> None:
 
 def test_parts_of_an_assembly_do_not_touch() -> None:
     """Each stays in the ball of its cell: else the peer and we would be asked about contacts too."""
-    from cadquery import Shape
-
     for number, solid in enumerate(Shape.cast(scenes.assembly(200)).Solids()):
         vertices, _ = solid.tessellate(0.1, 0.5)
         centre = np.array([number % 6, number // 6 % 6, number // 36]) * scenes.CELL
@@ -45,13 +44,55 @@ def test_kernel_gets_the_triangles_that_the_peer_has() -> None:
 
 
 def test_measure_reports_a_median_and_memory() -> None:
-    result = measure.measure("plate20", "kernel", 1)
+    (result,) = measure.measure("plate20", ["kernel"], 1)
     assert result["seconds"] == result["all"][0] and result["peak_mb"] > 50 and result["triangles"] > 40_000
 
 
 def test_a_measurement_that_fails_stays_in_the_table() -> None:
-    failed = run.measured("no such file.step", "poly", 1, 60)
-    assert "failure" in failed and run.seconds(failed) == failed["failure"] and run.ratio(failed, failed) == "-"
+    given = Namespace(budget=60.0, timeout=60.0, repeat=1, memory=True)
+    failed, other = pairs.together("no such file.step", ["poly", "kernel"], given)
+    assert "failure" in failed and pairs.seconds(failed) == failed["failure"] and "failure" in other
+    assert pairs.ratio(failed, other) is None and pairs.times(None) == pairs.memory(failed) == "-"
+
+
+def test_pairs_take_turns_and_stop_within_their_budget(monkeypatch) -> None:
+    ran = []
+    monkeypatch.setattr(measure, "_runner", lambda *given: lambda: ran.append(given[2]) or 1.0)
+    one, other = measure.measure("box", ["hlr-svg", "cadquery-svg"], 3)
+    assert ran == ["hlr-svg", "cadquery-svg", "cadquery-svg", "hlr-svg", "hlr-svg", "cadquery-svg"]
+    assert one["all"] == other["all"] == [1.0, 1.0, 1.0]
+    (alone,) = measure.measure("box", ["hlr-svg"], 3, budget=0.0)
+    assert alone["all"] == [1.0]
+
+
+def test_what_is_lost_stands_out() -> None:
+    assert [pairs.times(value) for value in (3.14, 1.0, 0.5)] == ["3.1 x", "1.0 x", "**0.50 x**"]
+    assert pairs.won([2.0, 0.5, None]) == "Geometric mean of 2 ratios: 1.00; lost: 1."
+
+
+def test_tables_are_made_of_what_was_asked_for(tmp_path, capsys) -> None:
+    shapes = {"solid.brep": scenes.box(), "wire.brep": Shape.cast(scenes.box()).Edges()[0].wrapped}
+    for name, shape in shapes.items():
+        Shape.cast(shape).exportBrep(str(tmp_path / name))
+    out = tmp_path / "figures.json"
+    asked = ["--only", "svg,meshing", "--scenes", "sphere", "--repeat", "1", "--no-memory", "--json", str(out)]
+    assert run.main([str(tmp_path), *asked]) == 0
+    printed = capsys.readouterr().out
+    assert "load average" in printed and "## svg" in printed and "Geometric mean of 2 ratios" in printed
+    figures = json.loads(out.read_text())
+    assert {row["scene"].rpartition("/")[2] for row in figures["svg"]} == {"sphere", "solid.brep"}
+    assert [row["model"] for row in figures["meshing"]] == ["solid.brep"]
+    with pytest.raises(SystemExit):
+        run.main(["--only", "nothing"])
+
+
+@pytest.mark.parametrize("who", [who for who in measure.WHO if who != "memory"])
+def test_all_that_can_be_measured_can(who) -> None:
+    if "build123d" in who:
+        pytest.importorskip("build123d")
+    (result,) = measure.measure("filleted box", [who], 1)
+    assert result["seconds"] > 0.0
+    assert ("svg" in who or "build123d" in who) == ("bytes" in result) and result.get("lines", 1) > 0
 
 
 @pytest.mark.parametrize("name", loads.FILES)

@@ -275,6 +275,14 @@ def test_the_triangles_that_a_caller_s_shape_brings_stay(name, meshed):
     assert after == before and values(after) == inside
 
 
+def test_the_dump_of_shapes_in_memory_is_not_kept():
+    source = open_source(cq.Workplane().sphere(3))
+    before = source._roots.dump
+    source.mesh(0.1, 0.3)
+    assert "dump" not in vars(source._roots)
+    assert source._roots.dump == before and len(source._roots.read_back) == 1
+
+
 def test_two_runs_give_the_same_bytes():
     first, second = (open_source(SOLIDS["union"]()).mesh(0.05, 0.3).parts[0] for _ in range(2))
     assert same(first, second)
