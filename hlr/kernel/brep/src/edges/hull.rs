@@ -1,7 +1,7 @@
 //! How far a chord may be from its curve: never less than it is.
 
 use crate::geometry::curve::{Curve, Vec3};
-use crate::geometry::nurbs::{Nurbs, find_span};
+use crate::geometry::nurbs::{MOST_DEGREE, Nurbs, find_span};
 use crate::geometry::vector::{add, along, dot, length, scaled, sub};
 
 /// A bound on the distance between the curve from `a` to `b` and its chord.
@@ -35,7 +35,7 @@ pub fn chord_error(curve: &Curve, a: f64, b: f64) -> f64 {
 
 /// Every piece lies within the convex hull of its control points, and the distance to a chord is a convex function.
 fn spline_error(n: &Nurbs, a: f64, b: f64) -> f64 {
-    let (from, to) = (place(n, a), place(n, b));
+    let (from, to) = (n.point(a), n.point(b));
     let p = n.degree;
     let mut worst = 0.0f64;
     for [low, high] in pieces(n, a, b) {
@@ -59,11 +59,6 @@ fn spline_error(n: &Nurbs, a: f64, b: f64) -> f64 {
     worst
 }
 
-fn place(n: &Nurbs, t: f64) -> Vec3 {
-    let [x, y, z, w] = n.homogeneous(t)[0];
-    [x / w, y / w, z / w]
-}
-
 /// The parts of a..b between knots.
 fn pieces(n: &Nurbs, a: f64, b: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
     let inner = &n.knots[n.degree..=n.poles.len()];
@@ -80,8 +75,17 @@ fn pieces(n: &Nurbs, a: f64, b: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
 
 /// Control point j of the piece low..high of a span: the polar form with `high` j times, `low` otherwise (de Boor).
 fn blossom(n: &Nurbs, span: usize, low: f64, high: f64, j: usize) -> [f64; 4] {
+    // Short arrays are much faster; most curves are of low degree.
+    match n.degree {
+        0..=3 => polar::<4>(n, span, low, high, j),
+        4..=7 => polar::<8>(n, span, low, high, j),
+        _ => polar::<{ MOST_DEGREE + 1 }>(n, span, low, high, j),
+    }
+}
+
+fn polar<const N: usize>(n: &Nurbs, span: usize, low: f64, high: f64, j: usize) -> [f64; 4] {
     let p = n.degree;
-    let mut d = [[0.0; 4]; crate::geometry::nurbs::MOST_DEGREE + 1];
+    let mut d = [[0.0; 4]; N];
     d[..=p].copy_from_slice(&n.poles[span - p..=span]);
     for r in 1..=p {
         let t = if r <= j { high } else { low };

@@ -13,15 +13,10 @@ pub struct Basis<const N: usize> {
 impl<const N: usize> Basis<N> {
     /// Of so many poles. Beyond the ends of the domain the outermost polynomial goes on.
     pub fn at(knots: &[f64], p: usize, count: usize, x: f64) -> Basis<N> {
-        // The span of non-zero length that holds x.
-        let mut span = knots.partition_point(|&k| k <= x).clamp(p + 1, count) - 1;
-        while span > p && knots[span + 1] <= knots[span] {
-            span -= 1;
-        }
-        while span + 1 < count && knots[span + 1] <= knots[span] {
-            span += 1;
-        }
-        let width = |q: usize, r: usize| knots[span + r + 1] - knots[span + 1 + r - q];
+        let span = span_of(knots, p, count, x);
+        // The knots that take part, and one over the lengths of the functions' supports, of degree p and p - 1.
+        let near = &knots[span + 1 - p..=span + p];
+        let mut over = [[0.0; N]; 2];
         // Of degree p, p - 1 and p - 2.
         let mut by_degree = [[0.0; N]; 3];
         let mut value = [0.0; N];
@@ -30,9 +25,14 @@ impl<const N: usize> Basis<N> {
             if q > 0 {
                 let mut saved = 0.0;
                 for r in 0..q {
-                    let share = value[r] / width(q, r);
-                    value[r] = saved + (knots[span + r + 1] - x) * share;
-                    saved = (x - knots[span + 1 + r - q]) * share;
+                    let (left, right) = (near[p + r - q], near[p + r]);
+                    let inverse = 1.0 / (right - left);
+                    if p - q < 2 {
+                        over[p - q][r] = inverse;
+                    }
+                    let share = value[r] * inverse;
+                    value[r] = saved + (right - x) * share;
+                    saved = (x - left) * share;
                 }
                 value[q] = saved;
             }
@@ -44,7 +44,7 @@ impl<const N: usize> Basis<N> {
             let mut out = [0.0; N];
             let mut before = 0.0;
             for r in 0..q {
-                let share = q as f64 * lower[r] / width(q, r);
+                let share = q as f64 * lower[r] * over[p - q][r];
                 out[r] = before - share;
                 before = share;
             }
@@ -52,8 +52,39 @@ impl<const N: usize> Basis<N> {
             out
         };
         let [values, lower, lowest] = by_degree;
-        let slopes = derived(&lower, p);
+        let slopes = if p > 0 { derived(&lower, p) } else { [0.0; N] };
         let bends = if p > 1 { derived(&derived(&lowest, p - 1), p) } else { [0.0; N] };
         Basis { first: span - p, rows: [values, slopes, bends] }
     }
+}
+
+/// The span of non-zero length that holds x, or is nearest to it.
+fn span_of(knots: &[f64], p: usize, count: usize, x: f64) -> usize {
+    let mut span = knots.partition_point(|&k| k <= x).clamp(p + 1, count) - 1;
+    while span > p && knots[span + 1] <= knots[span] {
+        span -= 1;
+    }
+    while span + 1 < count && knots[span + 1] <= knots[span] {
+        span += 1;
+    }
+    span
+}
+
+/// The first function that is not zero at a parameter, and the values alone, to the last digit those of `Basis::at`.
+pub fn values<const N: usize>(knots: &[f64], p: usize, count: usize, x: f64) -> (usize, [f64; N]) {
+    let span = span_of(knots, p, count, x);
+    let near = &knots[span + 1 - p..=span + p];
+    let mut value = [0.0; N];
+    value[0] = 1.0;
+    for q in 1..=p {
+        let mut saved = 0.0;
+        for r in 0..q {
+            let (left, right) = (near[p + r - q], near[p + r]);
+            let share = value[r] * (1.0 / (right - left));
+            value[r] = saved + (right - x) * share;
+            saved = (x - left) * share;
+        }
+        value[q] = saved;
+    }
+    (span - p, value)
 }

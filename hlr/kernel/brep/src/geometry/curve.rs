@@ -123,7 +123,10 @@ impl Curve {
     }
 
     pub fn point(&self, t: f64) -> Vec3 {
-        self.derivatives(t)[0]
+        match self {
+            Curve::Spline(n) => n.point(t),
+            _ => self.derivatives(t)[0],
+        }
     }
 
     /// Where t may be; `size` stands for what has no end.

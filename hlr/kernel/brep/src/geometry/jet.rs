@@ -1,7 +1,7 @@
 //! Surfaces with their second derivatives.
 
 use super::curve::Curve;
-use super::surface::Surface;
+use super::surface::{Frame, Surface};
 use super::vector::{Vector, add, along, cross, dot, length, scaled, sub};
 
 /// A point of a surface with its derivatives.
@@ -44,8 +44,8 @@ impl Surface {
                     dvv: zero,
                 }
             }
-            Surface::Sphere(_, r) => self.ring_jet(uv, *r),
-            Surface::Torus(_, _, minor) => self.ring_jet(uv, *minor),
+            Surface::Sphere(f, r) => Self::ring_jet(f, uv, 0.0, *r),
+            Surface::Torus(f, major, minor) => Self::ring_jet(f, uv, *major, *minor),
             Surface::Revolution(origin, axis, curve) => {
                 let [p, d, dd] = curve.derivatives(v);
                 let (sin, cos) = u.sin_cos();
@@ -67,14 +67,19 @@ impl Surface {
         }
     }
 
-    /// Sphere and torus: all but the second derivatives from the first ones.
-    fn ring_jet(&self, uv: [f64; 2], minor: f64) -> Jet {
-        let (Surface::Sphere(f, _) | Surface::Torus(f, ..)) = self else { unreachable!() };
-        let (point, du, dv) = self.d1(uv);
-        let (out, turn) = f.around(uv[0]);
-        let (sin, cos) = uv[1].sin_cos();
-        let dvv = along(&scaled(&out, -minor * cos), &f.axis(), -minor * sin);
-        Jet { point, du, dv, duu: scaled(&out, -dot(&du, &turn)), duv: scaled(&turn, -minor * sin), dvv }
+    /// A circle of radius `minor` at the distance `major` from the axis, turned about it.
+    fn ring_jet(f: &Frame, [u, v]: [f64; 2], major: f64, minor: f64) -> Jet {
+        let (out, turn) = f.around(u);
+        let (sin, cos) = v.sin_cos();
+        let radius = major + minor * cos;
+        Jet {
+            point: along(&along(&f.origin(), &out, radius), &f.axis(), minor * sin),
+            du: scaled(&turn, radius),
+            dv: along(&scaled(&out, -minor * sin), &f.axis(), minor * cos),
+            duu: scaled(&out, -radius),
+            duv: scaled(&turn, -minor * sin),
+            dvv: along(&scaled(&out, -minor * cos), &f.axis(), -minor * sin),
+        }
     }
 
     /// Knots of the parameter u (0) or v (1) between `low` and `high`, rising, both ends left out: where derivatives may

@@ -7,6 +7,7 @@ pub mod jet;
 pub mod moved_surface;
 pub mod nurbs;
 pub mod offset_curve;
+mod spans;
 pub mod spline_surface;
 pub mod surface;
 pub mod unrolled;

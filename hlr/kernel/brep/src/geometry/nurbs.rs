@@ -1,7 +1,7 @@
 //! B-splines, rational or not, in homogeneous coordinates.
 //! (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997: A2.1 find span, A2.3 basis functions and derivatives.)
 
-use super::basis::Basis;
+use super::basis::{Basis, values};
 
 /// Highest degree that is evaluated; OpenCASCADE's own limit is 25.
 pub const MOST_DEGREE: usize = 25;
@@ -113,6 +113,27 @@ impl Nurbs {
         }
     }
 
+    /// The point alone, to the last digit that of the derivatives.
+    pub fn point(&self, t: f64) -> [f64; 3] {
+        match self.degree {
+            0..=3 => self.by_values::<4>(t),
+            4..=7 => self.by_values::<8>(t),
+            _ => self.by_values::<{ MOST_DEGREE + 1 }>(t),
+        }
+    }
+
+    fn by_values<const N: usize>(&self, t: f64) -> [f64; 3] {
+        let (first, values) = values::<N>(&self.knots, self.degree, self.poles.len(), t);
+        let mut sum = [0.0; 4];
+        for (pole, value) in self.poles[first..=first + self.degree].iter().zip(&values) {
+            for (sum, c) in sum.iter_mut().zip(pole) {
+                *sum += c * value;
+            }
+        }
+        let [x, y, z, w] = sum;
+        [x / w, y / w, z / w]
+    }
+
     fn by_basis<const N: usize>(&self, t: f64) -> [[f64; 4]; 3] {
         let basis = Basis::<N>::at(&self.knots, self.degree, self.poles.len(), t);
         let mut out = [[0.0; 4]; 3];
@@ -159,6 +180,7 @@ mod tests {
             close(p[0] * p[0] + p[1] * p[1], 1.0, 1e-14);
             close(p[0] * d1[0] + p[1] * d1[1], 0.0, 1e-13);
             // The second derivative of |p|^2 = 1.
+            assert_eq!(p, quarter.point(f64::from(i) * 0.1));
             close(d1[0] * d1[0] + d1[1] * d1[1] + p[0] * d2[0] + p[1] * d2[1], 0.0, 1e-12);
         }
     }

@@ -4,6 +4,7 @@
 
 use super::basis::Basis;
 use super::jet::Jet;
+use super::spans::Spans;
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
 /// Of a surface's size: poles that are as near to where they would be are there.
@@ -20,6 +21,8 @@ pub struct SplineSurface {
     knots: [Vec<f64>; 2],
     /// (x w, y w, z w, w), v fastest.
     poles: Vec<[f64; 4]>,
+    /// Of u and v; None: of too high a degree.
+    spans: [Option<Spans>; 2],
 }
 
 impl SplineSurface {
@@ -39,7 +42,12 @@ impl SplineSurface {
             return None;
         }
         let poles = poles.iter().map(|&[x, y, z, w]| [x * w, y * w, z * w, w]).collect();
-        Some(SplineSurface { degree, count, period: [head[4], head[5]], knots: [u.to_vec(), v.to_vec()], poles })
+        let knots = [u.to_vec(), v.to_vec()];
+        let stride = if degree[0].max(degree[1]) <= 3 { 4 } else { 8 };
+        let spans = [0, 1].map(|k| Spans::new(&knots[k], degree[k], count[k], stride));
+        // Both, or neither: the stride has to fit both degrees.
+        let spans = if spans.iter().all(Option::is_some) { spans } else { [None, None] };
+        Some(SplineSurface { degree, count, period: [head[4], head[5]], knots, poles, spans })
     }
 
     /// Of u and v; 0 where it is not periodic.
@@ -50,6 +58,32 @@ impl SplineSurface {
     /// Lower and upper ends of u and v.
     pub fn domain(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|k| [self.knots[k][self.degree[k]], self.knots[k][self.count[k]]])
+    }
+
+    pub fn point(&self, u: f64, v: f64) -> Vector {
+        let (Some(a), Some(b)) = (&self.spans[0], &self.spans[1]) else { return self.d1(u, v).0 };
+        let (u, v) = (self.inside(0, u), self.inside(1, v));
+        match self.degree[0].max(self.degree[1]) {
+            0..=3 => self.sum::<4>(a.values(u), b.values(v)),
+            _ => self.sum::<8>(a.values(u), b.values(v)),
+        }
+    }
+
+    fn sum<const N: usize>(&self, (i, a): (usize, [f64; N]), (j, b): (usize, [f64; N])) -> Vector {
+        let mut sum = [0.0f64; 4];
+        for (k, a) in a.iter().enumerate().take(self.degree[0] + 1) {
+            let row = &self.poles[(i + k) * self.count[1] + j..][..=self.degree[1]];
+            let mut inner = [0.0f64; 4];
+            for (pole, b) in row.iter().zip(&b) {
+                for c in 0..4 {
+                    inner[c] += b * pole[c];
+                }
+            }
+            for c in 0..4 {
+                sum[c] += a * inner[c];
+            }
+        }
+        scaled(&[sum[0], sum[1], sum[2]], 1.0 / sum[3])
     }
 
     /// The point, and the derivatives by u and v.
@@ -176,7 +210,11 @@ impl SplineSurface {
     }
 
     fn basis<const N: usize>(&self, side: usize, x: f64) -> Basis<N> {
-        Basis::at(&self.knots[side], self.degree[side], self.count[side], self.inside(side, x))
+        let x = self.inside(side, x);
+        match &self.spans[side] {
+            Some(spans) => spans.basis(x),
+            None => Basis::at(&self.knots[side], self.degree[side], self.count[side], x),
+        }
     }
 }
 

@@ -113,7 +113,10 @@ impl Surface {
     }
 
     pub fn point(&self, uv: [f64; 2]) -> Vector {
-        self.d1(uv).0
+        match self {
+            Surface::Spline(s) => s.point(uv[0], uv[1]),
+            _ => self.d1(uv).0,
+        }
     }
 
     /// After how much u and v the surface comes back to itself; 0 where it does not.

@@ -4,10 +4,13 @@
 use super::border::Border;
 use super::bound::{Bend, Corner, Gap, corner, gap};
 use super::delaunay::Delaunay;
+use super::net::Net;
 use super::outline::Outline;
 use super::plane::distance2;
 use super::size::Field;
 use super::steps::Steps;
+use super::strips::{Strips, strips};
+use super::sweep;
 use super::{FaceLoops, Fault, Made, lattice};
 use crate::geometry::surface::Surface;
 
@@ -41,36 +44,71 @@ pub fn triangulate(
         shares.extend((1..count).map(|k| k as f64 / count as f64));
     })?;
     let chart = outline.mapped(|uv| field.to_chart(uv));
-    let inner = lattice::points(&field, &Border::new(&chart), MOST, steps).ok_or(Fault::TooFine)?;
-    steps.reached(DONE[0]);
-    let Some(mesh) = Delaunay::new(&chart, &inner, steps) else { return Ok(Err(Box::new(outline))) };
+    let Some(Filled { inner, net, stand_in }) = filled(&field, &chart, steps)? else {
+        return Ok(Err(Box::new(outline)));
+    };
+    let mut work = Work::new(surface, &field, &chart, deflection, net, steps);
     steps.reached(DONE[1]);
-    let (mut corners, mut bends): (Vec<Corner>, Vec<Bend>) =
-        outline.uv.iter().zip(&outline.points).map(|(&uv, &p)| corner(surface, uv, Some(p))).unzip();
-    for &xy in &inner {
-        steps.step();
-        let (corner, bend) = corner(surface, field.on_surface(xy), None);
-        corners.push(corner);
-        bends.push(bend);
-    }
-    let spans = corners.iter().map(|c| field.span(c.uv)).collect();
-    let mut places = chart.uv.clone();
-    places.extend(inner);
-    let mut work =
-        Work { surface, field: &field, chart: &chart, mesh, corners, bends, spans, places, deflection, steps };
-    let (triangles, error) = work.refine();
-    let Work { corners, mesh, .. } = work;
-    Ok(Ok(Made { outline, corners, triangles, stand_in: mesh.stand_in, error, turned: Vec::new() }))
+    work.evaluate(&outline, &inner);
+    let error = work.refine();
+    let Work { corners, net, .. } = work;
+    Ok(Ok(Made { outline, corners, triangles: net.into_triangles(), stand_in, error, turned: Vec::new() }))
 }
 
 /// Of the work on a face, about: when its inner points are known, when they are joined, when they are judged once.
 const DONE: [f64; 3] = [0.2, 0.6, 0.8];
 
+struct Filled {
+    inner: Vec<[f64; 2]>,
+    net: Net,
+    stand_in: Vec<u32>,
+}
+
+/// Points inside the loops, and triangles; None where the loops cannot be filled.
+fn filled(field: &Field, chart: &Outline, steps: &Steps) -> Result<Option<Filled>, Fault> {
+    let own = || (0..chart.len() as u32).collect();
+    if let Some(Strips { inner, triangles, loose }) = strips(field, chart, MOST, steps) {
+        let mut net = Net::new(chart.len() + inner.len(), triangles, |_, _| false);
+        let places: Vec<_> = chart.uv.iter().chain(&inner).copied().collect();
+        if net.settle(&places, loose, steps) {
+            return Ok(Some(Filled { inner, net, stand_in: own() }));
+        }
+    }
+    let mut inner = lattice::points(field, &Border::new(chart), MOST, steps).ok_or(Fault::TooFine)?;
+    steps.reached(DONE[0]);
+    if let Some(triangles) = sweep::triangulate(chart, steps) {
+        let mut net = Net::new(chart.len(), triangles, |_, _| false);
+        let mut places = chart.uv.clone();
+        places.reserve(inner.len());
+        if net.settle(&places, net.triangles().len(), steps) {
+            inner.retain(|&p| {
+                steps.step();
+                places.push(p);
+                let new = net.insert(&places, places.len() as u32 - 2);
+                if !new {
+                    places.pop();
+                }
+                new
+            });
+            return Ok(Some(Filled { inner, net, stand_in: own() }));
+        }
+    }
+    let Some(Delaunay { triangles, stand_in }) = Delaunay::new(chart, &inner, steps) else { return Ok(None) };
+    let mut chords: Vec<_> =
+        chart.chords().map(|c| ordered(stand_in[c as usize], stand_in[chart.after(c) as usize])).collect();
+    chords.sort_unstable();
+    let net = Net::new(chart.len() + inner.len(), triangles, |a, b| chords.binary_search(&ordered(a, b)).is_ok());
+    Ok(Some(Filled { inner, net, stand_in }))
+}
+
+fn ordered(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
 struct Work<'a> {
     surface: &'a Surface,
     field: &'a Field,
     chart: &'a Outline,
-    mesh: Delaunay<'a>,
     corners: Vec<Corner>,
     bends: Vec<Bend>,
     /// Between which knots the corners are.
@@ -78,39 +116,85 @@ struct Work<'a> {
     /// Of the corners, in the chart.
     places: Vec<[f64; 2]>,
     deflection: f64,
+    net: Net,
     steps: &'a Steps<'a>,
 }
 
-impl Work<'_> {
-    /// The triangles, and the greatest error that remains.
-    fn refine(&mut self) -> (Vec<[u32; 3]>, f64) {
-        let mut worst = 0.0f64;
-        let mut coarse = Vec::new();
-        for t in self.mesh.inside() {
-            self.judge(t, &mut worst, &mut coarse);
+/// A triangle that does not keep the deflection, with its number: it is still there if it still has these corners.
+struct Coarse {
+    gap: Gap,
+    corners: [u32; 3],
+    number: usize,
+}
+
+impl<'a> Work<'a> {
+    fn new(
+        surface: &'a Surface,
+        field: &'a Field,
+        chart: &'a Outline,
+        deflection: f64,
+        net: Net,
+        steps: &'a Steps,
+    ) -> Work<'a> {
+        let (corners, bends, spans) = (Vec::new(), Vec::new(), Vec::new());
+        Work { surface, field, chart, corners, bends, spans, places: chart.uv.clone(), deflection, net, steps }
+    }
+
+    /// The points of the outline, then those inside.
+    fn evaluate(&mut self, outline: &Outline, inner: &[[f64; 2]]) {
+        let count = outline.len() + inner.len();
+        self.corners.reserve(count);
+        self.bends.reserve(count);
+        self.spans.reserve(count);
+        for (&uv, &point) in outline.uv.iter().zip(&outline.points) {
+            self.add(uv, Some(point));
         }
+        // In a row all have one v.
+        let mut row = [f64::NAN; 2];
+        for &[x, y] in inner {
+            if y != row[0] {
+                row = [y, self.field.parameter(1, y)];
+            }
+            self.add([self.field.parameter(0, x), row[1]], None);
+        }
+        self.places.extend(inner);
+    }
+
+    fn add(&mut self, uv: [f64; 2], point: Option<[f64; 3]>) {
+        self.steps.step();
+        let (corner, bend) = corner(self.surface, uv, point);
+        self.corners.push(corner);
+        self.bends.push(bend);
+        self.spans.push(self.field.span(uv));
+    }
+
+    /// The greatest error that remains.
+    fn refine(&mut self) -> f64 {
+        let (mut worst, mut coarse) = (0.0f64, Vec::new());
+        (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
         self.steps.reached(DONE[2]);
         for _ in 0..ROUNDS {
             let known = self.corners.len();
             if coarse.is_empty() || known > MOST || !self.divide(&mut coarse) {
                 break;
             }
-            coarse.retain(|(_, t)| self.mesh.has(*t));
+            coarse.retain(|c| self.net.triangles()[c.number] == c.corners);
             // All triangles that were not there have a new point.
             for point in known as u32..self.corners.len() as u32 {
-                for t in self.mesh.around(point) {
-                    if t.iter().all(|&i| i >= point || i < known as u32) {
-                        self.judge(t, &mut worst, &mut coarse);
+                for number in self.net.around(point) {
+                    if self.net.triangles()[number].iter().all(|&i| i >= point || i < known as u32) {
+                        self.judge(number, &mut worst, &mut coarse);
                     }
                 }
             }
         }
-        (self.mesh.inside(), coarse.iter().fold(worst, |w, (gap, _)| w.max(gap.whole)))
+        coarse.iter().fold(worst, |w, c| w.max(c.gap.whole))
     }
 
     /// Whether a triangle keeps the deflection, or is as good as the border lets it be.
-    fn judge(&self, t: [u32; 3], worst: &mut f64, coarse: &mut Vec<(Gap, [u32; 3])>) {
+    fn judge(&self, number: usize, worst: &mut f64, coarse: &mut Vec<Coarse>) {
         self.steps.step();
+        let t = self.net.triangles()[number];
         let at = t.map(|i| i as usize);
         let (corners, bends) = (at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
         let spans = at.map(|i| self.spans[i]);
@@ -119,7 +203,7 @@ impl Work<'_> {
         if gap.whole > self.deflection {
             let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
             if gap.whole > BESIDE * beside.fold(0.0, f64::max) {
-                coarse.push((gap, t));
+                coarse.push(Coarse { gap, corners: t, number });
             }
         } else {
             *worst = worst.max(gap.whole);
@@ -132,23 +216,22 @@ impl Work<'_> {
     }
 
     /// One more point for each coarse triangle that has no neighbour with a new one. Whether there was any.
-    fn divide(&mut self, coarse: &mut [(Gap, [u32; 3])]) -> bool {
-        coarse.sort_by(|a, b| b.0.whole.total_cmp(&a.0.whole).then(a.1.cmp(&b.1)));
+    fn divide(&mut self, coarse: &mut [Coarse]) -> bool {
+        coarse.sort_by(|a, b| b.gap.whole.total_cmp(&a.gap.whole).then(a.corners.cmp(&b.corners)));
         let mut touched = vec![false; self.corners.len()];
         let mut any = false;
-        for &mut (gap, t) in coarse {
+        for Coarse { gap, corners: t, .. } in coarse {
             if t.iter().filter(|&&i| touched[i as usize]).count() >= 2 {
                 continue;
             }
-            let Some(place) = self.place(&gap, t) else { continue };
-            if self.mesh.insert(place, t[0]) {
+            let Some(place) = self.place(gap, *t) else { continue };
+            self.places.push(place);
+            if self.net.insert(&self.places, t[0]) {
                 t.iter().for_each(|&i| touched[i as usize] = true);
-                let (corner, bend) = corner(self.surface, self.field.on_surface(place), None);
-                self.spans.push(self.field.span(corner.uv));
-                self.corners.push(corner);
-                self.bends.push(bend);
-                self.places.push(place);
+                self.add(self.field.on_surface(place), None);
                 any = true;
+            } else {
+                self.places.pop();
             }
         }
         any

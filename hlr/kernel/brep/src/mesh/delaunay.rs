@@ -1,6 +1,6 @@
 //! Constrained Delaunay triangles of loops and inner points.
 
-use spade::handles::{DirectedEdgeHandle, FixedVertexHandle};
+use spade::handles::DirectedEdgeHandle;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::outline::Outline;
@@ -22,20 +22,19 @@ impl HasPosition for Corner<'_> {
     }
 }
 
-pub struct Delaunay<'a> {
-    mesh: ConstrainedDelaunayTriangulation<Corner<'a>>,
-    steps: &'a Steps<'a>,
+/// Triangles inside loops, by a method that stands loops that touch.
+pub struct Delaunay {
+    /// Counterclockwise.
+    pub triangles: Vec<[u32; 3]>,
     /// Of points of the outline at one place, the first one.
     pub stand_in: Vec<u32>,
-    /// Of all numbers.
-    handles: Vec<FixedVertexHandle>,
-    /// Chords that run to and fro, lower point first: the same is on either side.
-    slits: Vec<[u32; 2]>,
 }
 
-impl<'a> Delaunay<'a> {
+type Mesh<'a> = ConstrainedDelaunayTriangulation<Corner<'a>>;
+
+impl Delaunay {
     /// Inner points are numbered after those of the outline. None where chords cross or points are out of range.
-    pub fn new(outline: &Outline, inner: &[[f64; 2]], steps: &'a Steps<'a>) -> Option<Delaunay<'a>> {
+    pub fn new(outline: &Outline, inner: &[[f64; 2]], steps: &Steps) -> Option<Delaunay> {
         let stand_in = stand_ins(outline);
         let count = outline.len();
         let mut corners = Vec::with_capacity(count + inner.len());
@@ -67,83 +66,50 @@ impl<'a> Delaunay<'a> {
             all.sort_unstable();
             slits = all.chunk_by(|a, b| a == b).filter(|g| g.len() == 2).map(|g| g[0]).collect();
         }
-        // The triangulation keeps the order of corners, which are all in different places.
-        let handles = place
-            .iter()
-            .copied()
-            .chain(corners.len() - inner.len()..corners.len())
-            .map(FixedVertexHandle::from_index)
-            .collect();
         let mut crossed = false;
-        let mesh = ConstrainedDelaunayTriangulation::try_bulk_load_cdt(corners, chords, |_| crossed = true).ok()?;
-        (!crossed).then_some(Delaunay { mesh, steps, stand_in, handles, slits })
+        let mesh = Mesh::try_bulk_load_cdt(corners, chords, |_| crossed = true).ok()?;
+        (!crossed).then(|| Delaunay { triangles: inside(&mesh, &slits), stand_in })
     }
+}
 
-    /// One more inner point near a known one, which gets the next number. False where it is no new one, or lies on a chord.
-    pub fn insert(&mut self, [x, y]: [f64; 2], near: u32) -> bool {
-        use spade::PositionInTriangulation::{OnEdge, OnFace};
-        let (place, near) = (Point2::new(x, y), self.handles[near as usize]);
-        let free = match self.mesh.locate_with_hint(place, near) {
-            OnFace(_) => true,
-            OnEdge(edge) => !self.mesh.directed_edge(edge).is_constraint_edge(),
-            _ => false,
-        };
-        let corner = Corner { place, number: self.handles.len() as u32, steps: self.steps };
-        let Some(handle) = free.then(|| self.mesh.insert_with_hint(corner, near).ok()).flatten() else { return false };
-        self.handles.push(handle);
-        true
+/// `slits`: chords that run to and fro, lower point first, the same on either side.
+///
+/// The triangles inside the loops, counterclockwise: those with an odd number of chords between them and the outside.
+fn inside(mesh: &Mesh, slits: &[[u32; 2]]) -> Vec<[u32; 3]> {
+    const UNKNOWN: u8 = 2;
+    let mut state = vec![UNKNOWN; mesh.num_all_faces()];
+    let mut stack = Vec::new();
+    for hull in mesh.convex_hull() {
+        // The hull's edges have the outside on one hand.
+        let edge = if hull.is_outer_edge() { hull.rev() } else { hull };
+        let index = edge.face().fix().index();
+        if !edge.is_outer_edge() && state[index] == UNKNOWN {
+            state[index] = u8::from(toggles(edge, slits));
+            stack.push(edge.face());
+        }
     }
-
-    /// The triangles around an inner point.
-    pub fn around(&self, number: u32) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let edges = self.mesh.vertex(self.handles[number as usize]).out_edges();
-        edges.filter_map(|e| e.face().as_inner()).map(|f| f.vertices().map(|v| v.data().number))
-    }
-
-    /// Whether a triangle that was one is one still.
-    pub fn has(&self, [a, b, c]: [u32; 3]) -> bool {
-        let [a, b, c] = [a, b, c].map(|i| self.handles[i as usize]);
-        let edge = self.mesh.get_edge_from_neighbors(a, b);
-        edge.and_then(|e| e.opposite_vertex()).is_some_and(|v| v.fix() == c)
-    }
-
-    /// The triangles inside the loops, counterclockwise: those with an odd number of chords between them and the outside.
-    pub fn inside(&self) -> Vec<[u32; 3]> {
-        const UNKNOWN: u8 = 2;
-        let mut state = vec![UNKNOWN; self.mesh.num_all_faces()];
-        let mut stack = Vec::new();
-        for hull in self.mesh.convex_hull() {
-            // The hull's edges have the outside on one hand.
-            let edge = if hull.is_outer_edge() { hull.rev() } else { hull };
-            let index = edge.face().fix().index();
-            if !edge.is_outer_edge() && state[index] == UNKNOWN {
-                state[index] = u8::from(self.toggles(edge));
-                stack.push(edge.face());
+    while let Some(face) = stack.pop() {
+        let Some(face) = face.as_inner() else { continue };
+        let here = state[face.fix().index()];
+        for edge in face.adjacent_edges() {
+            let beyond = edge.rev().face();
+            let index = beyond.fix().index();
+            if !beyond.is_outer() && state[index] == UNKNOWN {
+                state[index] = here ^ u8::from(toggles(edge, slits));
+                stack.push(beyond);
             }
         }
-        while let Some(face) = stack.pop() {
-            let Some(face) = face.as_inner() else { continue };
-            let here = state[face.fix().index()];
-            for edge in face.adjacent_edges() {
-                let beyond = edge.rev().face();
-                let index = beyond.fix().index();
-                if !beyond.is_outer() && state[index] == UNKNOWN {
-                    state[index] = here ^ u8::from(self.toggles(edge));
-                    stack.push(beyond);
-                }
-            }
-        }
-        let inner = self.mesh.inner_faces().filter(|f| state[f.fix().index()] == 1);
-        inner.map(|f| f.vertices().map(|v| v.data().number)).collect()
     }
+    let inner = mesh.inner_faces().filter(|f| state[f.fix().index()] == 1);
+    inner.map(|f| f.vertices().map(|v| v.data().number)).collect()
+}
 
-    fn toggles(&self, edge: DirectedEdgeHandle<Corner, (), spade::CdtEdge<()>, ()>) -> bool {
-        if !edge.is_constraint_edge() {
-            return false;
-        }
-        let [a, b] = edge.vertices().map(|v| v.data().number);
-        self.slits.binary_search(&[a.min(b), a.max(b)]).is_err()
+fn toggles(edge: DirectedEdgeHandle<Corner<'_>, (), spade::CdtEdge<()>, ()>, slits: &[[u32; 2]]) -> bool {
+    if !edge.is_constraint_edge() {
+        return false;
     }
+    let [a, b] = edge.vertices().map(|v| v.data().number);
+    slits.binary_search(&[a.min(b), a.max(b)]).is_err()
 }
 
 /// For each point of a chord the first one at its place.

@@ -68,22 +68,22 @@ pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
     }
 }
 
-const NONE: u32 = u32::MAX;
+pub const NONE: u32 = u32::MAX;
 
 fn start(triangles: &[[u32; 3]], edge: usize) -> u32 {
     triangles[edge / 3][edge % 3]
 }
 
-fn after_in(edge: usize) -> usize {
+pub fn after_in(edge: usize) -> usize {
     edge - edge % 3 + (edge + 1) % 3
 }
 
-fn before_in(edge: usize) -> usize {
+pub fn before_in(edge: usize) -> usize {
     edge - edge % 3 + (edge + 2) % 3
 }
 
 /// a b c and b a d become c d b and d c a.
-fn turn(triangles: &mut [[u32; 3]], twins: &mut [u32], edge: usize, twin: usize) {
+pub fn turn(triangles: &mut [[u32; 3]], twins: &mut [u32], edge: usize, twin: usize) {
     let (a, b) = (start(triangles, edge), start(triangles, twin));
     let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
     let outer = [after_in(edge), before_in(edge), after_in(twin), before_in(twin)].map(|e| twins[e]);
@@ -105,18 +105,36 @@ fn turn(triangles: &mut [[u32; 3]], twins: &mut [u32], edge: usize, twin: usize)
 }
 
 /// For each edge of each triangle the one that runs along it in the other sense.
-fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
-    let mut keyed: Vec<(u32, u32, u32)> = Vec::with_capacity(3 * triangles.len());
-    for edge in 0..3 * triangles.len() {
-        let (a, b) = (start(triangles, edge), start(triangles, after_in(edge)));
-        keyed.push((a.min(b), a.max(b), edge as u32));
+pub fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
+    let count = triangles.iter().flatten().max().map_or(0, |&i| i as usize + 1);
+    let edges = 0..3 * triangles.len();
+    let ends = |edge: usize| (start(triangles, edge), start(triangles, after_in(edge)));
+    // By their lower ends, then by their upper ones.
+    let mut first = vec![0u32; count + 1];
+    for edge in edges.clone() {
+        let (a, b) = ends(edge);
+        first[a.min(b) as usize + 1] += 1;
     }
-    keyed.sort_unstable();
-    let mut twins = vec![NONE; keyed.len()];
-    for pair in keyed.windows(2) {
-        if (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1) {
-            twins[pair[0].2 as usize] = pair[1].2;
-            twins[pair[1].2 as usize] = pair[0].2;
+    for i in 0..count {
+        first[i + 1] += first[i];
+    }
+    let mut next = first.clone();
+    let mut sorted = vec![(0u32, 0u32); edges.len()];
+    for edge in edges.clone() {
+        let (a, b) = ends(edge);
+        let place = &mut next[a.min(b) as usize];
+        sorted[*place as usize] = (a.max(b), edge as u32);
+        *place += 1;
+    }
+    let mut twins = vec![NONE; edges.len()];
+    for w in first.windows(2) {
+        let part = &mut sorted[w[0] as usize..w[1] as usize];
+        part.sort_unstable();
+        for pair in part.windows(2) {
+            if pair[0].0 == pair[1].0 {
+                twins[pair[0].1 as usize] = pair[1].1;
+                twins[pair[1].1 as usize] = pair[0].1;
+            }
         }
     }
     twins

@@ -8,11 +8,13 @@ mod crossing;
 mod delaunay;
 mod flip;
 mod lattice;
+mod net;
 mod outline;
 mod plane;
 mod ruled;
 mod size;
 mod steps;
+mod strips;
 mod sweep;
 
 use crate::geometry::surface::Surface;

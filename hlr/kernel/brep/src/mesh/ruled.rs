@@ -49,7 +49,7 @@ fn upright(surface: &Surface, outline: &Outline, swapped: bool, deflection: f64,
             let size = [0, 1].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
             let flat = outline.mapped(|p| [(p[0] - low[0]) / size[0], FLAT * (p[1] - low[1]) / size[1]]);
             let mesh = Delaunay::new(&flat, &[], steps)?;
-            (mesh.inside(), mesh.stand_in)
+            (mesh.triangles, mesh.stand_in)
         }
     };
     let error = |a: u32, b: u32| {

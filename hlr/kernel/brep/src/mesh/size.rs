@@ -16,13 +16,15 @@ const FEWEST: usize = 4;
 const MOST: usize = 256;
 /// Within one cell: spacings that differ by more ask for finer cells.
 const STEADY: f64 = 1.4;
+/// The same along the meridians of a surface of revolution, where cells are few.
+const STEADY_ROUND: f64 = 1.1;
 /// Of the deflection: what the lattice aims at, whose triangles are not quite equilateral.
 const FILL: f64 = 0.85;
 /// Triangles are at most so many times longer than wide where the surface bends in one direction only.
 const LONGEST: f64 = 12.0;
 /// Of the angle asked for: between the normals at the ends of an edge inside the face. Neighbouring triangles, whose middles
 /// are nearer to one another, differ by less than the angle.
-const TURN: f64 = 1.1;
+const TURN: f64 = 1.03;
 /// Radians between the directions of coordinate lines at the ends of an edge: about a pole.
 const FAN: f64 = 0.8;
 /// In deflections: what would be seen by shorter edges is less than the deflection.
@@ -62,14 +64,15 @@ impl Field {
         let mut parts = [0, 1].map(|k| if round && k == 0 { 1 } else { FEWEST.div_ceil(knots[k].len() + 1) });
         loop {
             let lines = [0, 1].map(|k| subdivided(&knots[k], low[k], high[k], parts[k]));
-            let needs = sampled(surface, &lines, deflection, angle, steps)?;
+            let needs = sampled(surface, &lines, round, deflection, angle, steps)?;
             let counts = lines.each_ref().map(|l| l.len() - 1);
             let points: f64 = needs.iter().map(Need::points).sum();
             let rough = [0, 1].map(|k| needs.iter().fold(1.0f64, |m, n| m.max(n.rough[k])));
             let mut finer = false;
+            let steady = if round { STEADY_ROUND } else { STEADY };
             for k in 0..2 {
                 let fits = 2 * counts[k] <= MOST && (4 * counts[0] * counts[1]) as f64 <= points.max(64.0);
-                if rough[k] > STEADY && fits && !(round && k == 0) {
+                if rough[k] > steady && fits && !(round && k == 0) {
                     parts[k] *= 2;
                     finer = true;
                 }
@@ -88,9 +91,14 @@ impl Field {
     }
 
     pub fn on_surface(&self, xy: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| self.parameter(k, xy[k]))
+    }
+
+    /// u (0) or v (1) of a place in the chart, from x or y.
+    pub fn parameter(&self, k: usize, x: f64) -> f64 {
         match self.scale {
-            Some(scale) => [xy[0] / scale[0], xy[1] / scale[1]],
-            None => [0, 1].map(|k| mapped(&self.chart[k], &self.lines[k], xy[k])),
+            Some(scale) => x / scale[k],
+            None => mapped(&self.chart[k], &self.lines[k], x),
         }
     }
 
@@ -106,6 +114,11 @@ impl Field {
     /// Spacing in the chart within a cell.
     pub fn in_cell(&self, i: usize, j: usize) -> f64 {
         self.spacing[i * self.counts()[1] + j]
+    }
+
+    /// The least spacing in the chart.
+    pub fn least(&self) -> f64 {
+        self.spacing.iter().fold(f64::INFINITY, |m, h| m.min(*h))
     }
 
     /// Spacing in the chart at a place in it.
@@ -143,8 +156,15 @@ fn subdivided(knots: &[f64], low: f64, high: f64, parts: usize) -> Vec<f64> {
     out
 }
 
-/// The least spacings of each cell's corners and middle.
-fn sampled(surface: &Surface, lines: &[Vec<f64>; 2], deflection: f64, angle: f64, steps: &Steps) -> Option<Vec<Need>> {
+/// The least spacings of each cell's corners and middle. `round`: they are the same for all u.
+fn sampled(
+    surface: &Surface,
+    lines: &[Vec<f64>; 2],
+    round: bool,
+    deflection: f64,
+    angle: f64,
+    steps: &Steps,
+) -> Option<Vec<Need>> {
     let counts = [0, 1].map(|k| lines[k].len() - 1);
     let whole = [0, 1].map(|k| lines[k][counts[k]] - lines[k][0]);
     let at = |u: f64, v: f64| {
@@ -156,7 +176,7 @@ fn sampled(surface: &Surface, lines: &[Vec<f64>; 2], deflection: f64, angle: f64
     let mut out = Vec::with_capacity(counts[0] * counts[1]);
     let mut left = row(lines[0][0]);
     for u in lines[0].windows(2) {
-        let right = row(u[1]);
+        let right = if round { left.clone() } else { row(u[1]) };
         for (j, v) in lines[1].windows(2).enumerate() {
             let four = [left[j], left[j + 1], right[j], right[j + 1]];
             let middle = at(0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1]));
