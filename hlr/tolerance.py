@@ -65,7 +65,7 @@ OUTLINE_CHORD = 0.2
 """In deflections: how far the polyline of an outline may stay off the curve."""
 
 OUTLINE_LIFT = 2.5
-"""In deflections: facets are off by two at most, where they have been refined, the outline's chords by a little."""
+"""In deflections: facets are off by a half, those of OpenCASCADE's mesher by two, the outline's chords by a little."""
 
 OUTLINE_SPARE = 0.3
 """In deflections: what an outline is moved by where no facet stands out beyond it. Its own chords may be off by 0.2."""
