@@ -109,70 +109,7 @@ def visibility(
 ) -> dict[str, Any]: ...
 def curve_points(kind: Bytes, offsets: Ints, values: Floats, which: Ints, parameters: Floats) -> Floats: ...
 def surface_points(kind: Bytes, offsets: Ints, values: Floats, which: Ints, uv: Floats) -> Floats: ...
-def true_lines(
-    kind: Bytes,
-    ranges: Floats,
-    offsets: Ints,
-    values: Floats,
-    places: Floats,
-    projection: tuple[tuple[float, float, float, float], ...],
-    line_curve: Ints,
-    line_place: Ints,
-    line_offsets: Ints,
-    flat_points: Floats,
-    space_points: Floats,
-    line_chain: Ints,
-    line_visible: Bools,
-    line_border: Bytes,
-    line_bulge: Floats,
-    eye: tuple[float, float, float],
-    away: tuple[float, float, float],
-    accuracy: float,
-    model: float,
-    contact: float,
-    threads: int,
-) -> dict[str, Any]: ...
-def arc_rows(arcs: Floats, ends: Floats, places: int, accuracy: float, cubic: bool) -> dict[str, Any]: ...
-
-_Layer = tuple[
-    npt.NDArray[np.int64],
-    Bytes,
-    Ints,
-    npt.NDArray[np.int64],
-    npt.NDArray[np.int64],
-    Bools,
-]
-
-def path_data(layer: _Layer, places: int, as_pdf: bool) -> tuple[bytes, npt.NDArray[np.int64]]: ...
-def dashes(layer: _Layer, visible: list[_Layer], places: int, dash: float, gap: float) -> list[tuple[str, str]]: ...
 def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
-def linework(
-    flat_points: Floats,
-    space_points: Floats,
-    perspective: bool,
-    eye: tuple[float, float, float],
-    away: tuple[float, float, float],
-    edges: Ints,
-    piece_edge: Ints,
-    piece_t0: Floats,
-    piece_t1: Floats,
-    piece_state: Bytes,
-    chain_offsets: Ints,
-    chain_edges: Ints,
-    chain_reversed: Bools,
-    chain_rank: Bytes,
-    chain_noisy: Bools,
-    chain_bare: Bools,
-    accuracy: float,
-    short: float,
-    flip: float,
-    stub: float,
-    width: float,
-    under: float,
-    flat_tolerance: float,
-    space_tolerance: float,
-    threads: int = 0,
-) -> dict[str, Any]: ...
 def silhouettes(
     points: Floats,
     triangles: Ints,
@@ -210,6 +147,208 @@ Lens = tuple[
     tuple[int, int],
 ]
 """right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: `src/preview/lens.rs`."""
+
+_Vector = tuple[float, float, float]
+
+class Camera:
+    """Unit vectors in model coordinates, direction from the object toward the viewer; eye: of a perspective view, and
+    the distance of the image plane from it; scale: millimetres on paper per model unit in the image plane."""
+
+    def __init__(
+        self, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None, scale: float
+    ) -> None: ...
+
+class Chains:
+    """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
+
+    chains: offsets, edges, reversed, kind, part, index, face, other of `hlr.scene.scene.Chains`; straight (c,) too;
+    drawn: per EdgeClass, whether chains of it are drawn; points: how many there are; mesh: edges, offsets, incident,
+    edge_group, triangle_part, triangle_face of the scene; has_faces (parts,); groups: how many; facing (t,) int8 and
+    role (e,) uint8 as the visibility pass has them; found (s,): edges drawn or contours, ascending. ValueError where
+    they do not fit.
+    """
+
+    def __init__(
+        self,
+        chains: tuple[Ints, Ints, Bools, Bytes, Ints, Ints, Ints, Ints],
+        straight: Bools,
+        drawn: list[bool],
+        points: int,
+        mesh: tuple[Ints, Ints, Ints, Ints, Ints, Ints],
+        has_faces: Bools,
+        groups: int,
+        facing: npt.NDArray[np.int8],
+        role: Bytes,
+        found: Ints,
+    ) -> None: ...
+    @property
+    def offsets(self) -> Ints:
+        """(c + 1,) into edges and reversed."""
+
+    @property
+    def edges(self) -> Ints:
+        """(k,) mesh edges."""
+
+    @property
+    def reversed(self) -> Bools:
+        """(k,) walked from second to first vertex."""
+
+    @property
+    def first(self) -> Ints:
+        """(c,) the first mesh edge of each chain."""
+
+    @property
+    def kind(self) -> Bytes:
+        """(c,) EdgeClass."""
+
+    @property
+    def part(self) -> Ints:
+        """(c,)"""
+
+    @property
+    def edge(self) -> Ints:
+        """(c,) in the part's TopExp edge map, -1 for none."""
+
+    @property
+    def noisy(self) -> Bools:
+        """(c,) the contour of a mesh, which may turn to and fro by an edge."""
+
+    @property
+    def straight(self) -> Bools:
+        """(c,) known to be, so that no curve is looked for."""
+
+class Cut:
+    """Lines on paper: chained, of coincident ones one, without what is shorter than the accuracy, thinned out.
+
+    projected (n, 3) as Camera.project gives it; points (n, 3) in the model; edges (e, 2); pieces: edge, start, end and
+    state of the visibility pass, by edge; rank (c,) uint8: of coincident lines the lower sixteen is drawn, of equal
+    ones the nearer, then the lower; bare (c,): of a mesh without faces; lengths: accuracy, short, flip, stub, width,
+    under and thin_paper of `Tolerances`, millimetres on paper, and thin_model, in the model; hidden: whether hidden
+    lines are drawn. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    """
+
+    def __init__(
+        self,
+        camera: Camera,
+        projected: Floats,
+        points: Floats,
+        edges: Ints,
+        pieces: tuple[Ints, Floats, Floats, Bytes],
+        chains: Chains,
+        rank: Bytes,
+        bare: Bools,
+        lengths: tuple[float, float, float, float, float, float, float, float],
+        hidden: bool,
+        threads: int,
+    ) -> None: ...
+    def __len__(self) -> int:
+        """How many lines will be drawn."""
+
+    @property
+    def chain(self) -> Ints:
+        """(lines,) the chain of each, also of hidden ones that are there only for others to end on."""
+
+    def finished(
+        self,
+        known: bool,
+        records: tuple[Bytes, Floats, Ints, Floats],
+        places: Floats,
+        curve: Ints,
+        place: Ints,
+        bulge: Floats,
+        lengths: tuple[float, float, float, float],
+        threads: int,
+    ) -> tuple[Lines, tuple[float, float]]:
+        """The lines on their curves, sorted by part, kind, edge and face, and their lower left corner; only once.
+
+        known: there may be curves; records: kind, range, offsets and values of `Curves`; places (p, 3, 4); curve (c,)
+        of each chain, -1 for none, place (c,) and bulge (c,), millimetres on paper; lengths: the accuracy, its share
+        that points along circles may be off, and in the model what closes a curve and what touches.
+        """
+
+class Lines:
+    """The lines of a drawing.
+
+    kind (n,) uint8, numbers of EdgeClass; visible (n,) bool; ties (n, 4) int32: part, edge, face, second part, -1 for
+    none; offsets (n + 1,) int32 into points (p, 2), millimetres on paper with y up, and points3 (p, 3), of the model;
+    form (n,) uint8: 0 polyline, 1 straight, 2 arc, 3 and 4 Bezier curves of degree 2 and 3; data_offsets (n + 1,) int32
+    into data: of an arc centre, two axes and two angles, of curves their points. ValueError where they do not fit.
+    """
+
+    def __init__(
+        self,
+        kind: Bytes,
+        visible: Bools,
+        ties: Ints,
+        offsets: Ints,
+        points: Floats,
+        points3: Floats,
+        form: Bytes,
+        data_offsets: Ints,
+        data: Floats,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def bounds(self) -> tuple[float, float, float, float] | None:
+        """x0, y0, x1, y1 around all lines, millimetres; None where there are none."""
+
+    def columns(self) -> dict[str, Any]:
+        """What the constructor takes, by name."""
+
+    def kinds(self) -> Bytes:
+        """(n,) numbers of EdgeClass."""
+
+    def visible(self) -> Bools:
+        """(n,)"""
+
+    def circles(self) -> int:
+        """How many creases and borders without an edge lie on a curve: those of meshes, on circles."""
+
+    def layers(self, order: list[int], places: int, accuracy: float, cubic: bool) -> list[Layer]:
+        """Layers of pen strokes, rounded to 10**-places millimetres; hidden ones first, of each the kinds in `order`.
+
+        accuracy: millimetres. cubic: arcs and quadratic curves become cubic. ValueError where a point is not finite.
+        """
+
+    def rows(self, places: int, accuracy: float, cubic: bool) -> tuple[dict[str, Any], npt.NDArray[np.int64]]:
+        """Rows of all lines, as `hlr.writers.strokes.Rows` has them, and how many each has. ValueError as in layers."""
+
+class Layer:
+    """The pen strokes of one line class and visibility, in grid steps, y up."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def visible(self) -> bool: ...
+    @property
+    def starts(self) -> npt.NDArray[np.int64]:
+        """(s + 1,) where each stroke starts in the rows; each but a whole circle has at least two."""
+
+    @property
+    def closed(self) -> Bools:
+        """(s,); the last point of a loop of lines is left out."""
+
+    @property
+    def ties(self) -> Ints:
+        """(s, 3) part, edge and second part of each stroke, -1 for none."""
+
+    def rows(self) -> dict[str, Any]:
+        """The rows, as `hlr.writers.strokes.Rows` has them."""
+
+    def svg(self, pattern: tuple[float, float] | None = None, visible: Sequence[Layer] = ()) -> bytes:
+        """One element per stroke; those of one part after another are one group.
+
+        pattern: dash and gap in millimetres, fitted to each stroke; visible: layers that dashed lines may go on from.
+        ValueError for a pattern that is not positive.
+        """
+
+    def pdf(self, pattern: tuple[float, float] | None = None, visible: Sequence[Layer] = ()) -> bytes:
+        """One painted path per stroke, for a layer of cubic curves; arguments as in svg."""
+
+    def moved(self, x: int, y: int) -> Layer:
+        """The same, moved by grid steps."""
+
+    def mirrored(self) -> Layer:
+        """The same with y turned around."""
 
 class BrepModel:
     """Parts, faces and edges of an OpenCASCADE dump of a compound, each underlying face and edge once.

@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any, Literal, NamedTuple, overload
 import numpy as np
 import numpy.typing as npt
 
-from hlr.curve import Arc, Bezier, Curve, arc_bounds, bezier_bounds
+from hlr.curve import Curve
 from hlr.notes import Note
 from hlr.values import ByValue
 
@@ -171,20 +171,6 @@ class DrawnView:
     distance: float | None = None
 
 
-def bounds_of(lines: Sequence[Line]) -> Bounds:
-    """Around all lines; all zero where there are none."""
-    if not lines:
-        return Bounds(0.0, 0.0, 0.0, 0.0)
-    boxes = [line.points for line in lines if line.curve is None]
-    arcs = [line.curve for line in lines if isinstance(line.curve, Arc)]
-    chains = [line.curve for line in lines if isinstance(line.curve, Bezier)]
-    boxes += [arc_bounds(arcs)] if arcs else []
-    boxes += [bezier_bounds(chains)] if chains else []
-    points = np.concatenate(boxes)
-    low, high = points.min(axis=0), points.max(axis=0)
-    return Bounds(float(low[0]), float(low[1]), float(high[0]), float(high[1]))
-
-
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Drawing(ByValue):
     """Visible and hidden lines of one view. points = (P.right, P.up) * unit * scale - origin.
@@ -212,7 +198,7 @@ class Drawing(ByValue):
     unit: float
     up_axis: tuple[tuple[float, float, float], ...]
     parts: tuple[DrawnPart, ...]
-    lines: tuple[Line, ...] = field(hash=False)
+    lines: Sequence[Line] = field(hash=False)
     notes: tuple[Note, ...] = ()
     counters: Mapping[str, int] = field(default_factory=dict, hash=False)
     timings: Mapping[str, float] = field(default_factory=dict, compare=False)
@@ -227,7 +213,7 @@ class Drawing(ByValue):
         from hlr.writers.style import ratio
 
         notes = f", {len(self.notes)} note{'s' if len(self.notes) > 1 else ''}" if self.notes else ""
-        visible = sum(line.visible for line in self.lines)
+        visible = len(self.visible)
         return (
             f"<Drawing {self.source}, {self.view.name}, {ratio(self.scale)}, "
             f"{visible} visible and {len(self.lines) - visible} hidden lines{notes}>"
@@ -246,6 +232,8 @@ class Drawing(ByValue):
     @property
     def bounds(self) -> Bounds:
         """Around all lines; all zero for an empty drawing."""
+        from hlr.lines import bounds_of
+
         return bounds_of(self.lines)
 
     @property

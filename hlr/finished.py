@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections.abc import Sequence
 from time import perf_counter
+
+import numpy as np
 
 from hlr.clock import Clock, lap
 from hlr.drawing import Accuracy, Bounds, Drawing, DrawnPart, DrawnView, Fill, Line
 from hlr.fitting import Staged
+from hlr.lines import held
 from hlr.notes import Note
 from hlr.plan.options import Options
 from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
-from hlr.source.model import Source
+from hlr.source.model import EdgeClass, Source
 from hlr.view.camera import Camera
 from hlr.visibility.segments import Segments
 from hlr.window.cut import cut
 from hlr.window.frame import Frame
 
-Lines = tuple[tuple[Line, ...], tuple[float, float], int]
+Drawn = tuple[Sequence[Line], tuple[float, float], int]
 """Lines, their origin, and how many curves were sought: as `hlr.linework.lines.draw_lines` gives them."""
 
 
@@ -30,7 +33,7 @@ def finished(
     options: Options,
     plan: Plan,
     segments: Segments,
-    drawn: Lines,
+    drawn: Drawn,
     clock: Clock,
 ) -> Drawing:
     """The drawing of one view of a scene; seen: what of it is before the camera, with its outlines."""
@@ -96,23 +99,21 @@ STEPS = {
 
 
 def _counters(
-    seen: Scene, segments: Segments, lines: tuple[Line, ...], fill: Fill | None, sought: int, plan: Plan
+    seen: Scene, segments: Segments, lines: Sequence[Line], fill: Fill | None, sought: int, plan: Plan
 ) -> dict[str, int]:
-    kinds = Counter(line.kind for line in lines)
-    hidden = sum(not line.visible for line in lines)
+    kept = held(lines)
+    kinds = np.bincount(kept.kinds(), minlength=len(EdgeClass)).tolist()
     faces = 0 if fill is None else len(fill.faces) - 1
     return {
         **segments.counters,
         "lines": len(lines),
         "outlines": 0 if seen.silhouettes is None else len(seen.silhouettes.curves.kind),
         "divided_points": len(seen.points) if plan.divide else 0,
-        "hidden_lines": hidden,
-        "smooth_lines": kinds["smooth"],
-        "seam_lines": kinds["seam"],
-        "intersection_lines": kinds["intersection"],
-        "circles": sum(line.curve is not None and line.edge is None and line.kind in _CREASES for line in lines)
-        if plan.step > 0.0
-        else 0,
+        "hidden_lines": len(lines) - int(np.count_nonzero(kept.visible())),
+        "smooth_lines": kinds[EdgeClass.SMOOTH],
+        "seam_lines": kinds[EdgeClass.SEAM],
+        "intersection_lines": kinds[EdgeClass.INTERSECTION],
+        "circles": kept.circles() if plan.step > 0.0 else 0,
         "curves_sought": sought,
         "filled_faces": faces,
         "coloured_faces": faces,
@@ -120,10 +121,7 @@ def _counters(
     }
 
 
-_CREASES = ("sharp", "boundary")
-
-
-def _empty(lines: tuple[Line, ...], fill: Fill | None) -> tuple[Note, ...]:
+def _empty(lines: Sequence[Line], fill: Fill | None) -> tuple[Note, ...]:
     painted = fill is not None and len(fill.part) > 0
     return () if lines or painted else (Note("nothing-in-view", "nothing of the model lies in this view."),)
 

@@ -62,8 +62,8 @@ def plan_views(
             with view.planner.deciding():
                 flat = view.camera.project(seen_of.points)[:, :2] * view.at.per_model
             foreseen(flat, Bounds(*options.window), view.planner)
-        plan = decide(seen_of, view.camera, options, view.at.tolerances, view.planner)
-        out.append(ViewPlan(view.camera.name, plan.decisions))
+        decide(seen_of, view.camera, options, view.at.tolerances, view.planner)
+        out.append(ViewPlan(view.camera.name, view.planner.decisions()))
     return out
 
 

@@ -27,7 +27,19 @@ STAGES = (
 )
 
 # What every stage may import: no stage, and none of them imports one.
-COMMON = ("distinct", "endings", "cache", "errors", "tolerance", "curve", "clock", "drawing", "picture", "_kernel")
+COMMON = (
+    "distinct",
+    "endings",
+    "cache",
+    "errors",
+    "tolerance",
+    "curve",
+    "clock",
+    "drawing",
+    "lines",
+    "picture",
+    "_kernel",
+)
 
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")

@@ -18,8 +18,7 @@ from hlr.compat.cadquery_options import DEFAULT_DIRECTION, PictureOptions
 from hlr.compat.viewport import Picture
 from hlr.drawing import Drawing
 from hlr.writers.number import number
-from hlr.writers.strokes import Layer, strokes
-from hlr.writers.svg import paths
+from hlr.writers.strokes import strokes
 
 POINTS_PER_PIXEL = 0.75
 """A pixel of CSS is a 96th of an inch."""
@@ -60,11 +59,11 @@ class Page:
         """Whether the axes are drawn: they fit one direction only."""
         return self.options.showAxes and self.options.projectionDir == DEFAULT_DIRECTION
 
-    def layers(self, cubic: bool) -> tuple[list[Layer], int]:
-        """Layers with coordinates of the projected model, and their decimals."""
+    def layers(self, cubic: bool) -> list[_kernel.Layer]:
+        """Layers with coordinates of the projected model."""
         found = strokes(self.drawing, cubic=cubic)
-        steps = np.rint(self.shift * 10.0**found.places).astype(np.int64)
-        return [replace(layer, points=layer.points + steps) for layer in found.layers], found.places
+        x, y = np.rint(self.shift * 10.0**found.places).astype(np.int64).tolist()
+        return [layer.moved(x, y) for layer in found.layers]
 
 
 def lay_out(picture: Picture, options: PictureOptions) -> Page:
@@ -90,9 +89,9 @@ def lay_out(picture: Picture, options: PictureOptions) -> Page:
 
 def to_svg(page: Page) -> bytes:
     """The picture as SVG, in the groups of CadQuery's template."""
-    layers, places = page.layers(cubic=False)
+    layers = page.layers(cubic=False)
     # The writer turns y down, and this picture's transform does so as well.
-    upright = [_mirrored(layer) for layer in layers]
+    upright = [layer.mirrored() for layer in layers]
     options, scale, width = page.options, f"{page.unit_scale:.12g}", f"{page.stroke_width:.9g}"
     out = [
         '<?xml version="1.0" encoding="UTF-8" standalone="no"?>\n'
@@ -108,21 +107,13 @@ def to_svg(page: Page) -> bytes:
         out.append(f'<g stroke="rgb({",".join(str(v) for v in colors[visible])})" fill="none"{dash}>\n')
         for layer in upright:
             if layer.visible == visible:
-                out.append(f'<g class="{layer.kind}">\n{"".join(paths(layer, places))}</g>\n')
+                out.append(f'<g class="{layer.kind}">\n{layer.svg().decode("ascii")}</g>\n')
         out.append("</g>\n")
     out.append("</g>\n")
     if page.axes:
         out.append(_axes_svg(page.height))
     out.append("</svg>\n")
     return "".join(out).encode("utf-8")
-
-
-def _mirrored(layer: Layer) -> Layer:
-    """With y turned around: arcs turn the other way."""
-    shapes = layer.shapes.copy()
-    shapes[:, 2] *= -1
-    shapes[:, 4] = 1 - shapes[:, 4]
-    return replace(layer, points=layer.points * np.array([1, -1]), shapes=shapes)
 
 
 def _axes_svg(height: float) -> str:
@@ -138,7 +129,7 @@ def to_pdf(page: Page) -> bytes:
     """The same picture as a PDF page; a pixel is three quarters of a point."""
     import pydyf
 
-    layers, places = page.layers(cubic=True)
+    layers = page.layers(cubic=True)
     options, k = page.options, POINTS_PER_PIXEL
     # Points of the page, y up from its lower edge, by one matrix from the projected model.
     scale = page.unit_scale * k
@@ -151,8 +142,7 @@ def to_pdf(page: Page) -> bytes:
         out.append(f"{' '.join(_real(v / 255.0) for v in colors[visible])} RG {dash}\n".encode("ascii"))
         for layer in layers:
             if layer.visible == visible:
-                data, _ = _kernel.path_data(layer.arrays, places, True)
-                out.append(data)
+                out.append(layer.pdf())
     out.append(b"Q\n")
     if page.axes:
         out.append(_axes_pdf())

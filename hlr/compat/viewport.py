@@ -111,7 +111,7 @@ def _sewn(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
     from hlr.source.brep import BrepSource
 
     if not isinstance(opened, BrepSource) or all(line.kind != "smooth" for line in drawing.lines):
-        return drawing.lines
+        return tuple(drawing.lines)
     from OCP.BRep import BRep_Tool
     from OCP.GeomAbs import GeomAbs_Shape
 

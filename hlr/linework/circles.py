@@ -19,8 +19,9 @@ from dataclasses import dataclass
 from math import acos, atan2, cos, degrees, fsum, hypot, isfinite, sqrt, tau
 
 import numpy as np
+import numpy.typing as npt
 
-from hlr.linework.outlines import LineChains
+from hlr import _kernel
 from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
 from hlr.source.geometry import ELLIPSE, Record, packed
@@ -56,19 +57,21 @@ class Circles:
 
 
 def circles(
-    scene: Scene, plan: Plan, chains: LineChains, camera: Camera, per_model: float, tolerances: Tolerances
+    scene: Scene, plan: Plan, chains: _kernel.Chains, camera: Camera, per_model: float, tolerances: Tolerances
 ) -> Circles | None:
     """The circles along creases and borders of meshes; None where there are none, or none were asked for."""
     if plan.step <= 0.0:
         return None
     bare = np.array([p.faces == 0 for p in scene.parts], bool)[chains.part]
     wanted = bare & np.isin(chains.kind, (EdgeClass.SHARP, EdgeClass.BOUNDARY))
-    wanted &= np.diff(chains.offsets) >= FEWEST - 1
-    number = np.full(len(chains.kind), -1, np.int32)
+    offsets, walked, backward = chains.offsets, chains.edges, chains.reversed
+    wanted &= np.diff(offsets) >= FEWEST - 1
+    number = np.full(len(wanted), -1, np.int32)
     records: list[Record] = []
     bulges: list[float] = []
     for chain in np.flatnonzero(wanted).tolist():
-        points = _vertices(scene, chains, chain)
+        span = slice(offsets[chain], offsets[chain + 1])
+        points = _vertices(scene, scene.edges[walked[span]], backward[span])
         if points is None or _bent(points, 2.0 * plan.step):
             continue
         on_paper = per_model * _magnified(camera, points)
@@ -81,11 +84,9 @@ def circles(
     return Circles(packed(records), number, np.array(bulges)) if records else None
 
 
-def _vertices(scene: Scene, chains: LineChains, chain: int) -> Floats | None:
-    """(n, 3) along a chain, the first one again at the end of a loop; None where something was clipped away."""
-    span = slice(chains.offsets[chain], chains.offsets[chain + 1])
-    edges = scene.edges[chains.edges[span]]
-    backward = chains.reversed[span]
+def _vertices(scene: Scene, edges: Ints, backward: npt.NDArray[np.bool_]) -> Floats | None:
+    """(n, 3) along a walk over edges (k, 2), the first one again at the end of a loop; None where something was clipped
+    away."""
     start = np.where(backward, edges[:, 1], edges[:, 0])
     end = np.where(backward, edges[:, 0], edges[:, 1])
     if (start[1:] != end[:-1]).any():

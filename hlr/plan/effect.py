@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any
 
@@ -120,6 +120,18 @@ def everything_on() -> Iterator[None]:
         _FORCED.reset(before)
 
 
+class _Made:
+    """A decision while stages still add to what it cost."""
+
+    __slots__ = ("counts", "on", "reason", "seconds")
+
+    def __init__(self, on: bool, reason: str, seconds: float | None, counts: Mapping[str, int]) -> None:
+        self.on, self.reason, self.seconds, self.counts = on, reason, seconds, counts
+
+
+_NOTHING = Facts()
+
+
 class Planner:
     """Decides the effects of one table when it is asked, and remembers what was decided and what it cost."""
 
@@ -128,7 +140,7 @@ class Planner:
         self._rows = {effect.name: effect for effect in table}
         self._options = options
         self._force = _FORCED.get() if force is None else force
-        self._decided: dict[str, Decision] = {}
+        self._decided: dict[str, _Made] = {}
         self._took = 0.0
 
     @property
@@ -136,18 +148,20 @@ class Planner:
         """Whether everything that the scene decides is on."""
         return self._force
 
-    def on(self, name: str, facts: Facts | None = None) -> bool:
+    def on(self, name: str, facts: Facts = _NOTHING) -> bool:
         """Whether the effect is needed; decided anew each time."""
-        with self.deciding():
-            effect = self._rows[name]
-            on, reason = effect.needed(facts or Facts(), self._options)
-            if not on and self._force and effect.origin == SCENE:
-                on, reason = True, f"forced; else off: {reason}"
-            made, before = Decision(name, on, effect.origin, reason), self._decided.get(name)
+        begin = perf_counter()
+        effect = self._rows[name]
+        on, reason = effect.needed(facts, self._options)
+        if not on and self._force and effect.origin == SCENE:
+            on, reason = True, f"forced; else off: {reason}"
+        made = self._decided.get(name)
+        if made is None:
+            self._decided[name] = _Made(on, reason, None, {})
+        else:
             # What it has cost so far stays: a model may be meshed twice.
-            self._decided[name] = (
-                made if before is None else replace(made, seconds=before.seconds, counts=before.counts)
-            )
+            made.on, made.reason = on, reason
+        self._took += perf_counter() - begin
         return on
 
     @contextmanager
@@ -162,9 +176,9 @@ class Planner:
     def spent(self, name: str, seconds: float | None = None, **counts: int) -> None:
         """Add to what a decided effect has cost."""
         known = self._decided[name]
-        total = known.seconds if seconds is None else (known.seconds or 0.0) + seconds
-        sums = {key: known.counts.get(key, 0) + value for key, value in counts.items()}
-        self._decided[name] = replace(known, seconds=total, counts={**known.counts, **sums})
+        if seconds is not None:
+            known.seconds = (known.seconds or 0.0) + seconds
+        known.counts = {**known.counts, **{key: known.counts.get(key, 0) + value for key, value in counts.items()}}
 
     @contextmanager
     def timed(self, name: str) -> Iterator[None]:
@@ -177,12 +191,16 @@ class Planner:
 
     def revised(self, name: str, on: bool, reason: str) -> None:
         """What turned out otherwise while it was done."""
-        self._decided[name] = replace(self._decided[name], on=on, reason=reason)
+        made = self._decided[name]
+        made.on, made.reason = on, reason
 
     def fork(self) -> Planner:
         """A planner for one view, which knows what was decided for all."""
-        other = Planner(tuple(self._rows.values()), self._options, self._force)
-        other._decided = dict(self._decided)
+        other = Planner((), self._options, self._force)
+        other._rows = self._rows
+        other._decided = {
+            name: _Made(made.on, made.reason, made.seconds, made.counts) for name, made in self._decided.items()
+        }
         other._took = self._took
         return other
 
@@ -194,7 +212,8 @@ class Planner:
             made = self._decided.get(name)
             if made is not None:
                 counts = {c: int(found.get(c, made.counts.get(c, 0))) for c in effect.counters}
-                out.append(replace(made, counts=counts, seconds=made.seconds if made.on else None))
+                seconds = made.seconds if made.on else None
+                out.append(Decision(name, made.on, effect.origin, made.reason, seconds, counts))
         out.append(Decision(PLAN, True, ASKED, "to know all this", self._took))
         return tuple(out)
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.plan.effect import Decision, Facts, Planner
+from hlr.plan.effect import Facts, Planner
 from hlr.plan.options import Options
 from hlr.plan.table import DRAWING
 from hlr.scene.groups import touching
@@ -39,7 +39,6 @@ class Plan:
     crossings, piercings, pyramid: which steps of the visibility pass are gone through
     straight (c,) bool: per chain of the scene, between two planes: no curve has to be looked for
     every_curve  but all are read: for measuring what that would cost
-    decisions why
     """
 
     role: npt.NDArray[np.uint8]
@@ -57,7 +56,6 @@ class Plan:
     pyramid: bool
     straight: npt.NDArray[np.bool_]
     every_curve: bool
-    decisions: tuple[Decision, ...]
 
 
 LIFT = 3.0
@@ -137,7 +135,6 @@ def decide(
         pyramid=planner.on("depth pyramid", facts),
         straight=straight,
         every_curve=every and planner.forced,
-        decisions=planner.decisions(),
     )
 
 

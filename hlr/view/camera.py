@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
 from hlr.errors import ViewError
 from hlr.plan.options import Options, Perspective, View
 from hlr.source.model import Frame
@@ -84,6 +85,11 @@ class Camera:
         away = points - np.asarray(self.eye)
         factor = self.distance / z
         return np.stack([dot(away, self.right) * factor, dot(away, self.up) * factor, -self.distance * factor], axis=1)
+
+    def scaled(self, per_model: float) -> _kernel.Camera:
+        """As the kernel takes it, with the millimetres on paper per model unit."""
+        eye = None if self.eye is None or self.distance is None else (self.eye, self.distance)
+        return _kernel.Camera(self.direction, self.right, self.up, eye, per_model)
 
     def ahead(self, points: Floats) -> Floats:
         """(n,) distance from the eye's plane, positive before the eye; depth along the view for parallel views."""

@@ -8,7 +8,8 @@ from time import perf_counter
 import numpy as np
 import numpy.typing as npt
 
-from hlr.drawing import Bounds, Fill, Line, bounds_of
+from hlr.drawing import Bounds, Fill, Line
+from hlr.lines import bounds_of
 from hlr.notes import Note
 from hlr.plan.effect import Facts, Planner
 from hlr.window.fill import cut_fill
@@ -30,8 +31,8 @@ def foreseen(points: npt.NDArray[np.float64], window: Bounds, planner: Planner) 
 
 
 def cut(
-    lines: tuple[Line, ...], fill: Fill | None, frame: Frame | None, planner: Planner
-) -> tuple[tuple[Line, ...], Fill | None, tuple[Note, ...]]:
+    lines: Sequence[Line], fill: Fill | None, frame: Frame | None, planner: Planner
+) -> tuple[Sequence[Line], Fill | None, tuple[Note, ...]]:
     """What lies in the window. frame None: no window was asked for, and all stays as it is."""
     if frame is None:
         planner.on(EFFECT, Facts())

@@ -70,7 +70,6 @@ def write(drawing: Drawing, file: Any, format: Any = None) -> Path | None:
         return None
     path = files.path_of(file)
     kind = format_of(path) if format is None else checked_format(format)
-    files.check(path)
     files.place({path: render(drawing, kind)})
     return path
 

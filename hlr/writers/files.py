@@ -6,6 +6,7 @@ import contextlib
 import os
 import stat
 from collections.abc import Iterable, Mapping
+from io import RawIOBase
 from pathlib import Path
 from typing import Any
 
@@ -38,11 +39,27 @@ def put(file: Any, data: bytes) -> None:
         raise WriteError(f"cannot write into {name}: it took {written} of {len(data)} bytes; open it with buffering")
 
 
-def check(path: Path, make_folder: bool = False) -> None:
+def check(path: Path, make_folder: bool = False) -> os.stat_result | None:
     """Raise WriteError where `path` cannot be written: no folder, no permission, or a folder or a model in its place.
 
-    make_folder: `place` will make the folder, so that it need not be there.
+    make_folder: `place` will make the folder, so that it need not be there. Returns what is there already, if anything.
     """
+    try:
+        there = os.stat(path)
+    except (OSError, ValueError):
+        _check_folder(path, make_folder)
+        return None
+    if stat.S_ISDIR(there.st_mode):
+        raise WriteError(f"cannot write {path}: it is a folder; give a file name")
+    # Renaming would replace even a file that is write-protected.
+    if not os.access(path, os.W_OK):
+        raise WriteError(f"cannot write {path}: the file is write-protected")
+    check_model(path)
+    return there
+
+
+def _check_folder(path: Path, make_folder: bool) -> None:
+    """Raise WriteError where no file can be made at `path`."""
     folder = path.parent
     if make_folder:
         folder = next((above for above in (folder, *folder.parents) if above.exists()), folder)
@@ -50,14 +67,7 @@ def check(path: Path, make_folder: bool = False) -> None:
         raise WriteError(f"cannot write {path}: the folder {folder} does not exist; create it first")
     if not folder.is_dir():
         raise WriteError(f"cannot write {path}: {folder} is not a folder")
-    if path.is_dir():
-        raise WriteError(f"cannot write {path}: it is a folder; give a file name")
-    if path.exists():
-        # Renaming would replace even a file that is write-protected.
-        if not os.access(path, os.W_OK):
-            raise WriteError(f"cannot write {path}: the file is write-protected")
-        check_model(path)
-    elif not os.access(folder, os.W_OK | os.X_OK):
+    if not os.access(folder, os.W_OK | os.X_OK):
         raise WriteError(f"cannot write {path}: no permission to write into the folder {folder}")
 
 
@@ -66,35 +76,40 @@ def place(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
 
     folders: are made first where they do not exist. Raises WriteError, in one sentence, where the system refuses.
     """
-    staged: list[tuple[Path, Path, Path]] = []
+    staged: list[tuple[Path, str, str]] = []
     path = Path()
     try:
         for path in folders:
             path.mkdir(parents=True, exist_ok=True)
         for path, data in files.items():
-            check(path)
-            if path.exists() and not path.is_file():  # a pipe or a device has no content to protect
+            there = check(path)
+            if there is not None and not stat.S_ISREG(there.st_mode):  # a pipe or a device has no content to protect
                 path.write_bytes(data)
                 continue
             # Through a symbolic link to the file it means, not onto the link.
-            target = Path(os.path.realpath(path))
-            beside = target.with_name(f".{target.name[:100]}.{os.urandom(4).hex()}.tmp")
+            target = os.path.realpath(path) if os.path.islink(path) else str(path)
+            folder, name = os.path.split(target)
+            beside = os.path.join(folder, f".{name[:100]}.{os.urandom(4).hex()}.tmp")
             staged.append((path, beside, target))
-            _fill(beside, data, target)
-        for asked, beside, target in staged:
-            path = asked
-            beside.replace(target)
+            with open(beside, "xb", buffering=0) as file:
+                _write(file, data)
+            if there is not None:
+                os.chmod(beside, stat.S_IMODE(there.st_mode))
+        while staged:
+            path, beside, target = staged[0]
+            os.replace(beside, target)
+            del staged[0]
     except OSError as error:
         reason = error.strerror or str(error)
         raise WriteError(f"cannot write {path}: {reason[:1].lower()}{reason[1:]}") from error
     finally:
         for _, beside, _ in staged:
             with contextlib.suppress(OSError):
-                beside.unlink(missing_ok=True)
+                os.unlink(beside)
 
 
-def _fill(beside: Path, data: bytes, target: Path) -> None:
-    with open(beside, "xb") as file:
-        file.write(data)
-    if target.exists():
-        os.chmod(beside, stat.S_IMODE(target.stat().st_mode))
+def _write(file: RawIOBase, data: bytes) -> None:
+    """All of it, however much the system takes at a time."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[file.write(rest) or 0 :]

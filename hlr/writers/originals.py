@@ -10,6 +10,8 @@ from pathlib import Path
 from hlr.endings import BESIDE, ENDINGS
 from hlr.errors import WriteError
 
+_MODELS = frozenset((*ENDINGS, *BESIDE))
+
 _HEAD = 1 << 20
 """Bytes: an OBJ file names its materials at its beginning."""
 
@@ -24,8 +26,9 @@ _TEXTURE = re.compile(
 
 def check_model(path: Path) -> None:
     """Raise WriteError where `path` is there and is a model, by its ending or by that of what it is a link to."""
-    for name in {path, Path(os.path.realpath(path))}:
-        if name.suffix.lower() in (*ENDINGS, *BESIDE) and path.is_file():
+    names = [str(path), os.path.realpath(path)] if os.path.islink(path) else [str(path)]
+    for name in names:
+        if os.path.splitext(name)[1].lower() in _MODELS and path.is_file():
             raise WriteError(f"cannot write {path}: it is a model, and a drawing would destroy it; give another name")
 
 

@@ -11,7 +11,6 @@ import zlib
 
 import pydyf
 
-from hlr import _kernel
 from hlr.drawing import Drawing, Fill
 from hlr.writers import style
 from hlr.writers.number import number
@@ -94,23 +93,10 @@ def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
 
         out += [b"/OC /L0 BDC ", pdf_content(fill, page.places), b"EMC\n"]
     for index, layer in enumerate(page.layers, 0 if fill is None else 1):
-        dashes = page.dashes(layer)
         # Round caps would lengthen each dash by the line width.
-        cap = 1 if dashes is None else 0
+        cap = 1 if style.dash(layer.kind, layer.visible) is None else 0
         width = number(style.width(layer.kind, layer.visible))
-        out.append(f"/OC /L{index} BDC {width} w {cap} J [] 0 d\n".encode("ascii"))
-        data, offsets = _kernel.path_data(layer.arrays, page.places, True)
-        if dashes is None:
-            out.append(data)
-        else:
-            at = offsets.tolist()
-            last = ("", "")
-            for pattern, start, end in zip(dashes, at[:-1], at[1:], strict=True):
-                if pattern != last:
-                    out.append(f"[{pattern[0]}] {pattern[1] or 0} d\n".encode("ascii"))
-                last = pattern
-                out.append(data[start:end])
-        out.append(b"EMC\n")
+        out += [f"/OC /L{index} BDC {width} w {cap} J [] 0 d\n".encode("ascii"), page.pdf(layer), b"EMC\n"]
     return b"".join(out)
 
 

@@ -14,13 +14,12 @@ exchange format.
 from __future__ import annotations
 
 import re
-from itertools import groupby, repeat
+from itertools import groupby
 
-from hlr import _kernel
 from hlr.drawing import Drawing
 from hlr.writers import style
 from hlr.writers.number import number
-from hlr.writers.strokes import WHOLE, Layer, strokes
+from hlr.writers.strokes import strokes
 
 # Characters that XML 1.0 cannot carry, escaped or not.
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
@@ -45,57 +44,25 @@ def svg(drawing: Drawing) -> bytes:
         from hlr.writers.fill import svg_group
 
         out.extend(svg_group(drawing.fill, page.places))
+    text = ["".join(out).encode("utf-8")]
     for visible, layers in groupby(page.layers, lambda layer: layer.visible):
         usual = style.group_width(visible)
         # Round caps would lengthen each dash by the line width.
         cap = "" if visible else ' stroke-linecap="butt"'
-        out.append(f'<g id="{"visible" if visible else "hidden"}" stroke-width="{number(usual)}"{cap}>\n')
+        name = "visible" if visible else "hidden"
+        text.append(f'<g id="{name}" stroke-width="{number(usual)}"{cap}>\n'.encode("ascii"))
         for layer in layers:
             wide = style.width(layer.kind, visible)
             own = "" if wide == usual else f' stroke-width="{number(wide)}"'
-            out.append(f'<g class="{layer.kind}"{own}>\n')
-            out.extend(paths(layer, page.places, page.dashes(layer)))
-            out.append("</g>\n")
-        out.append("</g>\n")
-    out.append("</svg>\n")
-    return "".join(out).encode("utf-8")
+            text += [f'<g class="{layer.kind}"{own}>\n'.encode("ascii"), page.svg(layer), b"</g>\n"]
+        text.append(b"</g>\n")
+    text.append(b"</svg>\n")
+    return b"".join(text)
 
 
 def title(drawing: Drawing) -> str:
     """What the drawing shows, in one line: "motor.step, iso, 1:2"."""
     return f"{drawing.source}, {drawing.view.name}, {style.ratio(drawing.scale)}"
-
-
-def paths(layer: Layer, places: int, dashes: list[tuple[str, str]] | None = None) -> list[str]:
-    """One element per stroke; those of one part after another are one group. dashes: as `Strokes.dashes` gives them."""
-    data, offsets = _kernel.path_data(layer.arrays, places, False)
-    text, at = data.decode("ascii"), offsets.tolist()
-    whole = (layer.op[layer.starts[:-1]] == WHOLE).tolist()
-    patterns = map(_dashed, dashes) if dashes is not None else repeat("")
-    out = []
-    spans = zip(layer.part, at[:-1], at[1:], whole, layer.edge, layer.other, patterns, strict=False)
-    for part, of_part in groupby(spans, lambda span: span[0]):
-        out.append(f'<g data-part="{part}">\n')
-        for _, start, end, alone, edge, other, pattern in of_part:
-            tie = "" if edge is None else f' data-edge="{edge}"'
-            tie += "" if other is None else f' data-other="{other}"'
-            drawn = text[start:end]
-            if alone:
-                name = "ellipse" if ' rx="' in drawn else "circle"
-                out.append(f"<{name} {drawn}{tie}{pattern}/>\n")
-            else:
-                # The data first, as other programs write it: whatever looks for `path d="M` finds it.
-                out.append(f'<path d="{drawn}"{tie}{pattern}/>\n')
-        out.append("</g>\n")
-    return out
-
-
-def _dashed(dashes: tuple[str, str]) -> str:
-    lengths, offset = dashes
-    if not lengths:
-        return ""
-    shift = "" if offset == "0" else f' stroke-dashoffset="{offset}"'
-    return f' stroke-dasharray="{lengths}"{shift}'
 
 
 def _metadata(drawing: Drawing) -> str:

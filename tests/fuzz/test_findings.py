@@ -53,34 +53,54 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     """A square, walked from its first corner to the same, of which one side was clipped away; the second is hidden."""
     flat = np.array([[0, 0], [10, 0], [10, 10], [0, 10]], float)
     drawn = [side for side in range(4) if side != missing]
-    found = _kernel.linework(
-        flat,
-        np.column_stack([flat, np.zeros(4)]),
-        perspective=False,
-        eye=(0.0, 0.0, 0.0),
-        away=(0.0, 0.0, 1.0),
-        edges=np.array([[0, 1], [1, 2], [2, 3], [3, 0]], np.int32),
-        piece_edge=np.array(drawn, np.int32),
-        piece_t0=np.zeros(3),
-        piece_t1=np.ones(3),
-        piece_state=np.array([int(side == 1) for side in drawn], np.uint8),
-        chain_offsets=np.array([0, 4], np.int32),
-        chain_edges=np.arange(4, dtype=np.int32),
-        chain_reversed=np.zeros(4, bool),
-        chain_rank=np.zeros(1, np.uint8),
-        chain_noisy=np.zeros(1, bool),
-        chain_bare=np.zeros(1, bool),
-        accuracy=0.1,
-        short=0.1,
-        flip=0.1,
-        stub=1.0,
-        width=0.05,
-        under=0.3,
-        flat_tolerance=0.01,
-        space_tolerance=0.01,
-        threads=1,
+    nothing = np.zeros(0, np.int32)
+    edges = np.array([[0, 1], [1, 2], [2, 3], [3, 0]], np.int32)
+    none = np.full(1, -1, np.int32)
+    chains = _kernel.Chains(
+        (
+            np.array([0, 4], np.int32),
+            np.arange(4, dtype=np.int32),
+            np.zeros(4, bool),
+            np.zeros(1, np.uint8),
+            np.zeros(1, np.int32),
+            none,
+            none,
+            none,
+        ),
+        np.zeros(1, bool),
+        [True] * 6,
+        4,
+        (edges, np.zeros(5, np.int32), nothing, np.zeros(4, np.int32), nothing, nothing),
+        np.zeros(1, bool),
+        1,
+        np.zeros(0, np.int8),
+        np.zeros(4, np.uint8),
+        nothing,
     )
-    points, offsets = found["flat"].tolist(), found["offsets"].tolist()
+    cut = _kernel.Cut(
+        _kernel.Camera((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), None, 1.0),
+        np.column_stack([flat, np.zeros(4)]),
+        np.column_stack([flat, np.zeros(4)]),
+        edges,
+        (
+            np.array(drawn, np.int32),
+            np.zeros(3),
+            np.ones(3),
+            np.array([int(side == 1) for side in drawn], np.uint8),
+        ),
+        chains,
+        np.zeros(1, np.uint8),
+        np.zeros(1, bool),
+        (0.1, 0.1, 0.1, 1.0, 0.05, 0.3, 0.01, 0.01),
+        True,
+        1,
+    )
+    records = np.zeros(0, np.uint8), np.zeros((0, 2)), np.zeros(1, np.int32), np.zeros(0)
+    lines, _ = cut.finished(
+        False, records, np.zeros((0, 3, 4)), none, np.zeros(1, np.int32), np.zeros(1), (0.1, 0.1, 0.1, 0.1), 1
+    )
+    held = lines.columns()
+    points, offsets = held["points"].tolist(), held["offsets"].tolist()
     return sorted(points[i:j] for i, j in itertools.pairwise(offsets))
 
 

@@ -105,9 +105,9 @@ def test_a_line_keeps_its_place_among_arcs():
         line([[40, 0], [41, 2], [43, 1], [44, 4]], edge=5),
     ]
     (layer,) = strokes(drawing(lines)).layers
-    alone = [strokes(drawing([each])).layers[0] for each in lines]
-    assert layer.edge == [0, 1, 2, 3, 4, 5]
-    assert layer.points.tolist() == [row for each in alone for row in each.points.tolist()]
-    assert layer.op.tolist() == [op for each in alone for op in each.op.tolist()]
-    turns = [layer.shapes[i].tolist() for i in layer.arc.tolist() if i >= 0]
-    assert turns == [each.shapes[i].tolist() for each in alone for i in each.arc.tolist() if i >= 0]
+    rows, alone = layer.rows(), [strokes(drawing([each])).layers[0].rows() for each in lines]
+    assert layer.ties[:, 1].tolist() == [0, 1, 2, 3, 4, 5]
+    assert rows["points"].tolist() == [row for each in alone for row in each["points"].tolist()]
+    assert rows["op"].tolist() == [op for each in alone for op in each["op"].tolist()]
+    turns = [rows["shapes"][i].tolist() for i in rows["arc"].tolist() if i >= 0]
+    assert turns == [each["shapes"][i].tolist() for each in alone for i in each["arc"].tolist() if i >= 0]

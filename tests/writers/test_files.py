@@ -68,12 +68,10 @@ def test_a_full_disk_leaves_the_earlier_files(tmp_path, monkeypatch, failing):
 
     if failing == "write":
         # The first file is already complete when the second one fails.
-        real = files._fill
-        monkeypatch.setattr(
-            files, "_fill", lambda beside, data, target: (real if target == first else full)(beside, data, target)
-        )
+        real = files._write
+        monkeypatch.setattr(files, "_write", lambda file, data: (real if data == b"new 1" else full)(file, data))
     else:
-        monkeypatch.setattr(files.Path, "replace", full)
+        monkeypatch.setattr(files.os, "replace", full)
     with pytest.raises(WriteError, match=r"cannot write .*: no space left on device"):
         files.place({first: b"new 1", second: b"new 2"})
     assert [entry.name for entry in tmp_path.iterdir()] == ["1.svg"]

@@ -38,12 +38,12 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::clash::boxes_meet, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::curve_points, m)?)?;
     m.add_function(wrap_pyfunction!(bind::geometry::surface_points, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::geometry::true_lines, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::ink::arc_rows, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::ink::path_data, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::ink::dashes, m)?)?;
+    m.add_class::<bind::drawn::Lines>()?;
+    m.add_class::<bind::drawn::Layer>()?;
     m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::lines::linework, m)?)?;
+    m.add_class::<bind::lines::Camera>()?;
+    m.add_class::<bind::lines::Chains>()?;
+    m.add_class::<bind::lines::Cut>()?;
     m.add_class::<bind::brep::BrepModel>()?;
     m.add_class::<bind::brep::BrepMesh>()?;
     m.add_class::<bind::brep::BrepParts>()?;

@@ -1,6 +1,11 @@
-//! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing.
+//! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing. Step by step, and as drawings
+//! go through it.
 
 use _kernel::lines::cover::{Widths, uncovered};
+use _kernel::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
+use _kernel::lines::drawn::Kind;
+use _kernel::lines::ends::Ends;
+use _kernel::lines::outlines::{About, Chains};
 use _kernel::lines::runs::{Geometry, Limits, Piece, cut};
 use _kernel::lines::simplify::simplify;
 use _kernel::lines::specks::drop_specks;
@@ -19,9 +24,8 @@ struct Case {
     piece_offsets: Vec<u32>,
     chains: Vec<(Vec<i32>, Vec<bool>)>,
     limits: Limits,
-    noisy: bool,
-    widths: Widths,
-    thin: f64,
+    tolerances: Tolerances,
+    traits: Vec<Trait>,
     /// Pieces ascend and do not overlap, as the visibility pass makes them.
     proper: bool,
 }
@@ -40,7 +44,7 @@ pub fn run(data: &[u8]) {
     let mut lines = Vec::new();
     for (id, (edges, reversed)) in case.chains.iter().enumerate() {
         let mut limits = case.limits;
-        if case.noisy {
+        if case.traits[id].noisy {
             limits.noise = geometry.noise(edges, limits.short);
         }
         lines.extend(cut(&geometry, edges, reversed, id as u32, &limits));
@@ -49,28 +53,66 @@ pub fn run(data: &[u8]) {
     if case.proper {
         check_length(&case, &lines);
     }
-    // Visible before hidden, then as they come: any strict order will do.
-    let mut order: Vec<usize> = (0..lines.len()).collect();
-    order.sort_by_key(|&i| !lines[i].visible);
-    let mut rank = vec![0; lines.len()];
-    for (r, &i) in order.iter().enumerate() {
-        rank[i] = r as u32;
-    }
+    let rank = ranked(&lines, &case.traits, &case.view, case.tolerances.space);
+    check_ranks(&lines, &rank);
     let all = lines.clone();
-    let mut lines = uncovered(lines, &rank, case.widths, &case.view);
+    let mut lines = uncovered(lines, &rank, case.tolerances.widths, &case.view);
     check_lines(&case, &lines, "uncovered");
     check_cover(&case, &all, &lines);
     let kept = lines.clone();
     drop_specks(&mut lines, case.limits.short);
     assert!(lines.iter().all(|l| kept.contains(l)), "specks: a line was changed");
     assert!(kept.iter().all(|l| l.length() < case.limits.short || lines.contains(l)), "specks: a long line was lost");
+    let ends = Ends::of(&lines);
+    let unthinned = lines.clone();
     for line in &mut lines {
         let before = line.clone();
-        let wanted = vec![false; line.flat.len()];
-        simplify(line, &wanted, case.thin, case.thin);
-        check_thinned(&before, line, case.thin);
+        let bare = case.traits[line.chain as usize].bare;
+        let kept: Vec<bool> = line.flat.iter().map(|p| bare && ends.meet(line, p)).collect();
+        simplify(line, &kept, case.tolerances.flat, case.tolerances.space);
+        check_thinned(&before, line, case.tolerances.flat);
     }
     check_lines(&case, &lines, "simplified");
+    check_driver(&case, &geometry, &unthinned, &lines);
+}
+
+/// A strict order, visible lines first.
+fn check_ranks(lines: &[Polyline], rank: &[u32]) {
+    let mut order: Vec<usize> = (0..lines.len()).collect();
+    order.sort_by_key(|&i| rank[i]);
+    assert!(order.iter().enumerate().all(|(r, &i)| rank[i] as usize == r), "ranks: {rank:?}");
+    assert!(order.windows(2).all(|w| lines[w[0]].visible || !lines[w[1]].visible), "ranks: hidden before visible");
+}
+
+/// What drawings call does the same steps; contours of meshes are smoothed within the accuracy.
+fn check_driver(case: &Case, geometry: &Geometry, unthinned: &[Polyline], thinned: &[Polyline]) {
+    let mut chains = Chains::new();
+    for (edges, reversed) in &case.chains {
+        let about = About { kind: Kind::Sharp, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
+        chains.push(edges, reversed, about);
+    }
+    let Some(found) = drawn(geometry, &chains, &case.traits, &case.tolerances, &|| false) else {
+        panic!("nothing stopped it");
+    };
+    assert_eq!(found.lines.len(), thinned.len());
+    for ((line, smooth), (before, after)) in found.lines.iter().zip(&found.smooth).zip(unthinned.iter().zip(thinned)) {
+        let of = case.traits[line.chain as usize];
+        if !(of.noisy && of.bare) {
+            assert!(smooth.is_none());
+            assert_eq!(line, after);
+            continue;
+        }
+        assert_eq!((line.chain, line.visible), (before.chain, before.visible));
+        assert!(line.flat.len() > 1 && line.flat.len() == line.space.len(), "{line:?}");
+        if !case.sane() {
+            continue;
+        }
+        let slack = case.tolerances.accuracy + 1e-9 * case.extent();
+        for p in &line.flat {
+            let near = before.flat.windows(2).any(|w| off(p, &w[0], &w[1]) <= slack);
+            assert!(near, "{p:?} was smoothed away from {before:?}");
+        }
+    }
 }
 
 fn read(bytes: &mut Bytes) -> Case {
@@ -116,6 +158,9 @@ fn read(bytes: &mut Bytes) -> Case {
     let extent = flat.iter().flatten().map(|c| c.abs()).fold(0.0, f64::max);
     // From the accuracy, as hlr derives them: at most a quarter of the drawing, at least what its grid can tell apart.
     let accuracy = if extent > 0.0 { extent * 0.25f64.powi(1 + (bytes.byte() % 12) as i32) } else { 0.05 };
+    let noisy = bytes.bit();
+    let traits =
+        chains.iter().map(|_| Trait { noisy, rank: [0, 1, 3, 16][bytes.below(4)], bare: bytes.bit() }).collect();
     Case {
         flat,
         space,
@@ -125,9 +170,16 @@ fn read(bytes: &mut Bytes) -> Case {
         piece_offsets,
         chains,
         limits: Limits { short: accuracy, stub: 10.0 * accuracy, noise: accuracy },
-        noisy: bytes.bit(),
-        widths: Widths { same: 0.5 * accuracy, under: 3.0 * accuracy },
-        thin: 0.25 * accuracy,
+        tolerances: Tolerances {
+            accuracy,
+            short: accuracy,
+            flip: accuracy,
+            stub: 10.0 * accuracy,
+            widths: Widths { same: 0.5 * accuracy, under: 3.0 * accuracy },
+            flat: 0.25 * accuracy,
+            space: 0.25 * accuracy,
+        },
+        traits,
         proper,
     }
 }
@@ -190,7 +242,7 @@ fn check_cover(case: &Case, before: &[Polyline], after: &[Polyline]) {
         return;
     }
     // A line yields to another within a width, that one to a third; gaps of two widths are closed along the line.
-    let widest = case.widths.same.max(case.widths.under);
+    let widest = case.tolerances.widths.same.max(case.tolerances.widths.under);
     let reach = 4.0 * widest * (before.len() as f64 + 2.0) + 1e-9 * case.extent();
     for line in before {
         // Both ends of a line may yield by two widths: of a short one that runs back over itself nothing may be left.

@@ -2,10 +2,10 @@
 
 pub mod brep;
 pub mod clash;
+pub mod drawn;
 pub mod fill;
 pub mod geometry;
 pub mod guard;
-pub mod ink;
 pub mod lines;
 pub mod measure;
 pub mod mesh;

@@ -41,8 +41,8 @@ pub struct Shape {
     pub rising: bool,
 }
 
-/// Rows of a stroke.
-#[derive(Debug, Default)]
+/// Rows of strokes.
+#[derive(Clone, Debug, Default)]
 pub struct Rows {
     pub points: Vec<[i64; 2]>,
     pub op: Vec<u8>,
@@ -56,6 +56,15 @@ impl Rows {
         self.op.push(op);
         self.arc.push(shape.map_or(-1, |_| self.shapes.len() as i32));
         self.shapes.extend(shape);
+    }
+
+    /// Those of `more` after these.
+    pub fn append(&mut self, more: &Rows) {
+        let before = self.shapes.len() as i32;
+        self.points.extend(&more.points);
+        self.op.extend(&more.op);
+        self.arc.extend(more.arc.iter().map(|&i| if i < 0 { -1 } else { i + before }));
+        self.shapes.extend(&more.shapes);
     }
 }
 

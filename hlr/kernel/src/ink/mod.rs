@@ -3,8 +3,10 @@
 pub mod arcs;
 pub mod dashes;
 pub mod digits;
+pub mod layer;
 pub mod length;
 pub mod pdf;
+pub mod rows;
 pub mod svg;
 
 /// What a row of a stroke is.

@@ -1,15 +1,26 @@
 //! Path painting commands of PDF, one painted path per stroke: a single path for a whole layer is slow in viewers.
 
+use super::dashes::Fitted;
 use super::digits::put;
-use super::{CONTROL, CUBIC, START, Strokes};
+use super::layer::Layer;
+use super::{CONTROL, CUBIC, START};
 
-/// All strokes, and where each begins (strokes + 1); arcs and quadratic curves must have become cubic ones before.
-pub fn paths(strokes: &Strokes) -> (Vec<u8>, Vec<i64>) {
+/// All strokes; arcs and quadratic curves must have become cubic ones before. dashes: of each stroke, or none of any.
+pub fn painted(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
+    let strokes = layer.strokes();
     let mut out = Vec::new();
-    let mut offsets = vec![0];
-    for (w, &closed) in strokes.starts.windows(2).zip(strokes.closed) {
-        for i in w[0] as usize..w[1] as usize {
-            if i as i64 > w[0] {
+    let mut last = (String::new(), String::new());
+    for (s, &closed) in strokes.closed.iter().enumerate() {
+        if let Some(pattern) = dashes.get(s).map(Fitted::text) {
+            if pattern != last {
+                let begin = if pattern.1.is_empty() { "0" } else { &pattern.1 };
+                out.extend(format!("[{}] {begin} d\n", pattern.0).as_bytes());
+            }
+            last = pattern;
+        }
+        let first = strokes.starts[s] as usize;
+        for i in first..strokes.starts[s + 1] as usize {
+            if i > first {
                 out.push(b' ');
             }
             let [x, y] = strokes.points[i];
@@ -24,7 +35,6 @@ pub fn paths(strokes: &Strokes) -> (Vec<u8>, Vec<i64>) {
             });
         }
         out.extend(if closed { b" s\n" } else { b" S\n" });
-        offsets.push(out.len() as i64);
     }
-    (out, offsets)
+    out
 }

@@ -1,8 +1,10 @@
-//! Path data of SVG: a stroke starts with an absolute M and goes on with relative commands; letters and separators are
+//! Elements of SVG: a stroke starts with an absolute M and goes on with relative commands; letters and separators are
 //! left out where the grammar allows it. y points down.
 
 use super::arcs::{EXTRA, ROTATION};
+use super::dashes::Fitted;
 use super::digits::put;
+use super::layer::Layer;
 use super::{ARC, CONTROL, CUBIC, LINE, QUADRATIC, START, Strokes, WHOLE};
 
 struct Pen {
@@ -32,19 +34,59 @@ impl Pen {
     }
 }
 
-/// The `d` of every stroke one after another, and where each begins (strokes + 1). Whole circles and ellipses give the
-/// attributes of their elements instead.
-pub fn paths(strokes: &Strokes) -> (Vec<u8>, Vec<i64>) {
+/// One element per stroke; those of one part after another are one group. dashes: of each stroke, or none of any.
+pub fn elements(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
+    let strokes = layer.strokes();
     let mut pen = Pen { out: Vec::new(), command: 0, fraction: false, fresh: true };
-    let mut offsets = vec![0];
-    for (w, &closed) in strokes.starts.windows(2).zip(strokes.closed) {
-        stroke(strokes, w[0] as usize, w[1] as usize, &mut pen);
-        if closed {
-            pen.out.push(b'z');
+    for (s, tie) in layer.ties.iter().enumerate() {
+        if s == 0 || layer.ties[s - 1].part != tie.part {
+            if s > 0 {
+                pen.out.extend(b"</g>\n");
+            }
+            attribute(&mut pen.out, "<g data-part", tie.part);
+            pen.out.extend(b">\n");
         }
-        offsets.push(pen.out.len() as i64);
+        let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
+        if strokes.op[first] == WHOLE {
+            whole(&strokes, first, &mut pen.out);
+        } else {
+            // The data first, as other programs write it: whatever looks for `path d="M` finds it.
+            pen.out.extend(b"<path d=\"");
+            stroke(&strokes, first, last, &mut pen);
+            if strokes.closed[s] {
+                pen.out.push(b'z');
+            }
+            pen.out.push(b'"');
+        }
+        for (name, number) in [(" data-edge", tie.edge), (" data-other", tie.other)] {
+            if number >= 0 {
+                attribute(&mut pen.out, name, number);
+            }
+        }
+        if let Some(dashes) = dashes.get(s) {
+            dashed(dashes, &mut pen.out);
+        }
+        pen.out.extend(b"/>\n");
     }
-    (pen.out, offsets)
+    if !layer.ties.is_empty() {
+        pen.out.extend(b"</g>\n");
+    }
+    pen.out
+}
+
+fn attribute(out: &mut Vec<u8>, name: &str, number: i32) {
+    out.extend(format!("{name}=\"{number}\"").as_bytes());
+}
+
+fn dashed(dashes: &Fitted, out: &mut Vec<u8>) {
+    let (lengths, offset) = dashes.text();
+    if lengths.is_empty() {
+        return;
+    }
+    out.extend(format!(" stroke-dasharray=\"{lengths}\"").as_bytes());
+    if offset != "0" {
+        out.extend(format!(" stroke-dashoffset=\"{offset}\"").as_bytes());
+    }
 }
 
 fn stroke(strokes: &Strokes, first: usize, last: usize, pen: &mut Pen) {
@@ -118,9 +160,10 @@ fn stroke(strokes: &Strokes, first: usize, last: usize, pen: &mut Pen) {
     pen.fresh = true;
 }
 
-/// `cx="1" cy="2" r="3"`, or `rx="4" ry="3" transform="rotate(30 1 2)"` in place of r.
+/// `<circle cx="1" cy="2" r="3"`, or `<ellipse` with `rx="4" ry="3" transform="rotate(30 1 2)"` in place of r.
 fn whole(strokes: &Strokes, i: usize, out: &mut Vec<u8>) {
     let (places, shape) = (strokes.places, &strokes.arcs[strokes.arc[i] as usize]);
+    out.extend(if shape.radii[0] == shape.radii[1] { &b"<circle "[..] } else { b"<ellipse " });
     let [x, y] = [strokes.points[i][0], -strokes.points[i][1]];
     let mut attribute = |name: &[u8], steps: i64, places: usize| {
         out.extend(name);

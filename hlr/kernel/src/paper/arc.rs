@@ -72,18 +72,23 @@ impl Ellipse {
 
     /// Box of the piece between two angles.
     pub fn bounds(&self, from: f64, to: f64) -> [Vec2; 2] {
-        let mut out = [self.at(from), self.at(from)];
-        grow(&mut out, &self.at(to));
-        for k in 0..2 {
-            let extreme = self.axes[1][k].atan2(self.axes[0][k]);
-            let first = ((from.min(to) - extreme) / std::f64::consts::PI).ceil() as i64;
-            let last = ((from.max(to) - extreme) / std::f64::consts::PI).floor() as i64;
-            for n in first..=last.min(first + 1) {
-                grow(&mut out, &self.at(extreme + n as f64 * std::f64::consts::PI));
-            }
-        }
-        out
+        arc_bounds(&|s| self.at(s), &self.axes, [from, to])
     }
+}
+
+/// Box of the piece of an ellipse between two angles; `at`: its points.
+pub fn arc_bounds(at: &dyn Fn(f64) -> Vec2, axes: &[Vec2; 2], [from, to]: [f64; 2]) -> [Vec2; 2] {
+    let mut out = [at(from), at(from)];
+    grow(&mut out, &at(to));
+    for k in 0..2 {
+        let extreme = axes[1][k].atan2(axes[0][k]);
+        let first = ((from.min(to) - extreme) / std::f64::consts::PI).ceil() as i64;
+        let last = ((from.max(to) - extreme) / std::f64::consts::PI).floor() as i64;
+        for n in first..=last.min(first + 1) {
+            grow(&mut out, &at(extreme + n as f64 * std::f64::consts::PI));
+        }
+    }
+    out
 }
 
 pub fn grow(bounds: &mut [Vec2; 2], p: &Vec2) {

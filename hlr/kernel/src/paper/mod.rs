@@ -17,6 +17,7 @@ pub mod fit;
 pub mod junction;
 pub mod locate;
 pub mod project;
+pub mod routes;
 pub mod shared_end;
 pub mod smooth;
 pub mod straight;

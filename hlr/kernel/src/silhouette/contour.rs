@@ -135,6 +135,9 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
                     continue;
                 }
                 if around.len() == 2 && same_nodes(model, values, e, around) {
+                    if keeps_sign(model, values, e, around[0]) {
+                        continue;
+                    }
                     let Some(side) = side(model, values, e, around[0]) else { continue };
                     if side.changes()
                         && let Some(place) = side.at(side.change())
@@ -199,6 +202,17 @@ fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
         (Some(x), Some(y)) => x == y || (values[x as usize].is_nan() && values[y as usize].is_nan()),
         _ => false,
     })
+}
+
+/// Whether f has one sign at both ends of an edge within a face; not told of the ends at poles.
+fn keeps_sign(model: &Model, values: &[f64], e: usize, t: i32) -> bool {
+    let away = |v: i32| {
+        let k = model.triangles[t as usize].iter().position(|&c| c == v)?;
+        let f = values[model.corner[t as usize][k] as usize];
+        (!f.is_nan()).then_some(f >= -TIE)
+    };
+    let [a, b] = model.edges[e].map(away);
+    a.is_some() && a == b
 }
 
 fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Side<'a>> {

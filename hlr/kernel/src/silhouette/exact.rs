@@ -1,7 +1,7 @@
 //! The curve along a silhouette: a circle where that is known in closed form, else cubic pieces through its points with
 //! the tangents there.
 
-use super::face::{Face, Place};
+use super::face::Face;
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::nurbs::Nurbs;
 use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
@@ -14,15 +14,15 @@ const STEP: f64 = 0.05;
 const ASTRAY: f64 = 0.3;
 
 /// The direction on the surface along which f stays 0; None where f does not change to any side.
-pub fn tangent(face: &Face, place: &Place, chord: f64) -> Option<Vector> {
-    let [du, dv] = face.derivatives(place.uv);
+pub fn tangent(face: &Face, uv: [f64; 2], chord: f64) -> Option<Vector> {
+    let [du, dv] = face.derivatives(uv);
     let speed = [length(&du), length(&dv)];
     if speed[0] == 0.0 || speed[1] == 0.0 {
         return None;
     }
     let step = STEP * chord;
     let slope = |k: usize| {
-        let mut beside = [place.uv; 2];
+        let mut beside = [uv; 2];
         beside[0][k] -= step / speed[k];
         beside[1][k] += step / speed[k];
         Some(face.f(beside[1])? - face.f(beside[0])?)

@@ -49,8 +49,13 @@ impl<'a> Face<'a> {
 
     /// None where the surface has no normal.
     pub fn f(&self, uv: [f64; 2]) -> Option<f64> {
-        let n = self.normal(uv)?;
-        Some(dot(&n, &self.model.sight(&self.point(uv))))
+        let (p, n) = self.surface.placed(uv);
+        Some(dot(&self.outward(n)?, &self.sight_of(&p)))
+    }
+
+    /// Unit vector from the viewer toward a point of the surface's frame.
+    fn sight_of(&self, p: &Vector) -> Vector {
+        if self.model.view.perspective { self.model.sight(&self.moved(p)) } else { self.model.view.away }
     }
 
     /// The same at a pole: that of a place close by, toward other parameters.
@@ -66,7 +71,8 @@ impl<'a> Face<'a> {
     }
 
     pub fn at(&self, uv: [f64; 2]) -> Option<Place> {
-        Some(Place { uv, point: self.point(uv), normal: self.normal(uv)? })
+        let (p, n) = self.surface.placed(uv);
+        Some(Place { uv, point: self.moved(&p), normal: self.outward(n)? })
     }
 
     /// The derivatives by both parameters.
@@ -96,6 +102,20 @@ impl<'a> Face<'a> {
         let arm = sub(p, &centre);
         // The circle of contact of the cone from the eye.
         Some((along(&centre, &away, -dot(&arm, &arm) / dot(&away, &away)), unit(&away)?))
+    }
+
+    /// How far the fold between two places rises above its chord, where that is known in closed form: on a cylinder or a
+    /// cone it is a ruling, on a sphere seen from infinitely far away a great circle.
+    pub fn sagitta(&self, a: &Place, b: &Place) -> Option<f64> {
+        match self.surface {
+            Surface::Cylinder(..) | Surface::Cone(..) => (dot(&a.normal, &b.normal) > 1.0 - 1e-9).then_some(0.0),
+            Surface::Sphere(..) if !self.model.view.perspective => {
+                let radius = length(&sub(&a.point, &self.moved(&self.surface.centre()?)));
+                let half = 0.5 * length(&sub(&b.point, &a.point));
+                Some(radius - (radius * radius - half * half).max(0.0).sqrt())
+            }
+            _ => None,
+        }
     }
 
     /// Steps of u and v for a unit of length along the sight, as far as it lies in the tangent plane.

@@ -1,7 +1,6 @@
 //! Between two crossings of one triangle: more points on the surface, and cusps.
 
 use super::Model;
-use super::exact::tangent;
 use super::face::{Face, Place, between};
 use hlr_brep::geometry::vector::{Vector, dot, from_line, length, sub};
 
@@ -11,8 +10,8 @@ pub struct Stretch {
     pub from: Vector,
     pub to: Vector,
     pub normals: [Vector; 2],
-    /// Either way; None where it is not known.
-    pub tangents: [Option<Vector>; 2],
+    /// Parameters of both ends on the face's surface; None where they are not known.
+    pub uv: [Option<[f64; 2]>; 2],
     /// The edge of the B-rep along which it runs, -1 for none.
     pub source: i32,
     /// The surface bends toward its normal along the line of sight: a body hides this by itself.
@@ -25,7 +24,7 @@ impl Stretch {
     pub fn turn_round(&mut self) {
         (self.from, self.to) = (self.to, self.from);
         self.normals.reverse();
-        self.tangents.reverse();
+        self.uv.reverse();
         self.rise.reverse();
     }
 }
@@ -61,8 +60,8 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
     let bend: Vec<f64> = places.iter().map(|p| face.radial(p.uv) * chord).collect();
     let piece = |a: &Place, b: &Place, concave: bool| {
         let rise = [a, b].map(|at| rise(model, &[triangle], &at.point, &outward(&at.normal, concave)));
-        let tangents = [a, b].map(|at| tangent(face, at, chord));
-        Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], tangents, source: -1, concave, rise }
+        let uv = [a, b].map(|at| Some(at.uv));
+        Stretch { from: a.point, to: b.point, normals: [a.normal, b.normal], uv, source: -1, concave, rise }
     };
     let mut out = Vec::with_capacity(places.len());
     for k in 1..places.len() {
@@ -82,6 +81,9 @@ pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Pla
 
 fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut Vec<Place>) {
     if depth == DEEPEST || length(&sub(&b.point, &a.point)) < chord {
+        return;
+    }
+    if face.sagitta(a, b).is_some_and(|rise| rise <= chord) {
         return;
     }
     let Some(middle) = between(face, a, b, 0.5) else { return };

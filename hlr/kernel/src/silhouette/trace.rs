@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
 use super::cut::{canonical, in_order, turns_back, unwound};
-use super::exact::{circle, through};
+use super::exact::{circle, tangent, through};
 use super::face::Face;
 use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
@@ -82,7 +82,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
             from: fold.points[0],
             to: fold.points[1],
             normals: [fold.normal; 2],
-            tangents: [None; 2],
+            uv: [None; 2],
             source: fold.source,
             concave: fold.concave,
             rise: fold.rise,
@@ -299,7 +299,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
         let run = canonical(run, closed && run.len() == whole);
         let mut points = vec![run[0].1.from];
         let mut normals = vec![run[0].1.normals[0]];
-        let mut tangents = vec![run[0].1.tangents[0]];
+        let mut uv = vec![run[0].1.uv[0]];
         let mut rise = vec![run[0].1.rise[0]];
         for (_, s) in &run {
             if let Some(last) = rise.last_mut() {
@@ -308,19 +308,23 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
             rise.push(s.rise[1]);
             points.push(s.to);
             normals.push(s.normals[1]);
-            tangents.push(s.tangents[1]);
+            uv.push(s.uv[1]);
         }
         let (face, Stretch { concave, source, .. }) = (run[0].0, run[0].1);
-        let curve = if source >= 0 { None } else { along_points(model, face, &points, &tangents) };
+        let curve = if source >= 0 { None } else { along_points(model, face, &points, &uv) };
         out.push(Silhouette { face, concave, points, normals, rise, curve, source });
     }
 }
 
 /// The curve through points of a face's silhouette; two points are a straight line.
-fn along_points(model: &Model, face: i32, points: &[Vector], tangents: &[Option<Vector>]) -> Option<Curve> {
+fn along_points(model: &Model, face: i32, points: &[Vector], uv: &[Option<[f64; 2]>]) -> Option<Curve> {
     if points.len() < 3 {
         return None;
     }
-    let round = Face::new(model, face).and_then(|face| circle(&face, points, model.chord));
-    round.or_else(|| through(points, tangents).map(Curve::Spline))
+    let face = Face::new(model, face);
+    let round = face.as_ref().and_then(|face| circle(face, points, model.chord));
+    round.or_else(|| {
+        let along = |uv: &Option<[f64; 2]>| tangent(face.as_ref()?, (*uv)?, model.chord);
+        through(points, &uv.iter().map(along).collect::<Vec<_>>()).map(Curve::Spline)
+    })
 }

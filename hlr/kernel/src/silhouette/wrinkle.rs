@@ -16,6 +16,7 @@ use rayon::prelude::*;
 
 use super::face::{Face, root};
 use super::{Model, TIE};
+use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{length, sub};
 
 /// In chord tolerances, of which an accuracy has ten: what has risen by an accuracy while N . v fell, and some.
@@ -103,13 +104,19 @@ fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
     })
 }
 
+/// Spheres turn over once; cylinders and cones do along whole rulings, from border to border: none has wrinkles.
+fn bends(model: &Model, face: i32) -> bool {
+    let surface = model.faces[face as usize].surface.and_then(|s| model.surfaces[s as usize].as_ref());
+    !matches!(surface, None | Some(Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Sphere(..)))
+}
+
 /// NaN is the value of a pole, and of nodes of faces that are not traced.
 fn ties(model: &Model, values: &[f64]) -> Vec<Tie> {
     let mut found: Vec<(i32, u32, u32)> = model
         .corner
         .par_iter()
         .zip(model.triangle_face)
-        .filter(|(c, _)| c.iter().all(|&n| n >= 0))
+        .filter(|&(c, &face)| bends(model, face) && c.iter().all(|&n| n >= 0))
         .flat_map_iter(|(c, &face)| {
             let sides = [[c[0], c[1]], [c[1], c[2]], [c[2], c[0]]];
             sides.map(|[a, b]| (face, a.min(b) as u32, a.max(b) as u32)).into_iter()

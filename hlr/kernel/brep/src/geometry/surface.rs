@@ -167,6 +167,12 @@ impl Surface {
         upright(&du, &dv)
     }
 
+    /// The point and the unit normal; None where the surface has none.
+    pub fn placed(&self, uv: [f64; 2]) -> (Vector, Option<Vector>) {
+        let (p, du, dv) = self.d1(uv);
+        (p, upright(&du, &dv))
+    }
+
     /// The unit normal; at a pole or an apex that of a place close by, toward the parameters `beside`.
     pub fn normal_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Vector> {
         self.normal(uv).or_else(|| {

@@ -1,0 +1,68 @@
+//! The camera: from model coordinates to paper, as `hlr.view.camera` has it, operation by operation.
+
+use super::View;
+use crate::paper::project::{Projection, Vec2};
+
+type Vec3 = [f64; 3];
+
+/// Unit vectors in model coordinates; `direction` points from the object toward the viewer.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    pub direction: Vec3,
+    pub right: Vec3,
+    pub up: Vec3,
+    /// Of a perspective view: the eye, and the distance of the image plane from it.
+    pub eye: Option<(Vec3, f64)>,
+    /// Millimetres on paper per model unit in the image plane.
+    pub scale: f64,
+}
+
+fn dot(p: &Vec3, v: &Vec3) -> f64 {
+    p[0] * v[0] + p[1] * v[1] + p[2] * v[2]
+}
+
+impl Camera {
+    pub fn view(&self) -> View {
+        View {
+            origin: self.eye.map_or([0.0; 3], |(eye, _)| eye),
+            away: self.direction.map(|c| -c),
+            perspective: self.eye.is_some(),
+        }
+    }
+
+    /// Millimetres on paper.
+    pub fn point(&self, p: &Vec3) -> Vec2 {
+        let Some((eye, distance)) = self.eye else {
+            return [dot(p, &self.right) * self.scale, dot(p, &self.up) * self.scale];
+        };
+        let away = [p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]];
+        let factor = distance / -dot(&away, &self.direction);
+        [dot(&away, &self.right) * factor * self.scale, dot(&away, &self.up) * factor * self.scale]
+    }
+
+    /// A point moved square to the line of sight, at its depth, so that its image is there.
+    pub fn moved(&self, p: &Vec3, image: &Vec2) -> Vec3 {
+        let at = self.point(p);
+        let mut step = [0, 1].map(|k| (image[k] - at[k]) / self.scale);
+        if let Some((eye, distance)) = self.eye {
+            let away = [p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]];
+            let share = -dot(&away, &self.direction) / distance;
+            step = step.map(|s| s * share);
+        }
+        [0, 1, 2].map(|i| p[i] + step[0] * self.right[i] + step[1] * self.up[i])
+    }
+
+    /// The matrix from (x, y, z, 1) in the model to (x w, y w, w) on paper.
+    pub fn projection(&self) -> Projection {
+        let row = |v: &Vec3, factor: f64, origin: &Vec3| {
+            let [x, y, z] = v.map(|c| c * factor);
+            [x, y, z, -(x * origin[0] + y * origin[1] + z * origin[2])]
+        };
+        let Some((eye, distance)) = &self.eye else {
+            let [right, up] = [self.right, self.up].map(|v| row(&v, self.scale, &[0.0; 3]));
+            return Projection([right, up, [0.0, 0.0, 0.0, 1.0]]);
+        };
+        let factor = distance * self.scale;
+        Projection([row(&self.right, factor, eye), row(&self.up, factor, eye), row(&self.direction, -1.0, eye)])
+    }
+}

@@ -1,0 +1,136 @@
+//! From the pieces along chains to lines on paper: the steps of `lines` in their order.
+
+use rayon::prelude::*;
+
+use super::cover::{Widths, uncovered};
+use super::ends::Ends;
+use super::outlines::Chains;
+use super::runs::{self, Geometry, Limits};
+use super::simplify::simplify;
+use super::specks::drop_specks;
+use super::{Polyline, View};
+use crate::paper::bezier::Chain;
+use crate::paper::smooth::smooth;
+
+/// Millimetres on paper, but for `space`, in model units.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerances {
+    pub accuracy: f64,
+    /// A figure shorter than this is dropped.
+    pub short: f64,
+    /// A run shorter than this takes the state of what lies beside it.
+    pub flip: f64,
+    pub stub: f64,
+    pub widths: Widths,
+    /// How far from a line its vertices may be left out, on paper and in space.
+    pub flat: f64,
+    pub space: f64,
+}
+
+/// Of a chain, beside what it is of.
+#[derive(Clone, Copy, Debug)]
+pub struct Trait {
+    /// Which of two coincident lines is drawn: the lower sixteen, of equal ones the nearer, then the lower.
+    pub rank: u8,
+    /// Of a mesh without faces.
+    pub bare: bool,
+    pub noisy: bool,
+}
+
+/// Lines, and the smooth curves of those that are contours of meshes.
+#[derive(Default)]
+pub struct Cut {
+    pub lines: Vec<Polyline>,
+    pub smooth: Vec<Option<Chain>>,
+}
+
+/// None where it was stopped.
+pub fn cut(
+    geometry: &Geometry,
+    chains: &Chains,
+    traits: &[Trait],
+    t: &Tolerances,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Cut> {
+    let view = geometry.view;
+    let limits = Limits { short: t.flip, stub: t.stub, noise: t.flip };
+    let lines: Vec<Polyline> = (0..traits.len())
+        .into_par_iter()
+        .flat_map_iter(|c| {
+            let (edges, reversed) = chains.of(c);
+            let mut limits = limits;
+            if traits[c].noisy {
+                limits.noise = geometry.noise(edges, t.short);
+            }
+            runs::cut(geometry, edges, reversed, c as u32, &limits)
+        })
+        .collect();
+    if stopped() {
+        return None;
+    }
+    let ranks = ranked(&lines, traits, view, t.space);
+    let mut lines = uncovered(lines, &ranks, t.widths, view);
+    drop_specks(&mut lines, t.short);
+    let ends = Ends::of(&lines);
+    let smooth = lines
+        .par_iter_mut()
+        .map(|line| {
+            let of = traits[line.chain as usize];
+            if of.noisy && of.bare {
+                let (found, chain) = smooth(line, &|p| ends.meet(line, p), t.accuracy, t.space, view);
+                *line = found;
+                return chain;
+            }
+            // Where other lines end on a crease of a mesh, it keeps its vertex.
+            let kept: Vec<bool> = line.flat.iter().map(|p| of.bare && ends.meet(line, p)).collect();
+            simplify(line, &kept, t.flat, t.space);
+            None
+        })
+        .collect();
+    Some(Cut { lines, smooth })
+}
+
+/// A strict order of lines: visible before hidden, then by rank in sixteens, then nearer, then by rank, then by
+/// geometry; order in the input decides only between lines that are the same in every coordinate.
+pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> Vec<u32> {
+    // Rounding is not to decide which of two lines at one depth is the nearer.
+    let grain = 1e-6 * space.max(f64::MIN_POSITIVE / 1e-6);
+    let nearest: Vec<f64> = lines
+        .par_iter()
+        .map(|line| line.space.iter().map(|p| view.depth(p)).fold(f64::INFINITY, f64::min))
+        .map(|depth| (depth / grain).round() + 0.0)
+        .collect();
+    let rank = |line: &Polyline| traits[line.chain as usize].rank;
+    let mut order: Vec<u32> = (0..lines.len() as u32).collect();
+    order.par_sort_by(|&i, &j| {
+        let (a, b) = (&lines[i as usize], &lines[j as usize]);
+        b.visible
+            .cmp(&a.visible)
+            .then_with(|| (rank(a) >> 4).cmp(&(rank(b) >> 4)))
+            .then_with(|| nearest[i as usize].total_cmp(&nearest[j as usize]))
+            .then_with(|| rank(a).cmp(&rank(b)))
+            .then_with(|| {
+                let (x, y) = (a.space.iter().flatten(), b.space.iter().flatten());
+                x.zip(y).map(|(p, q)| p.total_cmp(q)).find(|o| o.is_ne()).unwrap_or(a.space.len().cmp(&b.space.len()))
+            })
+    });
+    let mut out = vec![0; lines.len()];
+    for (r, &i) in order.iter().enumerate() {
+        out[i as usize] = r as u32;
+    }
+    out
+}
+
+impl Cut {
+    /// Without the lines of chains of which nothing is visible. Hidden lines beside visible ones of the same chain stay:
+    /// both end where they meet, and that place is sought as one.
+    pub fn keep_sighted(&mut self, chains: usize) {
+        let mut seen = vec![false; chains];
+        self.lines.iter().filter(|line| line.visible).for_each(|line| seen[line.chain as usize] = true);
+        let keep: Vec<bool> = self.lines.iter().map(|line| seen[line.chain as usize]).collect();
+        let mut k = keep.iter();
+        self.lines.retain(|_| *k.next().unwrap_or(&true));
+        let mut k = keep.iter();
+        self.smooth.retain(|_| *k.next().unwrap_or(&true));
+    }
+}

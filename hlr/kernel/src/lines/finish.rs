@@ -1,0 +1,147 @@
+//! From lines on paper to those of a finished drawing: each on its curve, from the lower left corner of all, in order.
+
+use super::Polyline;
+use super::camera::Camera;
+use super::cut::Cut;
+use super::drawn::{Curve, Line, Lines};
+use super::outlines::About;
+use crate::ink::arcs::Arc;
+use crate::paper::Form;
+use crate::paper::arc::grow;
+use crate::paper::bezier::Chain;
+use crate::paper::project::Vec2;
+use crate::paper::routes::{Curves, Fit, Guide, OnCurve, on_curves};
+
+/// A line on its way: its points, its curve, and its box.
+struct Made {
+    line: Polyline,
+    curve: Option<Curve>,
+    bounds: [Vec2; 2],
+}
+
+/// The lines, sorted by part, kind, edge, face and second part, and the lower left corner they were moved from.
+///
+/// about, guides: per chain. hidden: whether hidden lines are drawn.
+pub fn finish(
+    mut cut: Cut,
+    about: &[About],
+    guides: &[Guide],
+    curves: &Curves,
+    camera: &Camera,
+    fit: &Fit,
+    hidden: bool,
+) -> (Lines, Vec2) {
+    // A smoothed contour was moved on paper; in space it moves as far.
+    for line in cut.lines.iter_mut().filter(|line| guides[line.chain as usize].smoothed) {
+        for (p, image) in line.space.iter_mut().zip(&line.flat) {
+            *p = camera.moved(p, image);
+        }
+    }
+    let own: Vec<Guide> = cut.lines.iter().map(|line| guides[line.chain as usize]).collect();
+    // Where no line has a curve none ends on another's.
+    let plain = !curves.known && cut.smooth.iter().all(Option::is_none);
+    let mut made: Vec<Made> = if plain {
+        cut.lines.into_iter().map(|line| Made { bounds: around(&line), line, curve: None }).collect()
+    } else {
+        let found = on_curves(&cut.lines, &own, curves, camera, fit);
+        let made = cut.lines.into_iter().zip(cut.smooth).zip(&own).zip(found);
+        made.map(|(((line, smooth), guide), found)| bent(line, smooth, guide, found, curves, camera, fit)).collect()
+    };
+    made.retain(|m| m.line.visible || hidden);
+    let mut low = [f64::INFINITY; 2];
+    made.iter().for_each(|m| low = [0, 1].map(|k| low[k].min(m.bounds[0][k])));
+    if made.is_empty() {
+        low = [0.0; 2];
+    }
+    // Sorting is stable: lines that are alike in all of these stay as they were.
+    made.sort_by_key(|m| {
+        let a = &about[m.line.chain as usize];
+        (a.part, a.kind as u8, a.edge, a.face, a.other)
+    });
+    (Lines(made.into_iter().map(|m| line(m, about, &low)).collect()), low)
+}
+
+fn around(line: &Polyline) -> [Vec2; 2] {
+    let mut out = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    line.flat.iter().for_each(|p| grow(&mut out, p));
+    out
+}
+
+/// A line with its true ends, on its curve or on that of a smoothed contour.
+fn bent(
+    mut line: Polyline,
+    smooth: Option<Chain>,
+    guide: &Guide,
+    found: OnCurve,
+    curves: &Curves,
+    camera: &Camera,
+    fit: &Fit,
+) -> Made {
+    let last = line.flat.len() - 1;
+    (line.flat[0], line.flat[last]) = (found.flat[0], found.flat[1]);
+    (line.space[0], line.space[last]) = (found.space[0], found.space[1]);
+    let kept = |i: usize| i == 0 || i == last || found.inner.contains(&i);
+    line.flat = line.flat.iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, p)| *p).collect();
+    line.space = line.space.iter().enumerate().filter(|(i, _)| kept(*i)).map(|(_, p)| *p).collect();
+    let mut bounds = found.bounds;
+    if guide.bulge > 0.0 && found.form.is_some() {
+        rise(&mut line, guide, found.range, curves, camera, fit);
+    }
+    let mut curve = found.form.and_then(|form| match form {
+        Form::Straight => None,
+        Form::Arc(e, angles) => Some(Curve::Arc(Arc { centre: e.centre, axes: e.axes, angles })),
+        Form::Chain(chain) => Some(Curve::Chain(chain)),
+    });
+    if let Some(mut chain) = smooth {
+        chain.bounds().iter().for_each(|p| grow(&mut bounds, p));
+        let last = chain.points.len() - 1;
+        (chain.points[0], chain.points[last]) = (line.flat[0], line.flat[line.flat.len() - 1]);
+        curve = Some(Curve::Chain(chain));
+    }
+    Made { line, curve, bounds }
+}
+
+/// A circle rises above the chords that it was found on: the points of its line are its own.
+fn rise(line: &mut Polyline, guide: &Guide, range: [f64; 2], curves: &Curves, camera: &Camera, fit: &Fit) {
+    let Some(curve) = guide.curve.and_then(|c| curves.curves[c as usize].as_ref()) else { return };
+    let [low, high] = around(line);
+    let reach = (high[0] - low[0]).max(high[1] - low[1]);
+    // The chord of a step s rises by r s^2 / 8; perspective may stretch a step to twice its share.
+    let step = (8.0 * fit.chord * fit.accuracy / reach).sqrt() * if camera.eye.is_some() { 0.5 } else { 1.0 };
+    let [begin, end] = range;
+    let inner = ((end - begin).abs() / step).ceil() as usize;
+    let last = line.flat.len() - 1;
+    let (ends, space_ends) = ([line.flat[0], line.flat[last]], [line.space[0], line.space[last]]);
+    let t = |k: usize| begin + (end - begin) / (inner + 1) as f64 * k as f64;
+    line.space = (1..=inner).map(|k| curve.derivatives(t(k))[0]).collect();
+    line.flat = line.space.iter().map(|p| camera.point(p)).collect();
+    line.flat.insert(0, ends[0]);
+    line.flat.push(ends[1]);
+    line.space.insert(0, space_ends[0]);
+    line.space.push(space_ends[1]);
+}
+
+/// With `low` as origin.
+fn line(made: Made, about: &[About], low: &Vec2) -> Line {
+    let Made { line, mut curve, .. } = made;
+    let a = &about[line.chain as usize];
+    let moved = |p: &mut Vec2| *p = [p[0] - low[0], p[1] - low[1]];
+    match &mut curve {
+        None => {}
+        Some(Curve::Arc(arc)) => moved(&mut arc.centre),
+        Some(Curve::Chain(chain)) => chain.points.iter_mut().for_each(moved),
+    }
+    let mut flat = line.flat;
+    flat.iter_mut().for_each(moved);
+    Line {
+        kind: a.kind,
+        visible: line.visible,
+        part: a.part,
+        edge: a.edge,
+        face: a.face,
+        other: a.other,
+        flat,
+        space: line.space,
+        curve,
+    }
+}
