@@ -7,6 +7,10 @@ their own that may die.
 import subprocess
 import sys
 
+import pytest
+
+pytest.importorskip("cadquery")
+
 SHAPES = """
 import math, sys
 import cadquery as cq
