@@ -57,6 +57,9 @@ def bent_groups(
 def group_pieces(group: Ints, piece: Ints, count: int) -> npt.NDArray[np.uint32]:
     """(g,) connected pieces of each group; group (t,), piece (t,) as `components` numbers them."""
 
+def group_passes(points: Floats, triangles: Ints, group: Ints, asked: Bools) -> Ints:
+    """(g,) how often a ray from the middle of each group that is asked for (g,) passes through its surface."""
+
 def needles(
     points: Floats, triangles: Ints, normals: Floats, part: Ints, least: Floats
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:

@@ -337,36 +337,7 @@ def may_fold_into_itself(
     if bent.all():
         return bent
     bent |= _kernel.group_pieces(group_of, _kernel.components(triangles, len(points)), count) != 1
-    return np.asarray(bent | (_passed(points, triangles, group_of, ~bent) != 1))
-
-
-RAY = (0.3574, 0.4915, 0.7942)
-"""Along no axis and in no plane that models favour; one that passes an edge by chance costs a search, no more."""
-
-
-def _passed(points: Floats, triangles: Ints, group_of: Ints, asked: npt.NDArray[np.bool_]) -> Ints:
-    """(g,) how often a ray from the middle of each asked group passes through its surface.
-
-    Once, of a convex body. A surface that bends outward at every edge may still wind round its middle twice, as a prism
-    over a pentagram does. K. Mehlhorn et al., "Checking geometric programs or verification of geometric structures",
-    Computational Geometry 12 (1999).
-    """
-    chosen = np.flatnonzero(asked[group_of])
-    group, count = group_of[chosen], len(asked)
-    corners = points[triangles[chosen]]
-    size = np.maximum(np.bincount(group, minlength=count), 1)
-    middle = np.stack([np.bincount(group, corners[:, :, k].mean(axis=1), count) / size for k in range(3)], axis=1)
-    p, q, r = (corners[:, k] - middle[group] for k in range(3))
-
-    def side(a: Floats, b: Floats) -> Floats:
-        """Of the plane through the middle, a and b, on which the ray runs."""
-        x, y, z = RAY
-        return np.asarray(
-            x * (a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1])
-            + y * (a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2])
-            + z * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
-        )
-
-    # Seen from within, corners turn one way round the ray before it, and the other way behind.
-    hit = (side(p, q) > 0.0) & (side(q, r) > 0.0) & (side(r, p) > 0.0)
-    return np.bincount(group[hit], minlength=count).astype(np.int32)
+    # A surface that bends outward at every edge may still wind round its middle twice, as a prism over a pentagram
+    # does. K. Mehlhorn et al., "Checking geometric programs or verification of geometric structures", Computational
+    # Geometry 12 (1999).
+    return np.asarray(bent | (_kernel.group_passes(points, triangles, group_of, ~bent) != 1))

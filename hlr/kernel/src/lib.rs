@@ -29,6 +29,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::mesh::group_facts, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::bent_groups, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::group_pieces, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::mesh::group_passes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::needles, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::edge_kinds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;

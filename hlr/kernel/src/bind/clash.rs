@@ -30,7 +30,7 @@ pub fn clashes<'py>(
     expect_below("triangle_part", group.iter().copied(), itself.len())?;
     let result = run(py, 0, triangles.len(), |stopped| {
         let grid = Grid::around(points)?.uniform();
-        let snapped: Vec<_> = points.iter().map(|p| grid.snap(p)).collect();
+        let snapped: Vec<_> = points.par_iter().with_min_len(1 << 13).map(|p| grid.snap(p)).collect();
         let found = Surfaces { points: &snapped, triangles, group, itself }.clashes(stopped);
         let (points, edges) = weld(&found.found);
         let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();

@@ -12,6 +12,7 @@ use crate::mesh::groups as of_groups;
 use crate::mesh::groups::{Edges, bent, groups};
 use crate::mesh::kinds::{Limits, kinds};
 use crate::mesh::needles::needles as low_ones;
+use crate::mesh::passes::passes;
 use crate::scan::topology;
 
 type Flat<'py, T> = Bound<'py, PyArray1<T>>;
@@ -149,6 +150,23 @@ pub fn group_pieces<'py>(
     expect_len("piece", piece.len(), group.len())?;
     expect_below("group", group.iter().copied(), count)?;
     Ok(of_groups::pieces(group, piece, count).into_pyarray(py))
+}
+
+/// How often a ray from the middle of each group that is asked for passes through its surface.
+#[pyfunction]
+pub fn group_passes<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    group: PyReadonlyArray1<'py, i32>,
+    asked: PyReadonlyArray1<'py, bool>,
+) -> PyResult<Flat<'py, i32>> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    let (group, asked) = (flat(&group, "group")?, flat(&asked, "asked")?);
+    expect_len("group", group.len(), triangles.len())?;
+    expect_below("group", group.iter().copied(), asked.len())?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    Ok(run(py, 0, triangles.len(), |_| passes(points, triangles, group, asked))?.into_pyarray(py))
 }
 
 /// Which triangles are lower than `least` of their part, or have no area; and the numbers of their longest sides.

@@ -32,14 +32,36 @@ pub struct Meeting {
 
 /// Six times the volume of the tetrahedron p, q, r, s. Coordinates up to 2^30 give less than 2^97.
 pub fn orient3d(p: &Point, q: &Point, r: &Point, s: &Point) -> i128 {
-    let d = |v: &Point| [0, 1, 2].map(|k| i64::from(v[k]) - i64::from(p[k]));
-    let (u, v, w) = (d(q), d(r), d(s));
-    let minor = |i: usize, j: usize| i128::from(u[i]) * i128::from(v[j]) - i128::from(u[j]) * i128::from(v[i]);
-    minor(1, 2) * i128::from(w[0]) + minor(2, 0) * i128::from(w[1]) + minor(0, 1) * i128::from(w[2])
+    above(&exact_normal(p, q, r), p, s)
+}
+
+/// Of the plane through p, q and r. Differences are less than 2^31, so the sums of two products less than 2^63.
+#[inline]
+fn exact_normal(p: &Point, q: &Point, r: &Point) -> [i64; 3] {
+    let (u, v) = (way(p, q), way(p, r));
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+/// How far s lies above the plane through p, in lengths of its normal.
+#[inline]
+fn above(normal: &[i64; 3], p: &Point, s: &Point) -> i128 {
+    let w = way(p, s);
+    let product = |k: usize| i128::from(normal[k]) * i128::from(w[k]);
+    product(0) + product(1) + product(2)
+}
+
+#[inline]
+fn way(from: &Point, to: &Point) -> [i64; 3] {
+    [
+        i64::from(to[0]) - i64::from(from[0]),
+        i64::from(to[1]) - i64::from(from[1]),
+        i64::from(to[2]) - i64::from(from[2]),
+    ]
 }
 
 /// Whether two triangles certainly do not meet, or only in the corner that they share: the other corners of one lie on one
 /// side of the other's plane. Decided in floating point, and only where the rounding cannot matter.
+#[inline]
 pub fn apart(a: &Numbered, b: &Numbered) -> bool {
     beyond(a, b) || beyond(b, a)
 }
@@ -84,7 +106,9 @@ pub fn meet(a: &Numbered, b: &Numbered) -> Option<Meeting> {
 /// Sides of `of`'s corners against the plane of `plane`; None where the plane does not part them.
 fn sides(plane: &Numbered, of: &Numbered) -> Option<[i128; 3]> {
     let [p, q, r] = plane.corner;
-    let found = of.corner.map(|v| orient3d(p, q, r, v));
+    let normal = exact_normal(p, q, r);
+    let [a, b, c] = of.corner;
+    let found = [above(&normal, p, a), above(&normal, p, b), above(&normal, p, c)];
     let below = found.iter().filter(|&&s| s < 0).count();
     (below == 1 || below == 2).then_some(found)
 }

@@ -2,6 +2,7 @@
 //! through itself.
 //!
 //! 1. `search`  which triangles may meet: boxes of groups, then the boxes of triangles that `tree` searches side by side
+//!    `fan`     and which of those are neighbours that meet in their common vertex alone
 //! 2. `meet`    the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`    ends that fall on one grid point are one point
 //! 4. `reach`   how far a surface goes beyond a triangle that it crosses: touching surfaces do, by what tessellation rounds
@@ -10,6 +11,7 @@
 //! without triangles, which the visibility pass treats like any wire: the ends, rounded to the grid, lie off both
 //! surfaces by less than the contact tolerance.
 
+pub mod fan;
 pub mod meet;
 pub mod reach;
 pub mod search;

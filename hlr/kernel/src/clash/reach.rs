@@ -136,21 +136,22 @@ mod tests {
     use super::*;
     use crate::scan::topology;
 
-    fn reach(points: &[Vec3], triangles: &[[i32; 3]], at: Vec3, most: f64) -> f64 {
+    /// Of the surface around triangle `of` beyond triangle 0.
+    fn reach(points: &[Vec3], triangles: &[[i32; 3]], of: u32, at: Vec3, most: f64) -> f64 {
         let t = topology::topology(triangles, points.len());
         let normals = topology::normals(points, triangles);
         let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
-        Sheet { points, triangles, edges, offsets, incident, normals: &normals }.reach(0, 1, &at, most)
+        Sheet { points, triangles, edges, offsets, incident, normals: &normals }.reach(0, of, &at, most)
     }
 
-    /// The plane z = 0, and a wall over it along x, from z = -low to z = high, cut into `strips` slanting slivers; `corner`:
-    /// where its first lower corner lies instead.
-    fn wall(low: f64, high: f64, strips: i32, corner: Option<Vec3>) -> (Vec<Vec3>, Vec<[i32; 3]>) {
+    /// The plane z = 0, and a wall through it along x, from z = -low to z = high, cut into `strips` that lean along x;
+    /// `corner`: where its first lower corner lies instead.
+    fn wall(low: f64, high: f64, strips: i32, lean: f64, corner: Option<Vec3>) -> (Vec<Vec3>, Vec<[i32; 3]>) {
         let mut points = vec![[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
         let mut triangles = vec![[0, 1, 2]];
         for k in 0..=strips {
             let x = f64::from(k) / f64::from(strips);
-            points.extend([[x, 0.0, -low], [x + 3.0, 0.0, high]]);
+            points.extend([[x, 0.0, -low], [x + lean, 0.0, high]]);
         }
         for k in 0..strips {
             let a = 3 + 2 * k;
@@ -163,34 +164,36 @@ mod tests {
     #[test]
     fn a_wall_goes_as_deep_however_it_is_cut() {
         for strips in [1, 7, 100] {
-            let (points, triangles) = wall(0.25, 5.0, strips, None);
-            let x = 0.25 / 5.25 * 3.0 + 0.2 / f64::from(strips);
-            let found = reach(&points, &triangles, [x, 0.0, 0.0], 100.0);
+            let (points, triangles) = wall(0.25, 5.0, strips, 3.0, None);
+            let middle = strips / 2;
+            let at = [0.25 / 5.25 * 3.0 + (f64::from(middle) + 0.2) / f64::from(strips), 0.0, 0.0];
+            let of = 1 + 2 * middle as u32;
+            let found = reach(&points, &triangles, of, at, 100.0);
             assert!((found - 0.25).abs() < 1e-12, "{strips}: {found}");
-            assert!(reach(&points, &triangles, [x, 0.0, 0.0], 0.1) >= 0.1);
+            assert!(reach(&points, &triangles, of, at, 0.1) >= 0.1);
         }
     }
 
     #[test]
     fn a_corner_far_away_is_not_here() {
-        let (points, triangles) = wall(0.01, 5.0, 1, Some([-50.0, 0.0, -3.0]));
+        let (points, triangles) = wall(0.01, 5.0, 1, 3.0, Some([-50.0, 0.0, -3.0]));
         let x = 1.0 - 0.01 / 5.01 * 0.5;
-        let found = reach(&points, &triangles, [x, 0.0, 0.0], 100.0);
+        let found = reach(&points, &triangles, 1, [x, 0.0, 0.0], 100.0);
         assert!(found < 0.02, "{found}");
     }
 
     #[test]
     fn a_surface_goes_on_over_a_bend_and_ends_at_an_edge() {
-        let (mut points, mut triangles) = wall(1.0, 5.0, 1, None);
+        let (mut points, mut triangles) = wall(1.0, 5.0, 1, 0.0, None);
         // Below the wall it bends by 30 degrees, and goes on for as much again; then by a right angle.
         let (sine, cosine) = 30f64.to_radians().sin_cos();
         points.extend([[0.0, sine, -1.0 - cosine], [1.0, sine, -1.0 - cosine]]);
         triangles.push([5, 3, 7]);
         triangles.push([5, 7, 8]);
         let at = [0.7, 0.0, 0.0];
-        let found = reach(&points, &triangles, at, 100.0);
+        let found = reach(&points, &triangles, 1, at, 100.0);
         assert!((found - 1.0 - cosine).abs() < 1e-12, "{found}");
         (points[7], points[8]) = ([0.0, 1.0, -1.5], [1.0, 1.0, -1.5]);
-        assert!((reach(&points, &triangles, at, 100.0) - 1.0).abs() < 1e-12);
+        assert!((reach(&points, &triangles, 1, at, 100.0) - 1.0).abs() < 1e-12);
     }
 }

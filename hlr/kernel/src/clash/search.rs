@@ -2,10 +2,14 @@
 
 use rayon::prelude::*;
 
+use super::fan::flat_vertices;
 use super::meet::{Meeting, Numbered, apart, meet};
 use super::tree::{Found, Item, Tree};
 use crate::exact::Point;
 use crate::scan::box_tree::{Aabb, BoxTree};
+
+/// Triangles below which nothing is gained by a second thread.
+const MANY: usize = 1 << 13;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Clash {
@@ -50,19 +54,46 @@ impl Surfaces<'_> {
     }
 
     fn bounds(&self, t: u32) -> Aabb {
-        Aabb::of(&self.numbered(t).corner)
+        let [a, b, c] = self.triangles[t as usize].map(|v| self.points[v as usize]);
+        let mut out = Aabb { low: a, high: a };
+        for k in 0..3 {
+            out.low[k] = a[k].min(b[k]).min(c[k]);
+            out.high[k] = a[k].max(b[k]).max(c[k]);
+        }
+        out
+    }
+
+    /// Triangles in the order of their groups, and where each group begins.
+    fn by_group(&self) -> (Vec<u32>, Vec<usize>) {
+        let mut first = vec![0; self.itself.len() + 1];
+        self.group.iter().for_each(|&g| first[g as usize + 1] += 1);
+        for g in 1..first.len() {
+            first[g] += first[g - 1];
+        }
+        if self.group.is_sorted() {
+            return ((0..self.group.len() as u32).collect(), first);
+        }
+        let (mut order, mut next) = (vec![0; self.group.len()], first.clone());
+        for (t, &g) in self.group.iter().enumerate() {
+            order[next[g as usize]] = t as u32;
+            next[g as usize] += 1;
+        }
+        (order, first)
     }
 
     /// Sorted by groups, then triangles. Cut short where `stopped` says so.
     pub fn clashes(&self, stopped: &(dyn Fn() -> bool + Sync)) -> Clashes {
         let count = self.itself.len();
-        let mut members: Vec<Vec<u32>> = vec![Vec::new(); count];
-        let mut boxes = vec![Aabb::EMPTY; count];
-        for (t, &g) in self.group.iter().enumerate() {
-            members[g as usize].push(t as u32);
-            boxes[g as usize] = boxes[g as usize].union(&self.bounds(t as u32));
-        }
+        let (order, first) = self.by_group();
+        let members: Vec<&[u32]> = first.windows(2).map(|w| &order[w[0]..w[1]]).collect();
+        let around = |of: &[u32]| {
+            let bounds = of.par_iter().with_min_len(MANY).map(|&t| self.bounds(t));
+            bounds.reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
+        };
+        let boxes: Vec<Aabb> = members.par_iter().map(|of| around(of)).collect();
         let pairs = self.pairs(&boxes, &members);
+        let own = pairs.iter().any(|[a, b]| a == b);
+        let flat = if own { flat_vertices(self) } else { Vec::new() };
         let mut wanted = vec![false; count];
         for &[a, b] in &pairs {
             wanted[a as usize] = true;
@@ -71,12 +102,15 @@ impl Surfaces<'_> {
         let mut items: Vec<Vec<Item>> = members
             .par_iter()
             .zip(&wanted)
-            .map(|(of, &wanted)| if wanted { of.iter().map(|&t| (self.bounds(t), t)).collect() } else { Vec::new() })
+            .map(|(of, &wanted)| {
+                let of = if wanted { *of } else { &[] };
+                of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect()
+            })
             .collect();
         let trees: Vec<Tree> = items.par_iter_mut().map(|items| Tree::new(items)).collect();
         let try_pair = |s: u32, t: u32, out: &mut Part| {
             if !stopped() {
-                self.try_pair(s, t, out);
+                self.try_pair(s, t, &flat, out);
             }
         };
         let parts: Vec<Part> = pairs
@@ -99,14 +133,19 @@ impl Surfaces<'_> {
     }
 
     /// Two triangles whose boxes overlap: of different groups that of the lower one first, or both of one group.
-    fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
+    fn try_pair(&self, s: u32, t: u32, flat: &[bool], out: &mut Part) {
         let same = self.group[s as usize] == self.group[t as usize];
         let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
-        let (a, b) = (self.numbered(s), self.numbered(t));
-        let shared = if same { a.number.iter().filter(|v| b.number.contains(v)).count() } else { 0 };
-        if shared > 1 {
-            return; // neighbours along an edge meet there by right
+        if same {
+            let (a, b) = (&self.triangles[s as usize], &self.triangles[t as usize]);
+            let mut shared = a.iter().filter(|v| b.contains(v));
+            match (shared.next(), shared.next()) {
+                (Some(_), Some(_)) => return, // neighbours along an edge meet there by right
+                (Some(&v), None) if flat[v as usize] => return,
+                _ => {}
+            }
         }
+        let (a, b) = (self.numbered(s), self.numbered(t));
         out.tests += 1;
         if apart(&a, &b) {
             return;
@@ -117,7 +156,7 @@ impl Surfaces<'_> {
     }
 
     /// Groups whose boxes overlap in more than their borders, the lower number first; and those asked for themselves.
-    fn pairs(&self, boxes: &[Aabb], members: &[Vec<u32>]) -> Vec<[u32; 2]> {
+    fn pairs(&self, boxes: &[Aabb], members: &[&[u32]]) -> Vec<[u32; 2]> {
         let live = (0..boxes.len() as u32).filter(|&g| !members[g as usize].is_empty());
         let tree = BoxTree::new(live.clone().map(|g| (boxes[g as usize], g)).collect());
         let mut pairs = Vec::new();

@@ -33,6 +33,14 @@ fn power_of_two_scale(half: f64, limit: f64) -> f64 {
     s
 }
 
+/// The nearest integer, ties to even; beyond 32 bits the largest of these. As `round_ties_even` does, but without a call:
+/// between 2^52 and 2^53 doubles are whole, so adding 1.5 * 2^52 rounds.
+#[inline]
+fn nearest(x: f64) -> i32 {
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
+    ((x + WHOLE) - WHOLE) as i32
+}
+
 impl Grid {
     /// The finest grid that holds every point; None where a coordinate is not finite.
     pub fn around(points: &[[f64; 3]]) -> Option<Grid> {
@@ -68,9 +76,9 @@ impl Grid {
 
     pub fn snap(&self, p: &[f64; 3]) -> Point {
         [
-            ((p[0] - self.centre[0]) * self.scale_xy).round_ties_even() as i32,
-            ((p[1] - self.centre[1]) * self.scale_xy).round_ties_even() as i32,
-            ((p[2] - self.centre[2]) * self.scale_z).round_ties_even() as i32,
+            nearest((p[0] - self.centre[0]) * self.scale_xy),
+            nearest((p[1] - self.centre[1]) * self.scale_xy),
+            nearest((p[2] - self.centre[2]) * self.scale_z),
         ]
     }
 
@@ -107,6 +115,15 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_nearest_integer_is_that_of_the_library() {
+        let ties = [0.5, 1.5, 2.5, -0.5, -1.5, 1e9 + 0.5, 0.49999999999999994, -2.0, 1073741823.5, 2147483647.5];
+        let far = [1e10, -1e10, 4.6e15, -9.1e15, 1e300, f64::INFINITY, f64::NEG_INFINITY, f64::NAN];
+        for x in ties.into_iter().chain(far) {
+            assert_eq!(nearest(x), x.round_ties_even() as i32, "{x}");
+        }
+    }
 
     #[test]
     fn small_integers_are_kept_exactly() {

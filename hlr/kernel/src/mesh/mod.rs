@@ -4,3 +4,4 @@ pub mod clean;
 pub mod groups;
 pub mod kinds;
 pub mod needles;
+pub mod passes;

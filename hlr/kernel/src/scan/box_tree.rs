@@ -13,6 +13,7 @@ impl Aabb {
         points.iter().fold(Aabb::EMPTY, |b, p| b.union(&Aabb { low: **p, high: **p }))
     }
 
+    #[inline]
     pub fn union(&self, other: &Aabb) -> Aabb {
         let mut out = *self;
         for k in 0..3 {
