@@ -109,6 +109,28 @@ def test_triangles_that_do_not_fill_a_face_are_refused():
     assert not found.replace(0, points, uv, half, borders[:3])
 
 
+def test_vertices_off_their_edges_keep_what_they_are_off_to_themselves():
+    """Within its tolerance a vertex may lie beside the curves that end there: these are left near it, no earlier."""
+    from OCP.BRep import BRep_Builder
+    from OCP.gp import gp_Pnt
+
+    box = cq.Workplane().box(20, 20, 20)
+    for vertex in box.vertices().vals():
+        place = np.sign(vertex.toTuple()) * 10 + (0.02, 0.03, 0.0)
+        BRep_Builder().UpdateVertex(vertex.wrapped, gp_Pnt(*place.tolist()), 0.05)
+    found = meshed(box, deflection=0.001)
+    assert sides_of(found.triangles) == {2}
+    points = found.points[found.edge_nodes]
+    from_corner = np.abs(np.abs(points) - 10).max(axis=1)
+    on_curve = np.sort(np.abs(np.abs(points) - 10), axis=1)[:, 1] < 1e-12
+    assert (on_curve | (from_corner < 0.05)).all()
+    # Of the 20 of each edge all but 0.11 at either end are on it.
+    for k in range(len(found.edge_offsets) - 1):
+        line = points[found.edge_offsets[k] : found.edge_offsets[k + 1]]
+        on = line[on_curve[found.edge_offsets[k] : found.edge_offsets[k + 1]]]
+        assert len(on) == 2 and np.linalg.norm(on[1] - on[0]) > 20 - 0.25
+
+
 def test_a_damaged_dump_is_refused():
     whole = dumped(cq.Workplane().box(1, 2, 3))
     assert _kernel.BrepModel(whole).n_faces == 6

@@ -66,7 +66,7 @@ fn main() {
         }
         let mesh = &meshed.mesh;
         let on: Vec<Vector> = mesh.uv.iter().map(|&uv| surface.point(uv)).collect();
-        let [total, gap] = [&mesh.points, &on].map(|points| error(surface, mesh, points) / deflection);
+        let [total, gap] = [&mesh.points, &on].map(|points| error(surface, mesh, points, deflection) / deflection);
         most = [most[0].max(total), most[1].max(gap)];
         above += usize::from(total > 1.0);
         real += usize::from(gap > 1.0);
@@ -89,8 +89,9 @@ fn main() {
     );
 }
 
-/// Greatest distance of surface points amid triangles and their edges to the triangles around.
-fn error(surface: &Surface, mesh: &FaceMesh, points: &[Vector]) -> f64 {
+/// Greatest distance of surface points amid triangles and their edges to the triangles around; where that is more than
+/// enough, to the nearest of all.
+fn error(surface: &Surface, mesh: &FaceMesh, points: &[Vector], enough: f64) -> f64 {
     // All corners at a pole are one.
     let mut at_node = BTreeMap::new();
     let place: Vec<usize> =
@@ -108,8 +109,11 @@ fn error(surface: &Surface, mesh: &FaceMesh, points: &[Vector]) -> f64 {
             let p = surface.point(at);
             let own = from_triangle(&p, corners(k));
             if own > worst {
-                let beside = t.iter().flat_map(|&i| &around[place[i as usize]]);
-                worst = worst.max(beside.fold(own, |least, &k| least.min(from_triangle(&p, corners(k)))));
+                let nearer = |least: f64, k: usize| least.min(from_triangle(&p, corners(k)));
+                let beside = t.iter().flat_map(|&i| &around[place[i as usize]]).fold(own, |least, &k| nearer(least, k));
+                // At an apex a needle in (u, v) passes over triangles that it does not touch.
+                let least = if beside > enough { (0..mesh.triangles.len()).fold(beside, nearer) } else { beside };
+                worst = worst.max(least);
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::chords::chords;
 use super::hull::from_chord;
-use crate::geometry::curve::Vec3;
+use crate::geometry::curve::{Curve, Vec3};
 use crate::geometry::vector::{length, sub};
 use crate::model::{Edge, Model};
 
@@ -51,6 +51,10 @@ impl Polyline {
 const POLE_PARTS: f64 = 16.0;
 /// Of the deflection: what is left for places that were not looked at.
 const SAMPLED: f64 = 0.5;
+/// In distances between a vertex and its curve: how far from the vertex a polyline leaves that curve.
+const LEAVES: f64 = 3.0;
+/// Of the first chord: where it would leave it beyond that, it is left as it is.
+const MOST_SHARE: f64 = 0.4;
 /// Tolerances from an end within which a polyline has no corner; what OpenCASCADE takes as the same point.
 const NEAR_END: f64 = 2.0;
 /// Of the deflection: as if edges were known as well as that.
@@ -76,7 +80,7 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
         let parameters: Vec<f64> = (0..=count).map(|i| first + (last - first) * i as f64 / count as f64).collect();
         return Some(Polyline { points: vec![point; parameters.len()], parameters });
     }
-    let (parameters, mut points) = match (&edge.curve, on) {
+    let (mut parameters, mut points) = match (&edge.curve, on) {
         (Some(curve), _) => {
             let mut parameters = vec![first];
             let inner = edge.joints.iter().copied().filter(|t| *t > first && *t < last);
@@ -102,6 +106,9 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
         }
         _ => return None,
     };
+    if let Some(curve) = &edge.curve {
+        beside_ends(curve, edge.end_points, deflection, &mut parameters, &mut points);
+    }
     let end = points.len() - 1;
     for (place, vertex) in [(0, edge.end_points[0]), (end, edge.end_points[1])] {
         if let Some(vertex) = vertex {
@@ -125,6 +132,36 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
     finite.then_some(Polyline { parameters, points })
 }
 
+/// Where a vertex is off the end of the curve, one more corner not far from it: the polyline leaves its curve there, and
+/// not on all the way to the next corner.
+///
+/// ```text
+///  o                        vertex
+///   '-x-----------x--       x: corners on the curve, the first one added
+/// ```
+fn beside_ends(
+    curve: &Curve,
+    vertices: [Option<Vec3>; 2],
+    deflection: f64,
+    parameters: &mut Vec<f64>,
+    points: &mut Vec<Vec3>,
+) {
+    for (side, vertex) in vertices.into_iter().enumerate() {
+        let last = points.len() - 1;
+        let [end, beside] = if side == 0 { [0, 1] } else { [last, last - 1] };
+        let Some(off) = vertex.map(|v| length(&sub(&points[end], &v))).filter(|off| *off > deflection) else {
+            continue;
+        };
+        let way = parameters[beside] - parameters[end];
+        let share = LEAVES * off / (length(&curve.derivatives(parameters[end])[1]) * way.abs());
+        if share < MOST_SHARE {
+            let t = parameters[end] + share * way;
+            parameters.insert(end.max(beside), t);
+            points.insert(end.max(beside), curve.point(t));
+        }
+    }
+}
+
 /// Without inner corners that are no further from an end than the edge is known: a chord from there may run anywhere.
 fn apart(parameters: Vec<f64>, points: Vec<Vec3>, tolerance: f64) -> (Vec<f64>, Vec<Vec3>) {
     let end = points.len() - 1;
@@ -146,5 +183,28 @@ fn sampled(at: &dyn Fn(f64) -> Vec3, to: f64, end: Vec3, most: f64, depth: u32, 
         sampled(at, to, end, most, depth + 1, rows);
     } else {
         rows.push((to, end));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_off_its_curve_leaves_the_rest_of_the_polyline_on_it() {
+        let line = Curve::Line { p: [0.0; 3], a: [1.0, 0.0, 0.0] };
+        let off = [Some([0.0, 0.1, 0.0]), Some([10.0, 0.0, 0.1])];
+        let made = |deflection, length: f64| {
+            let (mut parameters, mut points) = (vec![0.0, length], vec![[0.0; 3], [length, 0.0, 0.0]]);
+            let ends = [off[0], off[1].map(|[_, y, z]| [length, y, z])];
+            beside_ends(&line, ends, deflection, &mut parameters, &mut points);
+            assert!(parameters.iter().zip(&points).all(|(t, p)| *p == [*t, 0.0, 0.0]));
+            parameters
+        };
+        let found = made(0.01, 10.0);
+        assert!(found.iter().zip([0.0, 0.3, 9.7, 10.0]).all(|(t, wanted)| (t - wanted).abs() < 1e-12));
+        // What is within the deflection, and edges as short as they are uncertain, stay as they are.
+        assert_eq!(made(0.2, 10.0), [0.0, 10.0]);
+        assert_eq!(made(0.01, 0.5), [0.0, 0.5]);
     }
 }
