@@ -31,35 +31,6 @@ def clean_mesh(
     """Points (n, 3) with equal ones joined, triangles (m, 3) without impossible ones, which of the given these are
     (None: all), and how many were left out: not finite, out of range, degenerate."""
 
-def mesh_facts(
-    points: Floats, triangles: Ints
-) -> tuple[Ints, Ints, Ints, Ints, Floats, Floats, npt.NDArray[np.int64], bool]:
-    """edges (e, 2), offsets (e+1,), incident (k,), balance (e,), fold (e,), normals (t, 3), flat (f,), repeated: the
-    fields of `hlr.scene.topology.MeshFacts`."""
-
-def group_facts(
-    points: Floats, triangles: Ints, group: Ints, count: int
-) -> tuple[Floats, Floats, npt.NDArray[np.uint32], Floats, Floats]:
-    """Of each group its box, low (g, 3) and high (g, 3), its triangles, six times its volume, and twice its area."""
-
-def bent_groups(
-    points: Floats,
-    triangles: Ints,
-    edges: Ints,
-    offsets: Ints,
-    incident: Ints,
-    normals: Floats,
-    group: Ints,
-    least: Floats,
-) -> Bools:
-    """(g,) whether a group bends inward at an edge by more than least (g,), or has an edge of not two triangles."""
-
-def group_pieces(group: Ints, piece: Ints, count: int) -> npt.NDArray[np.uint32]:
-    """(g,) connected pieces of each group; group (t,), piece (t,) as `components` numbers them."""
-
-def group_passes(points: Floats, triangles: Ints, group: Ints, asked: Bools) -> Ints:
-    """(g,) how often a ray from the middle of each group that is asked for (g,) passes through its surface."""
-
 def needles(
     points: Floats, triangles: Ints, normals: Floats, part: Ints, least: Floats
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
@@ -380,35 +351,156 @@ class BrepMesh:
     def replace(
         self, face: int, points: Floats, uv: Floats, triangles: Ints, borders: list[tuple[list[int], list[float]]]
     ) -> bool: ...
-    def parts(self, planar: Bools, threads: int = 0) -> BrepParts: ...
+    def parts(self, planar: Bools, threads: int = 0) -> PartTables: ...
 
-class BrepParts:
-    """Part meshes one after another: part p owns points[point_start[p]:point_start[p + 1]] and so on.
+class PartTables:
+    """The meshes of all parts, one after another: part p owns points[point_start[p]:point_start[p + 1]] and so on.
 
-    triangles, edge_nodes and corner count within the part; edge_offsets through all edges.
+    Triangles (t, 3) and edge_nodes count points (n, 3) of all parts; edge e of all is the polyline
+    edge_nodes[edge_offsets[e]:edge_offsets[e + 1]]. Numbers of faces and edges (triangle_face, edge_index) are those of
+    their own part. origin (t,): which triangle of its part each is, or is a piece of, as the source hands it over.
 
-    corner (m, 3) of triangles counts nodes of faces, into uv (k, 2); face_shape, face_place (f, 3, 4) and face_reversed
-    per face: number of the underlying face, where it stands in the part, whether its surface's normal points inward.
+    Per part: brep, it has faces and edges; joined, no two of its points are in one place; transform (p, 3, 4);
+    precision, what its coordinates may be off by (model units).
+
+    corner (t, 3) counts uv (k, 2) of all parts, -1 where there is no surface; it may be empty where uv is. Per face:
+    face_planar, face_shape (number of the underlying face, -1 for none), face_place (f, 3, 4, where it stands in its
+    part), face_reversed (the surface's normal points inward).
+
+    All arrays are read-only: they lie in the kernel.
     """
+
+    def __new__(
+        cls,
+        point_start: Ints,
+        points: Floats,
+        triangle_start: Ints,
+        triangles: Ints,
+        triangle_face: Ints,
+        origin: Ints,
+        face_start: Ints,
+        face_planar: Bools,
+        edge_start: Ints,
+        edge_offsets: Ints,
+        edge_nodes: Ints,
+        edge_index: Ints,
+        edge_class: Bytes,
+        brep: Bools,
+        joined: Bools,
+        transform: Floats,
+        precision: Floats,
+        node_start: Ints,
+        corner: Ints,
+        uv: Floats,
+        face_shape: Ints,
+        face_place: Floats,
+        face_reversed: Bools,
+    ) -> PartTables:
+        """ValueError: a length or a number is out of range."""
 
     point_start: Ints
     points: Floats
     triangle_start: Ints
     triangles: Ints
     triangle_face: Ints
+    origin: Ints
     face_start: Ints
     face_planar: Bools
-    face_shape: Ints
-    face_place: Floats
-    face_reversed: Bools
     edge_start: Ints
     edge_offsets: Ints
     edge_nodes: Ints
     edge_index: Ints
     edge_class: Bytes
+    brep: Bools
+    joined: Bools
+    transform: Floats
+    precision: Floats
     node_start: Ints
     corner: Ints
     uv: Floats
+    face_shape: Ints
+    face_place: Floats
+    face_reversed: Bools
+    def __len__(self) -> int: ...
+    def placed(self, part: Ints, transform: Floats, precision: Floats) -> PartTables:
+        """These parts (m,), any of them any number of times, each moved by its transform (m, 3, 4)."""
+
+    def within(self, largest: float) -> bool:
+        """Whether all coordinates are finite and nearer to the origin than this."""
+
+    def places_repeated(self) -> bool:
+        """Whether a part that is not joined may hold two points in one place: yes where it does."""
+
+    def facts(self) -> MeshFacts: ...
+
+class MeshFacts:
+    """Edges of the mesh of all parts, before any part or edge has a meaning.
+
+    edges (e, 2) lower vertex first, ascending; their triangles incident[offsets[i]:offsets[i + 1]], ascending; balance
+    (e,) triangles along minus triangles against the edge; fold (e,) cosine of the fold, NaN where there are not two
+    triangles with area; normals (t, 3), zero without area; flat: the triangles without area; repeated: a triangle is
+    there twice.
+    """
+
+    edges: Ints
+    offsets: Ints
+    incident: Ints
+    balance: Ints
+    fold: Floats
+    normals: Floats
+    flat: npt.NDArray[np.int64]
+    repeated: bool
+    def bare_borders(self) -> list[int]:
+        """How many borders each part without B-rep has."""
+
+    def scene(self) -> MeshScene: ...
+
+class MeshScene:
+    """All parts as one scene, closed surfaces that were inside out turned: `mesh` and triangles are those after it.
+
+    triangle_part, triangle_group, curved (t,): the face may show an outline; turned (t,): None where none was
+    loose (l, 2): edges of the source that no triangle has; their numbers follow those of `mesh`
+    edge_part, edge_group, edge_curved (e,) of the edges with triangles; edge_kind (e + l,): EdgeClass, 255 for none
+    group_part, closed, cull, inward, planar, extent, low, high (g, ...) as in `hlr.scene.scene.Groups`; welded (g,): a
+    mesh without B-rep with more than two triangles at an edge; folded (g,): not surely one convex body
+    walk_*: as in `hlr.scene.scene.Chains`, of the source's edges; face_*, corner: as in `TrueSurfaces`
+    reports: of each part the border edges, edges of more than two triangles, edges between faces of opposite
+    orientation, triangles without area, groups that are not closed, groups turned, triangles, and edges of the source
+    """
+
+    mesh: MeshFacts
+    triangles: Ints
+    triangle_part: Ints
+    triangle_group: Ints
+    curved: Bools
+    turned: Bools | None
+    loose: Ints
+    edge_part: Ints
+    edge_group: Ints
+    edge_kind: Bytes
+    edge_curved: Bools
+    group_part: Ints
+    closed: Bools
+    cull: Bools
+    inward: Bools
+    planar: Bools
+    extent: Floats
+    low: Floats
+    high: Floats
+    welded: Bools
+    folded: Bools
+    walk_offsets: Ints
+    walk_edges: Ints
+    walk_reversed: Bools
+    walk_kind: Bytes
+    walk_part: Ints
+    walk_index: Ints
+    walk_straight: Bools
+    corner: Ints
+    face_place: Floats
+    face_inward: Bools
+    face_curved: Bools
+    reports: list[list[int]]
 
 class ShadedModel:
     """A triangle mesh with normals and colours, for any number of pictures."""

@@ -90,7 +90,7 @@ def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options, planner:
 def _opened(planner: Planner, opened: Source) -> None:
     """What reading the source took."""
     brep = opened.kind in BREP_KINDS
-    facts, count = Facts(kind=opened.kind), len(opened.infos())
+    facts, count = Facts(kind=opened.kind), len(opened.names())
     planner.on("B-rep reader", facts)
     planner.on("mesh reader", facts)
     planner.spent("B-rep reader" if brep else "mesh reader", **{"brep_parts" if brep else "mesh_parts": count})

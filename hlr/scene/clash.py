@@ -21,10 +21,11 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr._kernel import MeshFacts
 from hlr.distinct import distinct
 from hlr.scene.groups import touching
 from hlr.scene.scene import Chains, Groups
-from hlr.scene.topology import STRAIGHT_ON, Keys, MeshFacts
+from hlr.scene.topology import STRAIGHT_ON, Keys
 from hlr.source.model import EdgeClass, Floats, Ints
 from hlr.tolerance import CONTACT
 
@@ -320,24 +321,3 @@ def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
 def distrusted(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
     """Groups that pass through or touch themselves are looked at from both sides, and searched for where."""
     return replace(groups, sound=groups.sound & ~which, cull=groups.cull & ~which)
-
-
-def may_fold_into_itself(
-    points: Floats, triangles: Ints, mesh: MeshFacts, group_of: Ints, groups: Groups
-) -> npt.NDArray[np.bool_]:
-    """(g,) bool: not one convex body, so that it is worth a look.
-
-    What is closed, in one piece, bends outward or not at all at every edge, and goes round its middle once, is convex.
-    """
-    count = len(groups.closed)
-    size = np.where(np.isfinite(groups.low[:, 0]), (groups.high - groups.low).max(axis=1), 0.0)
-    bent = ~groups.cull | _kernel.bent_groups(
-        points, triangles, mesh.edges, mesh.offsets, mesh.incident, mesh.normals, group_of, ROUNDING * size
-    )
-    if bent.all():
-        return bent
-    bent |= _kernel.group_pieces(group_of, _kernel.components(triangles, len(points)), count) != 1
-    # A surface that bends outward at every edge may still wind round its middle twice, as a prism over a pentagram
-    # does. K. Mehlhorn et al., "Checking geometric programs or verification of geometric structures", Computational
-    # Geometry 12 (1999).
-    return np.asarray(bent | (_kernel.group_passes(points, triangles, group_of, ~bent) != 1))

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.scene.topology import STRAIGHT_ON, MeshFacts
+from hlr._kernel import MeshFacts
+from hlr.scene.topology import STRAIGHT_ON
 from hlr.source.model import EdgeClass, Floats, Ints
 
 Bools = npt.NDArray[np.bool_]
@@ -38,15 +39,15 @@ roughness of scans goes on for eleven at most (a skull, a bunny, a turbine blade
 or more."""
 
 
-def creases(mesh: MeshFacts, edge_part: Ints, bare: Bools, crease: float, points: Floats) -> Kinds:
+def creases(mesh: MeshFacts, fold: Floats, edge_part: Ints, bare: Bools, crease: float, points: Floats) -> Kinds:
     """(e,) EdgeClass SHARP or BOUNDARY, or 255, for the edges of bare meshes, from the fold angle (degrees).
 
-    edge_part (e,); bare: per part.
+    fold (e,): its cosines, as far as the coordinates support any; edge_part (e,); bare: per part.
     """
     sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
-    kind, near = _kernel.edge_kinds(mesh.offsets, mesh.fold, edge_part, bare, sharp, near_fold)
+    kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, bare, sharp, near_fold)
     kind[_continuing(kind, mesh.edges, near, points)] = EdgeClass.SHARP
-    kind[_slight(kind, mesh, _cosine(CLEAR_FOLD * crease), len(points))] = 255
+    kind[_slight(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))] = 255
     return kind
 
 
@@ -102,14 +103,14 @@ def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Fl
     return found
 
 
-def _slight(kind: Kinds, mesh: MeshFacts, clear_fold: float, n: int) -> Ints:
+def _slight(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: int) -> Ints:
     """Edges of figures of which none is clear, and which are short or end within smooth surfaces."""
     chosen = np.flatnonzero(kind != 255).astype(np.int32)
     if len(chosen) == 0:
         return chosen
-    ends = mesh.edges[chosen]
+    ends = edges[chosen]
     # Also where there is no fold, at a border.
-    clear = ~(mesh.fold[chosen] >= clear_fold)
+    clear = ~(fold[chosen] >= clear_fold)
     figure = _kernel.edge_components(np.ascontiguousarray(ends), n)
     single = (np.bincount(ends.ravel(), minlength=n) == 1)[ends].sum(axis=1)
     long = np.bincount(figure)

@@ -3,81 +3,62 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from hlr.notes import Note
-from hlr.scene.scene import INTERIOR, Groups, ScenePart
-from hlr.scene.topology import MeshFacts
-from hlr.source.model import Ints, PartMesh
+from hlr.scene.scene import ScenePart
+from hlr.source.model import Ints
+from hlr.source.together import Together
 
 MOST_NOTES = 5
 """Parts that are named in the notes; how many more there are is said in one sentence."""
 
 
 def reports(
-    parts: list[PartMesh],
+    whole: Together,
     doubled: list[int],
-    mesh: MeshFacts,
-    kind: npt.NDArray[np.uint8],
-    part_of: Ints,
-    edge_part: Ints,
-    groups: Groups,
-    group_part: Ints,
-    inward: npt.NDArray[np.bool_],
+    counts: list[list[int]],
+    drawn: list[int] | None,
     crossed: Ints,
 ) -> tuple[ScenePart, ...]:
     """Per part what it is and what is wrong with it.
 
-    doubled: triangles already left out as duplicates; kind: of all mesh edges; part_of (t,); edge_part (e,); group_part
-    (g,); inward: (g,) bool, what had to be turned outward; crossed: numbers of parts whose surfaces pass through one
-    another.
+    counts: what `_kernel.MeshScene.reports` tells; doubled: triangles already left out as duplicates; drawn: edges of
+    parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another.
     """
-    n = len(parts)
-    uses = np.diff(mesh.offsets)
-    own = edge_part[: len(uses)]
-
-    def per_part(edges: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
-        return np.bincount(own[edges], minlength=n)
-
-    border, crowded = per_part(uses == 1), per_part(uses > 2)
-    turned = per_part((uses == 2) & (mesh.balance != 0))
-    drawn = per_part(kind[: len(own)] != INTERIOR)
-    flat = np.bincount(part_of[mesh.flat], minlength=n)
-
-    def groups_of_part(chosen: npt.NDArray[np.bool_]) -> npt.NDArray[np.intp]:
-        return np.bincount(group_part[chosen], minlength=n)
-
-    unclosed, outside_in = groups_of_part(~groups.closed), groups_of_part(inward)
-    triangles = np.bincount(part_of, minlength=n)
     through = set(crossed.tolist())
+    tables = whole.tables
+    brep = tables.brep.tolist()
+    faces = np.diff(tables.face_start).tolist()
+    own = drawn or [0] * len(brep)
     out = []
-    for i, part in enumerate(parts):
+    for i, (label, found) in enumerate(zip(whole.labels, counts, strict=True)):
+        border, crowded, turned, flat, unclosed, outside_in, triangles, edges = found
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
-        if flat[i] and not part.brep:  # those of a B-rep are the triangulator's, not the model's
-            defects.append(_count(flat[i], "triangle") + " without area")
-        if border[i]:
-            defects.append("open: " + _count(border[i], "border edge"))
-        if crowded[i]:
-            defects.append(_count(crowded[i], "non-manifold edge"))
-        if turned[i]:
-            defects.append(_count(turned[i], "edge") + " between faces of opposite orientation")
-        if outside_in[i]:
-            pieces = _count(outside_in[i], "closed piece") + " turned inside out"
-            defects.append("the solid is turned inside out" if part.brep else pieces)
+        if flat and not brep[i]:  # those of a B-rep are the triangulator's, not the model's
+            defects.append(_count(flat, "triangle") + " without area")
+        if border:
+            defects.append("open: " + _count(border, "border edge"))
+        if crowded:
+            defects.append(_count(crowded, "non-manifold edge"))
+        if turned:
+            defects.append(_count(turned, "edge") + " between faces of opposite orientation")
+        if outside_in:
+            pieces = _count(outside_in, "closed piece") + " turned inside out"
+            defects.append("the solid is turned inside out" if brep[i] else pieces)
         if i in through:
             defects.append("the surface passes through itself")
         out.append(
             ScenePart(
-                name=part.name,
-                color=part.color,
-                transform=part.transform,
-                faces=len(part.face_planar) if part.brep else 0,
-                edges=_distinct(part.edge_index) if part.brep else int(drawn[i]),
-                triangles=int(triangles[i]),
-                closed=bool(triangles[i] > 0 and not border[i] and not unclosed[i]),
-                oriented=bool(turned[i] == 0),
+                name=label.name,
+                color=label.color,
+                transform=label.transform,
+                faces=faces[i] if brep[i] else 0,
+                edges=edges if brep[i] else own[i],
+                triangles=triangles,
+                closed=triangles > 0 and not border and not unclosed,
+                oriented=turned == 0,
                 defects=tuple(defects),
             )
         )
@@ -97,8 +78,3 @@ def notes(parts: tuple[ScenePart, ...]) -> list[Note]:
 
 def _count(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
-
-
-def _distinct(ascending: Ints) -> int:
-    """How many different numbers there are; an edge that changes its class is there in pieces."""
-    return int(np.count_nonzero(np.diff(ascending))) + (len(ascending) > 0)

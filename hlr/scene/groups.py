@@ -1,4 +1,4 @@
-"""Which triangles the visibility pass may treat as one surface, and what may be assumed of each such group."""
+"""What may be assumed of triangles that the visibility pass treats as one surface."""
 
 from __future__ import annotations
 
@@ -7,78 +7,27 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from hlr import _kernel
+from hlr._kernel import MeshScene
 from hlr.scene.scene import Groups
-from hlr.scene.topology import MeshFacts
 from hlr.source.model import Floats, Ints
 from hlr.tolerance import MESH_CONTACT
 
 
-def grouped(whole: npt.NDArray[np.bool_], triangles: Ints, part_of: Ints, n_points: int) -> tuple[Ints, Ints]:
-    """Per triangle its group, per group its part: closed B-rep parts whole, everything else by connected piece.
-
-    Faces of an IGES file that nobody sewed together touch like strangers do, and need the same tolerance.
-    """
-    if whole.all():
-        return part_of.copy(), np.arange(len(whole), dtype=np.int32)
-    piece = _kernel.components(triangles, n_points)
-    if not whole.any():
-        # Pieces are numbered in order of appearance.
-        group_part = np.zeros(int(piece.max(initial=-1)) + 1, np.int32)
-        group_part[piece[::-1]] = part_of[::-1]
-        return piece, group_part
-    # Whole parts first, numbered as they are; then the pieces of the others.
-    label = np.where(whole[part_of], part_of, piece + len(whole)).astype(np.int64)
-    used, group = np.unique(label, return_inverse=True)
-    group = group.ravel().astype(np.int32)
-    first = np.zeros(len(used), np.int64)
-    first[group[::-1]] = np.arange(len(triangles))[::-1]
-    return np.asarray(group, np.int32), part_of[first]
-
-
-def checked(
-    points: Floats,
-    triangles: Ints,
-    group_of: Ints,
-    group_part: Ints,
-    mesh: MeshFacts,
-    brep: npt.NDArray[np.bool_],
-    curved: npt.NDArray[np.bool_],
-) -> Groups:
-    """Per group what can be told from its triangles; brep per part, curved per triangle."""
-    count = len(group_part)
-    odd_edges = np.flatnonzero(mesh.balance)
-    odd = np.bincount(group_of[mesh.incident[mesh.offsets[odd_edges]]], minlength=count)
-    low, high, size, six_volumes, two_areas = _kernel.group_facts(points, triangles, group_of, count)
-    used = size > 0
-    closed = (odd == 0) & used
-    extent = np.where(used, (high - low).min(axis=1), 0.0)
-    # Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a cube a
-    # third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still hides.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        thickness = np.where(closed, 1.8 * 2.0 * np.abs(six_volumes / 6.0) / (two_areas / 2.0), np.inf)
-    extent = np.fmin(extent, thickness)
+def groups_of(found: MeshScene, brep: npt.NDArray[np.bool_]) -> Groups:
+    """Per group what can be told from its triangles; brep: per part."""
+    solid = brep[found.group_part]
     return Groups(
-        closed=closed,
-        cull=closed & (six_volumes > 0.0),
-        inward=closed & (six_volumes < 0.0),
-        sound=closed & brep[group_part],
-        bare=~brep[group_part],
-        tight=np.zeros(count, bool),
-        planar=~used if curved.all() else np.bincount(group_of[curved], minlength=count) == 0,
-        extent=extent,
-        low=low,
-        high=high,
+        closed=found.closed,
+        cull=found.cull,
+        inward=found.inward,
+        sound=found.closed & solid,
+        bare=~solid,
+        tight=np.zeros(len(solid), bool),
+        planar=found.planar,
+        extent=found.extent,
+        low=found.low,
+        high=found.high,
     )
-
-
-def welded(offsets: Ints, incident: Ints, group_of: Ints, groups: Groups) -> npt.NDArray[np.bool_]:
-    """(g,) bool: pieces of a mesh with more than two triangles at an edge.
-
-    Bodies that were welded there are one connected piece, and still touch one another as strangers do.
-    """
-    shared = group_of[incident[offsets[:-1][np.diff(offsets) > 2]]]
-    return np.asarray(groups.bare & (np.bincount(shared, minlength=len(groups.bare)) > 0))
 
 
 def with_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: bool) -> tuple[Groups, Ints]:

@@ -15,14 +15,15 @@ So an edge between two surfaces keeps its fold, and where all around is flat or 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr._kernel import MeshFacts
 from hlr.distinct import distinct
-from hlr.scene.topology import MeshFacts, keys
+from hlr.scene.topology import keys
 from hlr.source.model import Floats, Ints
 
 Indices = npt.NDArray[np.intp]
@@ -34,14 +35,22 @@ MOST_STEPS = 32
 """Needles side by side, of each the longest side on the next one, before what lies beyond is taken as not known."""
 
 
-def supported(mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, precision: Floats) -> MeshFacts:
-    """The mesh with the normals and folds that its coordinates support; a triangle without area is a needle, too.
+@dataclass(frozen=True, slots=True)
+class Supported:
+    """normals (t, 3), zero where there is none; fold (e,): cosines, NaN where there is none."""
+
+    normals: Floats
+    fold: Floats
+
+
+def supported(mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, precision: Floats) -> Supported:
+    """The normals and folds that the coordinates of a mesh support; a triangle without area is a needle, too.
 
     part_of (t,); precision (p,): how far coordinates of each part may be off, in model units; 0 where they are exact
     """
     low, longest = _kernel.needles(points, triangles, mesh.normals, part_of, LOW * precision)
     if not len(low):
-        return mesh
+        return Supported(mesh.normals, mesh.fold)
     # Chains from needle to needle, in terms of needles; what is none ends them.
     beyond, sense = _across(mesh, triangles, low, longest)
     place = np.minimum(np.searchsorted(low, beyond), len(low) - 1)
@@ -59,7 +68,7 @@ def supported(mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, p
     is_low[low] = True
     normals = mesh.normals.copy()
     normals[low] = np.where(is_low[target], 0.0, turn)[:, None] * mesh.normals[target]
-    return replace(mesh, normals=normals, fold=_folds(mesh, normals, is_low))
+    return Supported(normals, _folds(mesh, normals, is_low))
 
 
 def _across(mesh: MeshFacts, triangles: Ints, low: Indices, longest: Indices) -> tuple[Indices, Floats]:

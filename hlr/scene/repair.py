@@ -15,38 +15,6 @@ from hlr.source.weld import equal_rows
 Indices = npt.NDArray[np.intp]
 
 
-def places_repeated(parts: list[PartMesh]) -> bool:
-    """Whether a part may hold two points in one place: yes where it does.
-
-    A sum stands for each place, mixed, so that one sort of plain numbers tells; that two different ones have the same
-    is a matter of 2^-64, or of coordinates made for it.
-    """
-    parts = [part for part in parts if not part.joined]
-    if not parts:
-        return False
-    number = np.repeat(np.arange(len(parts), dtype=np.uint64), [len(p.points) for p in parts])
-    x, y, z = np.concatenate([p.points for p in parts]).T
-    place = _mixed((x + 0.7548776662466927 * y + 0.5698402909980532 * z + 0.0).view(np.uint64)) + number * _ODD
-    return _twice(place)
-
-
-def _twice(numbers: npt.NDArray[np.uint64]) -> bool:
-    ordered = np.sort(numbers)
-    return bool((ordered[1:] == ordered[:-1]).any())
-
-
-_ODD = np.uint64(0x9E3779B97F4A7C15)
-
-
-def _mixed(x: npt.NDArray[np.uint64]) -> npt.NDArray[np.uint64]:
-    """A number that depends on every bit of x: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number
-    generators", OOPSLA 2014."""
-    x = (x + np.uint64(1)) * _ODD
-    x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return np.asarray(x ^ (x >> np.uint64(31)))
-
-
 def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
     """The part without repeated triangles and faces, and how many triangles that left out.
 

@@ -13,8 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.scene.topology import MeshFacts
-from hlr.source.model import Floats, Ints, PartMesh
+from hlr.source.model import Floats, PartMesh
 
 GAP = 5e-5
 """Of a part's extent, at most: exporters state no tolerance. 0.01 mm of a part of 200 mm, by which CAD programs let the
@@ -25,20 +24,13 @@ UNSEEN = 0.4
 """In deflections, at most: a fifth of the accuracy. Of a mesh nothing else is used up by tessellating it."""
 
 
-def bare_borders(parts: list[PartMesh], mesh: MeshFacts, part_of: Ints) -> Ints:
-    """(p,) how many borders each part without B-rep has; part_of (t,) of all triangles."""
-    owner = part_of[mesh.incident[mesh.offsets[:-1][np.diff(mesh.offsets) == 1]]]
-    count = np.bincount(owner, minlength=len(parts)).astype(np.int32)
-    return np.where([part.brep for part in parts], 0, count).astype(np.int32)
-
-
-def stitched(parts: list[PartMesh], borders: Ints, deflection: float) -> tuple[list[PartMesh], int]:
+def stitched(parts: list[PartMesh], borders: list[int], deflection: float) -> tuple[list[PartMesh], int]:
     """The parts, those with `borders` (p,) stitched; and how many pieces of borders were joined.
 
     No corner moves by more than GAP and UNSEEN allow. A triangle that gets corners of its neighbours is cut.
     """
     out, seams = [], 0
-    for part, count in zip(parts, borders.tolist(), strict=True):
+    for part, count in zip(parts, borders, strict=True):
         joined, found = _stitched(part, min(GAP * _extent(part), UNSEEN * deflection)) if count else (part, 0)
         out.append(joined)
         seams += found

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from copy import copy
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from hlr.errors import SourceError
 from hlr.notes import Note
 from hlr.source.bindings import collection
 from hlr.source.extent import checked
-from hlr.source.locations import determinant_sign, moved, moved_each
+from hlr.source.locations import moved_each
 from hlr.source.model import (
     Choice,
     EdgeCurves,
@@ -23,16 +22,14 @@ from hlr.source.model import (
     Ints,
     Look,
     Meshed,
-    OnSurfaces,
     PartInfo,
-    PartMesh,
     Progress,
-    Surfaces,
 )
 from hlr.source.parts import Part, compound
+from hlr.source.precision import precision
 from hlr.source.roots import Roots
 from hlr.source.tessellate import Tessellator
-from hlr.source.weld import clean
+from hlr.source.together import Label, Together, check_count
 
 
 class BrepSource:
@@ -70,14 +67,13 @@ class BrepSource:
         """Warnings met while reading."""
         return list(self._notes)
 
+    def names(self) -> list[str]:
+        """Of every part."""
+        return [part.name for part in self._parts]
+
     def infos(self) -> list[PartInfo]:
         """Counts of every part's index maps."""
         return [PartInfo(part.name, *self._roots.counts[part.root].tolist()) for part in self._parts]
-
-    def boxes(self) -> list[Floats]:
-        """Corners of every part's box, (8, 3), or none where it has no extent."""
-        boxes = self._roots.boxes
-        return [moved(_corners(*boxes[part.root].tolist()), part.transform) for part in self._parts]
 
     def of_parts(self, names: Collection[str], choice: Choice) -> BrepSource:
         """The same source with these parts only; nothing else of it is meshed."""
@@ -90,6 +86,7 @@ class BrepSource:
         """The parts that are drawn, and what will be known of them."""
         self._parts = list(parts)
         self._used = sorted({part.root for part in parts})
+        self._boxes: list[Floats] | None = None
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._maps: dict[tuple[int, Any], Any] = {}
@@ -112,6 +109,17 @@ class BrepSource:
     def looks(self) -> dict[str, Look]:
         """Colours and opacities of parts and faces."""
         return {part.name: part.look() for part in self._parts}
+
+    def boxes(self) -> list[Floats]:
+        """Corners of every part's box, (8, 3), or none where it has no extent."""
+        if self._boxes is None:
+            boxes = self._roots.boxes[[part.root for part in self._parts]]
+            corners = np.stack([boxes[:, FAR[k], k] for k in range(3)], axis=2)
+            void = (boxes[:, 0, 0] > boxes[:, 1, 0]).tolist()
+            corners[void] = 0.0
+            placed = moved_each(corners, np.array([part.transform for part in self._parts]))
+            self._boxes = [box[:0] if none else box for box, none in zip(placed, void, strict=True)]
+        return list(self._boxes)
 
     def bounds(self) -> Floats:
         """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
@@ -178,125 +186,47 @@ class BrepSource:
         if self._tessellator is None:
             low, high = self.bounds()
             self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
-        meshes = self._tessellator.mesh(deflection, angle, progress)
-        faults = self._tessellator.faults
-        meshed = Meshed(parts=[], rescued=len(faults.rescued), lost=len(faults.lost))
-        kept: list[Part] = []
-        surfaces = self._tessellator
-        shared = {root: _Shared(meshes, number, surfaces) for number, root in enumerate(self._used)}
-        places = _placed_points([(part, shared[part.root].points) for part in self._parts])
-        for part, points in zip(self._parts, places, strict=True):
-            mesh = shared[part.root]
-            meshed.notes += faults.notes(part.name, mesh.face_shape)
-            if len(mesh.triangles):
-                meshed.parts.append(mesh.placed(part, points))
+        tables, faults = self._tessellator.mesh(deflection, angle, progress)
+        number = {root: i for i, root in enumerate(self._used)}
+        counts = np.diff(tables.triangle_start).tolist()
+        notes, kept = [], []
+        for part in self._parts:
+            root = number[part.root]
+            if faults:
+                a, b = tables.face_start[root : root + 2]
+                notes += faults.notes(part.name, tables.face_shape[a:b])
+            if counts[root]:
                 kept.append(part)
             else:
                 text = f'Part "{part.name}" has no triangles and was left out.'
-                meshed.notes.append(Note("part-left-out", text))
-        if not any(len(part.triangles) for part in meshed.parts):
+                notes.append(Note("part-left-out", text))
+        if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
-        number = {root: i for i, root in enumerate(self._used)}
+        check_count(sum(counts[number[part.root]] for part in kept))
         roots = np.array([number[part.root] for part in kept], np.int32)
         transforms = np.array([part.transform[:3] for part in kept])
+        placed = tables.placed(roots, transforms, _precisions(tables)[roots])
+        labels = [Label(part.name, part.color, part.transform) for part in kept]
+        surfaces = self._tessellator
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
-            keys = np.stack([roots[part], edge], axis=1)
-            distinct, which = np.unique(keys, axis=0, return_inverse=True)
-            found = surfaces.edge_curves(*np.ascontiguousarray(distinct.T, np.int32))
+            keys = roots[part].astype(np.int64) << 32 | edge
+            distinct, which = np.unique(keys, return_inverse=True)
+            found = surfaces.edge_curves((distinct >> 32).astype(np.int32), distinct.astype(np.int32))
             return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
 
-        meshed.edge_curves = edge_curves
-        return meshed
+        parts = Together(labels, placed, surfaces if placed.brep.any() else None)
+        return Meshed(parts, notes, len(faults.rescued), len(faults.lost), edge_curves)
 
 
-class _Shared:
-    """One root's arrays, shared by all its placements."""
-
-    def __init__(self, meshes: _kernel.BrepParts, number: int, surfaces: Surfaces) -> None:
-        a, b = meshes.point_start[number : number + 2]
-        c, d = meshes.triangle_start[number : number + 2]
-        e, f = meshes.edge_start[number : number + 2]
-        g, h = meshes.face_start[number : number + 2]
-        self.points = meshes.points[a:b]
-        self.triangles = meshes.triangles[c:d]
-        self.triangle_face = meshes.triangle_face[c:d]
-        self.face_planar = meshes.face_planar[g:h]
-        offsets = meshes.edge_offsets[e : f + 1]
-        self.edge_nodes = meshes.edge_nodes[offsets[0] : offsets[-1]]
-        self.edge_offsets = offsets - offsets[0]
-        self.edge_index = meshes.edge_index[e:f]
-        self.edge_class = meshes.edge_class[e:f]
-        self.face_shape = meshes.face_shape[g:h]
-        i, j = meshes.node_start[number : number + 2]
-        self.on_surfaces: OnSurfaces | None = OnSurfaces(
-            corner=meshes.corner[c:d],
-            uv=meshes.uv[i:j],
-            number=meshes.face_shape[g:h],
-            place=meshes.face_place[g:h],
-            reversed=meshes.face_reversed[g:h],
-            surfaces=surfaces,
-        )
-        self.brep, self.precision = True, 0.0
-        if len(self.triangles) and not len(self.edge_index):
-            # Tessellated geometry: faces are loose triangles, and what they share must be found by position.
-            joined = clean(self.points, self.triangles)
-            self.points, self.triangles = joined.points, joined.triangles
-            self.triangle_face = joined.of_kept(self.triangle_face)
-            # Of a round of few facets a face may be one: it may show an outline though it is flat.
-            self.face_planar = np.zeros(len(self.face_planar), dtype=bool)
-            self.brep = False
-            self.precision = joined.precision
-            self.on_surfaces = None
-
-    def placed(self, part: Part, points: Floats) -> PartMesh:
-        triangles, on_surfaces = self.triangles, self.on_surfaces
-        if determinant_sign(part.transform) < 0:
-            triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
-            if on_surfaces is not None:
-                on_surfaces = replace(on_surfaces, corner=np.ascontiguousarray(on_surfaces.corner[:, [0, 2, 1]]))
-        return PartMesh(
-            name=part.name,
-            color=part.color,
-            transform=part.transform,
-            points=points,
-            triangles=triangles,
-            triangle_face=self.triangle_face,
-            face_planar=self.face_planar,
-            edge_nodes=self.edge_nodes,
-            edge_offsets=self.edge_offsets,
-            edge_index=self.edge_index,
-            edge_class=self.edge_class,
-            brep=self.brep,
-            on_surfaces=on_surfaces,
-            precision=self.precision,
-        )
+def _precisions(tables: _kernel.PartTables) -> Floats:
+    """(p,) how far the coordinates of parts without edges, which a file brought as triangles, may be off."""
+    out = np.zeros(len(tables))
+    for i in np.flatnonzero(~tables.brep).tolist():
+        a, b = tables.point_start[i : i + 2]
+        out[i] = precision(tables.points[a:b])
+    return out
 
 
-def _placed_points(parts: list[tuple[Part, Floats]]) -> list[Floats]:
-    """Points of every part where it stands; thousands of small parts are moved in one go."""
-    transforms = np.array([part.transform for part, _ in parts])
-    result = [points for _, points in parts]
-    away = np.flatnonzero((transforms != np.eye(4)).any(axis=(1, 2)))
-    small = [i for i in away if len(result[i]) <= SMALL_PART]
-    for i in away:
-        if len(result[i]) > SMALL_PART:
-            result[i] = moved(result[i], transforms[i])
-    if small:
-        sizes = np.array([len(result[i]) for i in small])
-        together = moved_each(np.concatenate([result[i] for i in small]), np.repeat(transforms[small], sizes, axis=0))
-        for i, points in zip(small, np.split(together, np.cumsum(sizes)[:-1]), strict=True):
-            result[i] = points
-    return result
-
-
-SMALL_PART = 1000
-"""Points: up to here moving part by part costs more in calls than in arithmetic."""
-
-
-def _corners(low: list[float], high: list[float]) -> Floats:
-    """(8, 3) corners of a box, or none where there is none."""
-    if low > high:
-        return np.empty((0, 3))
-    sides = list(zip(low, high, strict=True))
-    return np.array([(x, y, z) for x in sides[0] for y in sides[1] for z in sides[2]])
+FAR = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]).T
+"""(3, 8) along each axis, which corners of a box are its far ones."""

@@ -45,7 +45,7 @@ def open_chosen(thing: Any, options: Choosing) -> Source:
     only, hide = tuple(options.only), tuple(options.hide)
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source
-    names = [info.name for info in source.infos()]
+    names = source.names()
     kept = set(names) if not only else _matching(only, names, "only")
     kept -= _matching(hide, names, "hide")
     if not kept:

@@ -25,6 +25,9 @@ class Faults:
     rescued: list[int] = field(default_factory=list)
     turned: list[int] = field(default_factory=list)
 
+    def __bool__(self) -> bool:
+        return bool(self.lost or self.rescued or self.turned)
+
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
         """Notes on a part; face_shape: the number of the underlying face of each of its faces."""
         lost, rescued, turned = (

@@ -133,6 +133,10 @@ class MeshSource:
         """(2, 3) exact corners in model coordinates."""
         return box(np.concatenate(self.boxes()))
 
+    def names(self) -> list[str]:
+        """Of every part."""
+        return [part.name for part in self._parts]
+
     def infos(self) -> list[PartInfo]:
         """Meshes have no faces or edges of their own; both counts are 0."""
         return [PartInfo(part.name, 0, 0, 0) for part in self._parts]
@@ -262,12 +266,11 @@ def _arrays(name: str, mesh: Any) -> tuple[Any, Any]:
 
 def _placement(graph: Any, node: str) -> tuple[Floats, str]:
     """(4, 4) transform of a node, multiplied up to the base without BLAS: the same bits on every machine."""
-    from hlr.source.locations import chained
+    from hlr.source.locations import HERE, chained, four
 
     transforms = graph.transforms
     key = transforms.node_data[node]["geometry"]
-    result = np.eye(3, 4)
-    here = node
+    result, here = HERE, node
     for _ in range(10_000):
         parent = transforms.parents.get(here)
         if parent is None or here == graph.base_frame:
@@ -275,11 +278,9 @@ def _placement(graph: Any, node: str) -> tuple[Floats, str]:
         edge = transforms.edge_data[(parent, here)]
         step = edge.get("matrix")
         if step is not None:
-            result = chained(np.asarray(step, dtype=np.float64)[:3], result)
+            result = chained(tuple(np.asarray(step, dtype=np.float64)[:3].ravel().tolist()), result)
         here = parent
-    full = np.eye(4)
-    full[:3] = result
-    return full, key
+    return four(result), key
 
 
 def node_name(node: str, key: str, part: str) -> str:

@@ -186,7 +186,7 @@ class Meshed:
     rescued, lost: how many underlying faces OpenCASCADE meshed instead of the kernel, and how many nobody could
     """
 
-    parts: list[PartMesh]
+    parts: Sequence[PartMesh]
     notes: list[Note] = field(default_factory=list)
     rescued: int = 0
     lost: int = 0
@@ -218,6 +218,9 @@ class Source(Protocol):
 
     def bounds(self) -> Floats:
         """(2, 3) lower and upper corner in model coordinates; cheap, may be a little too large."""
+
+    def names(self) -> list[str]:
+        """Of every part, in the order of the parts."""
 
     def infos(self) -> list[PartInfo]:
         """Every part's counts, in the order of the parts."""

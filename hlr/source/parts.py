@@ -7,11 +7,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-import numpy as np
-
 from hlr.notes import Note
 from hlr.source.bindings import collection
-from hlr.source.locations import chained
+from hlr.source.locations import HERE, Rows, chained, four
 from hlr.source.model import PLAIN, Color, Floats, Look, Rgba, rgba
 
 
@@ -51,7 +49,7 @@ class Part:
 @dataclass(slots=True)
 class _Piece:
     root: int
-    place: Floats
+    place: Rows
     solid: bool
     color: Color | None
 
@@ -92,7 +90,7 @@ class Parts:
                     product=leaf.name,
                     color=piece.color or leaf.color,
                     root=piece.root,
-                    transform=_four(place if piece.place is _HERE else chained(place, piece.place)),
+                    transform=four(chained(place, piece.place)) + 0.0,  # no minus zeros in records
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
                     look=partial(_look, leaf, self.roots[piece.root]),
                 )
@@ -135,7 +133,7 @@ class Parts:
         place = shape.Location()
         return _Piece(
             number,
-            _HERE if place.IsIdentity() else matrix(place),
+            matrix(place),
             shape.ShapeType() == Kind.TopAbs_SOLID,
             _majority(shape, leaf) if leaf.colors else None,
         )
@@ -210,18 +208,9 @@ def located(shape: Any, location: Any) -> Any:
     return shape.Located(TopLoc_Location() if location is None else location, False)
 
 
-_HERE = np.eye(3, 4)
-
-
-def matrix(location: Any) -> Floats:
-    """(3, 4) matrix of a TopLoc_Location."""
+def matrix(location: Any) -> Rows:
+    """What a TopLoc_Location does."""
     if location.IsIdentity():
-        return _HERE
-    move = location.Transformation()
-    return np.array([[move.Value(i, j) for j in range(1, 5)] for i in range(1, 4)])
-
-
-def _four(rows: Floats) -> Floats:
-    result = np.eye(4)
-    result[:3] = rows + 0.0  # no minus zeros in records
-    return result
+        return HERE
+    value = location.Transformation().Value
+    return tuple([value(i, j) for i in (1, 2, 3) for j in (1, 2, 3, 4)])

@@ -30,18 +30,19 @@ class Tessellator:
         self._roots, self._chosen = roots, chosen
         self._model = roots.model_of(chosen)
         self._planar = self._model.planar(FLAT * size)
-        self.faults = Faults()
 
-    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> _kernel.BrepParts:
-        """The roots at this chord error and turning angle (radians); `faults` then says what failed."""
+    def mesh(
+        self, deflection: float, angle: float, progress: Progress | None = None
+    ) -> tuple[_kernel.PartTables, Faults]:
+        """The roots at this chord error and turning angle (radians), and what failed."""
         if progress is not None:
             progress("tessellate", 0.0)
         tell = None if progress is None else lambda done: progress("tessellate", done)
         meshed = self._model.mesh(HALF * deflection, angle, tell)
-        self.faults = self._rescued(meshed, deflection, angle)
+        faults = self._rescued(meshed, deflection, angle)
         if progress is not None:
             progress("tessellate", 1.0)
-        return meshed.parts(self._planar)
+        return meshed.parts(self._planar), faults
 
     def _rescued(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> Faults:
         """What became of the faces that the kernel could not mesh."""

@@ -74,7 +74,7 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
     magnified = _magnified(camera, corners)
     draft = Placed(1.0, 1.0, derive(1.0, 1.0, 0.0, brep=brep), source.frame.unit, brep, aspect, magnified)
     placed = _sized(width, height, options, draft)
-    stray = stray_note([info.name for info in source.infos()], source.boxes(), camera)
+    stray = stray_note(source.names(), source.boxes(), camera)
     return placed if stray is None else replace(placed, notes=(*placed.notes, stray))
 
 

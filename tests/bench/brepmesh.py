@@ -56,15 +56,12 @@ def ours(roots, deflection, runs):
     # In the frame of the part: bare roots have their faces where they stand, or moved by face_place.
     place = found.face_place[face]
     turned = np.einsum("mji,mkj->mki", place[:, :, :3], _corners(found) - place[:, None, :, 3])
-    # Node parameters count within the part.
-    corner = found.corner + np.repeat(found.node_start[:-1], np.diff(found.triangle_start))[:, None]
-    errors = off(model, found.face_shape[face], turned, found.uv[corner])
+    errors = off(model, found.face_shape[face], turned, found.uv[found.corner])
     return statistics.median(times), len(found.triangles), errors, len(meshed.faults()), _open(found)
 
 
 def _corners(found):
-    part = np.repeat(found.point_start[:-1], np.diff(found.triangle_start))
-    return found.points[found.triangles + part[:, None]]
+    return found.points[found.triangles]
 
 
 def _open(found):

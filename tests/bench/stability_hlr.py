@@ -53,6 +53,9 @@ class Disturbed:
     def bounds(self) -> Floats:
         return self._source.bounds()
 
+    def names(self) -> list[str]:
+        return self._source.names()
+
     def infos(self) -> Any:
         return self._source.infos()
 

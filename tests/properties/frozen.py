@@ -52,6 +52,9 @@ class Frozen:
     def bounds(self) -> np.ndarray:
         return np.stack([self.points.min(axis=0), self.points.max(axis=0)])
 
+    def names(self) -> list[str]:
+        return [part.name for part in self.parts]
+
     def infos(self) -> list[PartInfo]:
         return [PartInfo(part.name, len(part.face_planar), len(part.edge_index), 1) for part in self.parts]
 

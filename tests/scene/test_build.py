@@ -13,11 +13,11 @@ from scene.invariants import check
 
 from hlr import SourceError
 from hlr.scene.build import build
-from hlr.scene.repair import places_repeated, without_duplicates
+from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR
-from hlr.scene.topology import mesh_facts
 from hlr.source import open_source
 from hlr.source.model import EdgeClass, Meshed
+from hlr.source.together import together
 
 
 def scene_of(thing, crease=30.0, deflection=0.05):
@@ -179,14 +179,17 @@ def test_repeated_triangles_are_dropped_and_counted():
 def test_a_repetition_is_noticed_wherever_it_is(again):
     mesh = box((10, 20, 30))
     plain, other = part_of((mesh.vertices, mesh.faces)), part_of((mesh.vertices + 50.0, mesh.faces))
-    assert not places_repeated([plain, other, plain]), "equal parts are no repetition in any of them"
-    assert not mesh_facts(plain.points, plain.triangles).repeated
+    plain, other = replace(plain, joined=False), replace(other, joined=False)
+    assert not together([plain, other, plain]).tables.places_repeated(), "equal parts are no repetition in any of them"
+    assert not together([plain]).tables.facts().repeated
     for corners in (mesh.faces[again], np.roll(mesh.faces[again], 1), mesh.faces[again][::-1]):
-        twice = replace(plain, triangles=np.concatenate([plain.triangles, corners[None].astype(np.int32)]))
-        assert mesh_facts(twice.points, twice.triangles).repeated
+        triangles = np.concatenate([plain.triangles, corners[None].astype(np.int32)])
+        twice = replace(plain, triangles=triangles, triangle_face=np.zeros(len(triangles), np.int32))
+        assert together([twice]).tables.facts().repeated
     where = again % len(plain.points)
     points = np.concatenate([plain.points, plain.points[where : where + 1]])
-    assert places_repeated([other, replace(plain, points=points, joined=False)])
+    assert together([other, replace(plain, points=points)]).tables.places_repeated()
+    assert not together([other, replace(plain, points=points, joined=True)]).tables.places_repeated()
 
 
 @pytest.mark.parametrize("far", [(0, 0, 0), (30, -40, 50), (-12345678.9, 23456789.1, 9876543.2)])

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from hlr.errors import SourceError
 from hlr.source import open_source
+from hlr.source.together import Label, Together, together
 
 cq = pytest.importorskip("cadquery")
 
@@ -110,12 +111,18 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
         def faults(self):
             return [(6, "no reason")]
 
+        def turned(self):
+            return []
+
         def parts(self, planar):
             found = self.meshed.parts(planar)
-            last = found.triangle_start[-2:].copy()
-            kept = {name: getattr(found, name) for name in dir(found) if not name.startswith("_")}
-            kept["triangle_start"] = np.append(found.triangle_start[:-1], last[0]).astype(np.int32)
-            return SimpleNamespace(**kept)
+            nameless = [Label("", None, np.eye(4))] * len(found)
+            *others, last = Together(nameless, found, object())
+            none = replace(last.on_surfaces, corner=last.on_surfaces.corner[:0])
+            without = replace(
+                last, triangles=last.triangles[:0], triangle_face=last.triangle_face[:0], on_surfaces=none
+            )
+            return together([*others, without]).tables
 
     mesh = tessellate._kernel.BrepModel.mesh
     monkeypatch.setattr(tessellate._kernel.BrepModel, "mesh", lambda model, *given: Failing(mesh(model, *given)))

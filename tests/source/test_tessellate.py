@@ -288,12 +288,12 @@ def test_two_runs_give_the_same_bytes():
     assert same(first, second)
 
 
-def test_instances_share_their_mesh_and_stand_apart():
+def test_instances_have_the_same_mesh_and_stand_apart():
     one = cq.Workplane().box(1, 2, 3).val()
     source = open_source([one, one.moved(cq.Location((10, 0, 0))), one.moved(cq.Location((0, 10, 0), (0, 0, 1), 90))])
     parts = source.mesh(0.1, 0.3).parts
     assert [part.name for part in parts] == ["part", "part:2", "part:3"]
-    assert parts[0].triangles is parts[1].triangles
+    assert np.array_equal(parts[0].triangles, parts[1].triangles)
     assert np.allclose([part.points.mean(axis=0) for part in parts], [(0, 0, 0), (10, 0, 0), (0, 10, 0)])
     assert np.allclose(np.ptp(parts[2].points, axis=0), (2, 1, 3))
 

@@ -25,11 +25,6 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::scan::components, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_table, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::clean_mesh, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::mesh::mesh_facts, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::mesh::group_facts, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::mesh::bent_groups, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::mesh::group_pieces, m)?)?;
-    m.add_function(wrap_pyfunction!(bind::mesh::group_passes, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::needles, m)?)?;
     m.add_function(wrap_pyfunction!(bind::mesh::edge_kinds, m)?)?;
     m.add_function(wrap_pyfunction!(bind::scan::edge_components, m)?)?;
@@ -47,7 +42,9 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<bind::lines::Cut>()?;
     m.add_class::<bind::brep::BrepModel>()?;
     m.add_class::<bind::brep::BrepMesh>()?;
-    m.add_class::<bind::brep::BrepParts>()?;
+    m.add_class::<bind::parts::PartTables>()?;
+    m.add_class::<bind::parts::MeshFacts>()?;
+    m.add_class::<bind::parts::MeshScene>()?;
     m.add_class::<bind::preview::ShadedModel>()?;
     m.add_function(wrap_pyfunction!(bind::preview::stroke_picture, m)?)?;
     m.add_function(wrap_pyfunction!(bind::fill::filled_areas, m)?)?;

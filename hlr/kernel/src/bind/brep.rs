@@ -3,14 +3,16 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 use super::guard::caught;
+use super::parts::PartTables;
 use super::running::{FEW, run, run_telling};
 use super::scan::{expect_below, expect_len, flat, rows as rows_of};
-use hlr_brep::assemble::{PartMesh, assemble};
+use crate::mesh::tables::Tables;
+use hlr_brep::assemble::assemble;
 use hlr_brep::geometry::flat::is_flat;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
 use hlr_brep::model::{Face, Model};
@@ -31,7 +33,8 @@ impl BrepModel {
     #[pyo3(signature = (dump, chosen = None, threads = 0))]
     fn new(py: Python<'_>, dump: &[u8], chosen: Option<Vec<u32>>, threads: usize) -> PyResult<BrepModel> {
         caught(py, || {
-            let read = run(py, threads, dump.len(), |_| Model::read(dump, chosen.as_deref()))?;
+            // A kilobyte takes some ten microseconds.
+            let read = run(py, threads, dump.len() / 64, |_| Model::read(dump, chosen.as_deref()))?;
             let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
             Ok(BrepModel(Arc::new(model)))
         })
@@ -184,89 +187,13 @@ impl BrepMesh {
 
     /// planar: (faces,) as `BrepModel.planar` tells them.
     #[pyo3(signature = (planar, threads = 0))]
-    fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>, threads: usize) -> PyResult<BrepParts> {
+    fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>, threads: usize) -> PyResult<PartTables> {
         let planar = flat(&planar, "planar")?;
         expect_len("planar", planar.len(), self.model.faces.len())?;
         let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
-        let parts = run(py, threads, 100 * planar.len(), |_| assemble(&self.model, &meshed))?;
-        BrepParts::together(py, parts, planar)
+        let points = meshed.faces.iter().map(|face| face.mesh.points.len()).sum::<usize>();
+        let parts = run(py, threads, points / 8, |_| Tables::of_roots(assemble(&self.model, &meshed), planar))?;
+        let parts = parts.map_err(|_| PyValueError::new_err("more than 2^31 items in one mesh"))?;
+        Ok(PartTables(Arc::new(parts)))
     }
-}
-
-/// Part meshes one after another: part p owns points[point_start[p]:point_start[p + 1]] and so on.
-#[pyclass(frozen, get_all)]
-pub struct BrepParts {
-    point_start: Py<PyArray1<i32>>,
-    points: Py<PyArray2<f64>>,
-    triangle_start: Py<PyArray1<i32>>,
-    triangles: Py<PyArray2<i32>>,
-    triangle_face: Py<PyArray1<i32>>,
-    face_start: Py<PyArray1<i32>>,
-    face_planar: Py<PyArray1<bool>>,
-    face_shape: Py<PyArray1<i32>>,
-    face_place: Py<PyArray3<f64>>,
-    face_reversed: Py<PyArray1<bool>>,
-    edge_start: Py<PyArray1<i32>>,
-    edge_offsets: Py<PyArray1<i32>>,
-    edge_nodes: Py<PyArray1<i32>>,
-    edge_index: Py<PyArray1<i32>>,
-    edge_class: Py<PyArray1<u8>>,
-    node_start: Py<PyArray1<i32>>,
-    corner: Py<PyArray2<i32>>,
-    uv: Py<PyArray2<f64>>,
-}
-
-impl BrepParts {
-    fn together(py: Python<'_>, parts: Vec<PartMesh>, planar: &[bool]) -> PyResult<BrepParts> {
-        let too_many = || PyValueError::new_err("more than 2^31 items in one mesh");
-        let starts = |count: fn(&PartMesh) -> usize| -> PyResult<Py<PyArray1<i32>>> {
-            let mut sum = 0usize;
-            let mut out = vec![0i32];
-            for part in &parts {
-                sum += count(part);
-                out.push(i32::try_from(sum).map_err(|_| too_many())?);
-            }
-            Ok(out.into_pyarray(py).unbind())
-        };
-        let mut offsets = vec![0i32];
-        for count in parts.iter().flat_map(|p| &p.edge_counts) {
-            offsets.push(offsets[offsets.len() - 1].checked_add(*count).ok_or_else(too_many)?);
-        }
-        let shapes: Vec<i32> = joined(&parts, |p| &p.face_shape);
-        let faces = shapes.len();
-        let face_planar: Vec<bool> = shapes.iter().map(|&i| planar[i as usize]).collect();
-        let places: Vec<f64> = joined(&parts, |p| p.face_place.as_flattened().as_flattened());
-        Ok(BrepParts {
-            point_start: starts(|p| p.points.len())?,
-            points: rows(py, joined(&parts, |p| p.points.as_flattened()), 3)?,
-            triangle_start: starts(|p| p.triangles.len())?,
-            triangles: rows(py, joined(&parts, |p| p.triangles.as_flattened()), 3)?,
-            triangle_face: joined(&parts, |p| &p.triangle_face).into_pyarray(py).unbind(),
-            face_start: starts(|p| p.face_shape.len())?,
-            face_planar: face_planar.into_pyarray(py).unbind(),
-            face_shape: shapes.into_pyarray(py).unbind(),
-            face_place: places.into_pyarray(py).reshape([faces, 3, 4])?.unbind(),
-            face_reversed: joined(&parts, |p| &p.face_reversed).into_pyarray(py).unbind(),
-            edge_start: starts(|p| p.edge_index.len())?,
-            edge_offsets: offsets.into_pyarray(py).unbind(),
-            edge_nodes: joined(&parts, |p| &p.edge_nodes).into_pyarray(py).unbind(),
-            edge_index: joined(&parts, |p| &p.edge_index).into_pyarray(py).unbind(),
-            edge_class: joined(&parts, |p| &p.edge_class).into_pyarray(py).unbind(),
-            node_start: starts(|p| p.uv.len())?,
-            corner: rows(py, joined(&parts, |p| p.corner.as_flattened()), 3)?,
-            uv: rows(py, joined(&parts, |p| p.uv.as_flattened()), 2)?,
-        })
-    }
-}
-
-/// One list of all parts' items.
-fn joined<T: Copy>(parts: &[PartMesh], of: impl Fn(&PartMesh) -> &[T]) -> Vec<T> {
-    let mut out = Vec::with_capacity(parts.iter().map(|p| of(p).len()).sum());
-    parts.iter().for_each(|p| out.extend(of(p)));
-    out
-}
-
-fn rows<T: numpy::Element>(py: Python<'_>, values: Vec<T>, width: usize) -> PyResult<Py<PyArray2<T>>> {
-    let count = values.len() / width;
-    Ok(values.into_pyarray(py).reshape([count, width])?.unbind())
 }

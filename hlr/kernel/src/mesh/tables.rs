@@ -1,0 +1,307 @@
+//! The meshes of all parts, one after another.
+
+use hlr_brep::assemble::PartMesh;
+use hlr_brep::format::{IDENTITY, Matrix, moved};
+use rayon::prelude::*;
+
+use super::clean::clean;
+
+/// Part p owns points[point_start[p]..point_start[p + 1]] and so on. Triangles, nodes of edges and corners count through
+/// all parts; faces and edges have the numbers that they have in their own part.
+#[derive(Clone, Debug, Default)]
+pub struct Tables {
+    pub point_start: Vec<i32>,
+    pub points: Vec<[f64; 3]>,
+    pub triangle_start: Vec<i32>,
+    pub triangles: Vec<[i32; 3]>,
+    pub triangle_face: Vec<i32>,
+    /// Which triangle of its part, as the source hands it over, each is or is a piece of.
+    pub origin: Vec<i32>,
+    pub face_start: Vec<i32>,
+    pub face_planar: Vec<bool>,
+    /// Polylines: edge_nodes[edge_offsets[e]..edge_offsets[e + 1]] are points.
+    pub edge_start: Vec<i32>,
+    pub edge_offsets: Vec<i32>,
+    pub edge_nodes: Vec<i32>,
+    pub edge_index: Vec<i32>,
+    pub edge_class: Vec<u8>,
+    /// Per part: it has faces and edges; no two of its points are known to be in one place; its placement; what its
+    /// coordinates may be off by.
+    pub brep: Vec<bool>,
+    pub joined: Vec<bool>,
+    pub transform: Vec<Matrix>,
+    pub precision: Vec<f64>,
+    /// Per triangle its corners in uv, -1 for parts without surfaces; empty where no part has any.
+    pub node_start: Vec<i32>,
+    pub corner: Vec<[i32; 3]>,
+    pub uv: Vec<[f64; 2]>,
+    /// Per face its surface, -1 for none; where that stands in the part; whether its normal points inward.
+    pub face_shape: Vec<i32>,
+    pub face_place: Vec<Matrix>,
+    pub face_reversed: Vec<bool>,
+}
+
+/// There are more items than numbers of 32 bits.
+#[derive(Debug)]
+pub struct TooMany;
+
+/// Where a part stands, and which of the tables' parts it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Placed {
+    pub part: usize,
+    pub transform: Matrix,
+    pub precision: f64,
+}
+
+impl Tables {
+    pub fn len(&self) -> usize {
+        self.brep.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.brep.is_empty()
+    }
+
+    fn open() -> Tables {
+        let starts = || vec![0];
+        Tables {
+            point_start: starts(),
+            triangle_start: starts(),
+            face_start: starts(),
+            edge_start: starts(),
+            edge_offsets: starts(),
+            node_start: starts(),
+            ..Tables::default()
+        }
+    }
+
+    /// Ends a part: what was added since the last is its own.
+    fn end(&mut self) -> Result<(), TooMany> {
+        let number = |count: usize| i32::try_from(count).map_err(|_| TooMany);
+        // Three sides a triangle.
+        number(3 * self.triangles.len())?;
+        self.point_start.push(number(self.points.len())?);
+        self.triangle_start.push(number(self.triangles.len())?);
+        self.face_start.push(number(self.face_planar.len())?);
+        self.edge_start.push(number(self.edge_index.len())?);
+        self.node_start.push(number(self.uv.len())?);
+        number(self.edge_nodes.len()).map(|_| ())
+    }
+
+    /// Meshes of roots; planar: of every underlying face.
+    pub fn of_roots(roots: Vec<PartMesh>, planar: &[bool]) -> Result<Tables, TooMany> {
+        let mut out = Tables::open();
+        for root in roots {
+            if root.triangles.is_empty() || !root.edge_index.is_empty() {
+                out.add_root(&root, planar);
+            } else {
+                out.add_bare(&root);
+            }
+            out.transform.push(IDENTITY);
+            out.precision.push(0.0);
+            out.joined.push(false);
+            out.end()?;
+        }
+        Ok(out)
+    }
+
+    fn add_root(&mut self, root: &PartMesh, planar: &[bool]) {
+        let (point, node) = (self.points.len() as i32, self.uv.len() as i32);
+        self.points.extend(&root.points);
+        self.triangles.extend(root.triangles.iter().map(|t| t.map(|v| v + point)));
+        self.triangle_face.extend(&root.triangle_face);
+        self.origin.extend(0..root.triangles.len() as i32);
+        self.face_planar.extend(root.face_shape.iter().map(|&i| planar[i as usize]));
+        self.edge_nodes.extend(root.edge_nodes.iter().map(|v| v + point));
+        for count in &root.edge_counts {
+            self.edge_offsets.push(self.edge_offsets[self.edge_offsets.len() - 1] + count);
+        }
+        self.edge_index.extend(&root.edge_index);
+        self.edge_class.extend(&root.edge_class);
+        self.brep.push(true);
+        self.corner.extend(root.corner.iter().map(|c| c.map(|i| i + node)));
+        self.uv.extend(&root.uv);
+        self.face_shape.extend(&root.face_shape);
+        self.face_place.extend(&root.face_place);
+        self.face_reversed.extend(&root.face_reversed);
+    }
+
+    /// Tessellated geometry: faces are loose triangles, and what they share must be found by position.
+    fn add_bare(&mut self, root: &PartMesh) {
+        let (point, faces) = (self.points.len() as i32, root.face_shape.len());
+        let found = clean(&root.points, &root.triangles);
+        match &found.kept {
+            Some(kept) => self.triangle_face.extend(kept.iter().map(|&t| root.triangle_face[t as usize])),
+            None => self.triangle_face.extend(&root.triangle_face),
+        }
+        self.points.extend(&found.points);
+        self.triangles.extend(found.triangles.iter().map(|t| t.map(|v| v + point)));
+        self.origin.extend(0..found.triangles.len() as i32);
+        // Of a round of few facets a face may be one: it may show an outline though it is flat.
+        self.face_planar.resize(self.face_planar.len() + faces, false);
+        self.brep.push(false);
+        self.corner.resize(self.triangles.len(), [-1; 3]);
+        self.face_shape.resize(self.face_planar.len(), -1);
+        self.face_place.resize(self.face_planar.len(), IDENTITY);
+        self.face_reversed.resize(self.face_planar.len(), false);
+    }
+
+    /// These parts, each where it stands; triangles of mirrored ones are turned round.
+    pub fn placed(&self, parts: &[Placed]) -> Result<Tables, TooMany> {
+        let mut out = Tables::open();
+        for placed in parts {
+            out.add_placed(self, placed);
+            out.end()?;
+        }
+        Ok(out)
+    }
+
+    fn add_placed(&mut self, of: &Tables, &Placed { part, transform, precision }: &Placed) {
+        let range = |start: &[i32]| start[part] as usize..start[part + 1] as usize;
+        let (points, triangles) = (range(&of.point_start), range(&of.triangle_start));
+        let (faces, edges, nodes) = (range(&of.face_start), range(&of.edge_start), range(&of.node_start));
+        let point = self.points.len() as i32 - points.start as i32;
+        let node = self.uv.len() as i32 - nodes.start as i32;
+        let mirrored = mirrors(&transform);
+        let turned = |t: [i32; 3]| if mirrored { [t[0], t[2], t[1]] } else { t };
+        if transform == IDENTITY {
+            self.points.extend(&of.points[points]);
+        } else {
+            self.points.extend(of.points[points].iter().map(|p| moved(&transform, p)));
+        }
+        self.triangles.extend(of.triangles[triangles.clone()].iter().map(|t| turned(t.map(|v| v + point))));
+        let corner = |c: &[i32; 3]| turned(c.map(|i| if i < 0 { i } else { i + node }));
+        if !of.corner.is_empty() {
+            self.corner.extend(of.corner[triangles.clone()].iter().map(corner));
+        }
+        self.triangle_face.extend(&of.triangle_face[triangles.clone()]);
+        self.origin.extend(&of.origin[triangles]);
+        self.face_planar.extend(&of.face_planar[faces.clone()]);
+        self.face_shape.extend(&of.face_shape[faces.clone()]);
+        self.face_place.extend(&of.face_place[faces.clone()]);
+        self.face_reversed.extend(&of.face_reversed[faces]);
+        self.uv.extend(&of.uv[nodes]);
+        let offsets = &of.edge_offsets[edges.start..=edges.end];
+        let shift = self.edge_nodes.len() as i32 - offsets[0];
+        self.edge_offsets.extend(offsets[1..].iter().map(|o| o + shift));
+        let chain = offsets[0] as usize..offsets[offsets.len() - 1] as usize;
+        self.edge_nodes.extend(of.edge_nodes[chain].iter().map(|v| v + point));
+        self.edge_index.extend(&of.edge_index[edges.clone()]);
+        self.edge_class.extend(&of.edge_class[edges]);
+        self.brep.push(of.brep[part]);
+        self.joined.push(of.joined[part]);
+        self.transform.push(transform);
+        self.precision.push(precision);
+    }
+
+    /// (t,) the part of each triangle.
+    pub fn triangle_part(&self) -> Vec<i32> {
+        per_item(&self.triangle_start)
+    }
+
+    /// Whether a part that is not joined may hold two points in one place: yes where it does.
+    ///
+    /// A number stands for each place, so that one sort of plain numbers tells; that two different ones have the same is
+    /// a matter of 2^-64, or of coordinates made for it.
+    pub fn places_repeated(&self) -> bool {
+        let ranges = self.point_start.windows(2).zip(&self.joined).filter(|(_, joined)| !**joined).map(|(w, _)| w);
+        (ranges.map(|w| w[0] as usize..w[1] as usize).collect::<Vec<_>>()).into_par_iter().any(|range| {
+            let mut places: Vec<u64> = self.points[range].iter().map(place).collect();
+            places.par_sort_unstable();
+            places.windows(2).any(|w| w[0] == w[1])
+        })
+    }
+
+    /// Whether all coordinates are finite and nearer to the origin than this.
+    pub fn within(&self, largest: f64) -> bool {
+        self.points.as_flattened().iter().all(|c| c.abs() < largest)
+    }
+}
+
+/// A number that depends on every bit: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators",
+/// OOPSLA 2014. Equal places have equal ones, minus zero or not.
+fn place(point: &[f64; 3]) -> u64 {
+    point.iter().fold(0, |sum: u64, c| {
+        let mut x = sum.wrapping_add((c + 0.0).to_bits()).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        x ^ (x >> 31)
+    })
+}
+
+fn mirrors(m: &Matrix) -> bool {
+    m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
+        + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
+        < 0.0
+}
+
+/// The number of its owner for every item; start: of each owner the first item, and how many there are.
+pub fn per_item(start: &[i32]) -> Vec<i32> {
+    let mut out = Vec::with_capacity(start.last().map_or(0, |&n| n as usize));
+    for (owner, w) in (0..).zip(start.windows(2)) {
+        out.resize(w[1] as usize, owner);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one() -> Tables {
+        let root = PartMesh {
+            points: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
+            triangle_face: vec![0, 1, 2, 3],
+            edge_nodes: vec![0, 1, 1, 2],
+            edge_counts: vec![2, 2],
+            edge_index: vec![0, 1],
+            edge_class: vec![0, 0],
+            corner: vec![[0, 1, 2], [3, 4, 5], [6, 7, 8], [9, 10, 11]],
+            uv: vec![[0.0; 2]; 12],
+            face_shape: vec![0, 1, 2, 3],
+            face_place: vec![IDENTITY; 4],
+            face_reversed: vec![false; 4],
+        };
+        Tables::of_roots(vec![root], &[true; 4]).unwrap()
+    }
+
+    #[test]
+    fn a_mirrored_copy_is_turned_round() {
+        let mirror = [[-1.0, 0.0, 0.0, 5.0], IDENTITY[1], IDENTITY[2]];
+        let at = |transform| Placed { part: 0, transform, precision: 0.0 };
+        let found = one().placed(&[at(IDENTITY), at(mirror)]).unwrap();
+        assert_eq!((found.points[1], found.points[5]), ([1.0, 0.0, 0.0], [4.0, 0.0, 0.0]));
+        assert_eq!((found.triangles[1], found.triangles[5]), ([0, 1, 3], [4, 7, 5]));
+        assert_eq!((found.corner[1], found.corner[5]), ([3, 4, 5], [15, 17, 16]));
+        assert_eq!((found.edge_offsets, found.edge_nodes), (vec![0, 2, 4, 6, 8], vec![0, 1, 1, 2, 4, 5, 5, 6]));
+        assert_eq!(found.point_start, [0, 4, 8]);
+    }
+
+    #[test]
+    fn two_points_in_one_place_of_one_part() {
+        let mut found = one();
+        assert!(!found.places_repeated());
+        found.points[3] = [-0.0, 1.0, 0.0];
+        assert!(found.places_repeated());
+        found.joined[0] = true;
+        assert!(!found.places_repeated());
+    }
+
+    #[test]
+    fn loose_triangles_are_joined_by_place() {
+        let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0; 3]];
+        let root = PartMesh {
+            points,
+            triangles: vec![[0, 1, 2], [3, 5, 4]],
+            triangle_face: vec![0, 1],
+            face_shape: vec![0, 1],
+            face_place: vec![IDENTITY; 2],
+            face_reversed: vec![false; 2],
+            ..PartMesh::default()
+        };
+        let found = Tables::of_roots(vec![root], &[true; 2]).unwrap();
+        assert_eq!((found.triangles, found.brep), (vec![[0, 1, 2], [1, 3, 2]], vec![false]));
+        assert_eq!((found.face_planar, found.corner), (vec![false; 2], vec![[-1; 3]; 2]));
+    }
+}
