@@ -26,6 +26,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from hlr.errors import SourceError
+from hlr.process import claim
 
 from .signals import STOPPING, Stopped, hang_up_ignored
 
@@ -99,6 +100,7 @@ def start(source: str) -> None:
     signal.pthread_sigmask(signal.SIG_SETMASK, before)
     _Worker.allowed, _Worker.notes = False, writing
     _tie_to(own)
+    claim()
     _prepare()
 
 

@@ -30,6 +30,7 @@ STAGES = (
 COMMON = (
     "distinct",
     "endings",
+    "process",
     "cache",
     "errors",
     "tolerance",

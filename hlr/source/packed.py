@@ -5,11 +5,13 @@ from __future__ import annotations
 import io
 import logging
 import struct
+import sys
 import warnings
 from pathlib import Path
 from typing import Any
 
 from hlr.errors import SourceError
+from hlr.process import is_own
 from hlr.source.files import refused
 from hlr.source.meshes import UNITS, Y_UP, MeshSource, from_trimesh
 from hlr.source.model import Frame
@@ -38,8 +40,7 @@ def open_packed(path: Path, kind: str) -> MeshSource:
 
 
 def _load(path: Path, kind: str) -> Any:
-    import trimesh
-
+    trimesh = _trimesh(kind)
     # From memory, not from the folder: a file cannot make the reader open its neighbours.
     data = io.BytesIO(path.read_bytes())
     # It reports what it tried in vain, with tracebacks; without a handler they would go to standard error.
@@ -50,6 +51,33 @@ def _load(path: Path, kind: str) -> Any:
 
 
 _SILENT = logging.NullHandler()
+
+_UNUSED = (
+    "charset_normalizer",
+    "embreex",
+    "httpx",
+    "jsonschema",
+    "manifold3d",
+    "networkx",
+    "rtree",
+    "scipy",
+    "shapely",
+)
+"""What trimesh imports at once where it is there, and has no use of when it reads these files: four fifths of the time.
+Only 3MF needs networkx."""
+
+
+def _trimesh(kind: str) -> Any:
+    """The module; in hlr's own process without what is not used of it. In another's, somebody may use all of it."""
+    wanted = "networkx" if kind == "3mf" else ""
+    hidden = [name for name in _UNUSED if name != wanted and name not in sys.modules] if is_own() else []
+    sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]
+    try:
+        import trimesh
+    finally:
+        for name in hidden:
+            del sys.modules[name]
+    return trimesh
 
 
 def _frame(kind: str, scene: Any) -> Frame:

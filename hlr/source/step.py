@@ -37,6 +37,8 @@ def open_step(path: Path, annotations: bool = False) -> BrepSource:
     reader.SetGDTMode(False)
     reader.SetMatMode(False)
     reader.SetPropsMode(False)
+    reader.SetViewMode(False)
+    reader.SetMetaMode(False)
     return _read(path, "step", reader, annotated=not annotations and may_hold(path))
 
 
