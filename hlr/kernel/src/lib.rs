@@ -36,9 +36,9 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(bind::geometry::surface_points, m)?)?;
     m.add_class::<bind::drawn::Lines>()?;
     m.add_class::<bind::drawn::Layer>()?;
-    m.add_function(wrap_pyfunction!(bind::lines::chain, m)?)?;
+    m.add_function(wrap_pyfunction!(bind::chains::chain, m)?)?;
     m.add_class::<bind::lines::Camera>()?;
-    m.add_class::<bind::lines::Chains>()?;
+    m.add_class::<bind::chains::Chains>()?;
     m.add_class::<bind::lines::Cut>()?;
     m.add_class::<bind::brep::BrepModel>()?;
     m.add_class::<bind::brep::BrepMesh>()?;

@@ -64,7 +64,7 @@ impl Lines {
                     other,
                     flat: points[of_points[i].clone()].to_vec(),
                     space: points3[of_points[i].clone()].to_vec(),
-                    curve: curve(form[i], &data[of_data[i].clone()]).map_err(|what| wrong(what))?,
+                    curve: curve(form[i], &data[of_data[i].clone()]).map_err(wrong)?,
                 })
             };
             Ok(Lines(Shared::new(Drawn((0..kind.len()).map(line).collect::<PyResult<_>>()?))))

@@ -1,6 +1,7 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry.
 
 pub mod brep;
+pub mod chains;
 pub mod clash;
 pub mod drawn;
 pub mod fill;

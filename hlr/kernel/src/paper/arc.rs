@@ -80,8 +80,8 @@ impl Ellipse {
 pub fn arc_bounds(at: &dyn Fn(f64) -> Vec2, axes: &[Vec2; 2], [from, to]: [f64; 2]) -> [Vec2; 2] {
     let mut out = [at(from), at(from)];
     grow(&mut out, &at(to));
-    for k in 0..2 {
-        let extreme = axes[1][k].atan2(axes[0][k]);
+    for (across, along) in axes[1].iter().zip(&axes[0]) {
+        let extreme = across.atan2(*along);
         let first = ((from.min(to) - extreme) / std::f64::consts::PI).ceil() as i64;
         let last = ((from.max(to) - extreme) / std::f64::consts::PI).floor() as i64;
         for n in first..=last.min(first + 1) {
