@@ -128,9 +128,9 @@ class Camera:
     """Unit vectors in model coordinates, direction from the object toward the viewer; eye: of a perspective view, and
     the distance of the image plane from it; scale: millimetres on paper per model unit in the image plane."""
 
-    def __init__(
-        self, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None, scale: float
-    ) -> None: ...
+    def __new__(
+        cls, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None, scale: float
+    ) -> Camera: ...
 
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
@@ -142,8 +142,8 @@ class Chains:
     they do not fit.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         chains: tuple[Ints, Ints, Bools, Bytes, Ints, Ints, Ints, Ints],
         straight: Bools,
         drawn: list[bool],
@@ -154,7 +154,7 @@ class Chains:
         facing: npt.NDArray[np.int8],
         role: Bytes,
         found: Ints,
-    ) -> None: ...
+    ) -> Chains: ...
     @property
     def offsets(self) -> Ints:
         """(c + 1,) into edges and reversed."""
@@ -201,8 +201,8 @@ class Cut:
     lines are drawn. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         camera: Camera,
         projected: Floats,
         points: Floats,
@@ -214,7 +214,7 @@ class Cut:
         lengths: tuple[float, float, float, float, float, float, float, float],
         hidden: bool,
         threads: int,
-    ) -> None: ...
+    ) -> Cut: ...
     def __len__(self) -> int:
         """How many lines will be drawn."""
 
@@ -249,8 +249,8 @@ class Lines:
     into data: of an arc centre, two axes and two angles, of curves their points. ValueError where they do not fit.
     """
 
-    def __init__(
-        self,
+    def __new__(
+        cls,
         kind: Bytes,
         visible: Bools,
         ties: Ints,
@@ -260,7 +260,7 @@ class Lines:
         form: Bytes,
         data_offsets: Ints,
         data: Floats,
-    ) -> None: ...
+    ) -> Lines: ...
     def __len__(self) -> int: ...
     def bounds(self) -> tuple[float, float, float, float] | None:
         """x0, y0, x1, y1 around all lines, millimetres; None where there are none."""
@@ -338,6 +338,7 @@ class BrepModel:
     def faces_of_parts(self) -> list[int]: ...
     def planar(self, tolerance: float) -> Bools: ...
     def surface_records(self, numbers: Ints) -> tuple[Bytes, Ints, Floats]: ...
+    def spindles(self) -> list[tuple[int, float, float]]: ...
     def edge_curves(self, part: Ints, edge: Ints) -> tuple[Bytes, Floats, Ints, Floats]: ...
     def mesh(
         self, deflection: float, angle: float, progress: Callable[[float], None] | None = None, threads: int = 0

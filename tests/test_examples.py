@@ -119,4 +119,8 @@ def test_the_readme_draws_a_model_that_is_there():
     (model,) = re.findall(r"pip install \. && hlr draw (\S+)", text)
     assert (EXAMPLES.parent / model).is_file()
     for name in re.findall(r"\]\(((?:examples|hlr|tests)/[^)]*|[A-Z]+(?:\.md)?)\)", text):
-        assert (EXAMPLES.parent / name).exists(), f"the README links {name}, which is not there"
+        file, _, heading = name.partition("#")
+        assert (EXAMPLES.parent / file).exists(), f"the README links {name}, which is not there"
+        if heading:
+            headings = re.findall(r"^#+ (.*)$", (EXAMPLES.parent / file).read_text("utf-8"), re.MULTILINE)
+            assert heading in [title.lower().replace(" ", "-") for title in headings], name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from time import perf_counter
 
 import numpy as np
@@ -19,6 +20,7 @@ from hlr.scene.groups import groups_of, with_wires
 from hlr.scene.needles import supported
 from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR, Chains, Scene, TrueSurfaces
+from hlr.scene.spindle import through_their_axis
 from hlr.scene.stitch import stitched
 from hlr.scene.topology import crease_walks, joined
 from hlr.source.extent import LARGEST
@@ -54,6 +56,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     begin = perf_counter()
     if plan.on("intersection search", Facts(meeting=int(meeting.sum()), folded=int(folded.sum()))):
         met = clashes(points, triangles, found.mesh, group_of, groups, folded, found.curved, deflection)
+        met = replace(met, through=met.through | through_their_axis(whole, found))
     else:
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)

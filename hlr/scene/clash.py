@@ -40,9 +40,9 @@ line there but its own edge. That has to be forgiven in view depth as well, whic
 PLANAR = 2.0
 """In deflections: what counts as touching where planar parts meet at a small angle."""
 
-SELF = 0.05
+SELF = 0.1
 """Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
-solids facets cross by a sixth of a deflection at most, where this is a quarter."""
+solids facets cross by a fifth of a deflection at most."""
 
 BRIDGE = 4.0
 """In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point

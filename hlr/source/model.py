@@ -40,6 +40,9 @@ class Surfaces(Protocol):
     def records(self, numbers: Sequence[int]) -> SurfaceRecords:
         """The records of the faces with these numbers, in this order."""
 
+    def spindles(self) -> list[tuple[int, float, float]]:
+        """Faces on tori whose tube reaches beyond their axis: number, major and minor radius."""
+
 
 @dataclass(frozen=True, slots=True)
 class SurfaceRecords:

@@ -65,6 +65,10 @@ class Tessellator:
         """The surfaces of the underlying faces with these numbers, in this order."""
         return SurfaceRecords(*self._model.surface_records(np.asarray(numbers, np.int32)))
 
+    def spindles(self) -> list[tuple[int, float, float]]:
+        """Faces on tori whose tube reaches beyond their axis: number, major and minor radius."""
+        return self._model.spindles()
+
     def edge_curves(self, roots: Ints, edges: Ints) -> Curves:
         """Curves of edges (m,) in the TopExp edge maps of roots (m,)."""
         return Curves(*self._model.edge_curves(roots, edges))

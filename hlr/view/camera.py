@@ -155,6 +155,8 @@ def _directed(view: View) -> tuple[str, Vector, Vector | None]:
             raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
         direction, up = NAMED[view]
         return view, normalized(direction, "the view direction"), up
+    if isinstance(view, bytes | bytearray):
+        raise ViewError("a view in bytes: give its name as text, or a direction such as (1, -1, 1)")
     name = ",".join(f"{float(c):g}" for c in view)
     return name, normalized(tuple(view), "the view direction"), None
 

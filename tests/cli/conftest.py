@@ -15,23 +15,23 @@ FAKE = [sys.executable, str(Path(fake.__file__))]
 
 # The command line with a file that takes its time, to be written and to be removed.
 WRITE_SLOWLY = """
-import pathlib, sys, time
+import os, sys, time
 sys.path.insert(0, sys.argv.pop(1))
 import fake_pipeline as fake
 from hlr.cli import main
 from hlr.writers import files
 
-def fill(beside, data, target):
-    beside.write_bytes(data)
+def write(file, data):
+    file.write(data)
     print("writing", file=sys.stderr, flush=True)
     time.sleep(20)
 
-def unlink(path, missing_ok=False):
+def unlink(path):
     time.sleep(0.3)
-    remove(path, missing_ok)
+    remove(path)
 
-remove, pathlib.Path.unlink = pathlib.Path.unlink, unlink
-files._fill = fill
+remove, os.unlink = os.unlink, unlink
+files._write = write
 fake.install()
 main()
 """

@@ -186,7 +186,7 @@ def test_a_failure_to_write_leaves_the_earlier_file(hlr_command, tmp_path, monke
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
     (tmp_path / "a.svg").write_text("old")
-    monkeypatch.setattr(files, "_fill", full)
+    monkeypatch.setattr(files, "_write", full)
     result = hlr_command("draw", "a.step", "-o", "a.svg")
     assert result == (2, "", "hlr: cannot write a.svg: no space left on device.\n")
     assert (tmp_path / "a.svg").read_text() == "old"

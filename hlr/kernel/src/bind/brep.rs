@@ -14,6 +14,7 @@ use super::scan::{expect_below, expect_len, flat, rows as rows_of};
 use crate::mesh::tables::Tables;
 use hlr_brep::assemble::assemble;
 use hlr_brep::geometry::flat::is_flat;
+use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
 use hlr_brep::model::{Face, Model};
 use hlr_brep::patch::{Border, Foreign, patched};
@@ -71,6 +72,15 @@ impl BrepModel {
             offsets.push(data.len() as i32);
         }
         Ok((kind.into_pyarray(py), offsets.into_pyarray(py), data.into_pyarray(py)))
+    }
+
+    /// Faces on tori whose tube reaches beyond their axis, with major and minor radius.
+    fn spindles(&self) -> Vec<(i32, f64, f64)> {
+        let radii = |(i, face): (i32, &Face)| match face.surface {
+            Some(Surface::Torus(_, major, minor)) if minor > major => Some((i, major, minor)),
+            _ => None,
+        };
+        (0..).zip(&self.0.faces).filter_map(radii).collect()
     }
 
     /// kind, range, offsets, values of the curves of edges, given as parts and numbers in their edge maps, in the frames

@@ -270,7 +270,7 @@ impl Layer {
     }
 
     /// One element per stroke; those of one part after another are one group.
-    #[pyo3(signature = (pattern = None, visible = vec![]))]
+    #[pyo3(signature = (pattern = None, visible = vec![]), text_signature = "($self, pattern=None, visible=())")]
     fn svg<'py>(
         &self,
         py: Python<'py>,
@@ -282,7 +282,7 @@ impl Layer {
     }
 
     /// Painted paths, one per stroke; the layer must be one of cubic rows.
-    #[pyo3(signature = (pattern = None, visible = vec![]))]
+    #[pyo3(signature = (pattern = None, visible = vec![]), text_signature = "($self, pattern=None, visible=())")]
     fn pdf<'py>(
         &self,
         py: Python<'py>,

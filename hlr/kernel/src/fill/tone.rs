@@ -17,6 +17,8 @@ const MOST_BANDS: f32 = 64.0;
 /// The same of fans, whose borders are straight and cost next to nothing: as fine as screens are.
 const FAN_STEP: f32 = 1.0;
 const MOST_IN_FAN: f32 = 256.0;
+/// Bands of a fan to either side that say how light one is.
+const BESIDE: usize = 4;
 /// Points that directions are tried on.
 const TRIED: usize = 1500;
 /// Slices across a gradient.
@@ -90,6 +92,7 @@ pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
     let mut out = Tones { face: vec![], band: vec![], colour: vec![], gradient: vec![], begins: vec![] };
     for (f, (paint, fan)) in painted.into_iter().enumerate() {
         let own = &points[starts[f]..starts[f + 1]];
+        let is_fan = fan.is_some();
         if let Some(fan) = fan {
             for &p in own {
                 grid.samples[p as usize].tone = fan.tone(place(grid, p));
@@ -107,6 +110,9 @@ pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
             (0..4).for_each(|k| sum[k] += f64::from(s.colour[k]));
             *count += 1.0;
         }
+        if is_fan {
+            sums = smoothed(&sums);
+        }
         let mut last = [0u8; 4];
         for (b, (sum, count)) in sums.into_iter().enumerate() {
             if count > 0.0 {
@@ -120,6 +126,25 @@ pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
         }
     }
     out
+}
+
+/// Sums of colours and numbers of points by band, each as the line through the bands beside it says: bands of a fan are
+/// so narrow that the facets under them would show.
+fn smoothed(sums: &[([f64; 4], f64)]) -> Vec<([f64; 4], f64)> {
+    let at = |b: usize| {
+        let beside = b.saturating_sub(BESIDE)..(b + BESIDE + 1).min(sums.len());
+        let (mut n, mut x, mut xx, mut y, mut xy) = (0.0, 0.0, 0.0, [0.0; 4], [0.0; 4]);
+        for i in beside {
+            let ((sum, count), off) = (&sums[i], i as f64 - b as f64);
+            (n, x, xx) = (n + count, x + count * off, xx + count * off * off);
+            (0..4).for_each(|k| (y[k], xy[k]) = (y[k] + sum[k], xy[k] + sum[k] * off));
+        }
+        let turn = n * xx - x * x;
+        let level = |k: usize| if turn > 1e-9 * n * xx { (y[k] * xx - xy[k] * x) / turn } else { y[k] / n };
+        let count = sums[b].1;
+        ([0, 1, 2, 3].map(|k| if n > 0.0 { level(k).clamp(0.0, 255.0) * count } else { 0.0 }), count)
+    };
+    (0..sums.len()).map(at).collect()
 }
 
 /// Of each point its cell.
