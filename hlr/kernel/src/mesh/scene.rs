@@ -151,7 +151,8 @@ fn reports(tables: &Tables, facts: &Facts, part_of: &[i32], edge_part: &[i32], b
 }
 
 /// A planar face that a curved one runs into tangentially is the curved face's outline when it is seen edge-on, and rounding
-/// decides along which of its edges it folds.
+/// decides along which of its edges it folds. Inside a planar face nothing folds: needles between corners in one line are
+/// turned any way.
 ///
 /// An edge whose two triangles lie on top of one another, folded by more than a right angle, shows none: no smooth surface
 /// does that between two chords. Where edge curve and surface differ by the file's own tolerance, the tessellation laps over
@@ -168,7 +169,9 @@ fn edge_curved(
         facts.around(e).iter().take(2).for_each(|&t| run_into[face_of(t as usize)] = true);
     }
     let shows = |&t: &i32| curved[t as usize] || run_into[face_of(t as usize)];
-    let of = |e: usize| !(facts.fold[e] < 0.0 && facts.balance[e] == 0) && facts.around(e).iter().any(shows);
+    let in_plane = |e: usize| kind[e] == INTERIOR && facts.around(e).iter().all(|&t| !curved[t as usize]);
+    let on_top = |e: usize| facts.fold[e] < 0.0 && facts.balance[e] == 0;
+    let of = |e: usize| !on_top(e) && !in_plane(e) && facts.around(e).iter().any(shows);
     (0..facts.edges.len()).into_par_iter().with_min_len(1 << 12).map(of).collect()
 }
 
