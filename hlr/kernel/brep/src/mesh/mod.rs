@@ -17,6 +17,8 @@ mod steps;
 mod strips;
 mod sweep;
 
+use std::collections::{HashMap, HashSet};
+
 use crate::geometry::surface::Surface;
 use bound::Corner;
 use outline::Outline;
@@ -201,6 +203,7 @@ fn finish(surface: &Surface, made: Made) -> FaceMesh {
     let node = |i: u32| outline.nodes.get(i as usize);
     let apart = |a: u32, b: u32| node(a).is_none() || node(a) != node(b);
     triangles.retain(|&[a, b, c]| apart(a, b) && apart(b, c) && apart(c, a));
+    without_folds(&outline.nodes, &mut triangles);
     let toward = |c: &mut Corner, beside: [f64; 2]| {
         if c.normal == [0.0; 3] {
             c.normal = surface.normal_toward(c.uv, beside).unwrap_or_default();
@@ -225,6 +228,63 @@ fn finish(surface: &Surface, made: Made) -> FaceMesh {
         triangles,
         normals: corners.iter().map(|c| c.normal).collect(),
         turned,
+    }
+}
+
+/// Without pairs of triangles between the same nodes that are turned opposite ways: they enclose nothing. Where the border
+/// comes twice through one node, at a tip or beside a seam, a narrow face folds onto itself like that.
+fn without_folds(nodes: &[u32], triangles: &mut Vec<[u32; 3]>) {
+    let mut sorted = nodes.to_vec();
+    sorted.sort_unstable();
+    let twice: HashSet<u32> = sorted.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+    if twice.is_empty() {
+        return;
+    }
+    let inner = sorted[sorted.len() - 1] + 1;
+    let place = |i: u32| nodes.get(i as usize).map_or_else(|| inner + i, |&node| node);
+    let mut open: HashMap<([u32; 3], bool), Vec<usize>> = HashMap::new();
+    let mut kept = vec![true; triangles.len()];
+    for (i, t) in triangles.iter().enumerate() {
+        let [a, b, c] = t.map(place);
+        if ![a, b, c].iter().any(|node| twice.contains(node)) {
+            continue;
+        }
+        let mut corners = [a, b, c];
+        corners.sort_unstable();
+        // Turned one way or the other: whether the lowest, middle and highest follow one another.
+        let rising = [[a, b, c], [b, c, a], [c, a, b]].contains(&corners);
+        match open.get_mut(&(corners, !rising)).and_then(Vec::pop) {
+            Some(other) => (kept[i], kept[other]) = (false, false),
+            None => open.entry((corners, rising)).or_default().push(i),
+        }
+    }
+    let mut kept = kept.into_iter();
+    triangles.retain(|_| kept.next() == Some(true));
+}
+
+#[cfg(test)]
+mod folds {
+    use super::without_folds;
+
+    fn left(nodes: &[u32], mut all: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
+        without_folds(nodes, &mut all);
+        all
+    }
+
+    #[test]
+    fn triangles_that_lie_on_one_another_turned_over_go() {
+        // Points 1 and 4 are one node; 5 and 6 are inside the face.
+        let nodes = [0, 1, 2, 3, 1];
+        assert_eq!(left(&nodes, vec![[0, 1, 3], [0, 3, 4], [2, 3, 4]]), [[2, 3, 4]]);
+        assert_eq!(left(&nodes, vec![[1, 5, 6], [5, 4, 6], [2, 3, 4]]), [[2, 3, 4]]);
+    }
+
+    #[test]
+    fn two_sheets_and_single_triangles_stay() {
+        let nodes = [0, 1, 2, 3, 1];
+        assert_eq!(left(&nodes, vec![[0, 1, 3], [3, 0, 4]]).len(), 2);
+        assert_eq!(left(&nodes, vec![[0, 1, 2], [0, 2, 3], [0, 3, 4]]).len(), 3);
+        assert_eq!(left(&[0, 1, 2, 3], vec![[0, 1, 2], [2, 1, 0]]).len(), 2);
     }
 }
 
