@@ -120,7 +120,7 @@ Lens = tuple[
     tuple[float, float],
     tuple[int, int],
 ]
-"""right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: `src/preview/lens.rs`."""
+"""right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: `preview/src/lens.rs`."""
 
 _Vector = tuple[float, float, float]
 

@@ -55,7 +55,7 @@ def draw_views(source, views, options, progress=None):
     if stem == "bug":
         raise ZeroDivisionError("division by\nzero")
     if stem == "panic":
-        raise faults.fault("src/scan/sweep.rs:7: index out of bounds")
+        raise faults.fault("visibility/src/scan/sweep.rs:7: index out of bounds")
     if stem == "memory":
         raise MemoryError
     if stem == "prints":

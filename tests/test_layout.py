@@ -42,6 +42,18 @@ COMMON = (
     "_kernel",
 )
 
+# The crates of the kernel, and those of them that each may use.
+CRATES = {
+    "exact": set(),
+    "brep": set(),
+    "mesh": {"brep"},
+    "visibility": {"exact"},
+    "linework": {"exact", "brep", "mesh", "visibility"},
+    "preview": {"brep"},
+    "methods": {"exact"},
+    "python": {"exact", "brep", "mesh", "visibility", "linework", "preview", "methods"},
+}
+
 # Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
 RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")
 
@@ -221,6 +233,22 @@ def test_the_study_knows_nothing_of_the_command_line():
     assert paths
     names = [name for path in paths for _, name in imports(path, "hlr.study")]
     assert not [name for name in names if name.startswith(("hlr.cli", "cli"))]
+
+
+def manifest(crate):
+    with open(ROOT / "hlr/kernel" / crate / "Cargo.toml", "rb") as file:
+        return tomllib.load(file)
+
+
+def test_crates_use_only_those_before_them():
+    workspace = manifest(".")["workspace"]
+    assert workspace["members"] == list(CRATES)
+    for number, (crate, allowed) in enumerate(CRATES.items()):
+        needed = manifest(crate)["dependencies"]
+        assert {name.removeprefix("hlr-") for name in needed if name.startswith("hlr-")} == allowed
+        assert allowed <= set(list(CRATES)[:number])
+        # Python is known at the border alone.
+        assert {"numpy", "pyo3"} & set(needed) == ({"numpy", "pyo3"} if crate == "python" else set())
 
 
 @pytest.mark.parametrize("name", ["errors", "tolerance", "drawing", "picture"])

@@ -1,4 +1,4 @@
-"""Curved patches z = f(x, y) as they stand beside polygons (see the kernel's `raster/patch.rs`)."""
+"""Curved patches z = f(x, y) as they stand beside polygons (see the kernel's `methods/src/patch.rs`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Depth of curved patches by forward differences (see the kernel's `raster/quadric.rs`)."""
+"""Depth of curved patches by forward differences (see the kernel's `methods/src/quadric.rs`)."""
 
 from __future__ import annotations
 

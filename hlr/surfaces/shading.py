@@ -1,4 +1,7 @@
-"""Values along a span: what the textbook has, and what is right in perspective (the kernel's `raster/shading.rs`)."""
+"""Values along a span: what the textbook has, and what is right in perspective.
+
+The kernel's `methods/src/shading.rs`.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Edges and outlines beside their own faces: where they lie when they are compared with these faces' triangles.
 
-The kernel compares them polygon by polygon (`kernel/src/scan/own_faces.rs`). It is told where by edges that are added
-to the scene without triangles, and are never drawn.
+The kernel compares them polygon by polygon (`kernel/visibility/src/scan/own_faces.rs`). It is told where by edges that
+are added to the scene without triangles, and are never drawn.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ of them stands out beyond the outline, and hardly any lift is needed; where it i
        / |
 
 An outline, and an edge whose face is seen nearly edge-on, is compared with the triangles of that face as if it lay off
-the face by more than they do, on the side that is seen (`kernel/src/scan/own_faces.rs`).
+the face by more than they do, on the side that is seen (`kernel/visibility/src/scan/own_faces.rs`).
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ posix = pytest.mark.skipif(os.name != "posix", reason="signals as in POSIX")
     ("source", "words"),
     [
         ("bug.step", "internal error: ZeroDivisionError: division by zero"),
-        ("panic.step", "internal error in the kernel at src/scan/sweep.rs:7: index out of bounds"),
+        ("panic.step", "internal error in the kernel at visibility/src/scan/sweep.rs:7: index out of bounds"),
     ],
 )
 def test_a_fault_of_ours_asks_for_a_report(hlr_command, source, words, tmp_path):

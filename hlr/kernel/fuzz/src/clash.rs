@@ -4,10 +4,10 @@
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
-use _kernel::clash::meet::{Numbered, meet};
-use _kernel::clash::search::{Clash, Surfaces};
-use _kernel::clash::weld::weld;
-use _kernel::exact::snap::Grid;
+use hlr_exact::snap::Grid;
+use hlr_visibility::clash::meet::{Numbered, meet};
+use hlr_visibility::clash::search::{Clash, Surfaces};
+use hlr_visibility::clash::weld::weld;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::bytes::{Bytes, Numbers};

@@ -1,16 +1,16 @@
 //! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing. Step by step, and as drawings
 //! go through it.
 
-use _kernel::lines::cover::{Widths, uncovered};
-use _kernel::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
-use _kernel::lines::drawn::Kind;
-use _kernel::lines::ends::Ends;
-use _kernel::lines::outlines::{About, Chains};
-use _kernel::lines::runs::{Geometry, Limits, Piece, cut};
-use _kernel::lines::simplify::simplify;
-use _kernel::lines::specks::drop_specks;
-use _kernel::lines::{Polyline, View, distance};
-use _kernel::scan::invisibility::State;
+use hlr_linework::lines::cover::{Widths, uncovered};
+use hlr_linework::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
+use hlr_linework::lines::drawn::Kind;
+use hlr_linework::lines::ends::Ends;
+use hlr_linework::lines::outlines::{About, Chains};
+use hlr_linework::lines::runs::{Geometry, Limits, Piece, cut};
+use hlr_linework::lines::simplify::simplify;
+use hlr_linework::lines::specks::drop_specks;
+use hlr_linework::lines::{Polyline, View, distance};
+use hlr_visibility::scan::invisibility::State;
 
 use super::bytes::Bytes;
 use super::topology::check_chains;

@@ -1,6 +1,6 @@
 //! Readers of mesh files: whatever the bytes, an answer that holds together, no larger than they allow.
 
-use _kernel::meshfile::{Fault, MeshFile, Paint, obj, off, ply, stl};
+use hlr_mesh::meshfile::{Fault, MeshFile, Paint, obj, off, ply, stl};
 
 /// No reader makes more than this of one byte: a corner of a polygon takes two, and is a triangle at most.
 const MOST: usize = 1;

@@ -1,7 +1,7 @@
 //! A scene from bytes: triangles and wires in parts, and what the kernel is told of them.
 
-use _kernel::scan::mesh::{DRAWN, OUTLINE};
-use _kernel::scan::topology::topology;
+use hlr_mesh::topology::topology;
+use hlr_visibility::scan::mesh::{DRAWN, OUTLINE};
 
 use super::bytes::Bytes;
 

@@ -1,7 +1,7 @@
 //! Edges, fans, folds and components of any triangles, against what a few nested loops say.
 
-use _kernel::lines::chain::chain;
-use _kernel::scan::topology::{balance, components, folds, normals, topology};
+use hlr_linework::lines::chain::chain;
+use hlr_mesh::topology::{balance, components, folds, normals, topology};
 
 use super::bytes::Bytes;
 

@@ -3,9 +3,9 @@
 
 use std::sync::OnceLock;
 
-use _kernel::exact::snap::Grid;
-use _kernel::scan::mesh::{DRAWN, Mesh, Part};
-use _kernel::scan::sweep::{Outcome, visibility};
+use hlr_exact::snap::Grid;
+use hlr_visibility::scan::mesh::{DRAWN, Mesh, Part};
+use hlr_visibility::scan::sweep::{Outcome, visibility};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::bytes::Bytes;
@@ -58,7 +58,7 @@ fn pools() -> &'static [ThreadPool; 2] {
 }
 
 fn listed(outcome: &Outcome) -> Vec<(u32, u64, u64, u8)> {
-    let row = |p: &_kernel::scan::sweep::Piece| {
+    let row = |p: &hlr_visibility::scan::sweep::Piece| {
         (p.edge, p.segment.start.to_bits(), p.segment.end.to_bits(), p.segment.state as u8)
     };
     outcome.pieces.iter().map(row).collect()

@@ -1,0 +1,389 @@
+//! Along one chain: join equal states, settle the doubtful and the too short, cut out the lines.
+//!
+//! ```text
+//!   states   V V V D H H H W W W W W V     W: hidden by less than the contact tolerance; D: and diving
+//!   settled  V V V H H H H V V V V V V     a D is a stub of the tolerance; a W is a contact
+//! ```
+
+use super::{Polyline, View, distance};
+use hlr_visibility::scan::invisibility::State;
+
+/// A piece of one mesh edge; parameters run from the edge's first to its second vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    pub start: f64,
+    pub end: f64,
+    pub state: State,
+}
+
+pub struct Geometry<'a> {
+    /// Millimetres on paper.
+    pub flat: &'a [[f64; 2]],
+    /// Model coordinates.
+    pub space: &'a [[f64; 3]],
+    pub view: &'a View,
+    pub edges: &'a [[i32; 2]],
+    /// Pieces of edge e: pieces[piece_offsets[e]..piece_offsets[e + 1]], ascending.
+    pub pieces: &'a [Piece],
+    pub piece_offsets: &'a [u32],
+}
+
+impl Geometry<'_> {
+    /// The contour of a mesh folds back and forth by an edge or two where the surface curves like a saddle, and hides
+    /// itself there: changes of visibility over such lengths say nothing of the shape.
+    pub fn noise(&self, edges: &[i32], short: f64) -> f64 {
+        let total: f64 = edges
+            .iter()
+            .map(|&e| self.edges[e as usize])
+            .map(|[a, b]| distance(&self.flat[a as usize], &self.flat[b as usize]))
+            .sum();
+        short.max((NOISE_EDGES * total / edges.len().max(1) as f64).min(NOISE_MOST * short))
+    }
+}
+
+/// In mean edge lengths of the chain, and at most in accuracies.
+const NOISE_EDGES: f64 = 2.5;
+const NOISE_MOST: f64 = 6.0;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// A run shorter than this takes the state of what lies beside it.
+    pub short: f64,
+    /// A diving run shorter than this is hidden.
+    pub stub: f64,
+    /// A hidden run shorter than this between visible ones is visible: a contour that its own folds hide. Never the
+    /// other way round, for a true outline may be broken into many such runs.
+    pub noise: f64,
+}
+
+/// A stretch of constant state between two stops, each (position in the chain, parameter along the walk).
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    state: State,
+    from: (usize, f64),
+    to: (usize, f64),
+    length: f64,
+}
+
+struct Chain<'a> {
+    geometry: &'a Geometry<'a>,
+    edges: &'a [i32],
+    reversed: &'a [bool],
+}
+
+impl Chain<'_> {
+    fn ends(&self, k: usize) -> (usize, usize) {
+        let [a, b] = self.geometry.edges[self.edges[k] as usize];
+        if self.reversed[k] { (b as usize, a as usize) } else { (a as usize, b as usize) }
+    }
+
+    fn at(&self, (k, t): (usize, f64)) -> ([f64; 2], [f64; 3]) {
+        let g = self.geometry;
+        let (a, b) = self.ends(k);
+        if t <= 0.0 {
+            return (g.flat[a], g.space[a]);
+        }
+        if t >= 1.0 {
+            return (g.flat[b], g.space[b]);
+        }
+        let u = g.view.in_space(t, g.view.depth(&g.space[a]), g.view.depth(&g.space[b]));
+        let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
+        let flat = [mix(g.flat[a][0], g.flat[b][0], t), mix(g.flat[a][1], g.flat[b][1], t)];
+        let (p, q) = (&g.space[a], &g.space[b]);
+        (flat, [mix(p[0], q[0], u), mix(p[1], q[1], u), mix(p[2], q[2], u)])
+    }
+
+    /// Contiguous stretches, each a list of runs in alternating states.
+    fn stretches(&self) -> Vec<Vec<Run>> {
+        let g = self.geometry;
+        let mut out: Vec<Vec<Run>> = Vec::new();
+        let mut broken = true;
+        for k in 0..self.edges.len() {
+            let e = self.edges[k] as usize;
+            let pieces = &g.pieces[g.piece_offsets[e] as usize..g.piece_offsets[e + 1] as usize];
+            let (a, b) = self.ends(k);
+            broken |= k > 0 && self.ends(k - 1).1 != a;
+            if pieces.is_empty() {
+                // Seen end-on the chain goes on through it; anything longer was clipped away.
+                broken |= g.flat[a] != g.flat[b];
+                continue;
+            }
+            let whole = distance(&g.flat[a], &g.flat[b]);
+            for i in 0..pieces.len() {
+                let piece = if self.reversed[k] { &pieces[pieces.len() - 1 - i] } else { &pieces[i] };
+                let (s, t) =
+                    if self.reversed[k] { (1.0 - piece.end, 1.0 - piece.start) } else { (piece.start, piece.end) };
+                let run = Run { state: piece.state, from: (k, s), to: (k, t), length: whole * (t - s) };
+                match out.last_mut() {
+                    Some(last) if !broken => join(last, run),
+                    _ => out.push(vec![run]),
+                }
+                broken = false;
+            }
+        }
+        out
+    }
+
+    /// One stretch that ends where it begins, with nothing clipped away in between.
+    fn closed(&self, stretches: &[Vec<Run>]) -> bool {
+        let [runs] = stretches else { return false };
+        let last = self.edges.len() - 1;
+        last > 0 && self.ends(0).0 == self.ends(last).1 && self.at(runs[0].from).0 == self.at(runs[runs.len() - 1].to).0
+    }
+
+    fn polyline(&self, runs: &[Run], id: u32) -> Polyline {
+        let mut line = Polyline { chain: id, visible: runs[0].state == State::Visible, ..Polyline::default() };
+        let mut put = |stop: (usize, f64)| {
+            let (flat, space) = self.at(stop);
+            if line.flat.last() != Some(&flat) {
+                line.flat.push(flat);
+                line.space.push(space);
+            }
+        };
+        for run in runs {
+            put(run.from);
+            for k in run.from.0..run.to.0 {
+                put((k, 1.0));
+            }
+            put(run.to);
+        }
+        line
+    }
+}
+
+fn join(runs: &mut Vec<Run>, run: Run) {
+    if let Some(last) = runs.last_mut()
+        && last.state == run.state
+    {
+        last.to = run.to;
+        last.length += run.length;
+        return;
+    }
+    runs.push(run);
+}
+
+/// A doubtful run is a stub's beginning where a stub goes on from it, on the next edge of a chain of many short ones.
+fn dives(runs: &[Run], i: usize, stub: f64, closed: bool) -> bool {
+    beside(runs, i, closed)
+        .into_iter()
+        .flatten()
+        .any(|next| next.state == State::Diving && runs[i].length + next.length < stub)
+}
+
+/// Join neighbours that have come to the same state.
+fn rejoin(runs: Vec<Run>) -> Vec<Run> {
+    let mut out = Vec::with_capacity(runs.len());
+    for run in runs {
+        join(&mut out, run);
+    }
+    out
+}
+
+/// States beside run i; a closed chain goes round.
+fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
+    let n = runs.len();
+    let before = if i > 0 { Some(&runs[i - 1]) } else { (closed && n > 1).then(|| &runs[n - 1]) };
+    let after = if i + 1 < n { Some(&runs[i + 1]) } else { (closed && n > 1).then(|| &runs[0]) };
+    [before, after]
+}
+
+fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
+    // A contact is seen, however short; a stub that is as long as this is a contact, too.
+    let states: Vec<State> = (0..runs.len())
+        .map(|i| match runs[i].state {
+            State::Within if !dives(&runs, i, limits.stub, closed) => State::Visible,
+            State::Diving if runs[i].length >= limits.stub => State::Visible,
+            State::Within | State::Diving => State::Hidden,
+            known => known,
+        })
+        .collect();
+    for (run, state) in runs.iter_mut().zip(states) {
+        run.state = state;
+    }
+    runs = rejoin(runs);
+    for i in 0..runs.len() {
+        let between = beside(&runs, i, closed).iter().all(|r| r.is_some_and(|r| r.state == State::Visible));
+        if runs[i].state == State::Hidden && runs[i].length < limits.noise && between {
+            runs[i].state = State::Visible;
+        }
+    }
+    runs = rejoin(runs);
+    // The shortest first: a run that grows by a merge may then be long enough.
+    while runs.len() > 1 {
+        let Some(i) = (0..runs.len()).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length)) else { break };
+        let wraps = closed && runs.len() > 2 && runs[0].state == runs[runs.len() - 1].state;
+        let ends = i == 0 || i + 1 == runs.len();
+        if runs[i].length >= limits.short {
+            break;
+        }
+        if wraps && ends && runs[0].length + runs[runs.len() - 1].length >= limits.short {
+            // The first and the last run are one, long enough; nothing shorter is left to look at beyond them.
+            let shortest_inner = (1..runs.len() - 1).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length));
+            match shortest_inner {
+                Some(k) if runs[k].length < limits.short => flip(&mut runs, k),
+                _ => break,
+            }
+        } else {
+            flip(&mut runs, i);
+        }
+        runs = rejoin(runs);
+    }
+    runs
+}
+
+fn flip(runs: &mut [Run], i: usize) {
+    runs[i].state = if runs[i].state == State::Visible { State::Hidden } else { State::Visible };
+}
+
+/// The lines of one chain.
+pub fn cut(geometry: &Geometry, edges: &[i32], reversed: &[bool], id: u32, limits: &Limits) -> Vec<Polyline> {
+    let chain = Chain { geometry, edges, reversed };
+    let mut out = Vec::new();
+    let stretches = chain.stretches();
+    let closed = chain.closed(&stretches);
+    for stretch in stretches {
+        let mut runs = settle(stretch, limits, closed);
+        let last = runs.len() - 1;
+        if closed && last > 0 && runs[0].state == runs[last].state {
+            // Start a closed chain where its state changes, so that no line is cut at an arbitrary vertex.
+            let tail = runs.remove(last);
+            let head = runs.remove(0);
+            for run in &runs {
+                out.push(chain.polyline(&[*run], id));
+            }
+            out.push(chain.polyline(&[tail, head], id));
+            continue;
+        }
+        for run in &runs {
+            out.push(chain.polyline(&[*run], id));
+        }
+    }
+    out.retain(|line| line.flat.len() > 1);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5 };
+
+    /// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
+    fn lines(states: &[State]) -> Vec<(bool, f64, f64)> {
+        lines_within(states, &LIMITS)
+    }
+
+    fn lines_within(states: &[State], limits: &Limits) -> Vec<(bool, f64, f64)> {
+        let n = states.len();
+        let flat: Vec<[f64; 2]> = (0..=n).map(|i| [i as f64, 0.0]).collect();
+        let space: Vec<[f64; 3]> = (0..=n).map(|i| [i as f64, 0.0, 0.0]).collect();
+        let edges: Vec<[i32; 2]> = (0..n as i32).map(|i| [i, i + 1]).collect();
+        let pieces: Vec<Piece> = states.iter().map(|&state| Piece { start: 0.0, end: 1.0, state }).collect();
+        let piece_offsets: Vec<u32> = (0..=n as u32).collect();
+        let g = Geometry {
+            flat: &flat,
+            space: &space,
+            view: &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false },
+            edges: &edges,
+            pieces: &pieces,
+            piece_offsets: &piece_offsets,
+        };
+        let ids: Vec<i32> = (0..n as i32).collect();
+        let found = cut(&g, &ids, &vec![false; n], 0, limits);
+        found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
+    }
+
+    /// Lines around a closed chain whose edges have these lengths and states, begun at edge `first`, as stretches
+    /// (visible, from, to) of its perimeter.
+    fn around(edges: &[(State, f64)], first: usize, limits: &Limits) -> Vec<(bool, f64, f64)> {
+        let n = edges.len();
+        // Out along one side and back along the other: places on the perimeter are told apart by their height.
+        let total: f64 = edges.iter().map(|e| e.1).sum();
+        let starts: Vec<f64> = (0..n).map(|i| edges[..i].iter().map(|e| e.1).sum()).collect();
+        let corner = (0..n).find(|&i| (starts[i] - 0.5 * total).abs() < 1e-9).expect("a vertex halfway");
+        let flat: Vec<[f64; 2]> =
+            (0..n).map(|i| if i <= corner { [starts[i], 0.0] } else { [total - starts[i], 1e-6] }).collect();
+        let space: Vec<[f64; 3]> = flat.iter().map(|p| [p[0], p[1], 0.0]).collect();
+        let of = |i: usize| (first + i) % n;
+        let ends: Vec<[i32; 2]> = (0..n).map(|i| [of(i) as i32, of(i + 1) as i32]).collect();
+        let pieces: Vec<Piece> = (0..n).map(|i| Piece { start: 0.0, end: 1.0, state: edges[of(i)].0 }).collect();
+        let piece_offsets: Vec<u32> = (0..=n as u32).collect();
+        let view = &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+        let (edges, pieces, piece_offsets) = (&ends[..], &pieces[..], &piece_offsets[..]);
+        let g = Geometry { flat: &flat, space: &space, view, edges, pieces, piece_offsets };
+        let ids: Vec<i32> = (0..n as i32).collect();
+        let place = |p: &[f64; 2]| ((if p[1] > 0.0 { total - p[0] } else { p[0] }) * 1e3).round() * 1e-3;
+        let found = cut(&g, &ids, &vec![false; n], 0, limits);
+        let mut lines: Vec<_> =
+            found.iter().map(|l| (l.visible, place(&l.flat[0]), place(&l.flat[l.flat.len() - 1]))).collect();
+        lines.sort_by(|a, b| a.1.total_cmp(&b.1));
+        lines
+    }
+
+    #[test]
+    fn lines_around_a_closed_chain_do_not_depend_on_where_it_begins() {
+        use State::{Hidden as H, Visible as V};
+        // Of a whole of 12: a hidden run of 0.3 is too short; what is visible around it is not, cut or not.
+        let short_gap = [(V, 0.1), (H, 2.9), (V, 3.0), (V, 1.0), (H, 3.0), (V, 1.25), (H, 0.3), (V, 0.45)];
+        let mirrored: Vec<(State, f64)> = short_gap.iter().rev().copied().collect();
+        // A visible run of 0.2, here or there in two.
+        let short_run = [(V, 0.1), (H, 2.9), (H, 0.1), (V, 2.9), (H, 3.0), (H, 2.9), (V, 0.1)];
+        let noisy = Limits { noise: 0.45, ..LIMITS };
+        for first in 0..short_gap.len() {
+            let found = around(&short_gap, first, &noisy);
+            assert_eq!(found, [(false, 0.1, 3.0), (true, 3.0, 7.0), (false, 7.0, 10.0), (true, 10.0, 0.1)], "{first}");
+        }
+        for first in 0..mirrored.len() {
+            let found = around(&mirrored, first, &noisy);
+            assert_eq!(found, [(false, 2.0, 5.0), (true, 5.0, 9.0), (false, 9.0, 11.9), (true, 11.9, 2.0)], "{first}");
+        }
+        for first in 0..short_run.len() {
+            let found = around(&short_run, first, &LIMITS);
+            assert_eq!(found, [(true, 3.1, 6.0), (false, 6.0, 3.1)], "{first}");
+        }
+    }
+
+    #[test]
+    fn noise_is_a_few_edges_long_within_bounds() {
+        let noise = |edge: f64| {
+            let flat = [[0.0, 0.0], [edge, 0.0], [edge, edge]];
+            let view = &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+            let edges = &[[0, 1], [1, 2]];
+            let g = Geometry { flat: &flat, space: &[[0.0; 3]; 3], view, edges, pieces: &[], piece_offsets: &[0; 3] };
+            g.noise(&[0, 1], 0.5)
+        };
+        assert_eq!(noise(0.001), 0.5, "never less than what is too short anyway");
+        assert_eq!(noise(0.4), 1.0, "two edges and a half");
+        assert_eq!(noise(100.0), 3.0, "six times what is too short");
+    }
+
+    #[test]
+    fn equal_states_join_across_mesh_edges() {
+        use State::{Hidden as H, Visible as V};
+        assert_eq!(lines(&[V, V, H, H, H]), [(true, 0.0, 2.0), (false, 2.0, 5.0)]);
+    }
+
+    #[test]
+    fn a_contour_that_its_own_folds_hide_is_whole() {
+        use State::{Hidden as H, Visible as V};
+        let noisy = Limits { noise: 1.5, ..LIMITS };
+        assert_eq!(
+            lines_within(&[V, H, V, V, H, H, V], &noisy),
+            [(true, 0.0, 4.0), (false, 4.0, 6.0), (true, 6.0, 7.0)]
+        );
+        assert_eq!(lines_within(&[H, H, V, H], &noisy), [(false, 0.0, 2.0), (true, 2.0, 3.0), (false, 3.0, 4.0)]);
+    }
+
+    #[test]
+    fn a_stub_is_hidden_and_a_contact_is_seen() {
+        use State::{Diving as D, Hidden as H, Visible as V, Within as W};
+        assert_eq!(lines(&[V, D, H]), [(true, 0.0, 1.0), (false, 1.0, 3.0)]);
+        assert_eq!(lines(&[V, W, H]), [(true, 0.0, 2.0), (false, 2.0, 3.0)]);
+        assert_eq!(lines(&[H, W, W, W]), [(false, 0.0, 1.0), (true, 1.0, 4.0)]);
+        assert_eq!(lines(&[W]), [(true, 0.0, 1.0)]);
+        // A stub that begins on the edge before, and one as long as a contact.
+        let limits = Limits { stub: 2.5, ..LIMITS };
+        assert_eq!(lines_within(&[V, W, D, H], &limits), [(true, 0.0, 1.0), (false, 1.0, 4.0)]);
+        assert_eq!(lines_within(&[V, D, D, D, H], &limits), [(true, 0.0, 4.0), (false, 4.0, 5.0)]);
+    }
+}

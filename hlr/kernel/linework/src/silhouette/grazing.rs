@@ -1,0 +1,201 @@
+//! The borders of faces that are seen nearly edge-on, parted where a face turns over, and what the faces there do to them.
+//!
+//! Right where it is, an edge of a closed body is seen if its faces let it be: one face turned toward the viewer is enough
+//! where the edge is convex, both have to be where it is concave.
+//!
+//! ```text
+//!        \   /  sight                  sight \    /
+//!      ___\ v                                 v  |
+//!     front|  back: seen                 front ___|  back: hidden
+//! ```
+
+use super::contour::Side;
+use super::face::{Face, root};
+use super::refine::rise;
+use super::{Model, TIE};
+use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
+use hlr_visibility::scan::own_faces::Beside;
+
+/// A stretch of the border of a face that is seen nearly edge-on there: of an edge from one parameter to another, between
+/// places where a face at this edge turns over.
+#[derive(Clone, Copy, Debug)]
+pub struct Grazing {
+    pub edge: u32,
+    pub range: [f64; 2],
+    pub face: i32,
+    /// The face's outward unit normals at both ends, and whether its outer side is seen.
+    pub normals: [Vector; 2],
+    pub front: bool,
+    pub beside: Beside,
+    /// The face is turned toward the viewer, but its triangle here is not: the chord cuts a bend off.
+    pub dented: bool,
+    /// At both ends, as in a `Stretch`, of the first face that turns over along this edge; nothing of others.
+    pub rise: Option<[f64; 2]>,
+}
+
+/// |N . v|: a face seen more openly than this does not get in front of its own border by what its triangles are off.
+const GRAZE: f64 = 0.3;
+
+/// |N . v|: a face, or a triangle, seen at less is a wall along the sight: rounding decides what it hides.
+const WALL: f64 = 1e-6;
+
+/// Of the square of its longer side: a triangle with less area has no normal to be trusted.
+const NEEDLE: f64 = 1e-9;
+
+/// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single chord,
+/// however often the face turns over along it.
+const ASKED: usize = 8;
+
+pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut Vec<Grazing>) {
+    let grazes = |side: &&Side| side.face.is_some() && (side.f.iter().any(|f| f.abs() < GRAZE) || dented(model, side));
+    let found: Vec<(&Side, Vec<(f64, f64)>)> = sides.iter().filter(grazes).map(|side| (side, turns(side))).collect();
+    let mut stops: Vec<f64> = found.iter().flat_map(|(_, turns)| turns.iter().map(|turn| turn.0)).collect();
+    stops.extend([0.0, 1.0]);
+    stops.sort_by(f64::total_cmp);
+    stops.dedup();
+    for range in stops.windows(2) {
+        let range = [range[0], range[1]];
+        let beside = beside(model, e, around, sides, 0.5 * (range[0] + range[1]));
+        let turning = found.iter().position(|(_, turns)| turns.len() > 1);
+        for (at, (side, turns)) in found.iter().enumerate() {
+            let Some(f) = turns.iter().rev().find(|turn| turn.0 <= range[0]).map(|turn| turn.1) else { continue };
+            if f == 0.0 {
+                continue;
+            }
+            let normals = [0, 1].map(|k| side.at(range[k]).map_or(side.normal, |place| place.normal));
+            let rise = (turning == Some(at))
+                .then(|| [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, range[k]), &normals[k])));
+            let (front, dented) = (f < 0.0, dented(model, side));
+            out.push(Grazing { edge: e as u32, range, face: side.number, normals, front, beside, dented, rise });
+        }
+    }
+}
+
+fn dented(model: &Model, side: &Side) -> bool {
+    // A wall along the sight is not turned toward the viewer.
+    if side.f.iter().any(|&f| f > TIE) || side.f.iter().all(|&f| f >= -TIE) {
+        return false;
+    }
+    let [p, q, r] = model.triangles[side.triangle as usize].map(|v| model.points[v as usize]);
+    let normal = cross(&sub(&q, &p), &sub(&r, &p));
+    dot(&normal, &model.sight(&p)) > -WALL * length(&normal)
+}
+
+fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
+    let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
+    along(&a, &sub(&b, &a), t)
+}
+
+/// Outward unit normal of the planar face of a triangle; None where its plane is not known and the triangle is a needle.
+fn plane_normal(model: &Model, triangle: i32) -> Option<Vector> {
+    let t = triangle as usize;
+    let of_face = |face: Face| face.normal(model.uv[model.corner[t][0] as usize]);
+    Face::new(model, model.triangle_face[t]).and_then(of_face).or_else(|| {
+        let [p, q, r] = model.triangles[t].map(|v| model.points[v as usize]);
+        let (a, b) = (sub(&q, &p), sub(&r, &p));
+        let normal = cross(&a, &b);
+        let size = dot(&a, &a).max(dot(&b, &b));
+        if length(&normal) > NEEDLE * size { unit(&normal) } else { None }
+    })
+}
+
+/// What the two faces of an edge do to it at one parameter, if the body is closed.
+fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Beside {
+    let &[s, u] = around else { return Beside::Unknown };
+    let sight = model.sight(&on_edge(model, e, t));
+    let normal = |triangle: i32| match sides.iter().find(|side| side.triangle == triangle) {
+        Some(side) => Some(side.at(t).map_or(side.normal, |place| place.normal)),
+        None if model.faces[model.triangle_face[triangle as usize] as usize].curved => None,
+        // The plane's own: a triangle between points that are nearly in one line has any normal.
+        None => plane_normal(model, triangle),
+    };
+    let (Some(m), Some(n)) = (normal(s), normal(u)) else { return Beside::Unknown };
+    let corners = model.triangles[s as usize];
+    let forward = (0..3).any(|k| [corners[k], corners[(k + 1) % 3]] == model.edges[e]);
+    let [a, b] = model.edges[e].map(|v| model.points[v as usize]);
+    let way = if forward { sub(&b, &a) } else { sub(&a, &b) };
+    let concave = !model.smooth[e] && dot(&cross(&m, &n), &way) < 0.0;
+    let f = [dot(&m, &sight), dot(&n, &sight)];
+    let (front, back) = (f.iter().filter(|f| **f < -WALL).count(), f.iter().filter(|f| **f > WALL).count());
+    match concave {
+        false if front > 0 => Beside::Seen,
+        false if back == 2 => Beside::Hidden,
+        true if back > 0 => Beside::Hidden,
+        true if front == 2 => Beside::Seen,
+        _ => Beside::Unknown,
+    }
+}
+
+/// Where a face turns over along its edge, from 0 on, and the sign of f from there on: 0 where it is a wall along the sight.
+fn turns(side: &Side) -> Vec<(f64, f64)> {
+    let Some(face) = &side.face else { return Vec::new() };
+    let uv = |t: f64| [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t);
+    let sign = |f: f64| if f.abs() <= TIE { 0.0 } else { f.signum() };
+    let asked: Vec<(f64, f64)> = (0..=ASKED)
+        .map(|k| {
+            let t = k as f64 / ASKED as f64;
+            match k {
+                0 => (t, side.f[0]),
+                ASKED => (t, side.f[1]),
+                _ => (t, face.f(uv(t)).unwrap_or(0.0)),
+            }
+        })
+        .filter(|&(_, f)| sign(f) != 0.0)
+        .collect();
+    let Some(&(_, first)) = asked.first() else { return vec![(0.0, 0.0)] };
+    let mut out = vec![(0.0, sign(first))];
+    for pair in asked.windows(2) {
+        let [(s, f), (t, g)] = [pair[0], pair[1]];
+        if sign(f) != sign(g) {
+            let at = if side.changes() && asked.iter().filter(|a| sign(a.1) != sign(first)).all(|a| a.0 >= t) {
+                // The outline's own end.
+                side.change()
+            } else {
+                s + (t - s) * root(face, uv(s), uv(t), f, g)
+            };
+            out.push((at.clamp(s, t), sign(g)));
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::FaceRecord;
+    use super::*;
+    use crate::lines::View;
+    use hlr_brep::geometry::surface::Surface;
+
+    /// Corners of a planar face on one border line, off it by rounding: the needle between them is turned any way.
+    #[test]
+    fn a_needle_has_the_normal_of_its_plane() {
+        let points =
+            [[-70.0, -0.100000000043331, 0.0], [-93.0, -0.1, 1e-13], [-87.0, -0.1, 1e-13], [-80.0, -0.1, -60.0]];
+        let plane = Surface::read(1, &[0.0, -0.1, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0]);
+        let face = |surface| FaceRecord {
+            surface,
+            place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
+            sign: 1.0,
+            curved: false,
+        };
+        let model = |surface| Model {
+            points: &points,
+            triangles: &[[0, 1, 2], [0, 1, 3]],
+            triangle_face: &[0, 0],
+            edges: &[],
+            offsets: &[0],
+            incident: &[],
+            smooth: &[],
+            source: &[],
+            corner: &[[0, 1, 2], [0, 1, 3]],
+            uv: &[[0.0; 2]; 4],
+            faces: vec![face(surface)],
+            surfaces: vec![plane.clone()],
+            view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
+            chord: 0.01,
+        };
+        assert_eq!(plane_normal(&model(Some(0)), 0), Some([0.0, 1.0, 0.0]));
+        assert_eq!(plane_normal(&model(None), 0), None);
+        assert!(plane_normal(&model(None), 1).is_some_and(|n| n[1].abs() > 0.999));
+    }
+}

@@ -1,0 +1,127 @@
+//! Groups of triangles that may be treated as one surface, and what may be assumed of each.
+
+use super::facts::Facts;
+use super::groups::{self, Edges};
+use super::passes::passes;
+use super::tables::Tables;
+use crate::topology::components;
+
+/// Of a group's size: planar faces are flat within this share of it.
+const ROUNDING: f64 = 1e-9;
+
+#[derive(Clone, Debug, Default)]
+pub struct Bodies {
+    /// Of each triangle its group, of each group its part.
+    pub group_of: Vec<i32>,
+    pub part_of: Vec<i32>,
+    /// Every edge is used as often in one direction as in the other.
+    pub closed: Vec<bool>,
+    /// Closed, and turned outward; or inward.
+    pub cull: Vec<bool>,
+    pub inward: Vec<bool>,
+    /// Nothing but planar faces.
+    pub planar: Vec<bool>,
+    /// Thickness, or the smallest side of the box where that is less or the group is open.
+    pub extent: Vec<f64>,
+    pub low: Vec<[f64; 3]>,
+    pub high: Vec<[f64; 3]>,
+    /// Turned inside out by the source, and turned back; these are `cull` and no longer `inward`.
+    pub turned: Vec<bool>,
+    /// Of a mesh without B-rep, with more than two triangles at an edge: bodies that were welded there are one connected
+    /// piece, and still touch one another as strangers do.
+    pub welded: Vec<bool>,
+}
+
+/// Per triangle its group, per group its part: closed B-rep parts whole, everything else by connected piece.
+///
+/// Faces of an IGES file that nobody sewed together touch like strangers do, and need the same tolerance.
+fn grouped(whole: &[bool], triangles: &[[i32; 3]], part_of: &[i32], n_points: usize) -> (Vec<i32>, Vec<i32>) {
+    if whole.iter().all(|&w| w) {
+        return (part_of.to_vec(), (0..whole.len() as i32).collect());
+    }
+    // Whole parts first, numbered as they are; then the pieces of the others, in order of appearance.
+    let mut label = components(triangles, n_points);
+    let pieces = label.iter().max().map_or(0, |&m| m as usize + 1);
+    let mut owner = vec![-1; whole.len() + pieces];
+    for (label, &part) in label.iter_mut().zip(part_of) {
+        *label = if whole[part as usize] { part } else { *label + whole.len() as i32 };
+        owner[*label as usize] = part;
+    }
+    let mut number = vec![0; owner.len()];
+    let mut parts = Vec::new();
+    for (number, &part) in number.iter_mut().zip(&owner).filter(|(_, part)| **part >= 0) {
+        *number = parts.len() as i32;
+        parts.push(part);
+    }
+    label.iter_mut().for_each(|label| *label = number[*label as usize]);
+    (label, parts)
+}
+
+/// curved: of each triangle.
+pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) -> Bodies {
+    let (points, triangles) = (&tables.points, &tables.triangles);
+    let odd = || facts.balance.iter().enumerate().filter(|(_, b)| **b != 0).map(|(e, _)| facts.around(e)[0] as usize);
+    let mut whole = tables.brep.clone();
+    odd().for_each(|t| whole[part_of[t] as usize] = false);
+    let (group_of, group_part) = grouped(&whole, triangles, part_of, points.len());
+    let count = group_part.len();
+    let found = groups::groups(points, triangles, &group_of, count);
+    let mut out = Bodies { closed: found.count.iter().map(|&n| n > 0).collect(), ..Bodies::default() };
+    odd().for_each(|t| out.closed[group_of[t] as usize] = false);
+    out.planar = vec![true; count];
+    group_of.iter().zip(curved).filter(|(_, curved)| **curved).for_each(|(&g, _)| out.planar[g as usize] = false);
+    out.welded = vec![false; count];
+    for e in (0..facts.edges.len()).filter(|&e| facts.around(e).len() > 2) {
+        let g = group_of[facts.around(e)[0] as usize] as usize;
+        out.welded[g] |= !tables.brep[group_part[g] as usize];
+    }
+    for g in 0..count {
+        let (low, high, six) = (&found.low[g], &found.high[g], found.volume[g]);
+        let least = (0..3).map(|k| high[k] - low[k]).fold(f64::INFINITY, f64::min);
+        // Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a cube
+        // a third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still hides.
+        let thick = if out.closed[g] { 3.6 * (six / 6.0).abs() / (found.area[g] / 2.0) } else { f64::INFINITY };
+        out.extent.push((if found.count[g] > 0 { least } else { 0.0 }).min(thick));
+        out.cull.push(out.closed[g] && six > 0.0);
+        out.inward.push(out.closed[g] && six < 0.0);
+    }
+    out.turned = inside_out(&out.cull, &out.inward, &group_part, &found.low, &found.high);
+    for g in 0..count {
+        out.cull[g] |= out.turned[g];
+        out.inward[g] &= !out.turned[g];
+    }
+    (out.low, out.high, out.group_of, out.part_of) = (found.low, found.high, group_of, group_part);
+    out
+}
+
+/// Closed and turned inward, but no cavity, which lies within an outer surface of its part.
+fn inside_out(cull: &[bool], inward: &[bool], part: &[i32], low: &[[f64; 3]], high: &[[f64; 3]]) -> Vec<bool> {
+    let within = |g: usize, other: usize| {
+        part[other] == part[g] && (0..3).all(|k| low[other][k] < low[g][k] && high[other][k] > high[g][k])
+    };
+    let outer: Vec<usize> = (0..cull.len()).filter(|&g| cull[g]).collect();
+    (0..inward.len()).map(|g| inward[g] && !outer.iter().any(|&other| within(g, other))).collect()
+}
+
+/// Not one convex body each, so that they may pass through themselves.
+///
+/// What is closed, in one piece, bends outward or not at all at every edge, and goes round its middle once, is convex.
+pub fn may_fold(bodies: &Bodies, points: &[[f64; 3]], triangles: &[[i32; 3]], facts: &Facts) -> Vec<bool> {
+    let count = bodies.closed.len();
+    let size = |g: usize| (0..3).map(|k| bodies.high[g][k] - bodies.low[g][k]).fold(f64::NEG_INFINITY, f64::max);
+    let least: Vec<f64> =
+        (0..count).map(|g| if bodies.low[g][0].is_finite() { ROUNDING * size(g) } else { 0.0 }).collect();
+    let mesh =
+        Edges { edges: &facts.edges, offsets: &facts.offsets, incident: &facts.incident, normals: &facts.normals };
+    let mut bent = groups::bent(points, triangles, mesh, &bodies.group_of, &least);
+    bent.iter_mut().zip(&bodies.cull).for_each(|(bent, cull)| *bent |= !cull);
+    if bent.iter().all(|&b| b) {
+        return bent;
+    }
+    let pieces = groups::pieces(&bodies.group_of, &components(triangles, points.len()), count);
+    bent.iter_mut().zip(pieces).for_each(|(bent, n)| *bent |= n != 1);
+    let asked: Vec<bool> = bent.iter().map(|bent| !bent).collect();
+    let passed = passes(points, triangles, &bodies.group_of, &asked);
+    bent.iter_mut().zip(passed).for_each(|(bent, n)| *bent |= n != 1);
+    bent
+}

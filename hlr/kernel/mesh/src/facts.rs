@@ -1,0 +1,40 @@
+//! What can be said of a mesh before any part or edge has a meaning.
+
+use rayon::prelude::*;
+
+use crate::topology::{Topology, balance, folds, normals, repeated, topology};
+
+#[derive(Clone, Debug, Default)]
+pub struct Facts {
+    /// Lower vertex first, ascending; their triangles are incident[offsets[e]..offsets[e + 1]].
+    pub edges: Vec<[i32; 2]>,
+    pub offsets: Vec<i32>,
+    pub incident: Vec<i32>,
+    /// Triangles along the edge minus those against it.
+    pub balance: Vec<i32>,
+    /// Cosine of the fold, NaN where there are not two triangles with area.
+    pub fold: Vec<f64>,
+    /// Zero for triangles without area, whose numbers are `flat`.
+    pub normals: Vec<[f64; 3]>,
+    pub flat: Vec<i64>,
+    /// A triangle is there twice.
+    pub repeated: bool,
+}
+
+impl Facts {
+    pub fn of(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> Facts {
+        let t = topology(triangles, points.len());
+        let repeated = repeated(triangles, &t);
+        let Topology { edges, offsets, incident } = t;
+        let balance = balance(triangles, &edges, &offsets, &incident);
+        let normals = normals(points, triangles);
+        let fold = folds(&normals, &offsets, &incident, &balance);
+        let flat = (0..normals.len()).into_par_iter().filter(|&t| normals[t] == [0.0; 3]).map(|t| t as i64).collect();
+        Facts { edges, offsets, incident, balance, fold, normals, flat, repeated }
+    }
+
+    /// The triangles at an edge, ascending.
+    pub fn around(&self, edge: usize) -> &[i32] {
+        &self.incident[self.offsets[edge] as usize..self.offsets[edge + 1] as usize]
+    }
+}

@@ -1,0 +1,63 @@
+//! The faces under the lines of a filled drawing: the shaded preview as areas, each with one paint.
+//!
+//! ```text
+//! 1. `samples`   what is seen at the points of a grid, by the preview's z-buffer: faces, colour, and how light it is
+//! 2. `specks`    pieces smaller than a few points go to their neighbours
+//! 3. `tone`      the paint of each face: one colour, a gradient along a line, or bands of equal light; `fan`: where their
+//!                borders meet in one place
+//! 4. `chains`    the borders between areas, walked from where three of them meet to the next such place
+//! 5. `crossing`  where a border really runs between two points of the grid, found on the triangles that are seen there
+//! 6. `straight`  few corners: chains become straight runs, and corners are where these meet
+//! 7. `areas`     chains become closed loops again
+//! ```
+//!
+//! The grid decides what is found; where it runs is found on the triangles. Time and memory are bounded by the number of
+//! points of the grid, whatever the model is like: faces that pass through one another, or overlap in a ring, need no order.
+//! Two neighbours share their border: there is neither a gap nor an overlap between them.
+
+pub mod areas;
+pub mod chains;
+pub mod crossing;
+pub mod fan;
+pub mod samples;
+pub mod specks;
+pub mod straight;
+pub mod tone;
+
+use crate::shade::Scene;
+use crate::workspace::Workspace;
+
+pub use areas::Areas;
+
+/// Points of the grid: a face that is seen at fewer side by side goes to its neighbour.
+const SPECK: usize = 6;
+/// The same of bands of light within a face.
+const BAND_SPECK: usize = 24;
+
+/// All areas of a picture, in the order of painting. `label` tells triangles that belong to one face; `fine`: points of the
+/// grid that a band of light is wide at least. None when stopped.
+pub fn areas(
+    scene: &Scene,
+    label: &[i32],
+    fine: f64,
+    space: &mut Workspace,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Areas> {
+    let size = scene.lens.size;
+    let mut grid = samples::grid(scene, label, space, stopped)?;
+    let mut faces = grid.faces.clone();
+    specks::merge(&mut faces, size, SPECK, |_, _| 0);
+    if stopped() {
+        return None;
+    }
+    let tones = tone::tones(&mut grid, &faces, fine);
+    let mut cells = tone::cells(&grid, &faces, &tones);
+    specks::merge(&mut cells, size, BAND_SPECK, |a, b| tones.alike(a as usize, b as usize));
+    if stopped() {
+        return None;
+    }
+    let found = chains::chains(&cells, size);
+    let at = crossing::Crossing { scene, label, grid: &grid, cells: &cells, tones: &tones };
+    let borders = straight::borders(&found, &at, size, stopped)?;
+    Some(areas::collect(&grid, &tones, &cells, &found, borders))
+}

@@ -1,0 +1,209 @@
+//! Boundary representations as Python sees them: a model from a dump, its meshes, their parts as arrays.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+
+use super::guard::caught;
+use super::parts::PartTables;
+use super::running::{FEW, run, run_telling};
+use super::scan::{expect_below, expect_len, flat, rows as rows_of};
+use hlr_brep::assemble::assemble;
+use hlr_brep::geometry::flat::is_flat;
+use hlr_brep::geometry::surface::Surface;
+use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
+use hlr_brep::model::{Face, Model};
+use hlr_brep::patch::{Border, Foreign, patched};
+use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
+use hlr_mesh::tables::Tables;
+
+type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
+type Curves<'py> =
+    (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
+
+/// Parts, faces and edges of a dump, each underlying face and edge once.
+#[pyclass(frozen)]
+pub struct BrepModel(Arc<Model>);
+
+#[pymethods]
+impl BrepModel {
+    #[new]
+    #[pyo3(signature = (dump, chosen = None, threads = 0))]
+    fn new(py: Python<'_>, dump: &[u8], chosen: Option<Vec<u32>>, threads: usize) -> PyResult<BrepModel> {
+        caught(py, || {
+            // A kilobyte takes some ten microseconds.
+            let read = run(py, threads, dump.len() / 64, |_| Model::read(dump, chosen.as_deref()))?;
+            let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
+            Ok(BrepModel(Arc::new(model)))
+        })
+    }
+
+    /// Number of underlying faces; their numbers follow the order in which an explorer meets them.
+    #[getter]
+    fn n_faces(&self) -> usize {
+        self.0.faces.len()
+    }
+
+    /// Faces of each part, each as often as it is placed there.
+    #[getter]
+    fn faces_of_parts(&self) -> Vec<usize> {
+        self.0.parts.iter().map(|part| part.faces.len()).collect()
+    }
+
+    /// (faces,) whether each departs from a plane by no more than the tolerance.
+    fn planar<'py>(&self, py: Python<'py>, tolerance: f64) -> Bound<'py, PyArray1<bool>> {
+        let planar = |r: &hlr_brep::format::SurfaceRecord| is_flat(r.kind, &r.data, tolerance);
+        let all: Vec<bool> = self.0.faces.iter().map(|f| f.record.as_ref().is_some_and(planar)).collect();
+        all.into_pyarray(py)
+    }
+
+    /// kind, offsets, data of the surfaces of faces.
+    fn surface_records<'py>(&self, py: Python<'py>, numbers: PyReadonlyArray1<'py, i32>) -> PyResult<Records<'py>> {
+        let numbers = flat(&numbers, "numbers")?;
+        expect_below("numbers", numbers.iter().copied(), self.0.faces.len())?;
+        let (mut kind, mut offsets, mut data) = (Vec::new(), vec![0i32], Vec::new());
+        for &i in numbers {
+            let record = self.0.faces[i as usize].record.as_ref();
+            kind.push(record.map_or(0, |r| r.kind));
+            data.extend(record.into_iter().flat_map(|r| &r.data));
+            offsets.push(data.len() as i32);
+        }
+        Ok((kind.into_pyarray(py), offsets.into_pyarray(py), data.into_pyarray(py)))
+    }
+
+    /// Faces on tori whose tube reaches beyond their axis, with major and minor radius.
+    fn spindles(&self) -> Vec<(i32, f64, f64)> {
+        let radii = |(i, face): (i32, &Face)| match face.surface {
+            Some(Surface::Torus(_, major, minor)) if minor > major => Some((i, major, minor)),
+            _ => None,
+        };
+        (0..).zip(&self.0.faces).filter_map(radii).collect()
+    }
+
+    /// kind, range, offsets, values of the curves of edges, given as parts and numbers in their edge maps, in the frames
+    /// of their parts.
+    fn edge_curves<'py>(
+        &self,
+        py: Python<'py>,
+        part: PyReadonlyArray1<'py, i32>,
+        edge: PyReadonlyArray1<'py, i32>,
+    ) -> PyResult<Curves<'py>> {
+        let (part, edge) = (flat(&part, "part")?, flat(&edge, "edge")?);
+        expect_len("edge", edge.len(), part.len())?;
+        expect_below("part", part.iter().copied(), self.0.laid.len())?;
+        let (mut kind, mut range, mut offsets, mut values) = (Vec::new(), Vec::new(), vec![0i32], Vec::new());
+        for (&p, &e) in part.iter().zip(edge) {
+            let laid = &self.0.laid[p as usize].edges;
+            expect_below("edge", [e].into_iter(), laid.len())?;
+            let laid = &laid[e as usize];
+            let edge = &self.0.edges[laid.edge as usize];
+            kind.push(match (&edge.curve, &laid.place) {
+                (None, _) => 0,
+                (Some(curve), None) => curve.record(&mut values),
+                (Some(curve), Some(place)) => curve.moved(place).record(&mut values),
+            });
+            range.extend(edge.range);
+            offsets.push(values.len() as i32);
+        }
+        let range = range.into_pyarray(py).reshape([part.len(), 2])?;
+        Ok((kind.into_pyarray(py), range, offsets.into_pyarray(py), values.into_pyarray(py)))
+    }
+
+    /// `progress`: called with the share of faces that are done.
+    #[pyo3(signature = (deflection, angle, progress = None, threads = 0))]
+    fn mesh(
+        &self,
+        py: Python<'_>,
+        deflection: f64,
+        angle: f64,
+        progress: Option<Py<PyAny>>,
+        threads: usize,
+    ) -> PyResult<BrepMesh> {
+        let positive = |x: f64| x > 0.0 && x.is_finite();
+        if !positive(deflection) || !positive(angle) {
+            return Err(PyValueError::new_err("deflection and angle must be positive"));
+        }
+        let (model, done) = (&self.0, AtomicUsize::new(0));
+        let tell = |py: Python<'_>| {
+            let share = done.load(Ordering::Relaxed) as f64 / (OF_A_FACE * model.faces.len().max(1)) as f64;
+            progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (share,)).map(|_| ()))
+        };
+        let work =
+            |stopped: &(dyn Fn() -> bool + Sync)| tessellate(model, deflection, angle, &Watch { stopped, done: &done });
+        // A face is worth many points; one that bends both ways may have any number inside.
+        let bent = |face: &Face| face.surface.as_ref().is_some_and(bends_both_ways);
+        let size = 100 * model.faces.len() + if model.faces.iter().any(bent) { FEW } else { 0 };
+        let meshed = run_telling(py, threads, size, tell, work)?;
+        let meshed = meshed.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+        Ok(BrepMesh { model: model.clone(), meshed: Mutex::new(meshed) })
+    }
+}
+
+/// The mesh of a model at one chord error.
+#[pyclass(frozen)]
+pub struct BrepMesh {
+    model: Arc<Model>,
+    meshed: Mutex<Tessellation>,
+}
+
+#[pymethods]
+impl BrepMesh {
+    /// Numbers of the faces without a mesh, each with the reason.
+    fn faults(&self) -> Vec<(usize, String)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let of = |(i, face): (usize, &hlr_brep::tessellate::MeshedFace)| Some((i, face.fault.as_ref()?.to_string()));
+        meshed.faces.iter().enumerate().filter_map(of).collect()
+    }
+
+    /// Numbers of the faces with loops that run the wrong way, each with how many.
+    fn turned(&self) -> Vec<(usize, usize)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = meshed.faces.iter().map(|face| face.mesh.turned.len());
+        count.enumerate().filter(|&(_, loops)| loops > 0).collect()
+    }
+
+    /// Give a face the triangles of another mesher: points (n, 3) in the face's frame, uv (n, 2), triangles (m, 3)
+    /// counterclockwise in (u, v), and for each edge in each wire its nodes and their parameters, in the edge's sense.
+    /// Whether they fit the face.
+    fn replace(
+        &self,
+        face: usize,
+        points: PyReadonlyArray2<'_, f64>,
+        uv: PyReadonlyArray2<'_, f64>,
+        triangles: PyReadonlyArray2<'_, i32>,
+        borders: Vec<(Vec<u32>, Vec<f64>)>,
+    ) -> PyResult<bool> {
+        let (points, uv) = (rows_of::<f64, 3>(&points, "points")?, rows_of::<f64, 2>(&uv, "uv")?);
+        let triangles = rows_of::<i32, 3>(&triangles, "triangles")?;
+        expect_len("uv", uv.len(), points.len())?;
+        expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+        expect_below("face", [face as i32].into_iter(), self.model.faces.len())?;
+        if borders.iter().flat_map(|b| &b.0).any(|&i| i as usize >= points.len()) {
+            return Err(PyValueError::new_err("borders must count points"));
+        }
+        let foreign = Foreign {
+            points: points.to_vec(),
+            uv: uv.to_vec(),
+            triangles: triangles.iter().map(|t| t.map(|i| i as u32)).collect(),
+            borders: borders.into_iter().map(|(nodes, parameters)| Border { nodes, parameters }).collect(),
+        };
+        let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = patched(&self.model, &meshed, face, foreign);
+        Ok(found.map(|found| meshed.faces[face] = found).is_some())
+    }
+
+    /// planar: (faces,) as `BrepModel.planar` tells them.
+    #[pyo3(signature = (planar, threads = 0))]
+    fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>, threads: usize) -> PyResult<PartTables> {
+        let planar = flat(&planar, "planar")?;
+        expect_len("planar", planar.len(), self.model.faces.len())?;
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let points = meshed.faces.iter().map(|face| face.mesh.points.len()).sum::<usize>();
+        let parts = run(py, threads, points / 8, |_| Tables::of_roots(assemble(&self.model, &meshed), planar))?;
+        let parts = parts.map_err(|_| PyValueError::new_err("more than 2^31 items in one mesh"))?;
+        Ok(PartTables(Arc::new(parts)))
+    }
+}

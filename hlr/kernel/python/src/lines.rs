@@ -1,0 +1,225 @@
+//! The way from pieces of mesh edges to the lines of a drawing, as Python sees it.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+
+use super::chains::Chains;
+use super::drawn::Lines;
+use super::geometry::curves;
+use super::guard::caught;
+use super::running::run;
+use super::scan::{expect_below, expect_len, flat, rows};
+use hlr_linework::lines::camera::Camera as Seen;
+use hlr_linework::lines::cover::Widths;
+use hlr_linework::lines::cut::{Cut as Found, Tolerances, Trait, cut};
+use hlr_linework::lines::finish::finish;
+use hlr_linework::lines::outlines::{About, Chains as Walks};
+use hlr_linework::lines::runs::{Geometry, Piece};
+use hlr_linework::paper::junction::Border;
+use hlr_linework::paper::routes::{Curves, Fit, Guide};
+use hlr_visibility::scan::invisibility::State;
+
+type Vec3 = [f64; 3];
+
+#[pyclass(frozen)]
+pub struct Camera(Seen);
+
+#[pymethods]
+impl Camera {
+    #[new]
+    fn new(direction: Vec3, right: Vec3, up: Vec3, eye: Option<(Vec3, f64)>, scale: f64) -> Camera {
+        Camera(Seen { direction, right, up, eye, scale })
+    }
+}
+
+/// Edge, start, end and state of each piece.
+type Pieces<'py> =
+    (PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, u8>);
+
+/// accuracy, short, flip, stub, same, under, flat, space.
+type Lengths = [f64; 8];
+
+fn tolerances([accuracy, short, flip, stub, same, under, flat, space]: Lengths) -> Tolerances {
+    Tolerances { accuracy, short, flip, stub, widths: Widths { same, under }, flat, space }
+}
+
+/// Lines on paper, chained, merged and thinned out, on their way to their curves.
+#[pyclass(frozen)]
+pub struct Cut {
+    chains: Arc<Walks>,
+    traits: Vec<Trait>,
+    camera: Seen,
+    hidden: bool,
+    /// Of each line.
+    chain: Vec<i32>,
+    drawn: usize,
+    found: Mutex<Option<Found>>,
+}
+
+#[pymethods]
+impl Cut {
+    #[new]
+    #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+    fn new(
+        py: Python<'_>,
+        camera: &Camera,
+        projected: PyReadonlyArray2<'_, f64>,
+        points: PyReadonlyArray2<'_, f64>,
+        edges: PyReadonlyArray2<'_, i32>,
+        pieces: Pieces<'_>,
+        chains: &Chains,
+        rank: PyReadonlyArray1<'_, u8>,
+        bare: PyReadonlyArray1<'_, bool>,
+        lengths: Lengths,
+        hidden: bool,
+        threads: usize,
+    ) -> PyResult<Cut> {
+        caught(py, || {
+            let (camera, chains) = (camera.0, &chains.0);
+            let (projected, space) = (rows::<f64, 3>(&projected, "projected")?, rows::<f64, 3>(&points, "points")?);
+            let edges = rows::<i32, 2>(&edges, "edges")?;
+            let (rank, bare) = (flat(&rank, "rank")?, flat(&bare, "bare")?);
+            expect_len("points", space.len(), projected.len())?;
+            expect_below("edges", edges.iter().flatten().copied(), projected.len())?;
+            expect_below("chains", chains.edges.iter().copied(), edges.len())?;
+            expect_len("rank", rank.len(), chains.about.len())?;
+            expect_len("bare", bare.len(), chains.about.len())?;
+            let (pieces, piece_offsets) = pieces_of(&pieces, edges.len())?;
+            let traits: Vec<Trait> =
+                (0..rank.len()).map(|c| Trait { rank: rank[c], bare: bare[c], noisy: chains.about[c].noisy }).collect();
+            let found = run(py, threads, projected.len(), |stopped| {
+                let flat: Vec<[f64; 2]> =
+                    projected.iter().map(|p| [p[0] * camera.scale, p[1] * camera.scale]).collect();
+                let view = camera.view();
+                let (pieces, piece_offsets) = (&pieces[..], &piece_offsets[..]);
+                let geometry = Geometry { flat: &flat, space, view: &view, edges, pieces, piece_offsets };
+                let mut found = cut(&geometry, chains, &traits, &tolerances(lengths), stopped)?;
+                if !hidden {
+                    found.keep_sighted(traits.len());
+                }
+                Some(found)
+            })?
+            .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+            Ok(Cut {
+                chains: chains.clone(),
+                traits,
+                camera,
+                hidden,
+                chain: found.lines.iter().map(|line| line.chain as i32).collect(),
+                drawn: found.lines.iter().filter(|line| line.visible || hidden).count(),
+                found: Mutex::new(Some(found)),
+            })
+        })
+    }
+
+    /// How many lines will be drawn.
+    fn __len__(&self) -> usize {
+        self.drawn
+    }
+
+    /// (lines,) the chain of each line, also of those that are there only for others to end on.
+    #[getter]
+    fn chain<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
+        self.chain.clone().into_pyarray(py)
+    }
+
+    /// The lines on their curves, and their lower left corner; once.
+    #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+    fn finished(
+        &self,
+        py: Python<'_>,
+        known: bool,
+        records: Records<'_>,
+        places: PyReadonlyArray3<'_, f64>,
+        curve: PyReadonlyArray1<'_, i32>,
+        place: PyReadonlyArray1<'_, i32>,
+        bulge: PyReadonlyArray1<'_, f64>,
+        lengths: [f64; 4],
+        threads: usize,
+    ) -> PyResult<(Lines, (f64, f64))> {
+        let (kind, ranges, offsets, values) = &records;
+        let curves = Curves {
+            known,
+            curves: curves(flat(kind, "kind")?, flat(offsets, "offsets")?, flat(values, "values")?)?,
+            ranges: rows::<f64, 2>(ranges, "ranges")?.to_vec(),
+            places: matrices(&places)?.to_vec(),
+        };
+        expect_len("ranges", curves.ranges.len(), curves.curves.len())?;
+        let (curve, place, bulge) = (flat(&curve, "curve")?, flat(&place, "place")?, flat(&bulge, "bulge")?);
+        for (name, found) in [("curve", curve.len()), ("place", place.len()), ("bulge", bulge.len())] {
+            expect_len(name, found, self.traits.len())?;
+        }
+        expect_below("curve", curve.iter().copied().filter(|&c| c >= 0), curves.curves.len())?;
+        let used = |c: &usize| curve[*c] >= 0;
+        expect_below("place", (0..place.len()).filter(used).map(|c| place[c]), curves.places.len())?;
+        let about = &self.chains.about;
+        let guides: Vec<Guide> = (0..curve.len())
+            .map(|c| Guide {
+                curve: u32::try_from(curve[c]).ok(),
+                place: place[c] as u32,
+                border: border(&about[c], self.traits[c].bare),
+                bulge: bulge[c],
+                smoothed: self.traits[c].noisy && self.traits[c].bare,
+            })
+            .collect();
+        let [accuracy, chord, closed, contact] = lengths;
+        let fit = Fit { accuracy, chord, closed, contact };
+        let held = self.found.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let found = held.ok_or_else(|| PyValueError::new_err("these lines were finished before"))?;
+        let size = found.lines.iter().map(|line| line.flat.len()).sum();
+        let (lines, [x, y]) =
+            run(py, threads, size, |_| finish(found, about, &guides, &curves, &self.camera, &fit, self.hidden))?;
+        Ok((Lines(Arc::new(lines)), (x, y)))
+    }
+}
+
+/// Kind, ranges, offsets and values of curves.
+type Records<'py> =
+    (PyReadonlyArray1<'py, u8>, PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, f64>);
+
+fn matrices<'a>(places: &'a PyReadonlyArray3<'_, f64>) -> PyResult<&'a [[[f64; 4]; 3]]> {
+    let wrong = || PyValueError::new_err("places must be a C-contiguous (n, 3, 4) array");
+    if places.as_array().shape()[1..] != [3, 4] {
+        return Err(wrong());
+    }
+    Ok(places.as_slice().map_err(|_| wrong())?.as_chunks::<4>().0.as_chunks::<3>().0)
+}
+
+/// Where a surface may end in the image. The outline of a mesh is an edge of it.
+fn border(about: &About, bare: bool) -> Border {
+    use hlr_linework::lines::drawn::Kind::{Boundary, Outline, Sharp};
+    match about.kind {
+        Sharp | Boundary => Border::Edge,
+        Outline if bare => Border::Edge,
+        Outline => Border::Outline,
+        _ => Border::None,
+    }
+}
+
+/// Pieces, and where those of each edge begin.
+fn pieces_of(pieces: &Pieces, edges: usize) -> PyResult<(Vec<Piece>, Vec<u32>)> {
+    let (edge, start, end, state) =
+        (flat(&pieces.0, "edge")?, flat(&pieces.1, "t0")?, flat(&pieces.2, "t1")?, flat(&pieces.3, "state")?);
+    for (name, found) in [("t0", start.len()), ("t1", end.len()), ("state", state.len())] {
+        expect_len(name, found, edge.len())?;
+    }
+    expect_below("edge", edge.iter().copied(), edges)?;
+    if edge.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("the edges of pieces must ascend"));
+    }
+    let state = |i: usize| match state[i] {
+        0 => State::Visible,
+        1 => State::Hidden,
+        2 => State::Within,
+        _ => State::Diving,
+    };
+    let mut offsets = vec![0u32; edges + 1];
+    edge.iter().for_each(|&e| offsets[e as usize + 1] += 1);
+    for e in 0..edges {
+        offsets[e + 1] += offsets[e];
+    }
+    Ok(((0..edge.len()).map(|i| Piece { start: start[i], end: end[i], state: state(i) }).collect(), offsets))
+}

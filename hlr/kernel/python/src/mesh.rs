@@ -1,0 +1,81 @@
+//! Facts of meshes as Python sees them.
+
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::running::run;
+use super::scan::{expect_below, expect_len, flat, rows};
+use hlr_mesh::clean::clean;
+use hlr_mesh::kinds::{Limits, kinds};
+use hlr_mesh::needles::needles as low_ones;
+
+type Flat<'py, T> = Bound<'py, PyArray1<T>>;
+type Rows<'py, T> = Bound<'py, PyArray2<T>>;
+
+fn table<T: numpy::Element, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> PyResult<Rows<'_, T>> {
+    let n = rows.len();
+    rows.into_flattened().into_pyarray(py).reshape([n, N])
+}
+
+type Cleaned<'py> = (Rows<'py, f64>, Rows<'py, i32>, Option<Flat<'py, u32>>, (usize, usize, usize));
+
+/// Points joined where they are equal, triangles without impossible ones, which of them were kept, and how many were left
+/// out: not finite, out of range, degenerate.
+#[pyfunction]
+pub fn clean_mesh<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+) -> PyResult<Cleaned<'py>> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    if points.len() > i32::MAX as usize - 2 {
+        return Err(PyValueError::new_err("there are too many points"));
+    }
+    let found = run(py, 0, triangles.len(), |_| clean(points, triangles))?;
+    let left_out = (found.not_finite, found.out_of_range, found.degenerate);
+    let kept = found.kept.map(|kept| kept.into_pyarray(py));
+    Ok((table(py, found.points)?, table(py, found.triangles)?, kept, left_out))
+}
+
+/// Which triangles are lower than `least` of their part, or have no area; and the numbers of their longest sides.
+#[pyfunction]
+pub fn needles<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    normals: PyReadonlyArray2<'py, f64>,
+    part: PyReadonlyArray1<'py, i32>,
+    least: PyReadonlyArray1<'py, f64>,
+) -> PyResult<(Flat<'py, i64>, Flat<'py, i64>)> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    let (normals, part, least) = (rows::<f64, 3>(&normals, "normals")?, flat(&part, "part")?, flat(&least, "least")?);
+    expect_len("normals", normals.len(), triangles.len())?;
+    expect_len("part", part.len(), triangles.len())?;
+    expect_below("part", part.iter().copied(), least.len())?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    let found = run(py, 0, triangles.len(), |_| low_ones(points, triangles, normals, &|t| least[part[t] as usize]))?;
+    Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
+}
+
+/// Kinds of the edges of bare parts, 255 for all others; and which of those are nearly creases. Cosines of folds: sharp,
+/// near.
+#[pyfunction]
+pub fn edge_kinds<'py>(
+    py: Python<'py>,
+    offsets: PyReadonlyArray1<'py, i32>,
+    fold: PyReadonlyArray1<'py, f64>,
+    edge_part: PyReadonlyArray1<'py, i32>,
+    bare: PyReadonlyArray1<'py, bool>,
+    sharp: f64,
+    near: f64,
+) -> PyResult<(Flat<'py, u8>, Flat<'py, i64>)> {
+    let (offsets, fold) = (flat(&offsets, "offsets")?, flat(&fold, "fold")?);
+    let (edge_part, bare) = (flat(&edge_part, "edge_part")?, flat(&bare, "bare")?);
+    expect_len("offsets", offsets.len(), fold.len() + 1)?;
+    expect_len("edge_part", edge_part.len(), fold.len())?;
+    expect_below("edge_part", edge_part.iter().copied(), bare.len())?;
+    let found =
+        run(py, 0, fold.len(), |_| kinds(offsets, fold, &|e| bare[edge_part[e] as usize], Limits { sharp, near }))?;
+    Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
+}

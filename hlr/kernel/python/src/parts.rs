@@ -1,0 +1,330 @@
+//! Meshes of parts, and the scene that they make, as Python sees them.
+
+use std::sync::Arc;
+
+use numpy::{PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use super::guard::caught;
+use super::running::run;
+use super::scan::{expect_below, expect_len, flat as slice, rows as table};
+use super::view::{Flat, Holder, Rows, flat, matrices, rows};
+use hlr_brep::format::Matrix;
+use hlr_mesh::facts::Facts;
+use hlr_mesh::scene::{Scene, scene};
+use hlr_mesh::tables::{Placed, Tables, TooMany};
+
+/// Of so many triangles or points all that is known here is found while `run` thinks of one: in a tenth of a microsecond
+/// each. Below that other threads are woken for longer than they would work.
+const CHEAP: usize = 64;
+
+fn too_many(_: TooMany) -> PyErr {
+    PyValueError::new_err("more than 2^31 items in one mesh")
+}
+
+/// Getters of arrays that lie in a class: name, how it is shown, and where it is. Then the other methods of the class.
+macro_rules! arrays {
+    ($class:ident { $($name:ident: $show:ident $kind:ty = $get:expr;)* } $($methods:tt)*) => {
+        impl Holder for $class {}
+
+        #[pymethods]
+        impl $class {
+            $(
+                #[getter]
+                fn $name<'py>(slf: &Bound<'py, Self>) -> $kind {
+                    $show(slf, $get)
+                }
+            )*
+
+            $($methods)*
+        }
+    };
+}
+
+/// The meshes of all parts, one after another.
+#[pyclass(frozen)]
+pub struct PartTables(pub Arc<Tables>);
+
+arrays! { PartTables {
+    point_start: flat Flat<'py, i32> = |t| &t.0.point_start;
+    points: rows Rows<'py, f64> = |t| &t.0.points;
+    triangle_start: flat Flat<'py, i32> = |t| &t.0.triangle_start;
+    triangles: rows Rows<'py, i32> = |t| &t.0.triangles;
+    triangle_face: flat Flat<'py, i32> = |t| &t.0.triangle_face;
+    origin: flat Flat<'py, i32> = |t| &t.0.origin;
+    face_start: flat Flat<'py, i32> = |t| &t.0.face_start;
+    face_planar: flat Flat<'py, bool> = |t| &t.0.face_planar;
+    edge_start: flat Flat<'py, i32> = |t| &t.0.edge_start;
+    edge_offsets: flat Flat<'py, i32> = |t| &t.0.edge_offsets;
+    edge_nodes: flat Flat<'py, i32> = |t| &t.0.edge_nodes;
+    edge_index: flat Flat<'py, i32> = |t| &t.0.edge_index;
+    edge_class: flat Flat<'py, u8> = |t| &t.0.edge_class;
+    brep: flat Flat<'py, bool> = |t| &t.0.brep;
+    joined: flat Flat<'py, bool> = |t| &t.0.joined;
+    transform: matrices Bound<'py, PyArray3<f64>> = |t| &t.0.transform;
+    precision: flat Flat<'py, f64> = |t| &t.0.precision;
+    node_start: flat Flat<'py, i32> = |t| &t.0.node_start;
+    corner: rows Rows<'py, i32> = |t| &t.0.corner;
+    uv: rows Rows<'py, f64> = |t| &t.0.uv;
+    face_shape: flat Flat<'py, i32> = |t| &t.0.face_shape;
+    face_place: matrices Bound<'py, PyArray3<f64>> = |t| &t.0.face_place;
+    face_reversed: flat Flat<'py, bool> = |t| &t.0.face_reversed;
+}
+
+    #[new]
+    #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+    fn new(
+        py: Python<'_>,
+        point_start: PyReadonlyArray1<'_, i32>,
+        points: PyReadonlyArray2<'_, f64>,
+        triangle_start: PyReadonlyArray1<'_, i32>,
+        triangles: PyReadonlyArray2<'_, i32>,
+        triangle_face: PyReadonlyArray1<'_, i32>,
+        origin: PyReadonlyArray1<'_, i32>,
+        face_start: PyReadonlyArray1<'_, i32>,
+        face_planar: PyReadonlyArray1<'_, bool>,
+        edge_start: PyReadonlyArray1<'_, i32>,
+        edge_offsets: PyReadonlyArray1<'_, i32>,
+        edge_nodes: PyReadonlyArray1<'_, i32>,
+        edge_index: PyReadonlyArray1<'_, i32>,
+        edge_class: PyReadonlyArray1<'_, u8>,
+        brep: PyReadonlyArray1<'_, bool>,
+        joined: PyReadonlyArray1<'_, bool>,
+        transform: PyReadonlyArray3<'_, f64>,
+        precision: PyReadonlyArray1<'_, f64>,
+        node_start: PyReadonlyArray1<'_, i32>,
+        corner: PyReadonlyArray2<'_, i32>,
+        uv: PyReadonlyArray2<'_, f64>,
+        face_shape: PyReadonlyArray1<'_, i32>,
+        face_place: PyReadonlyArray3<'_, f64>,
+        face_reversed: PyReadonlyArray1<'_, bool>,
+    ) -> PyResult<PartTables> {
+        caught(py, || {
+            let brep = slice(&brep, "brep")?.to_vec();
+            let (points, triangles) = (table::<f64, 3>(&points, "points")?, table::<i32, 3>(&triangles, "triangles")?);
+            let planar = slice(&face_planar, "face_planar")?.to_vec();
+            let index = slice(&edge_index, "edge_index")?;
+            let (corner, uv) = (table::<i32, 3>(&corner, "corner")?, table::<f64, 2>(&uv, "uv")?);
+            let nodes = slice(&edge_nodes, "edge_nodes")?;
+            let (n, t, f) = (brep.len(), triangles.len(), planar.len());
+            let tables = Tables {
+                point_start: starts(&point_start, "point_start", n, points.len())?,
+                triangle_start: starts(&triangle_start, "triangle_start", n, t)?,
+                face_start: starts(&face_start, "face_start", n, f)?,
+                edge_start: starts(&edge_start, "edge_start", n, index.len())?,
+                node_start: starts(&node_start, "node_start", n, uv.len())?,
+                edge_offsets: starts(&edge_offsets, "edge_offsets", index.len(), nodes.len())?,
+                points: points.to_vec(),
+                triangles: triangles.to_vec(),
+                triangle_face: slice(&triangle_face, "triangle_face")?.to_vec(),
+                origin: slice(&origin, "origin")?.to_vec(),
+                edge_nodes: nodes.to_vec(),
+                edge_index: index.to_vec(),
+                edge_class: slice(&edge_class, "edge_class")?.to_vec(),
+                joined: slice(&joined, "joined")?.to_vec(),
+                transform: to_matrices(&transform, "transform", n)?,
+                precision: slice(&precision, "precision")?.to_vec(),
+                corner: corner.to_vec(),
+                uv: uv.to_vec(),
+                face_shape: slice(&face_shape, "face_shape")?.to_vec(),
+                face_place: to_matrices(&face_place, "face_place", f)?,
+                face_reversed: slice(&face_reversed, "face_reversed")?.to_vec(),
+                face_planar: planar,
+                brep,
+            };
+            if t > (i32::MAX / 3) as usize {
+                return Err(too_many(TooMany));
+            }
+            expect_len("triangle_face", tables.triangle_face.len(), t)?;
+            expect_len("origin", tables.origin.len(), t)?;
+            if !(corner.is_empty() && uv.is_empty()) {
+                expect_len("corner", corner.len(), t)?;
+            }
+            expect_len("edge_class", tables.edge_class.len(), index.len())?;
+            expect_len("joined", tables.joined.len(), n)?;
+            expect_len("precision", tables.precision.len(), n)?;
+            expect_len("face_shape", tables.face_shape.len(), f)?;
+            expect_len("face_reversed", tables.face_reversed.len(), f)?;
+            expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+            expect_below("edge_nodes", nodes.iter().copied(), points.len())?;
+            expect_below("corner + 1", corner.iter().flatten().map(|c| c.saturating_add(1)), uv.len() + 1)?;
+            for p in 0..n {
+                let own = tables.triangle_start[p] as usize..tables.triangle_start[p + 1] as usize;
+                let faces = (tables.face_start[p + 1] - tables.face_start[p]) as usize;
+                expect_below("triangle_face", tables.triangle_face[own].iter().copied(), faces)?;
+            }
+            Ok(PartTables(Arc::new(tables)))
+        })
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    /// These parts, each where it stands.
+    fn placed(
+        &self,
+        py: Python<'_>,
+        part: PyReadonlyArray1<'_, i32>,
+        transform: PyReadonlyArray3<'_, f64>,
+        precision: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<PartTables> {
+        let (part, precision) = (slice(&part, "part")?, slice(&precision, "precision")?);
+        expect_below("part", part.iter().copied(), self.0.len())?;
+        expect_len("precision", precision.len(), part.len())?;
+        let transform = to_matrices(&transform, "transform", part.len())?;
+        let placed: Vec<Placed> = part
+            .iter()
+            .zip(transform)
+            .zip(precision)
+            .map(|((&part, transform), &precision)| Placed { part: part as usize, transform, precision })
+            .collect();
+        let found = py.detach(|| self.0.placed(&placed)).map_err(too_many)?;
+        Ok(PartTables(Arc::new(found)))
+    }
+
+    /// Whether all coordinates are finite and nearer to the origin than this.
+    fn within(&self, largest: f64) -> bool {
+        self.0.within(largest)
+    }
+
+    /// Whether a part that is not joined may hold two points in one place: yes where it does.
+    fn places_repeated(&self, py: Python<'_>) -> PyResult<bool> {
+        run(py, 0, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
+    }
+
+    /// Edges, and what can be said of the mesh before any part or edge has a meaning.
+    fn facts(&self, py: Python<'_>) -> PyResult<MeshFacts> {
+        let tables = &self.0;
+        let facts = run(py, 0, tables.triangles.len() / CHEAP, |_| Facts::of(&tables.points, &tables.triangles))?;
+        Ok(MeshFacts { tables: tables.clone(), facts: Arc::new(facts) })
+    }
+}
+
+fn to_matrices(array: &PyReadonlyArray3<'_, f64>, name: &str, count: usize) -> PyResult<Vec<Matrix>> {
+    let wrong = || PyValueError::new_err(format!("{name} must be a C-contiguous ({count}, 3, 4) array"));
+    let flat = array.as_slice().map_err(|_| wrong())?;
+    if array.as_array().shape() != [count, 3, 4] || !array.as_array().is_standard_layout() {
+        return Err(wrong());
+    }
+    Ok(flat.as_chunks::<4>().0.as_chunks::<3>().0.to_vec())
+}
+
+/// Starts of parts among `count` items.
+fn starts(array: &PyReadonlyArray1<'_, i32>, name: &str, parts: usize, count: usize) -> PyResult<Vec<i32>> {
+    let start = slice(array, name)?;
+    expect_len(name, start.len(), parts + 1)?;
+    if start[0] != 0 || start[parts] as usize != count || start.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err(format!("{name} must ascend from 0 to {count}")));
+    }
+    Ok(start.to_vec())
+}
+
+/// Edges of the mesh of all parts.
+#[pyclass(frozen)]
+pub struct MeshFacts {
+    tables: Arc<Tables>,
+    facts: Arc<Facts>,
+}
+
+arrays! { MeshFacts {
+    edges: rows Rows<'py, i32> = |m| &m.facts.edges;
+    offsets: flat Flat<'py, i32> = |m| &m.facts.offsets;
+    incident: flat Flat<'py, i32> = |m| &m.facts.incident;
+    balance: flat Flat<'py, i32> = |m| &m.facts.balance;
+    fold: flat Flat<'py, f64> = |m| &m.facts.fold;
+    normals: rows Rows<'py, f64> = |m| &m.facts.normals;
+    flat: flat Flat<'py, i64> = |m| &m.facts.flat;
+}
+
+    #[getter]
+    fn repeated(&self) -> bool {
+        self.facts.repeated
+    }
+
+    /// (p,) how many borders each part without B-rep has.
+    fn bare_borders(&self) -> Vec<i64> {
+        let mut count = vec![0; self.tables.len()];
+        if self.tables.brep.contains(&false) {
+            let part = self.tables.triangle_part();
+            for e in (0..self.facts.edges.len()).filter(|&e| self.facts.around(e).len() == 1) {
+                let owner = part[self.facts.around(e)[0] as usize] as usize;
+                count[owner] += i64::from(!self.tables.brep[owner]);
+            }
+        }
+        count
+    }
+
+    /// All parts as one scene.
+    fn scene(&self, py: Python<'_>) -> PyResult<MeshScene> {
+        let (tables, facts) = (&self.tables, &self.facts);
+        let mut found = run(py, 0, tables.triangles.len() / CHEAP, |_| scene(tables, facts))?;
+        let mesh = match &mut found.turned {
+            Some(turned) => Arc::new(std::mem::take(&mut turned.facts)),
+            None => facts.clone(),
+        };
+        Ok(MeshScene { tables: tables.clone(), facts: mesh, scene: found })
+    }
+}
+
+/// All parts as one scene.
+#[pyclass(frozen)]
+pub struct MeshScene {
+    tables: Arc<Tables>,
+    facts: Arc<Facts>,
+    scene: Scene,
+}
+
+arrays! { MeshScene {
+    triangles: rows Rows<'py, i32> = |s| s.scene.turned.as_ref().map_or(&s.tables.triangles, |t| &t.triangles);
+    triangle_part: flat Flat<'py, i32> = |s| &s.scene.triangle_part;
+    triangle_group: flat Flat<'py, i32> = |s| &s.scene.bodies.group_of;
+    curved: flat Flat<'py, bool> = |s| &s.scene.curved;
+    loose: rows Rows<'py, i32> = |s| &s.scene.walks.loose;
+    edge_part: flat Flat<'py, i32> = |s| &s.scene.edge_part;
+    edge_group: flat Flat<'py, i32> = |s| &s.scene.edge_group;
+    edge_kind: flat Flat<'py, u8> = |s| &s.scene.kind;
+    edge_curved: flat Flat<'py, bool> = |s| &s.scene.edge_curved;
+    group_part: flat Flat<'py, i32> = |s| &s.scene.bodies.part_of;
+    closed: flat Flat<'py, bool> = |s| &s.scene.bodies.closed;
+    cull: flat Flat<'py, bool> = |s| &s.scene.bodies.cull;
+    inward: flat Flat<'py, bool> = |s| &s.scene.bodies.inward;
+    planar: flat Flat<'py, bool> = |s| &s.scene.bodies.planar;
+    extent: flat Flat<'py, f64> = |s| &s.scene.bodies.extent;
+    low: rows Rows<'py, f64> = |s| &s.scene.bodies.low;
+    high: rows Rows<'py, f64> = |s| &s.scene.bodies.high;
+    welded: flat Flat<'py, bool> = |s| &s.scene.bodies.welded;
+    folded: flat Flat<'py, bool> = |s| &s.scene.folded;
+    walk_offsets: flat Flat<'py, i32> = |s| &s.scene.walks.offsets;
+    walk_edges: flat Flat<'py, i32> = |s| &s.scene.walks.edges;
+    walk_reversed: flat Flat<'py, bool> = |s| &s.scene.walks.reversed;
+    walk_kind: flat Flat<'py, u8> = |s| &s.scene.walks.kind;
+    walk_part: flat Flat<'py, i32> = |s| &s.scene.walks.part;
+    walk_index: flat Flat<'py, i32> = |s| &s.scene.walks.index;
+    walk_straight: flat Flat<'py, bool> = |s| &s.scene.straight;
+    corner: rows Rows<'py, i32> = |s| s.scene.surfaces.corner.as_ref().unwrap_or(&s.tables.corner);
+    face_place: matrices Bound<'py, PyArray3<f64>> = |s| &s.scene.surfaces.place;
+    face_inward: flat Flat<'py, bool> = |s| &s.scene.surfaces.inward;
+    face_curved: flat Flat<'py, bool> = |s| &s.scene.surfaces.curved;
+}
+
+    /// The mesh after what was inside out has been turned.
+    #[getter]
+    fn mesh(&self) -> MeshFacts {
+        MeshFacts { tables: self.tables.clone(), facts: self.facts.clone() }
+    }
+
+    /// (t,) which triangles were turned; None: none was.
+    #[getter]
+    fn turned<'py>(slf: &Bound<'py, Self>) -> Option<Flat<'py, bool>> {
+        slf.get().scene.turned.as_ref()?;
+        Some(flat(slf, |s| s.scene.turned.as_ref().map_or(&[], |t| &t.which[..])))
+    }
+
+    /// Per part its counts.
+    #[getter]
+    fn reports(&self) -> Vec<[i64; 8]> {
+        self.scene.reports.clone()
+    }
+}

@@ -1,0 +1,276 @@
+//! The shaded preview as Python sees it.
+
+use std::sync::Mutex;
+
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadwriteArray3, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+
+use super::guard::caught;
+use super::running::run;
+use super::scan::{expect_below, expect_len, flat, rows};
+use hlr_brep::geometry::surface::Surface;
+use hlr_preview::faces::MOST_PIXELS;
+use hlr_preview::lens::Lens;
+use hlr_preview::maps::seen;
+use hlr_preview::normals::{OnSurfaces, normals};
+use hlr_preview::occlusion::Occlusion;
+use hlr_preview::picture::picture;
+use hlr_preview::raster::Sampling;
+use hlr_preview::shade::{Light, Scene};
+use hlr_preview::shadow::Shadow;
+use hlr_preview::stroke::{Piece, stroke};
+use hlr_preview::workspace::Workspace;
+use hlr_preview::{Model, NOTHING};
+
+/// right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: see `preview/src/lens.rs`.
+pub type LensTuple = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, [f64; 2], f64, [f64; 2], [usize; 2]);
+
+pub fn lens_of(given: LensTuple) -> PyResult<Lens> {
+    let (right, up, ahead, origin, scale, centre, distance, range, size) = given;
+    if size.iter().any(|&s| s == 0 || s > MOST_PIXELS) {
+        return Err(PyValueError::new_err(format!("a picture has 1 to {MOST_PIXELS} pixels a side")));
+    }
+    let sound = scale > 0.0 && scale.is_finite() && range[0] < range[1] && range[1].is_finite() && distance >= 0.0;
+    if !sound || (distance > 0.0 && range[0] <= 0.0) {
+        return Err(PyValueError::new_err("scale and range must be positive, and finite"));
+    }
+    let distance = (distance > 0.0).then_some(distance);
+    Ok(Lens { right, up, ahead, origin, scale, centre, distance, range, size })
+}
+
+pub fn stopped_error() -> PyErr {
+    PyKeyboardInterrupt::new_err("stopped")
+}
+
+/// A model that has been checked, kept for any number of pictures.
+#[pyclass(frozen)]
+pub struct ShadedModel {
+    points: Vec<[f64; 3]>,
+    triangles: Vec<[i32; 3]>,
+    corner: Vec<[i32; 3]>,
+    normals: Vec<[f32; 3]>,
+    paint: Vec<[i32; 3]>,
+    colours: Vec<[f32; 4]>,
+    cull: Vec<bool>,
+    glass: Vec<bool>,
+    space: Mutex<Workspace>,
+}
+
+impl ShadedModel {
+    /// Work in the memory of the last picture, or in fresh memory while another thread is at it.
+    pub fn with_space<T>(&self, work: impl FnOnce(&mut Workspace) -> T) -> T {
+        match self.space.try_lock() {
+            Ok(mut space) => work(&mut space),
+            Err(_) => work(&mut Workspace::default()),
+        }
+    }
+
+    pub fn model(&self) -> Model<'_> {
+        Model {
+            points: &self.points,
+            triangles: &self.triangles,
+            corner: &self.corner,
+            normals: &self.normals,
+            paint: &self.paint,
+            colours: &self.colours,
+            cull: &self.cull,
+            glass: &self.glass,
+        }
+    }
+}
+
+#[pymethods]
+impl ShadedModel {
+    #[new]
+    #[allow(clippy::too_many_arguments)] // one per array: the stub names them
+    fn new(
+        py: Python<'_>,
+        points: PyReadonlyArray2<'_, f64>,
+        triangles: PyReadonlyArray2<'_, i32>,
+        corner: PyReadonlyArray2<'_, i32>,
+        normals: PyReadonlyArray2<'_, f32>,
+        paint: PyReadonlyArray2<'_, i32>,
+        colours: PyReadonlyArray2<'_, f32>,
+        cull: PyReadonlyArray1<'_, bool>,
+    ) -> PyResult<ShadedModel> {
+        caught(py, || {
+            let points = rows::<f64, 3>(&points, "points")?;
+            let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+            let corner = rows::<i32, 3>(&corner, "corner")?;
+            let normals = rows::<f32, 3>(&normals, "normals")?;
+            let paint = rows::<i32, 3>(&paint, "paint")?;
+            let colours = rows::<f32, 4>(&colours, "colours")?;
+            let cull = flat(&cull, "cull")?;
+            for (name, found) in [("corner", corner.len()), ("paint", paint.len()), ("cull", cull.len())] {
+                expect_len(name, found, triangles.len())?;
+            }
+            expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+            expect_below("paint", paint.iter().flatten().copied(), colours.len())?;
+            let smooth = corner.iter().filter(|c| c[0] >= 0);
+            expect_below("corner", smooth.flatten().copied(), normals.len())?;
+            Ok(ShadedModel {
+                points: points.to_vec(),
+                triangles: triangles.to_vec(),
+                corner: corner.to_vec(),
+                normals: normals.to_vec(),
+                paint: paint.to_vec(),
+                colours: colours.to_vec(),
+                cull: cull.to_vec(),
+                glass: paint.iter().map(|p| p.iter().any(|&i| colours[i as usize][3] < 1.0)).collect(),
+                space: Mutex::default(),
+            })
+        })
+    }
+
+    /// (h, w, 4) uint8; `out`: a picture of that shape to draw over instead of a new one.
+    #[pyo3(signature = (lens, light, ambient, diffuse, specular, background, antialias, shadow = None, occlusion = 0.0,
+        threads = 0, out = None))]
+    #[allow(clippy::too_many_arguments)] // one argument per effect: the stub names them
+    fn picture<'py>(
+        &self,
+        py: Python<'py>,
+        lens: LensTuple,
+        light: [f64; 3],
+        ambient: f32,
+        diffuse: f32,
+        specular: f32,
+        background: [f32; 4],
+        antialias: bool,
+        shadow: Option<LensTuple>,
+        occlusion: f64,
+        threads: usize,
+        out: Option<Bound<'py, PyArray3<u8>>>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let lens = lens_of(lens)?;
+        let shadow = shadow.map(lens_of).transpose()?;
+        let [width, height] = lens.size;
+        let sampling = if antialias { Sampling::SIXTEEN } else { Sampling::CENTRES };
+        let out = out.unwrap_or_else(|| PyArray3::zeros(py, [height, width, 4], false));
+        let mut writable = out.try_readwrite().map_err(|_| PyValueError::new_err("out cannot be written"))?;
+        let pixels = writable.as_slice_mut().map_err(|_| PyValueError::new_err("out must be C-contiguous"))?;
+        if pixels.len() != width * height * 4 || out.shape()[1] != width {
+            return Err(PyValueError::new_err("out must be (height, width, 4)"));
+        }
+        let (pixels, _) = pixels.as_chunks_mut::<4>();
+        let done = run(py, threads, usize::MAX, |stopped| {
+            self.with_space(|space| {
+                let model = self.model();
+                let shadow = match shadow {
+                    Some(lens) => Some(Shadow::new(&model, lens, space, stopped)?),
+                    None => None,
+                };
+                let occlusion = if occlusion > 0.0 {
+                    let map = seen(&model, &lens, space, stopped)?;
+                    Some(Occlusion::new(&model, &lens, &map, occlusion, stopped)?)
+                } else {
+                    None
+                };
+                let light = Light { toward: light, ambient, diffuse, specular };
+                let scene = Scene { model: &model, lens: &lens, light, shadow, occlusion };
+                picture(&scene, &sampling, background, space, pixels, stopped).then_some(())
+            })
+        })?;
+        drop(writable);
+        done.ok_or_else(stopped_error)?;
+        Ok(out)
+    }
+
+    /// What is seen at the centres of pixels: distance ahead (h, w) float64, infinite for nothing; triangle (h, w) int32,
+    /// -1 for none. Glass counts as solid.
+    #[pyo3(signature = (lens, threads = 0))]
+    #[allow(clippy::type_complexity)]
+    fn maps<'py>(
+        &self,
+        py: Python<'py>,
+        lens: LensTuple,
+        threads: usize,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>)> {
+        let lens = lens_of(lens)?;
+        let [width, height] = lens.size;
+        let found = run(py, threads, usize::MAX, |stopped| {
+            self.with_space(|space| seen(&self.model(), &lens, space, stopped))
+        })?
+        .ok_or_else(stopped_error)?;
+        let ahead = |s: &hlr_preview::maps::Seen| {
+            if s.triangle == NOTHING { f64::INFINITY } else { lens.ahead_at(f64::from(s.depth)) }
+        };
+        let depth: Vec<f64> = found.iter().map(ahead).collect();
+        let triangle: Vec<i32> = found.iter().map(|s| s.triangle as i32).collect();
+        Ok((depth.into_pyarray(py).reshape([height, width])?, triangle.into_pyarray(py).reshape([height, width])?))
+    }
+}
+
+/// Straight pieces (n, 4), x0 y0 x1 y1 in pixels, over an (h, w, 4) picture, in place.
+#[pyfunction]
+#[pyo3(signature = (picture, pieces, width, colour, threads = 0))]
+pub fn stroke_picture(
+    py: Python<'_>,
+    mut picture: PyReadwriteArray3<'_, u8>,
+    pieces: PyReadonlyArray2<'_, f64>,
+    width: f64,
+    colour: [u8; 4],
+    threads: usize,
+) -> PyResult<()> {
+    let shape = picture.shape().to_vec();
+    let pixels = picture.as_slice_mut().map_err(|_| PyValueError::new_err("picture must be C-contiguous"))?;
+    if shape[2] != 4 || shape[1] == 0 {
+        return Err(PyValueError::new_err("picture must be (h, w, 4)"));
+    }
+    let (pixels, _) = pixels.as_chunks_mut::<4>();
+    let pieces: Vec<Piece> = rows::<f64, 4>(&pieces, "pieces")?
+        .iter()
+        .filter(|p| p.iter().all(|c| c.is_finite()))
+        .map(|p| Piece { from: [p[0], p[1]], to: [p[2], p[3]], half: 0.5 * width })
+        .collect();
+    let done = run(py, threads, usize::MAX, |stopped| stroke(pixels, shape[1], &pieces, colour, stopped))?;
+    if done { Ok(()) } else { Err(stopped_error()) }
+}
+
+/// Unit normals (k, 3) float32 of the true surfaces at the places uv (k, 2), on the outer side; nought where there is none.
+#[pyfunction]
+#[pyo3(signature = (points, triangles, triangle_face, corner, uv, face_surface, face_place, surface_kind,
+    surface_offsets, surface_data, threads = 0))]
+#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+pub fn surface_normals<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    triangle_face: PyReadonlyArray1<'py, i32>,
+    corner: PyReadonlyArray2<'py, i32>,
+    uv: PyReadonlyArray2<'py, f64>,
+    face_surface: PyReadonlyArray1<'py, i32>,
+    face_place: PyReadonlyArray2<'py, f64>,
+    surface_kind: PyReadonlyArray1<'py, u8>,
+    surface_offsets: PyReadonlyArray1<'py, i32>,
+    surface_data: PyReadonlyArray1<'py, f64>,
+    threads: usize,
+) -> PyResult<Bound<'py, PyArray2<f32>>> {
+    let points = rows::<f64, 3>(&points, "points")?;
+    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
+    let face = flat(&triangle_face, "triangle_face")?;
+    let corner = rows::<i32, 3>(&corner, "corner")?;
+    let uv = rows::<f64, 2>(&uv, "uv")?;
+    let (surface, place) = (flat(&face_surface, "face_surface")?, rows::<f64, 12>(&face_place, "face_place")?);
+    let (kind, at) = (flat(&surface_kind, "surface_kind")?, flat(&surface_offsets, "surface_offsets")?);
+    let data = flat(&surface_data, "surface_data")?;
+    expect_len("triangle_face", face.len(), triangles.len())?;
+    expect_len("corner", corner.len(), triangles.len())?;
+    expect_len("face_place", place.len(), surface.len())?;
+    expect_len("surface_offsets", at.len(), kind.len() + 1)?;
+    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("triangle_face", face.iter().copied(), surface.len())?;
+    expect_below("corner", corner.iter().filter(|c| c[0] >= 0).flatten().copied(), uv.len())?;
+    expect_below("face_surface", surface.iter().copied().filter(|&s| s >= 0), kind.len())?;
+    expect_below("surface_offsets", at.iter().copied(), data.len() + 1)?;
+    if at.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("surface_offsets must ascend"));
+    }
+    let surfaces: Vec<Option<Surface>> =
+        (0..kind.len()).map(|i| Surface::read(kind[i], &data[at[i] as usize..at[i + 1] as usize])).collect();
+    let on = OnSurfaces { points, triangles, face, corner, uv, surface, place, surfaces: &surfaces };
+    let found = run(py, threads, usize::MAX, |_| normals(&on))?;
+    let n = found.len();
+    found.into_flattened().into_pyarray(py).reshape([n, 3])
+}

@@ -1,0 +1,199 @@
+//! How far a surface goes beyond a triangle that it crosses, right there.
+//!
+//! ```text
+//!            surface        From the middle of the common segment the section across it is walked both ways, over edges
+//!               /           at which the surface bends little, as far as it climbs away from the plane. It ends at sharp
+//!      ________/________    edges and borders, and where it turns back. So it matters neither where the corners of the
+//!  plane      /|            triangle are nor how the surface is cut into triangles: a corner far away along a bore's rim
+//!            | | depth      says nothing about here.
+//!             ¯
+//! ```
+
+/// A mesh with its edges, ascending, and the triangles at each.
+pub struct Sheet<'a> {
+    pub points: &'a [Vec3],
+    pub triangles: &'a [[i32; 3]],
+    pub edges: &'a [[i32; 2]],
+    pub offsets: &'a [i32],
+    pub incident: &'a [i32],
+    pub normals: &'a [Vec3],
+}
+
+pub type Vec3 = [f64; 3];
+
+/// Cosine: a surface that turns by more from one triangle to the next has an edge there. Chords turn by half a radian.
+const SMOOTH: f64 = 0.77;
+/// Sine: what climbs less has turned parallel to the plane, and may go on to something else.
+const LEVEL: f64 = 0.1;
+/// Of the angle at which the surface begins: what begins flat may go on flatter.
+const FLATTER: f64 = 0.3;
+/// Planes that are parallel, but for rounding, have no section across.
+const PARALLEL: f64 = 1e-9;
+const STEPS: usize = 1000;
+
+/// Where the section leaves a triangle: over its side k, at a place relative to where it began.
+#[derive(Clone, Copy)]
+struct Exit {
+    side: usize,
+    place: Vec3,
+}
+
+impl Sheet<'_> {
+    /// How far the surface of triangle `of` goes beyond the plane of triangle `over`, on its shallower side; no more is
+    /// told than `most`. Infinite where it cannot be told.
+    pub fn reach(&self, over: u32, of: u32, at: &Vec3, most: f64) -> f64 {
+        let (up, own) = (self.normals[over as usize], self.normals[of as usize]);
+        let across = cross(&up, &own);
+        let sine = dot(&across, &across).sqrt();
+        if sine < PARALLEL {
+            return f64::INFINITY;
+        }
+        let section = across.map(|c| c / sine);
+        let level = LEVEL.min(FLATTER * sine);
+        let corners = self.corners(of, at);
+        let exits: Vec<Exit> = (0..3).filter_map(|side| leave(&corners, side, &section)).collect();
+        let [a, b] = exits[..] else { return f64::INFINITY };
+        let (high, low) = if dot(&a.place, &up) > dot(&b.place, &up) { (a, b) } else { (b, a) };
+        let climb = |exit, up: &Vec3| self.climb((of, exit), at, &section, up, level, most);
+        climb(high, &up).min(climb(low, &up.map(|c| -c)))
+    }
+
+    /// The greatest height on the way from a triangle over the side at which it is left.
+    fn climb(
+        &self,
+        (mut triangle, mut exit): (u32, Exit),
+        at: &Vec3,
+        section: &Vec3,
+        up: &Vec3,
+        level: f64,
+        most: f64,
+    ) -> f64 {
+        let mut height = dot(&exit.place, up).max(0.0);
+        for _ in 0..STEPS {
+            if height >= most {
+                return height;
+            }
+            let Some((next, entry)) = self.beyond(triangle, exit.side) else { return height };
+            if dot(&self.normals[triangle as usize], &self.normals[next as usize]) < SMOOTH {
+                return height;
+            }
+            let corners = self.corners(next, at);
+            let Some(left) = [1, 2].iter().find_map(|k| leave(&corners, (entry + k) % 3, section)) else {
+                return height;
+            };
+            let way = minus(&left.place, &exit.place);
+            let higher = dot(&left.place, up);
+            if higher - height < level * dot(&way, &way).sqrt() {
+                return height.max(higher);
+            }
+            (triangle, exit, height) = (next, left, higher);
+        }
+        f64::INFINITY
+    }
+
+    fn corners(&self, triangle: u32, at: &Vec3) -> [Vec3; 3] {
+        self.triangles[triangle as usize].map(|v| minus(&self.points[v as usize], at))
+    }
+
+    /// The triangle beyond a side, and which side of its own that is; None where there is not exactly one.
+    fn beyond(&self, triangle: u32, side: usize) -> Option<(u32, usize)> {
+        let own = self.triangles[triangle as usize];
+        let (a, b) = (own[side], own[(side + 1) % 3]);
+        let e = self.edges.binary_search(&[a.min(b), a.max(b)]).ok()?;
+        let [s, t] = self.incident[self.offsets[e] as usize..self.offsets[e + 1] as usize] else { return None };
+        let next = if s == triangle as i32 { t } else { s };
+        let corners = self.triangles[next as usize];
+        let entry = (0..3).find(|&k| corners[k] != a && corners[k] != b).map(|apex| (apex + 1) % 3)?;
+        Some((next as u32, entry))
+    }
+}
+
+/// Where a section, a plane through the origin, crosses a side; what lies in the plane counts as before it.
+fn leave(corners: &[Vec3; 3], side: usize, section: &Vec3) -> Option<Exit> {
+    let (p, q) = (&corners[side], &corners[(side + 1) % 3]);
+    let (a, b) = (dot(p, section), dot(q, section));
+    if (a < 0.0) == (b < 0.0) {
+        return None;
+    }
+    let t = a / (a - b);
+    Some(Exit { side, place: [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k])) })
+}
+
+fn dot(a: &Vec3, b: &Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hlr_mesh::topology;
+
+    /// Of the surface around triangle `of` beyond triangle 0.
+    fn reach(points: &[Vec3], triangles: &[[i32; 3]], of: u32, at: Vec3, most: f64) -> f64 {
+        let t = topology::topology(triangles, points.len());
+        let normals = topology::normals(points, triangles);
+        let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
+        Sheet { points, triangles, edges, offsets, incident, normals: &normals }.reach(0, of, &at, most)
+    }
+
+    /// The plane z = 0, and a wall through it along x, from z = -low to z = high, cut into `strips` that lean along x;
+    /// `corner`: where its first lower corner lies instead.
+    fn wall(low: f64, high: f64, strips: i32, lean: f64, corner: Option<Vec3>) -> (Vec<Vec3>, Vec<[i32; 3]>) {
+        let mut points = vec![[-9.0, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+        let mut triangles = vec![[0, 1, 2]];
+        for k in 0..=strips {
+            let x = f64::from(k) / f64::from(strips);
+            points.extend([[x, 0.0, -low], [x + lean, 0.0, high]]);
+        }
+        for k in 0..strips {
+            let a = 3 + 2 * k;
+            triangles.extend([[a, a + 2, a + 1], [a + 1, a + 2, a + 3]]);
+        }
+        points[3] = corner.unwrap_or(points[3]);
+        (points, triangles)
+    }
+
+    #[test]
+    fn a_wall_goes_as_deep_however_it_is_cut() {
+        for strips in [1, 7, 100] {
+            let (points, triangles) = wall(0.25, 5.0, strips, 3.0, None);
+            let middle = strips / 2;
+            let at = [0.25 / 5.25 * 3.0 + (f64::from(middle) + 0.2) / f64::from(strips), 0.0, 0.0];
+            let of = 1 + 2 * middle as u32;
+            let found = reach(&points, &triangles, of, at, 100.0);
+            assert!((found - 0.25).abs() < 1e-12, "{strips}: {found}");
+            assert!(reach(&points, &triangles, of, at, 0.1) >= 0.1);
+        }
+    }
+
+    #[test]
+    fn a_corner_far_away_is_not_here() {
+        let (points, triangles) = wall(0.01, 5.0, 1, 3.0, Some([-50.0, 0.0, -3.0]));
+        let x = 1.0 - 0.01 / 5.01 * 0.5;
+        let found = reach(&points, &triangles, 1, [x, 0.0, 0.0], 100.0);
+        assert!(found < 0.02, "{found}");
+    }
+
+    #[test]
+    fn a_surface_goes_on_over_a_bend_and_ends_at_an_edge() {
+        let (mut points, mut triangles) = wall(1.0, 5.0, 1, 0.0, None);
+        // Below the wall it bends by 30 degrees, and goes on for as much again; then by a right angle.
+        let (sine, cosine) = 30f64.to_radians().sin_cos();
+        points.extend([[0.0, sine, -1.0 - cosine], [1.0, sine, -1.0 - cosine]]);
+        triangles.push([5, 3, 7]);
+        triangles.push([5, 7, 8]);
+        let at = [0.7, 0.0, 0.0];
+        let found = reach(&points, &triangles, 1, at, 100.0);
+        assert!((found - 1.0 - cosine).abs() < 1e-12, "{found}");
+        (points[7], points[8]) = ([0.0, 1.0, -1.5], [1.0, 1.0, -1.5]);
+        assert!((reach(&points, &triangles, 1, at, 100.0) - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,177 @@
+//! Which triangles may meet: those whose boxes overlap, of groups whose boxes overlap, and of one group where asked for.
+
+use rayon::prelude::*;
+
+use super::fan::flat_vertices;
+use super::meet::{Meeting, Numbered, apart, meet};
+use super::tree::{Found, Item, Tree};
+use crate::scan::box_tree::{Aabb, BoxTree};
+use hlr_exact::Point;
+
+/// Triangles below which nothing is gained by a second thread.
+const MANY: usize = 1 << 13;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Clash {
+    /// Of the group with the lower number first; within a group the lower triangle first.
+    pub triangles: [u32; 2],
+    pub meeting: Meeting,
+}
+
+#[derive(Default)]
+pub struct Clashes {
+    pub found: Vec<Clash>,
+    /// Pairs of groups, and groups against themselves, that were searched.
+    pub searched: usize,
+    pub tests: u64,
+}
+
+#[derive(Default)]
+struct Part {
+    found: Vec<Clash>,
+    tests: u64,
+}
+
+impl Found for Part {
+    fn join(&mut self, mut other: Part) {
+        self.found.append(&mut other.found);
+        self.tests += other.tests;
+    }
+}
+
+pub struct Surfaces<'a> {
+    pub points: &'a [Point],
+    pub triangles: &'a [[i32; 3]],
+    pub group: &'a [i32],
+    /// Per group, whether it is searched for passing through itself.
+    pub itself: &'a [bool],
+}
+
+impl Surfaces<'_> {
+    fn numbered(&self, t: u32) -> Numbered<'_> {
+        let number = self.triangles[t as usize];
+        Numbered { corner: number.map(|v| &self.points[v as usize]), number }
+    }
+
+    fn bounds(&self, t: u32) -> Aabb {
+        let [a, b, c] = self.triangles[t as usize].map(|v| self.points[v as usize]);
+        let mut out = Aabb { low: a, high: a };
+        for k in 0..3 {
+            out.low[k] = a[k].min(b[k]).min(c[k]);
+            out.high[k] = a[k].max(b[k]).max(c[k]);
+        }
+        out
+    }
+
+    /// Triangles in the order of their groups, and where each group begins.
+    fn by_group(&self) -> (Vec<u32>, Vec<usize>) {
+        let mut first = vec![0; self.itself.len() + 1];
+        self.group.iter().for_each(|&g| first[g as usize + 1] += 1);
+        for g in 1..first.len() {
+            first[g] += first[g - 1];
+        }
+        if self.group.is_sorted() {
+            return ((0..self.group.len() as u32).collect(), first);
+        }
+        let (mut order, mut next) = (vec![0; self.group.len()], first.clone());
+        for (t, &g) in self.group.iter().enumerate() {
+            order[next[g as usize]] = t as u32;
+            next[g as usize] += 1;
+        }
+        (order, first)
+    }
+
+    /// Sorted by groups, then triangles. Cut short where `stopped` says so.
+    pub fn clashes(&self, stopped: &(dyn Fn() -> bool + Sync)) -> Clashes {
+        let count = self.itself.len();
+        let (order, first) = self.by_group();
+        let members: Vec<&[u32]> = first.windows(2).map(|w| &order[w[0]..w[1]]).collect();
+        let around = |of: &[u32]| {
+            let bounds = of.par_iter().with_min_len(MANY).map(|&t| self.bounds(t));
+            bounds.reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
+        };
+        let boxes: Vec<Aabb> = members.par_iter().map(|of| around(of)).collect();
+        let pairs = self.pairs(&boxes, &members);
+        let own = pairs.iter().any(|[a, b]| a == b);
+        let flat = if own { flat_vertices(self) } else { Vec::new() };
+        let mut wanted = vec![false; count];
+        for &[a, b] in &pairs {
+            wanted[a as usize] = true;
+            wanted[b as usize] = true;
+        }
+        let mut items: Vec<Vec<Item>> = members
+            .par_iter()
+            .zip(&wanted)
+            .map(|(of, &wanted)| {
+                let of = if wanted { *of } else { &[] };
+                of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect()
+            })
+            .collect();
+        let trees: Vec<Tree> = items.par_iter_mut().map(|items| Tree::new(items)).collect();
+        let try_pair = |s: u32, t: u32, out: &mut Part| {
+            if !stopped() {
+                self.try_pair(s, t, &flat, out);
+            }
+        };
+        let parts: Vec<Part> = pairs
+            .par_iter()
+            .map(|&[a, b]| {
+                let (a, b) = (&trees[a as usize], &trees[b as usize]);
+                if std::ptr::eq(a, b) { a.within(&try_pair) } else { a.between(b, &try_pair) }
+            })
+            .collect();
+        let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
+        for part in parts {
+            all.found.extend(part.found);
+            all.tests += part.tests;
+        }
+        all.found.par_sort_unstable_by_key(|c| {
+            let [s, t] = c.triangles;
+            (self.group[s as usize], self.group[t as usize], s, t)
+        });
+        all
+    }
+
+    /// Two triangles whose boxes overlap: of different groups that of the lower one first, or both of one group.
+    fn try_pair(&self, s: u32, t: u32, flat: &[bool], out: &mut Part) {
+        let same = self.group[s as usize] == self.group[t as usize];
+        let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
+        if same {
+            let (a, b) = (&self.triangles[s as usize], &self.triangles[t as usize]);
+            let mut shared = a.iter().filter(|v| b.contains(v));
+            match (shared.next(), shared.next()) {
+                (Some(_), Some(_)) => return, // neighbours along an edge meet there by right
+                (Some(&v), None) if flat[v as usize] => return,
+                _ => {}
+            }
+        }
+        let (a, b) = (self.numbered(s), self.numbered(t));
+        out.tests += 1;
+        if apart(&a, &b) {
+            return;
+        }
+        if let Some(meeting) = meet(&a, &b) {
+            out.found.push(Clash { triangles: [s, t], meeting });
+        }
+    }
+
+    /// Groups whose boxes overlap in more than their borders, the lower number first; and those asked for themselves.
+    fn pairs(&self, boxes: &[Aabb], members: &[&[u32]]) -> Vec<[u32; 2]> {
+        let live = (0..boxes.len() as u32).filter(|&g| !members[g as usize].is_empty());
+        let tree = BoxTree::new(live.clone().map(|g| (boxes[g as usize], g)).collect());
+        let mut pairs = Vec::new();
+        for a in live {
+            if self.itself[a as usize] {
+                pairs.push([a, a]);
+            }
+            let first = pairs.len();
+            tree.query(&boxes[a as usize], |b| {
+                if b > a && boxes[a as usize].enters(&boxes[b as usize]) {
+                    pairs.push([a, b]);
+                }
+            });
+            pairs[first..].sort_unstable();
+        }
+        pairs
+    }
+}

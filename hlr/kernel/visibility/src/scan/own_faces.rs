@@ -1,0 +1,315 @@
+//! Edges against the faces they bound, where these are seen nearly edge-on.
+//!
+//! The edge's chords lie on the true face, its triangles beside it by their deflection. Seen openly that matters little;
+//! seen edge-on a triangle that is off by a hair comes in front of the edge over a length that has no limit. So there the
+//! edge is compared with the triangles of its own face as if it lay off the face by more than they do, on the side that
+//! is seen: they hide it only if the face really turns in front of it. Where the face turns over on the way, at the end of
+//! its outline, the side changes: beyond that the edge lies behind the face, however its triangles go.
+//!
+//! ```text
+//!      sight  ----------------->     the face F, its triangles /\ and its border o, looked at along F
+//!              _.-o-._
+//!          F .` /   \ `.            o: behind a triangle by rounding and chance
+//!           o--/-----\--.           x: off the face on the side that is seen: before all of them
+//! ```
+//!
+//! Everything else is compared with the edge as it lies. Each polygon is counted by itself (`exact_query`), so the sum
+//! cannot contradict itself.
+
+use rayon::prelude::*;
+
+use super::box_tree::Aabb;
+use super::exact_query::ExactQuery;
+use super::invisibility::{Segment, State};
+use super::mesh::Mesh;
+use super::polygon_table::PolygonTable;
+use super::sweep::Piece;
+use hlr_exact::Point;
+use hlr_exact::arithmetic::Arithmetic;
+
+/// What the faces at an edge of a closed body do to it themselves, right where it is: seen is a convex edge of which any
+/// face is turned toward the viewer, and a concave one of which all are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Beside {
+    /// A face is a wall along the sight, or there are not two.
+    Unknown = 0,
+    Seen = 1,
+    Hidden = 2,
+}
+
+/// Edges, or stretches of them, whose own faces are seen nearly edge-on; edges ascend, and the stretches of one make it up.
+pub struct OwnFaces<'a> {
+    /// Of every stretch the edge, and its parameters there.
+    pub edge: &'a [i32],
+    pub range: &'a [[f64; 2]],
+    /// The edge that is the stretch as it lies: the very same, or one without triangles.
+    pub line: &'a [i32],
+    /// What its faces do to the stretch themselves, where they are those of a closed body: a `Beside`.
+    pub beside: &'a [u8],
+    /// Whether its own triangles fold over there, so that even those seen openly may be off in front of it.
+    pub dented: &'a [bool],
+    /// Of the faces of stretch s, offsets[s]..offsets[s + 1]: the number, and the edge without triangles that is the stretch
+    /// off that face.
+    pub offsets: &'a [i32],
+    pub face: &'a [i32],
+    pub off: &'a [i32],
+    pub triangle_face: &'a [i32],
+    /// Faces that go on smoothly into one another have one number.
+    pub sheet: &'a [i32],
+    /// Depth units of the grid per unit in the image.
+    pub depth_scale: f64,
+}
+
+/// |N . v|: triangles seen at more are compared with the edge as it lies. They do not come in front of it by being off; where
+/// they do, far from the edge, they are what hides it.
+const EDGE_ON: f64 = 0.5;
+
+const SEEN: u8 = Beside::Seen as u8;
+const HIDDEN: u8 = Beside::Hidden as u8;
+
+struct Decided {
+    edge: u32,
+    segments: Vec<Segment>,
+}
+
+impl OwnFaces<'_> {
+    pub const NONE: OwnFaces<'static> = OwnFaces {
+        edge: &[],
+        range: &[],
+        line: &[],
+        beside: &[],
+        dented: &[],
+        offsets: &[0],
+        face: &[],
+        off: &[],
+        triangle_face: &[],
+        sheet: &[],
+        depth_scale: 1.0,
+    };
+
+    /// The pieces (ascending by edge), those of these edges as their own faces leave them; and of how many edges they are
+    /// others now.
+    pub fn applied<A: Arithmetic>(
+        &self,
+        mesh: &Mesh,
+        table: &PolygonTable,
+        exact: &ExactQuery,
+        pieces: Vec<Piece>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> (Vec<Piece>, u64) {
+        let stretches: Vec<usize> = (0..self.edge.len()).collect();
+        let edges: Vec<&[usize]> = stretches.chunk_by(|&a, &b| self.edge[a] == self.edge[b]).collect();
+        let found: Vec<Decided> = edges
+            .par_iter()
+            .filter_map(|run| {
+                let edge = self.edge[run[0]] as u32;
+                let first = pieces.partition_point(|p| p.edge < edge);
+                let last = pieces.partition_point(|p| p.edge <= edge);
+                if first == last || stopped() {
+                    return None;
+                }
+                let mut segments = self.decided::<A>(mesh, table, exact, run)?;
+                if mesh.incident(edge as usize).is_empty() {
+                    // An outline, moved off its face for all polygons alike: what is seen of it so is seen.
+                    let lifted: Vec<Segment> = pieces[first..last].iter().map(|p| p.segment).collect();
+                    segments = merged(&segments, &lifted, State::less_hidden);
+                }
+                Some(Decided { edge, segments })
+            })
+            .collect();
+        if found.is_empty() {
+            return (pieces, 0);
+        }
+        let mut out = Vec::with_capacity(pieces.len() + found.len());
+        let mut from = 0;
+        for Decided { edge, segments } in &found {
+            let first = pieces.partition_point(|p| p.edge < *edge);
+            out.extend_from_slice(&pieces[from..first]);
+            out.extend(segments.iter().map(|&segment| Piece { edge: *edge, segment }));
+            from = pieces.partition_point(|p| p.edge <= *edge);
+        }
+        out.extend_from_slice(&pieces[from..]);
+        (out, found.len() as u64)
+    }
+
+    /// None where the triangles of its own faces do to an edge what the faces do.
+    fn decided<A: Arithmetic>(
+        &self,
+        mesh: &Mesh,
+        table: &PolygonTable,
+        exact: &ExactQuery,
+        stretches: &[usize],
+    ) -> Option<Vec<Segment>> {
+        let edge = self.edge[stretches[0]] as usize;
+        let around = mesh.incident(edge);
+        let culled = mesh.parts[mesh.edge_part[edge] as usize].cull
+            && !around.is_empty()
+            && around.iter().all(|&t| table.facing[t as usize] < 0);
+        let (mut one, mut two) = (Vec::new(), Vec::new());
+        let hidden = |s: usize| match self.beside[s] {
+            HIDDEN => true,
+            SEEN => false,
+            _ => culled,
+        };
+        let differ = stretches.iter().any(|&s| {
+            if culled || hidden(s) {
+                return culled != hidden(s);
+            }
+            let said = self.asked::<A>(mesh, exact, s, Asked::OwnAsTheyLie, &mut one)
+                && self.asked::<A>(mesh, exact, s, Asked::Own, &mut two);
+            said && !one.iter().map(|s| s.state).eq(two.iter().map(|s| s.state))
+        });
+        if !differ {
+            return None;
+        }
+        let mut out: Vec<Segment> = Vec::new();
+        for &s in stretches {
+            if hidden(s) {
+                one.clear();
+                one.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
+            } else if !self.asked::<A>(mesh, exact, s, Asked::AllWhole, &mut one) {
+                return None;
+            } else if !self.dented[s] {
+                if !self.asked::<A>(mesh, exact, s, Asked::All, &mut two) {
+                    return None;
+                }
+                one = merged(&one, &two, State::more_hidden);
+            }
+            let [from, to] = self.range[s];
+            let at = |t: f64| if t == 1.0 { to } else { from + (to - from) * t };
+            for segment in &one {
+                let (start, end) = (at(segment.start), at(segment.end));
+                match out.last_mut() {
+                    Some(last) if last.state == segment.state => last.end = end,
+                    _ if end > start => out.push(Segment { start, end, state: segment.state }),
+                    _ => {}
+                }
+            }
+        }
+        (!out.is_empty()).then_some(out)
+    }
+
+    fn faces(&self, stretch: usize) -> std::ops::Range<usize> {
+        self.offsets[stretch] as usize..self.offsets[stretch + 1] as usize
+    }
+
+    fn asked<A: Arithmetic>(
+        &self,
+        mesh: &Mesh,
+        exact: &ExactQuery,
+        stretch: usize,
+        asked: Asked,
+        out: &mut Vec<Segment>,
+    ) -> bool {
+        let edge = self.edge[stretch] as usize;
+        let plain = mesh.ends(self.line[stretch] as usize);
+        let own: Vec<(i32, (&Point, &Point))> =
+            self.faces(stretch).map(|k| (self.face[k], mesh.ends(self.off[k] as usize))).collect();
+        let around = mesh.incident(edge);
+        let bounded: Vec<i32> = around.iter().map(|&t| self.triangle_face[t as usize]).collect();
+        let mut reach = Aabb::of(&[plain.0, plain.1]);
+        for (_, (a, b)) in &own {
+            reach = reach.union(&Aabb::of(&[a, b]));
+        }
+        let whole = self.dented[stretch] || matches!(asked, Asked::AllWhole);
+        let off = |t: usize| {
+            let face = self.triangle_face[t];
+            let sheet = self.sheet[face as usize];
+            let mine = own.iter().find(|(f, _)| *f == face);
+            let goes_on = || own.iter().find(|(f, _)| self.sheet[*f as usize] == sheet && !bounded.contains(&face));
+            let (_, ends) = mine.or_else(goes_on)?;
+            (whole || self.edge_on(mesh, t)).then_some(*ends)
+        };
+        let ends = |t: usize| match (asked, off(t)) {
+            (Asked::All | Asked::AllWhole | Asked::Own, Some(ends)) => Some(ends),
+            // The end of a stretch is rounded: it need not lie on the triangles at its edge, which hide none of it.
+            (Asked::OwnAsTheyLie, Some(_)) | (Asked::All | Asked::AllWhole, None) => {
+                (!around.contains(&(t as i32))).then_some(plain)
+            }
+            (Asked::Own | Asked::OwnAsTheyLie, None) => None,
+        };
+        exact.decide_by::<A>(mesh.edge_part[edge], reach, ends, out)
+    }
+
+    fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {
+        let (p, q, r) = mesh.corners(t);
+        let place = |p: &Point| [f64::from(p[0]), f64::from(p[1]), f64::from(p[2]) / self.depth_scale];
+        let (p, q, r) = (place(p), place(q), place(r));
+        let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        n[2] * n[2] < EDGE_ON * EDGE_ON * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
+    }
+}
+
+impl State {
+    fn depth(self) -> u8 {
+        match self {
+            State::Visible => 0,
+            State::Within => 1,
+            State::Diving => 2,
+            State::Hidden => 3,
+        }
+    }
+
+    fn more_hidden(self, other: State) -> State {
+        if self.depth() < other.depth() { other } else { self }
+    }
+
+    fn less_hidden(self, other: State) -> State {
+        if self.depth() < other.depth() { self } else { other }
+    }
+}
+
+/// Of two answers, at each place the one that is picked.
+fn merged(one: &[Segment], two: &[Segment], pick: fn(State, State) -> State) -> Vec<Segment> {
+    let mut out: Vec<Segment> = Vec::with_capacity(one.len().max(two.len()));
+    let (mut i, mut j, mut start) = (0, 0, 0.0);
+    while let (Some(a), Some(b)) = (one.get(i), two.get(j)) {
+        let end = a.end.min(b.end);
+        let state = pick(a.state, b.state);
+        match out.last_mut() {
+            Some(last) if last.state == state => last.end = end,
+            _ if end > start => out.push(Segment { start, end, state }),
+            _ => {}
+        }
+        start = end;
+        i += usize::from(a.end == end);
+        j += usize::from(b.end == end);
+    }
+    out
+}
+
+#[derive(Clone, Copy)]
+enum Asked {
+    /// All polygons, own ones that are seen edge-on from off their faces.
+    All,
+    /// All polygons, all own ones from off their faces. Behind a face that turns in front of it, an edge comes from under
+    /// polygons that are seen openly under others that are not: one of the two answers has a gap there, the other has none.
+    AllWhole,
+    /// Own polygons alone, from off their faces.
+    Own,
+    /// Own polygons alone, from the stretch as it lies.
+    OwnAsTheyLie,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn segments(all: &[(f64, State)]) -> Vec<Segment> {
+        let starts = std::iter::once(0.0).chain(all.iter().map(|s| s.0));
+        all.iter().zip(starts).map(|(&(end, state), start)| Segment { start, end, state }).collect()
+    }
+
+    #[test]
+    fn of_two_answers_the_one_that_hides_more_or_less() {
+        use State::{Hidden, Visible, Within};
+        let one = segments(&[(0.3, Visible), (0.5, Hidden), (0.6, Visible), (1.0, Hidden)]);
+        let two = segments(&[(0.4, Within), (0.8, Hidden), (1.0, Visible)]);
+        let picked = |pick| -> Vec<_> { merged(&one, &two, pick).iter().map(|s| (s.start, s.end, s.state)).collect() };
+        assert_eq!(picked(State::more_hidden), [(0.0, 0.3, Within), (0.3, 1.0, Hidden)]);
+        let less = [(0.0, 0.3, Visible), (0.3, 0.4, Within), (0.4, 0.5, Hidden), (0.5, 0.6, Visible)];
+        assert_eq!(picked(State::less_hidden), [&less[..], &[(0.6, 0.8, Hidden), (0.8, 1.0, Visible)]].concat());
+    }
+}

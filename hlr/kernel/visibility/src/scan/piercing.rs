@@ -1,0 +1,222 @@
+//! Where drawn edges pass through the inside of polygons: clashing parts, soups, self-intersections, contacts.
+//!
+//! A sound part never pierces itself, so the search is made only where boxes of different parts overlap, or against
+//! a part that is not sound.
+//!
+//! ```text
+//!        f  a \        z
+//!   ___________\_____  |      before the plane: in front (not hidden by this polygon)
+//!     polygon   \      v      beyond it: behind, +1
+//!                b
+//! ```
+
+use std::cmp::Ordering;
+
+use rayon::prelude::*;
+
+use super::box_tree::{Aabb, BoxTree};
+use super::invisibility::Event;
+use super::mesh::Mesh;
+use super::polygon_table::PolygonTable;
+use hlr_exact::Point;
+use hlr_exact::arithmetic::{Arithmetic, Ring};
+use hlr_exact::predicates::{Cover, shifted_side};
+
+pub struct Piercings<P> {
+    pub events: Vec<Vec<Event<P>>>,
+    pub tests: u64,
+    /// Parts for which a search was needed at all.
+    pub parts: usize,
+}
+
+pub fn piercings<A: Arithmetic>(
+    mesh: &Mesh,
+    table: &PolygonTable,
+    drawn: &[u32],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Piercings<A::Parameter> {
+    let boxes = part_boxes(mesh);
+    let sought = sought_parts(mesh, &boxes);
+    let searched = sought.iter().filter(|&&s| s).count();
+    if searched == 0 {
+        return Piercings { events: Vec::new(), tests: 0, parts: 0 };
+    }
+    let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.parts.len()];
+    for (t, &part) in mesh.triangle_part.iter().enumerate() {
+        if sought[part as usize] && table.counted(mesh, t) {
+            let (p, q, r) = mesh.corners(t);
+            members[part as usize].push((Aabb::of(&[p, q, r]), t as u32));
+        }
+    }
+    let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::new).collect();
+    let parts = BoxTree::new((0..mesh.parts.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
+    let largest = mesh.parts.iter().map(|p| p.delta).max().unwrap_or(0);
+    let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
+        .par_chunks(256)
+        .enumerate()
+        .map(|(chunk, edges)| {
+            let mut events = Vec::new();
+            let mut tests = 0;
+            if stopped() {
+                return (events, tests);
+            }
+            for (i, &e) in edges.iter().enumerate() {
+                let own = mesh.edge_part[e as usize];
+                if !sought[own as usize] {
+                    continue;
+                }
+                let (a, b) = mesh.ends(e as usize);
+                let reach = Aabb::of(&[a, b]).toward_viewer(largest);
+                parts.query(&reach, |other| {
+                    if other as i32 == own && mesh.parts[own as usize].sound {
+                        return;
+                    }
+                    let delta = mesh.delta(own, other as i32);
+                    let reach = Aabb::of(&[a, b]).toward_viewer(delta);
+                    trees[other as usize].query(&reach, |t| {
+                        tests += 1;
+                        let Some(cover) = mesh.cover::<A>(t as usize) else { return };
+                        pierce(a, b, &cover, delta, |at, plain, moved| {
+                            events.push(Event { drawn: (chunk * 256 + i) as u32, at, plain, moved });
+                        });
+                    });
+                });
+            }
+            (events, tests)
+        })
+        .collect();
+    let tests = found.iter().map(|f| f.1).sum();
+    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, parts: searched }
+}
+
+/// Report where a -> b passes through the polygon: as it lies, and moved toward the viewer by `delta`.
+pub fn pierce<A: Arithmetic>(
+    a: &Point,
+    b: &Point,
+    cover: &Cover<A>,
+    delta: i64,
+    mut report: impl FnMut(A::Parameter, i32, i32),
+) {
+    let sa = cover.sides(a);
+    let sb = cover.sides(b);
+    if (0..3).any(|k| sa[k] < A::Area::ZERO && sb[k] < A::Area::ZERO) {
+        return;
+    }
+    let ga = cover.beneath(a, &sa);
+    let gb = cover.beneath(b, &sb);
+    let shift = cover.shift(delta);
+    if delta == 0 {
+        if let Some((at, jump)) = through(cover, &sa, &sb, ga, gb) {
+            report(at, jump, jump);
+        }
+        return;
+    }
+    if let Some((at, jump)) = through(cover, &sa, &sb, ga, gb) {
+        report(at, jump, 0);
+    }
+    if let Some((at, jump)) = through(cover, &sa, &sb, ga - shift, gb - shift) {
+        report(at, 0, jump);
+    }
+}
+
+/// Parameter and jump where the depths ga, gb beneath the plane change sign inside the polygon. An end point on the
+/// plane takes the other's sign, so only a strict change counts. On the polygon's border the shift in depth (-e)
+/// moves the piercing along f, and only where f runs along the border does the shift in the image decide.
+fn through<A: Arithmetic>(
+    cover: &Cover<A>,
+    sa: &[A::Area; 3],
+    sb: &[A::Area; 3],
+    ga: A::Volume,
+    gb: A::Volume,
+) -> Option<(A::Parameter, i32)> {
+    let zero = A::Volume::ZERO;
+    if (ga <= zero && gb <= zero) || (ga >= zero && gb >= zero) {
+        return None;
+    }
+    // side(t) * d = sb * ga - sa * gb with t = ga / d, d = ga - gb, so sign(d) = sign(ga).
+    let sign_d = if ga > zero { 1 } else { -1 };
+    for k in 0..3 {
+        let side = match A::compare_products(sb[k], ga, sa[k], gb) {
+            Ordering::Greater => sign_d,
+            Ordering::Less => -sign_d,
+            Ordering::Equal if sa[k] != sb[k] => -sign_d * if sb[k] > sa[k] { 1 } else { -1 },
+            Ordering::Equal => {
+                let (p, q) = cover.edge(k);
+                shifted_side(p, q)
+            }
+        };
+        if side < 0 {
+            return None;
+        }
+    }
+    Some((A::piercing(ga, ga - gb), if gb > zero { 1 } else { -1 }))
+}
+
+fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
+    let mut boxes = vec![Aabb::EMPTY; mesh.parts.len()];
+    for (t, &part) in mesh.triangle_part.iter().enumerate() {
+        let (p, q, r) = mesh.corners(t);
+        let b = &mut boxes[part as usize];
+        *b = b.union(&Aabb::of(&[p, q, r]));
+    }
+    for (e, &part) in mesh.edge_part.iter().enumerate() {
+        if mesh.incident(e).is_empty() {
+            let (p, q) = mesh.ends(e);
+            let b = &mut boxes[part as usize];
+            *b = b.union(&Aabb::of(&[p, q]));
+        }
+    }
+    boxes
+}
+
+/// Parts whose box, grown by the contact tolerance, meets another's, and parts that are not sound.
+fn sought_parts(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
+    let live: Vec<usize> = (0..boxes.len()).filter(|&p| boxes[p] != Aabb::EMPTY).collect();
+    let largest = live.iter().map(|&p| mesh.parts[p].delta).max().unwrap_or(0);
+    let tree = BoxTree::new(live.iter().map(|&p| (boxes[p].toward_viewer(largest), p as u32)).collect());
+    let mut sought = vec![false; boxes.len()];
+    for p in live {
+        let mut meets = !mesh.parts[p].sound;
+        tree.query(&boxes[p].toward_viewer(largest), |other| {
+            let delta = mesh.delta(p as i32, other as i32).max(mesh.delta(other as i32, p as i32));
+            let (a, b) = (boxes[p].toward_viewer(delta), boxes[other as usize].toward_viewer(delta));
+            meets |= other as usize != p && a.overlaps(&b);
+        });
+        sought[p] = meets;
+    }
+    sought
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hlr_exact::arithmetic::Exact;
+    use hlr_exact::parameter::Place;
+
+    type Cover = super::Cover<Exact>;
+
+    fn found(a: Point, b: Point, cover: &Cover, delta: i64) -> Vec<(f64, i32, i32)> {
+        let mut out = Vec::new();
+        pierce(&a, &b, cover, delta, |at, plain, moved| out.push((at.value(), plain, moved)));
+        out
+    }
+
+    #[test]
+    fn a_needle_through_a_triangle() {
+        let t = Cover::new(&[0, 0, 0], &[10, 0, 0], &[0, 10, 0]).unwrap();
+        assert_eq!(found([1, 1, -4], [3, 3, 4], &t, 0), [(0.5, 1, 1)]);
+        assert_eq!(found([3, 3, 4], [1, 1, -4], &t, 0), [(0.5, -1, -1)]);
+        assert_eq!(found([1, 1, -4], [3, 3, 4], &t, 2), [(0.5, 1, 0), (0.75, 0, 1)]);
+        assert!(found([1, 1, 0], [3, 3, 4], &t, 0).is_empty());
+        assert!(found([8, 8, -4], [9, 9, 4], &t, 0).is_empty());
+    }
+
+    #[test]
+    fn a_needle_through_a_shared_edge_pierces_one_of_two_triangles() {
+        let left = Cover::new(&[0, 0, 0], &[10, 10, 0], &[0, 10, 0]).unwrap();
+        let right = Cover::new(&[0, 0, 0], &[10, 0, 0], &[10, 10, 0]).unwrap();
+        for (a, b) in [([3, 5, -4], [7, 5, 4]), ([2, 2, -4], [8, 8, 4]), ([5, 7, 4], [5, 3, -4])] {
+            assert_eq!(found(a, b, &left, 0).len() + found(a, b, &right, 0).len(), 1);
+        }
+    }
+}

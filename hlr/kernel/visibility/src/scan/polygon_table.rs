@@ -1,0 +1,54 @@
+//! Which way each triangle faces, and whether it is counted.
+
+use rayon::prelude::*;
+
+use super::mesh::Mesh;
+use hlr_exact::Point;
+use hlr_exact::arithmetic::{Arithmetic, Ring};
+use hlr_exact::predicates::orient2d;
+
+/// Radians to the line of sight up to which a triangle is seen edge-on but for what its file has rounded.
+const ALMOST: f64 = 2e-5;
+
+pub struct PolygonTable {
+    /// +1 toward the viewer, -1 away, 0 edge-on.
+    pub facing: Vec<i8>,
+    /// Seen edge-on but for what its file has rounded, though `facing` says toward or away.
+    pub almost: Vec<bool>,
+    pub culled: usize,
+}
+
+impl PolygonTable {
+    pub fn new<A: Arithmetic>(mesh: &Mesh) -> PolygonTable {
+        let facing: Vec<i8> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|t| {
+                let (p, q, r) = mesh.corners(t);
+                orient2d::<A>(p, q, r).sign() as i8
+            })
+            .collect();
+        let culled =
+            facing.par_iter().zip(mesh.triangle_part).filter(|&(&f, &p)| f < 0 && mesh.parts[p as usize].cull).count();
+        let almost = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|t| facing[t] != 0 && almost_edge_on(mesh.corners(t)))
+            .collect();
+        PolygonTable { facing, almost, culled }
+    }
+
+    /// Counted in front of others: not edge-on, and facing the viewer where its part allows culling. A line of sight
+    /// that meets a closed solid from outside meets a face toward the viewer first, so the others add nothing to
+    /// the question whether anything is in front.
+    #[inline(always)]
+    pub fn counted(&self, mesh: &Mesh, triangle: usize) -> bool {
+        let f = self.facing[triangle];
+        f > 0 || (f < 0 && !mesh.parts[mesh.triangle_part[triangle] as usize].cull)
+    }
+}
+
+fn almost_edge_on((p, q, r): (&Point, &Point, &Point)) -> bool {
+    let way = |a: &Point| [0, 1, 2].map(|k| f64::from(a[k]) - f64::from(p[k]));
+    let (u, v) = (way(q), way(r));
+    let [x, y, z] = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    z * z <= ALMOST * ALMOST * (x * x + y * y)
+}

@@ -1,0 +1,340 @@
+//! The pass as a whole: the numbered steps of `scan`, one after another.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::active_edges::crossings;
+use super::active_spans::Seeds;
+use super::depth_pyramid::DepthPyramid;
+use super::edge_table::EdgeTable;
+use super::exact_query::ExactQuery;
+use super::invisibility::{Event, Segment, State, walk};
+use super::mesh::Mesh;
+use super::one_sheet::one_sheet;
+use super::own_faces::OwnFaces;
+use super::piercing::{Piercings, piercings};
+use super::polygon_table::PolygonTable;
+use hlr_exact::arithmetic::{Arithmetic, Exact};
+
+/// One piece of one edge; parameters run from the edge's first to its second vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    pub edge: u32,
+    pub segment: Segment,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Counters {
+    pub triangles: u64,
+    pub culled: u64,
+    pub contours: u64,
+    pub drawn: u64,
+    pub hidden_by_culling: u64,
+    pub projecting: u64,
+    pub bands: u64,
+    pub seeds: u64,
+    pub crossing_tests: u64,
+    pub crossings: u64,
+    pub piercing_parts: u64,
+    pub piercing_tests: u64,
+    pub piercings: u64,
+    pub failed_checks: u64,
+    pub contradictions: u64,
+    /// Drawn edges of a convex body, decided without any search.
+    pub by_culling_alone: u64,
+    pub pyramid_parts: u64,
+    pub hidden_by_pyramid: u64,
+    /// Edges that triangles of their own faces would hide or show otherwise than these faces do.
+    pub freed_of_own_faces: u64,
+}
+
+/// Seconds of the steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Seconds {
+    pub tables: f64,
+    pub pyramid: f64,
+    pub seeds: f64,
+    pub crossings: f64,
+    pub piercings: f64,
+    pub counting: f64,
+    pub own_faces: f64,
+}
+
+pub struct Outcome {
+    pub pieces: Vec<Piece>,
+    pub facing: Vec<i8>,
+    pub counters: Counters,
+    pub seconds: Seconds,
+}
+
+/// Which steps this scene calls for. Whatever is chosen within the conditions, the pieces are the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps {
+    /// Seeds and crossings; may be left out for a scene of one convex body. Where that turns out to overlap itself in the
+    /// image, nothing is left out.
+    pub crossings: bool,
+    /// May be left out where no edge comes within the contact tolerance of a polygon of another part, and all are sound.
+    pub piercings: bool,
+    pub pyramid: bool,
+}
+
+impl Steps {
+    /// The pass without any shortcut.
+    pub const ALL: Steps = Steps { crossings: true, piercings: true, pyramid: false };
+}
+
+/// None if `stopped` said so.
+pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
+    visibility_by::<Exact>(mesh, Steps::ALL, &OwnFaces::NONE, stopped)
+}
+
+/// The same with any numbers: with others than exact ones pieces may be wrong, and counts contradict each other.
+pub fn visibility_by<A: Arithmetic>(
+    mesh: &Mesh,
+    steps: Steps,
+    own: &OwnFaces,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Outcome> {
+    let mut clock = Clock::start();
+    let mut seconds = Seconds::default();
+    // 1. facing, contours, drawn edges
+    let table = PolygonTable::new::<A>(mesh);
+    let mut edges = EdgeTable::new(mesh, &table);
+    let mut counters = Counters {
+        triangles: mesh.triangles.len() as u64,
+        culled: table.culled as u64,
+        contours: edges.contours.len() as u64,
+        drawn: edges.drawn.len() as u64,
+        hidden_by_culling: edges.hidden.len() as u64,
+        projecting: edges.projecting as u64,
+        ..Counters::default()
+    };
+    let exact = ExactQuery::new(mesh, &table);
+    seconds.tables = clock.lap();
+    if !steps.crossings && one_sheet(mesh, &edges.contours) {
+        let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
+        counters.by_culling_alone = edges.drawn.len() as u64;
+        seconds.counting = clock.lap();
+        let mut pieces = gathered(walked, &edges.hidden, &mut counters);
+        (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
+        seconds.own_faces = clock.lap();
+        return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
+    }
+    // What was taken for a convex body may pass through itself as well.
+    let piercing = steps.piercings || !steps.crossings;
+    // 2. edges that surely lie behind something need no search
+    if steps.pyramid {
+        let pyramid = DepthPyramid::new(mesh, &table, &edges.contours);
+        counters.pyramid_parts = pyramid.parts as u64;
+        counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
+        seconds.pyramid = clock.lap();
+    }
+    // 3. seeds: the count at both ends of every drawn edge
+    let seeds = Seeds::new::<A>(mesh, &table, &edges.drawn, stopped);
+    seconds.seeds = clock.lap();
+    // 4. crossings and piercings: the jumps between
+    let crossed = crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped);
+    seconds.crossings = clock.lap();
+    let pierced = if piercing {
+        piercings::<A>(mesh, &table, &edges.drawn, stopped)
+    } else {
+        Piercings { events: Vec::new(), tests: 0, parts: 0 }
+    };
+    seconds.piercings = clock.lap();
+    if stopped() {
+        return None;
+    }
+    // 5. count along every drawn edge; check; decide the failed ones polygon by polygon
+    let (offsets, mut events) = by_edge(edges.drawn.len(), &crossed.events, &pierced.events);
+    let walked = walk_all::<A>(mesh, &edges.drawn, &seeds, &offsets, &mut events, &exact, stopped);
+    if stopped() {
+        return None;
+    }
+    counters = Counters {
+        bands: crossed.bands as u64,
+        seeds: seeds.asked as u64,
+        crossing_tests: crossed.tests,
+        crossings: crossed.events.iter().map(|e| e.len() as u64).sum(),
+        piercing_parts: pierced.parts as u64,
+        piercing_tests: pierced.tests,
+        piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
+        ..counters
+    };
+    // 6. with the edges that culling and the pyramid decided
+    let mut pieces = gathered(walked, &edges.hidden, &mut counters);
+    seconds.counting = clock.lap();
+    // 7. what own faces seen edge-on hide
+    (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
+    seconds.own_faces = clock.lap();
+    if stopped() {
+        return None;
+    }
+    Some(Outcome { pieces, facing: table.facing, counters, seconds })
+}
+
+struct Clock(Instant);
+
+impl Clock {
+    fn start() -> Clock {
+        Clock(Instant::now())
+    }
+
+    /// Seconds since the last one.
+    fn lap(&mut self) -> f64 {
+        let now = Instant::now();
+        let past = now.duration_since(self.0).as_secs_f64();
+        self.0 = now;
+        past
+    }
+}
+
+/// Move drawn edges that surely lie behind something to the hidden ones; returns how many.
+fn discard(mesh: &Mesh, pyramid: &DepthPyramid, edges: &mut EdgeTable) -> usize {
+    let behind: Vec<bool> = edges
+        .drawn
+        .par_iter()
+        .map(|&e| {
+            let (a, b) = mesh.ends(e as usize);
+            pyramid.hides(a, b)
+        })
+        .collect();
+    let chosen = |wanted: bool| {
+        let both = edges.drawn.iter().zip(&behind);
+        both.filter(move |&(_, &b)| b == wanted).map(|(&e, _)| e).collect::<Vec<u32>>()
+    };
+    let (gone, rest) = (chosen(true), chosen(false));
+    edges.drawn = rest;
+    edges.hidden.extend(&gone);
+    edges.hidden.sort_unstable();
+    gone.len()
+}
+
+/// Of polygons that lie side by side none hides another's edge. What belongs to none, or only to such as are turned away
+/// or seen edge-on, is asked for by itself.
+fn alone<A: Arithmetic>(
+    mesh: &Mesh,
+    table: &PolygonTable,
+    drawn: &[u32],
+    exact: &ExactQuery,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Vec<Walked> {
+    drawn
+        .par_chunks(512)
+        .map(|chunk| {
+            let mut out = Walked::default();
+            let mut segments = Vec::new();
+            for &edge in chunk {
+                if stopped() {
+                    return out;
+                }
+                segments.clear();
+                if mesh.incident(edge as usize).iter().any(|&t| table.counted(mesh, t as usize)) {
+                    segments.push(Segment { start: 0.0, end: 1.0, state: State::Visible });
+                } else if !exact.decide::<A>(edge as usize, &mut segments) {
+                    out.contradictions += 1;
+                    segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
+                }
+                out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
+            }
+            out
+        })
+        .collect()
+}
+
+/// All pieces, ascending by edge: those that were walked, and edges (ascending as well) hidden from end to end.
+fn gathered(walked: Vec<Walked>, hidden: &[u32], counters: &mut Counters) -> Vec<Piece> {
+    let whole = Segment { start: 0.0, end: 1.0, state: State::Hidden };
+    let mut pieces = Vec::with_capacity(hidden.len() + walked.iter().map(|w| w.pieces.len()).sum::<usize>());
+    let mut hidden = hidden.iter().peekable();
+    for chunk in walked {
+        counters.failed_checks += chunk.failed;
+        counters.contradictions += chunk.contradictions;
+        for piece in chunk.pieces {
+            while let Some(&edge) = hidden.next_if(|&&e| e < piece.edge) {
+                pieces.push(Piece { edge, segment: whole });
+            }
+            pieces.push(piece);
+        }
+    }
+    pieces.extend(hidden.map(|&edge| Piece { edge, segment: whole }));
+    pieces
+}
+
+/// Counting sort of all events by drawn edge.
+fn by_edge<P: Copy>(drawn: usize, crossed: &[Vec<Event<P>>], pierced: &[Vec<Event<P>>]) -> (Vec<u32>, Vec<Event<P>>) {
+    let all = || crossed.iter().chain(pierced).flatten();
+    let mut offsets = vec![0u32; drawn + 1];
+    for e in all() {
+        offsets[e.drawn as usize + 1] += 1;
+    }
+    for k in 0..drawn {
+        offsets[k + 1] += offsets[k];
+    }
+    let mut next = offsets.clone();
+    let total = offsets[drawn] as usize;
+    let Some(&filler) = all().next() else { return (offsets, Vec::new()) };
+    let mut sorted = vec![filler; total];
+    for e in all() {
+        let at = &mut next[e.drawn as usize];
+        sorted[*at as usize] = *e;
+        *at += 1;
+    }
+    (offsets, sorted)
+}
+
+#[derive(Default)]
+struct Walked {
+    pieces: Vec<Piece>,
+    failed: u64,
+    contradictions: u64,
+}
+
+fn walk_all<A: Arithmetic>(
+    mesh: &Mesh,
+    drawn: &[u32],
+    seeds: &Seeds,
+    offsets: &[u32],
+    events: &mut [Event<A::Parameter>],
+    exact: &ExactQuery,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Vec<Walked> {
+    const CHUNK: usize = 512;
+    // Each chunk owns its run of events: split the one array along the chunk borders.
+    let mut runs: Vec<&mut [Event<A::Parameter>]> = Vec::new();
+    let mut rest = events;
+    for first in (0..drawn.len()).step_by(CHUNK) {
+        let last = (first + CHUNK).min(drawn.len());
+        let (run, tail) = rest.split_at_mut((offsets[last] - offsets[first]) as usize);
+        runs.push(run);
+        rest = tail;
+    }
+    runs.into_par_iter()
+        .enumerate()
+        .map(|(chunk, run)| {
+            let mut out = Walked::default();
+            if stopped() {
+                return out;
+            }
+            let first = chunk * CHUNK;
+            let base = offsets[first];
+            let mut segments = Vec::new();
+            for i in first..(first + CHUNK).min(drawn.len()) {
+                let edge = drawn[i];
+                let part = mesh.edge_part[edge as usize];
+                let [a, b] = mesh.edges[edge as usize];
+                let own = &mut run[(offsets[i] - base) as usize..(offsets[i + 1] - base) as usize];
+                let (start, end) = (seeds.at::<A>(mesh, part, a, b), seeds.at::<A>(mesh, part, b, a));
+                if !walk(start, own, end, &mut segments) {
+                    out.failed += 1;
+                    if !exact.decide::<A>(edge as usize, &mut segments) {
+                        out.contradictions += 1;
+                        segments.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
+                    }
+                }
+                out.pieces.extend(segments.iter().map(|&segment| Piece { edge, segment }));
+            }
+            out
+        })
+        .collect()
+}
