@@ -8,12 +8,15 @@ examples: pytest --hypothesis-profile=explore
 
 The cache of models is a folder of this run, another one for each test: what one test reads, the next reads anew.
 
+A suite started in the background of a shell ignores interrupts, and its children would as well: it no longer does.
+
 Without CadQuery (build123d on OpenCASCADE 8 cannot share an environment with it) the tests that build their shapes with
 it are left out.
 """
 
 import ast
 import os
+import signal
 import sys
 from importlib.util import find_spec
 from itertools import count
@@ -26,6 +29,9 @@ from hypothesis import Phase, settings
 HERE = str(Path(__file__).resolve().parent)
 if HERE not in sys.path:
     sys.path.append(HERE)
+
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 CACHE = TemporaryDirectory(prefix="hlr-tests-")
 os.environ["HLR_CACHE"] = CACHE.name
