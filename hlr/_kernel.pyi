@@ -60,6 +60,15 @@ def reach(
     most: Floats,
 ) -> Floats: ...
 def boxes_meet(low: Floats, high: Floats) -> Bools: ...
+def projected(
+    points: Floats, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None = None
+) -> Floats:
+    """(n, 3) right, up, and away from the viewer; eye: of a perspective view, with the distance of the image plane."""
+
+def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floats]:
+    """Corners (p, 8, 3) of boxes (r, 2, 3), of each part that of its root, moved by matrices (p, 4, 4); the box (2, 3)
+    around them. A box whose lower corner lies beyond the upper one is void: its corners are 0, and do not count."""
+
 def visibility(
     points: Floats,
     triangles: Ints,

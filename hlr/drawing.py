@@ -205,7 +205,7 @@ class Drawing(ByValue):
     fill: Fill | None = None
     request: Request | None = field(default=None, compare=False)
     reached: Reached | None = None
-    plan: tuple[Decision, ...] = ()
+    plan: Sequence[Decision] = ()
     window: Bounds | None = None
     reading: str = field(default="", compare=False)
 

@@ -25,10 +25,11 @@ def draw_views(
     source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
     """
-    options = checked(options or Options())
-    views = checked_views(views, options)
+    options = options or Options()
     if not options.report and options.within is None:
-        return drawn_once(source, views, options, progress)
+        return drawn_once(source, views, options, progress)  # which checks what is asked for
+    options = checked(options)
+    views = checked_views(views, options)
     opened = open_chosen(source, options)
     if options.within is None:
         drawings = drawn_once(opened, views, options, progress)

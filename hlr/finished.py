@@ -12,7 +12,8 @@ from hlr.drawing import Accuracy, Bounds, Drawing, DrawnPart, DrawnView, Fill, L
 from hlr.fitting import Staged
 from hlr.lines import held
 from hlr.notes import Note
-from hlr.plan.options import Options
+from hlr.plan.effect import Decisions
+from hlr.plan.options import Options, Request
 from hlr.plan.plan import Plan
 from hlr.scene.scene import Scene
 from hlr.source.model import EdgeClass, Source
@@ -35,8 +36,13 @@ def finished(
     segments: Segments,
     drawn: Drawn,
     clock: Clock,
+    request: Request | None = None,
+    remarks: Sequence[Note] = (),
 ) -> Drawing:
-    """The drawing of one view of a scene; seen: what of it is before the camera, with its outlines."""
+    """The drawing of one view of a scene; seen: what of it is before the camera, with its outlines.
+
+    request: what was asked for; remarks: what else is to be said.
+    """
     camera, at, planner = view.camera, view.at, view.planner
     lines, origin, sought = drawn
     started = perf_counter()
@@ -61,9 +67,8 @@ def finished(
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
     for name, steps in STEPS.items():
         planner.spent(name, sum(segments.seconds[s] for s in steps))
-    decisions = planner.decisions(counters)
-    cuts = {d.name: sum(d.counts.values()) for d in decisions if d.name.endswith("clipping")}
-    rescued = {name: count for d in decisions if d.name == "rescue of faces" for name, count in d.counts.items()}
+    cuts = sum(sum(planner.cost(name).values()) for name in ("near clipping", "side clipping"))
+    rescued = planner.cost("rescue of faces")
     return Drawing(
         source=opened.name,
         view=stated,
@@ -79,11 +84,12 @@ def finished(
         up_axis=opened.frame.up,
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),
         lines=lines,
-        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *(empty or _empty(lines, fill))))),
-        counters={**counters, **rescued, "clipping_planes": sum(cuts.values())},
+        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *(empty or _empty(lines, fill)), *remarks))),
+        counters={**counters, **rescued, "clipping_planes": cuts},
         timings=clock,
         fill=fill,
-        plan=decisions,
+        request=request,
+        plan=Decisions(planner, counters),
         window=window,
         reading=getattr(opened, "reading", ""),
     )

@@ -102,9 +102,11 @@ def _surfaces(planner: Planner, scene: Scene) -> None:
     if on is None:
         curved = planar = triangles = bent = 0
     else:
-        face = on.first[scene.triangle_part] + scene.triangle_face
-        curved, planar = int((~on.planar).sum()), int(on.planar.sum())
-        triangles, bent = len(face), int((~on.planar)[face].sum())
+        planar, triangles = int(np.count_nonzero(on.planar)), len(scene.triangles)
+        curved, bent = len(on.planar) - planar, 0 if planar else triangles
+        if curved and planar:
+            face = on.first[scene.triangle_part] + scene.triangle_face
+            bent = triangles - int(np.count_nonzero(on.planar[face]))
     facts = Facts(curved=curved, planar=planar, faces=on is not None)
     planner.on("meshing of curved faces", facts)
     planner.on("triangulation of planar faces", facts)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import fields
 from difflib import get_close_matches
 from inspect import Parameter, signature
 from typing import Any, TypeVar
@@ -16,9 +15,10 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 def record_of(kind: type[Record], keywords: Mapping[str, Any], function: str) -> Record:
     """The record with these fields; raises OptionError for a keyword that is none of them, with the nearest that is."""
-    known = [f.name for f in fields(kind)]  # type: ignore[arg-type]
+    fields = kind.__dataclass_fields__  # type: ignore[attr-defined]
     for name in keywords:
-        if name not in known:
+        if name not in fields:
+            known = list(fields)
             near = get_close_matches(name, known, 1)
             advice = f"did you mean {near[0]}?" if near else f"use {', '.join(known)}"
             raise OptionError(f"{function}() has no option {name!r}: {advice}")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -63,8 +62,7 @@ def draw_views(
     for i, (view, at) in enumerate(zip(views, seen, strict=True)):
         tell("visibility", i / len(cameras))
         through = seen_through(scene, looks, at, options)
-        drawing = drawing_of(opened, scene, curves, through, options, dict(clock))
-        out.append(replace(drawing, request=Request(view, options), notes=(*drawing.notes, *remarks)))
+        out.append(drawing_of(opened, scene, curves, through, options, dict(clock), Request(view, options), remarks))
     tell("linework", 1.0)
     for drawing in out:
         if options.strict:
@@ -73,9 +71,16 @@ def draw_views(
 
 
 def drawing_of(
-    opened: Source, scene: Scene, curves: EdgeCurveLookup, view: Staged, options: Options, clock: Clock
+    opened: Source,
+    scene: Scene,
+    curves: EdgeCurveLookup,
+    view: Staged,
+    options: Options,
+    clock: Clock,
+    request: Request | None = None,
+    remarks: Sequence[Note] = (),
 ) -> Drawing:
-    """The lines of one view."""
+    """The lines of one view; request: what was asked for; remarks: what else is to be said."""
     camera, at, planner, threads = view.camera, view.at, view.planner, options.threads
     started = perf_counter()
     outlined = view.outlined or with_silhouettes(scene, camera, at.tolerances, threads, planner)
@@ -91,7 +96,7 @@ def drawing_of(
         seen, curves, plan, segments, camera, projected, at.per_model, at.tolerances, options.hidden, threads
     )
     started = lap(clock, "linework", started)
-    return finished(opened, scene, seen, view, options, plan, segments, lines, clock)
+    return finished(opened, scene, seen, view, options, plan, segments, lines, clock, request, remarks)
 
 
 def refuse_warnings(notes: Sequence[Note]) -> None:

@@ -79,7 +79,7 @@ def guides(
 
     curve, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
     curves, places = NO_CURVES, HERE
-    if edge_curves is not None:
+    if sought and edge_curves is not None:
         drawn = np.zeros(len(edge), bool)
         drawn[lines] = True
         tied = np.flatnonzero(drawn & (edge >= 0))

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple, overload
 
 ASKED, SCENE = "asked", "scene"
 """Who calls for an effect: the request, or what is there to be drawn."""
@@ -20,8 +20,7 @@ PLAN = "the plan itself"
 """Name of the last decision, which says how long deciding took."""
 
 
-@dataclass(frozen=True, slots=True)
-class Facts:
+class Facts(NamedTuple):
     """What stages find out; each effect looks at the few that its stage has filled in.
 
     kind           of the source (`hlr.source.model.Source.kind`)
@@ -178,7 +177,8 @@ class Planner:
         known = self._decided[name]
         if seconds is not None:
             known.seconds = (known.seconds or 0.0) + seconds
-        known.counts = {**known.counts, **{key: known.counts.get(key, 0) + value for key, value in counts.items()}}
+        if counts:
+            known.counts = {**known.counts, **{key: known.counts.get(key, 0) + value for key, value in counts.items()}}
 
     @contextmanager
     def timed(self, name: str) -> Iterator[None]:
@@ -204,6 +204,11 @@ class Planner:
         other._took = self._took
         return other
 
+    def cost(self, name: str) -> Mapping[str, int]:
+        """What an effect has cost so far, by counter; nothing where it was not decided."""
+        made = self._decided.get(name)
+        return {} if made is None else made.counts
+
     def decisions(self, counters: Mapping[str, int] | None = None) -> tuple[Decision, ...]:
         """All that was decided, in the order of the table; counters: of the finished drawing."""
         found = counters or {}
@@ -216,6 +221,52 @@ class Planner:
                 out.append(Decision(name, made.on, effect.origin, made.reason, seconds, counts))
         out.append(Decision(PLAN, True, ASKED, "to know all this", self._took))
         return tuple(out)
+
+
+class Decisions(Sequence[Decision]):
+    """The decisions of a planner that decides no more; they become records when the first of them is looked at."""
+
+    __slots__ = ("_made", "_records")
+
+    def __init__(self, planner: Planner, counters: Mapping[str, int]) -> None:
+        """counters: of the finished drawing."""
+        self._made: tuple[Planner, Mapping[str, int]] | None = planner, counters
+        self._records: tuple[Decision, ...] = ()
+
+    @property
+    def records(self) -> tuple[Decision, ...]:
+        """All of them."""
+        if self._made is not None:
+            planner, counters = self._made
+            self._records, self._made = planner.decisions(counters), None
+        return self._records
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    def __iter__(self) -> Iterator[Decision]:
+        return iter(self.records)
+
+    @overload
+    def __getitem__(self, index: int) -> Decision: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Decision, ...]: ...
+    def __getitem__(self, index: int | slice) -> Decision | tuple[Decision, ...]:
+        return self.records[index]
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Decisions):
+            return self.records == other.records
+        return self.records == other if isinstance(other, tuple) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.records)
+
+    def __repr__(self) -> str:
+        return repr(self.records)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return tuple, (self.records,)
 
 
 def explained(decisions: Sequence[Decision]) -> str:

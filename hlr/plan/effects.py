@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from numbers import Integral
 from typing import Any, TypedDict
 
@@ -208,7 +208,7 @@ def decide_effects(
 ) -> Effects:
     """What a request and a scene, whose least opacity is given, call for; planner: remembers it."""
     planner = planner or Planner(PREVIEW, options)
-    facts = replace(facts or Facts(), opacity=opacity)
+    facts = (facts or Facts())._replace(opacity=opacity)
     on = {effect.name: planner.on(effect.name, facts) for effect in PREVIEW}
     return Effects(
         faces=on["faces"],

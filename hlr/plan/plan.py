@@ -21,6 +21,10 @@ from hlr.view.camera import NEAR, Camera
 DRAWN = 1
 OUTLINE = 2
 
+FOLDING = np.zeros((2, 256), np.uint8)
+FOLDING[1, [INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM]] = OUTLINE
+"""Roles by whether an edge is curved and by its kind: where a curved surface may fold over."""
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -81,17 +85,13 @@ def decide(
     planner: knows what was decided before. force: everything that the scene would leave out is on, see `everything_on`.
     """
     planner = planner or Planner(DRAWING, options, force)
-    kind = scene.edge_kind
-    role = np.zeros(len(kind), np.uint8)
-    drawn_kind = np.zeros(len(EdgeClass), bool)
-    drawn_kind[[EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.OUTLINE]] = True
+    roles = FOLDING.copy()
+    drawn_kind = np.ones(len(EdgeClass), bool)
     drawn_kind[EdgeClass.SMOOTH] = options.smooth
     drawn_kind[EdgeClass.SEAM] = options.seam
     drawn_kind[EdgeClass.INTERSECTION] = options.intersections
-    tied = kind != INTERIOR
-    role[tied] = np.where(drawn_kind[kind[tied]], DRAWN, 0)
-    may_fold = scene.edge_curved & ((kind == INTERIOR) | (kind == EdgeClass.SMOOTH) | (kind == EdgeClass.SEAM))
-    role[may_fold] |= OUTLINE
+    roles[:, : len(drawn_kind)] |= np.where(drawn_kind, np.uint8(DRAWN), np.uint8(0))
+    role = roles[scene.edge_curved.view(np.uint8), scene.edge_kind]
     if scene.silhouettes is not None:
         role[scene.silhouettes.hidden] = 0
     delta, cap = _contact(scene, camera, tolerances)
@@ -101,21 +101,21 @@ def decide(
     with planner.deciding():
         near = _coming_near(scene, camera, delta, LIFT * tolerances.deflection)
     facts = Facts(
-        groups=int(faced.sum()),
-        culled=int(groups.cull.sum()),
+        groups=int(np.count_nonzero(faced)),
+        culled=int(np.count_nonzero(groups.cull)),
         convex=scene.convex,
         perspective=camera.eye is not None,
         meeting=near,
-        unsound=int((used & ~groups.sound).sum()),
+        unsound=int(np.count_nonzero(used & ~groups.sound)),
         edges=int(np.count_nonzero(role)),
     )
-    loose = Facts(meeting=near, unsound=int((used & ~groups.sound & ~groups.cull).sum()))
+    loose = Facts(meeting=near, unsound=int(np.count_nonzero(used & ~groups.sound & ~groups.cull)))
     straight = scene.chains.straight
     for name in ("hidden lines", "smooth edges", "seams", "intersection lines", "circles of meshes", "colours"):
         planner.on(name)
     planner.on("back-face culling", facts)
     touch = planner.on("contact tolerance", loose)
-    sought = int((~straight & (scene.chains.index >= 0)).sum())
+    sought = int(np.count_nonzero(~straight & (scene.chains.index >= 0)))
     sought += 0 if scene.silhouettes is None else len(scene.silhouettes.curves.kind)
     every = planner.on("exact curves", Facts(bent=sought))
     return Plan(
@@ -146,6 +146,8 @@ def _coming_near(scene: Scene, camera: Camera, delta: Floats, lift: float) -> in
     """
     groups = scene.groups
     used = np.flatnonzero(np.isfinite(groups.low[:, 0]))
+    if len(used) < 2:
+        return 0
     low, high = groups.low[used] - lift, groups.high[used] + lift
     most = SPARE * float(delta[used].max(initial=0.0))
     if camera.eye is None or camera.distance is None:

@@ -52,9 +52,10 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         drawn = np.bincount(edge_part[bare != INTERIOR], minlength=len(brep)).tolist()
     groups = groups_of(found, brep)
     with plan.deciding():
-        meeting, folded = _kernel.boxes_meet(groups.low, groups.high), found.folded
+        meeting = int(np.count_nonzero(_kernel.boxes_meet(groups.low, groups.high)))
+        folded = found.folded
     begin = perf_counter()
-    if plan.on("intersection search", Facts(meeting=int(meeting.sum()), folded=int(folded.sum()))):
+    if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(folded)))):
         met = clashes(points, triangles, found.mesh, group_of, groups, folded, found.curved, deflection)
         met = replace(met, through=met.through | through_their_axis(whole, found))
     else:

@@ -314,6 +314,8 @@ def intersection_walks(met: Clashes, part_of_group: Ints, first: int) -> Chains:
 
 def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
     """Parts of which one surface passes through another, or through itself."""
+    if not len(met.group) and not met.through.any():
+        return np.zeros(0, np.int32)
     a, b = part_of_group[met.group[:, 0]], part_of_group[met.group[:, 1]]
     return np.asarray(distinct(np.concatenate([a[a == b], part_of_group[np.flatnonzero(met.through)]])), np.int32)
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from hlr.notes import Note
 from hlr.scene.scene import ScenePart
 from hlr.source.model import Ints
@@ -28,7 +26,7 @@ def reports(
     through = set(crossed.tolist())
     tables = whole.tables
     brep = tables.brep.tolist()
-    faces = np.diff(tables.face_start).tolist()
+    faces = (tables.face_start[1:] - tables.face_start[:-1]).tolist()
     own = drawn or [0] * len(brep)
     out = []
     for i, (label, found) in enumerate(zip(whole.labels, counts, strict=True)):

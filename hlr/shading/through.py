@@ -30,8 +30,10 @@ def glass_of(scene: Scene, looks: Mapping[str, Look]) -> npt.NDArray[np.bool_]:
 
 def hiding(scene: Scene, looks: Mapping[str, Look]) -> list[Note]:
     """The remark that transparent parts hide others, where they may."""
+    if not looks or len(scene.parts) < 2:
+        return []
     clear = [p.name for p in scene.parts if opacity_of(looks.get(p.name, Look())) < 1.0]
-    if not clear or len(scene.parts) < 2:
+    if not clear:
         return []
     which = f'Part "{clear[0]}" is transparent and hides' if len(clear) == 1 else f"{len(clear)} transparent parts hide"
     return [Note("glass-hides", f"{which} what is behind, as in other CAD drawings: see_through shows it.")]

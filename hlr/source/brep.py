@@ -13,7 +13,6 @@ from hlr.errors import SourceError
 from hlr.notes import Note
 from hlr.source.bindings import collection
 from hlr.source.extent import checked
-from hlr.source.locations import moved_each
 from hlr.source.model import (
     Choice,
     EdgeCurves,
@@ -86,7 +85,7 @@ class BrepSource:
         """The parts that are drawn, and what will be known of them."""
         self._parts = list(parts)
         self._used = sorted({part.root for part in parts})
-        self._boxes: list[Floats] | None = None
+        self._corners: tuple[Floats, Floats] | None = None
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._maps: dict[tuple[int, Any], Any] = {}
@@ -112,24 +111,28 @@ class BrepSource:
 
     def boxes(self) -> list[Floats]:
         """Corners of every part's box, (8, 3), or none where it has no extent."""
-        if self._boxes is None:
-            boxes = self._roots.boxes[[part.root for part in self._parts]]
-            corners = np.stack([boxes[:, FAR[k], k] for k in range(3)], axis=2)
-            void = (boxes[:, 0, 0] > boxes[:, 1, 0]).tolist()
-            corners[void] = 0.0
-            placed = moved_each(corners, np.array([part.transform for part in self._parts]))
-            self._boxes = [box[:0] if none else box for box, none in zip(placed, void, strict=True)]
-        return list(self._boxes)
+        boxes = self._roots.boxes
+        void = (boxes[:, 0, 0] > boxes[:, 1, 0]).tolist()
+        corners, _ = self._placed
+        return [box[:0] if void[part.root] else box for part, box in zip(self._parts, corners, strict=True)]
 
     def bounds(self) -> Floats:
         """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
         if self._bounds is None:
-            corners = [box for box in self.boxes() if len(box)]
-            if not corners:
+            _, bounds = self._placed
+            if bounds[0, 0] > bounds[1, 0]:
                 raise SourceError(f"{self._name}: no part has any extent.")
-            every = np.concatenate(corners)
-            self._bounds = checked(self._name, np.stack((every.min(axis=0), every.max(axis=0))))
+            self._bounds = checked(self._name, bounds)
         return self._bounds.copy()
+
+    @property
+    def _placed(self) -> tuple[Floats, Floats]:
+        """Corners (p, 8, 3) of the parts' boxes, and the box around those that are not void."""
+        if self._corners is None:
+            roots = np.array([part.root for part in self._parts], np.int32)
+            places = np.array([part.transform for part in self._parts])
+            self._corners = _kernel.placed_boxes(self._roots.boxes, roots, places)
+        return self._corners
 
     def edge_shape(self, part: str, index: int) -> Any:
         """The TopoDS_Edge with this number in the TopExp edge map of the part of that name, without its placement."""
@@ -188,7 +191,8 @@ class BrepSource:
             self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
         tables, faults = self._tessellator.mesh(deflection, angle, progress)
         number = {root: i for i, root in enumerate(self._used)}
-        counts = np.diff(tables.triangle_start).tolist()
+        starts = tables.triangle_start
+        counts = (starts[1:] - starts[:-1]).tolist()
         notes, kept = [], []
         for part in self._parts:
             root = number[part.root]
@@ -226,7 +230,3 @@ def _precisions(tables: _kernel.PartTables) -> Floats:
         a, b = tables.point_start[i : i + 2]
         out[i] = precision(tables.points[a:b])
     return out
-
-
-FAR = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]).T
-"""(3, 8) along each axis, which corners of a box are its far ones."""

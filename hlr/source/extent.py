@@ -17,9 +17,10 @@ def checked(name: str, bounds: Floats) -> Floats:
     Raises:
         SourceError: a coordinate is beyond LARGEST or is no number; or no side reaches SMALLEST, and not all are zero.
     """
-    if not (np.abs(bounds) < LARGEST).all():  # also where one is NaN
+    low, high = bounds.tolist()
+    if not all(abs(c) < LARGEST for c in (*low, *high)):  # also where one is NaN
         raise SourceError(f"{name} has no finite size, or coordinates beyond {LARGEST:g}: repair the model.")
-    if 0.0 < (size := float((bounds[1] - bounds[0]).max())) < SMALLEST:
+    if 0.0 < (size := max(b - a for a, b in zip(low, high, strict=True))) < SMALLEST:
         raise SourceError(f"{name} is only {size:.3g} large, where {SMALLEST:g} is the least: scale the model up.")
     return bounds
 

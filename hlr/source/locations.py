@@ -27,8 +27,9 @@ def chained(outer: Rows, inner: Rows) -> Rows:
 
 
 def four(rows: Rows) -> Floats:
-    """The same as an array (4, 4)."""
+    """The same as an array (4, 4), without minus zeros."""
     whole: Floats = np.array((*rows, 0.0, 0.0, 0.0, 1.0)).reshape(4, 4)
+    whole += 0.0
     return whole
 
 
@@ -50,14 +51,4 @@ def moved(points: Floats, matrix: Floats) -> Floats:
     for i in range(3):
         a, b, c, d = (float(v) for v in matrix[i])
         result[:, i] = a * x + b * y + c * z + d
-    return result
-
-
-def moved_each(points: Floats, matrices: Floats) -> Floats:
-    """(n, k, 3) points, each k of them moved by their own matrix (n, 4, 4), elementwise."""
-    x, y, z = points[..., 0], points[..., 1], points[..., 2]
-    result = np.empty_like(points)
-    for i in range(3):
-        m = matrices[:, i, :, None]
-        result[..., i] = m[:, 0] * x + m[:, 1] * y + m[:, 2] * z + m[:, 3]
     return result

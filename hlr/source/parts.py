@@ -90,7 +90,7 @@ class Parts:
                     product=leaf.name,
                     color=piece.color or leaf.color,
                     root=piece.root,
-                    transform=four(chained(place, piece.place)) + 0.0,  # no minus zeros in records
+                    transform=four(chained(place, piece.place)),
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
                     look=partial(_look, leaf, self.roots[piece.root]),
                 )

@@ -44,9 +44,9 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 def normalized(v: Sequence[float], what: str) -> Vector:
     """v / |v|; raises ViewError where it has no direction."""
-    if len(v) != 3 or not all(math.isfinite(float(c)) for c in v):
+    if len(v) != 3 or not all(map(math.isfinite, v)):
         raise ViewError(f"{what} needs three finite numbers, not {', '.join(str(c) for c in v)}")
-    x, y, z = (float(c) for c in v)
+    x, y, z = map(float, v)
     # Scaled first, so that neither 1e-200 nor 1e200 is lost in the squares.
     largest = max(abs(x), abs(y), abs(z))
     if largest == 0.0:
@@ -78,13 +78,11 @@ class Camera:
 
         divide: by the distance from the eye also in a parallel view, where it is 1 everywhere.
         """
+        points = np.ascontiguousarray(points, np.float64)
         if self.eye is None or self.distance is None:
-            flat = np.stack([dot(points, self.right), dot(points, self.up), -dot(points, self.direction)], axis=1)
+            flat = _kernel.projected(points, self.direction, self.right, self.up)
             return flat / np.ones((len(points), 1)) if divide else flat
-        z = self.ahead(points)
-        away = points - np.asarray(self.eye)
-        factor = self.distance / z
-        return np.stack([dot(away, self.right) * factor, dot(away, self.up) * factor, -self.distance * factor], axis=1)
+        return _kernel.projected(points, self.direction, self.right, self.up, (self.eye, self.distance))
 
     def scaled(self, per_model: float) -> _kernel.Camera:
         """As the kernel takes it, with the millimetres on paper per model unit."""

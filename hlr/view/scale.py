@@ -19,6 +19,10 @@ from hlr.view.strays import stray_note
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
 
+CORNERS = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+"""(8, 3) which end of a box each of its corners has along each axis."""
+AXES = np.arange(3)
+
 _CURE = "give a scale, or a size to fit it into"
 
 MOST_MAGNIFIED = 50.0
@@ -55,7 +59,8 @@ class Placed:
                 self.tolerances.deflection * self.magnified, CURVE_BULGE * self.tolerances.accuracy / self.per_model
             )
             width, height = width + 2.0 * bulge, height + 2.0 * bulge
-        return replace(_sized(width, height, options, self), notes=self.notes)
+        sized = _sized(width, height, options, self.unit, self.brep, self.aspect, self.magnified)
+        return replace(sized, notes=self.notes)
 
 
 def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> Placed:
@@ -63,18 +68,17 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
 
     Raises OptionError for an accuracy that cannot be kept, SourceError for a model without size.
     """
-    corners = np.array([[bounds[i][0], bounds[j][1], bounds[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
-    if not np.isfinite(corners).all():
+    if not np.isfinite(bounds).all():
         raise SourceError(f"{source.name} has no finite size: repair the model")
+    corners = bounds[CORNERS, AXES]
     if float((bounds[1] - bounds[0]).max()) <= 0.0:
         raise SourceError(f"{source.name} has no size: all of it lies in one point")
     aspect = options.fit[0] / options.fit[1] if options.fit else ASPECT
     width, height = _extent(camera, corners, aspect)
     brep = source.kind in ("step", "iges", "brep", "script", "object")
     magnified = _magnified(camera, corners)
-    draft = Placed(1.0, 1.0, derive(1.0, 1.0, 0.0, brep=brep), source.frame.unit, brep, aspect, magnified)
-    placed = _sized(width, height, options, draft)
-    stray = stray_note(source.names(), source.boxes(), camera)
+    placed = _sized(width, height, options, source.frame.unit, brep, aspect, magnified)
+    stray = stray_note(source, camera)
     return placed if stray is None else replace(placed, notes=(*placed.notes, stray))
 
 
@@ -104,19 +108,22 @@ def _magnified(camera: Camera, points: Floats) -> float:
     return max(1.0, camera.distance / nearest)
 
 
-def _sized(width: float, height: float, options: Options, draft: Placed) -> Placed:
+def _sized(
+    width: float, height: float, options: Options, unit: float, brep: bool, aspect: float, magnified: float
+) -> Placed:
+    """width, height: on the image plane, model units."""
     scale = options.scale
     if options.fit is not None:
-        ratios = [f / (s * draft.unit) for f, s in zip(options.fit, (width, height), strict=True) if s > 0.0]
+        ratios = [f / (s * unit) for f, s in zip(options.fit, (width, height), strict=True) if s > 0.0]
         scale = min(ratios, default=1.0)
-    per_model = scale * draft.unit
+    per_model = scale * unit
     diagonal = math.hypot(width, height) * per_model
     accuracy = choose(options.accuracy, diagonal)
-    tolerances = derive(accuracy, per_model * draft.magnified, diagonal, brep=draft.brep)
+    tolerances = derive(accuracy, per_model * magnified, diagonal, brep=brep)
     notes: tuple[Note, ...] = ()
     if options.fit is None and options.scale == 1.0 and diagonal > 0.0:
         if diagonal < SMALLEST_PAPER:
             notes = (Note("paper-size", f"the drawing is only {diagonal:.2g} mm large at 1:1: {_CURE}"),)
         elif diagonal > LARGEST_PAPER:
             notes = (Note("paper-size", f"the drawing is {diagonal / 1000.0:.3g} m large at 1:1: {_CURE}"),)
-    return replace(draft, scale=scale, per_model=per_model, tolerances=tolerances, notes=notes)
+    return Placed(scale, per_model, tolerances, unit, brep, aspect, magnified, notes)

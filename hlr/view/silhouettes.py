@@ -43,7 +43,9 @@ def with_silhouettes(
     """The scene with the outlines of its true surfaces; those faces' mesh contours are outlines no longer."""
     plan = planner or Planner(DRAWING, Options())
     on = scene.true_surfaces
-    wanted = plan.on("outlines", Facts(curved=0 if on is None else int(on.curved.sum()), faces=on is not None))
+    wanted = plan.on(
+        "outlines", Facts(curved=0 if on is None else int(np.count_nonzero(on.curved)), faces=on is not None)
+    )
     if not wanted or on is None:
         return scene
     with plan.timed("outlines"):

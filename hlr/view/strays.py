@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hlr.notes import Note
-from hlr.source.model import Floats
+from hlr.source.model import Floats, Source
 from hlr.view.camera import Camera
 
 MOST = 3
@@ -20,10 +20,14 @@ GAP = 1.0
 """How far each is from the rest, in diagonals of the rest."""
 
 
-def stray_note(names: Sequence[str], boxes: Sequence[Floats], camera: Camera) -> Note | None:
-    """A remark where strays stretch the view; names and boxes (k, 3) are those of the parts."""
+def stray_note(source: Source, camera: Camera) -> Note | None:
+    """A remark where some of a source's parts stretch the view."""
+    names = source.names()
+    if camera.framed or len(names) < 4:
+        return None
+    boxes = source.boxes()
     some = [i for i, box in enumerate(boxes) if len(box)]
-    if camera.framed or len(some) < 4:
+    if len(some) < 4:
         return None
     low, high = _flat([boxes[i] for i in some], camera)
     found = strays(low, high)

@@ -63,10 +63,11 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
         plan.pyramid,
         _own_faces(scene),
     )
-    found["counters"]["contacts"] = int((found["state"] >= WITHIN).sum())
-    # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
     state, edge = found["state"], found["edge"]
-    state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
+    contacts = found["counters"]["contacts"] = int(np.count_nonzero(state >= WITHIN))
+    if contacts:
+        # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
+        state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
     t0, t1 = found["t0"], found["t1"]
     if scene.silhouettes is not None and scene.silhouettes.hidden.any():
         own = np.flatnonzero(scene.silhouettes.hidden).astype(np.int32)

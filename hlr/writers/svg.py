@@ -68,9 +68,8 @@ def title(drawing: Drawing) -> str:
 def _metadata(drawing: Drawing) -> str:
     """What is needed to go from a path back to the model."""
     view = drawing.view
+    named = {"source": drawing.source, "view": view.name}
     fields = {
-        "source": drawing.source,
-        "view": view.name,
         "projection": view.projection,
         "direction": _vector(view.direction),
         "right": _vector(view.right),
@@ -84,7 +83,12 @@ def _metadata(drawing: Drawing) -> str:
         "unit": f"{drawing.unit:.9g}",
         **accuracies(drawing),
     }
-    attributes = " ".join(f"{key}={_quoted(value)}" for key, value in fields.items())
+    attributes = " ".join(
+        [
+            *(f"{key}={_quoted(value)}" for key, value in named.items()),
+            *(f'{key}="{value}"' for key, value in fields.items()),
+        ]
+    )
     parts = []
     for index, part in enumerate(drawing.parts):
         color = f' color="{_hex(part.color)}"' if part.color is not None else ""

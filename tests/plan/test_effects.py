@@ -1,6 +1,7 @@
 """Each effect has a scene that calls for it and one that does not; what is off does nothing, and on changes nothing."""
 
 import json
+import pickle
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,7 +16,7 @@ from linework.models import box, parts, rotation, sheet, solids
 
 import hlr
 from hlr import Options, Perspective, pipeline
-from hlr.plan.effect import PLAN, SCENE, Decision, Effect, Facts, Planner, everything_on, explained
+from hlr.plan.effect import PLAN, SCENE, Decision, Decisions, Effect, Facts, Planner, everything_on, explained
 from hlr.plan.table import DRAWING
 from hlr.visibility.segments import solve
 from hlr.writers import render
@@ -369,3 +370,15 @@ def test_visible_lines_are_the_same_without_the_hidden_ones(name):
         assert one.points3.tolist() == other.points3.tolist()
         # Both are measured from the lower left corner of what is drawn.
         assert one.points + with_.origin == pytest.approx(other.points + without.origin, abs=1e-9)
+
+
+def test_decisions_become_records_when_they_are_looked_at():
+    planner = Planner(DRAWING, hlr.Options())
+    planner.on("outlines", Facts(curved=2))
+    planner.spent("outlines", outlines=3)
+    late = Decisions(planner, {"outlines": 3})
+    assert late == planner.decisions({"outlines": 3}) == tuple(late) and late == Decisions(planner, {"outlines": 3})
+    assert late[0].name == "outlines" and late[:1] == (late[0],) and len(late) == 2
+    assert hash(late) == hash(tuple(late)) and repr(late) == repr(tuple(late))
+    assert pickle.loads(pickle.dumps(late)) == tuple(late)
+    assert planner.cost("outlines") == {"outlines": 3} and planner.cost("repair") == {}

@@ -14,6 +14,7 @@ mod meshfile;
 mod methods;
 mod painters;
 mod parts;
+mod place;
 mod preview;
 mod raster;
 mod running;
@@ -36,6 +37,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(clash::reach, m)?)?;
     m.add_function(wrap_pyfunction!(clash::boxes_meet, m)?)?;
+    m.add_function(wrap_pyfunction!(place::projected, m)?)?;
+    m.add_function(wrap_pyfunction!(place::placed_boxes, m)?)?;
     m.add_function(wrap_pyfunction!(geometry::curve_points, m)?)?;
     m.add_function(wrap_pyfunction!(geometry::surface_points, m)?)?;
     m.add_class::<drawn::Lines>()?;
