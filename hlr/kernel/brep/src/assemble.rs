@@ -1,8 +1,7 @@
 //! Parts put together from the meshes of their faces: one node for each place, whatever face it is seen from.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::faces::Node;
 use crate::format::{IDENTITY, Matrix, moved};
@@ -37,7 +36,7 @@ pub fn assemble(model: &Model, meshed: &Tessellation) -> Vec<PartMesh> {
 struct Corners {
     start: Vec<u32>,
     of_edge: Vec<u32>,
-    vertices: HashMap<Vertex, u32>,
+    vertices: FxHashMap<Vertex, u32>,
     points: Vec<[f64; 3]>,
 }
 
@@ -48,7 +47,15 @@ impl Corners {
 }
 
 fn corners(meshed: &Tessellation, laid: &LaidPart) -> Corners {
-    let mut out = Corners { start: vec![0], of_edge: Vec::new(), vertices: HashMap::new(), points: Vec::new() };
+    let lines = laid.edges.iter().filter_map(|edge| meshed.lines[edge.edge as usize].as_ref());
+    let count = lines.map(|line| line.points.len()).sum();
+    let mut out = Corners {
+        start: Vec::with_capacity(laid.edges.len() + 1),
+        of_edge: Vec::with_capacity(count),
+        vertices: FxHashMap::with_capacity_and_hasher(laid.edges.len(), FxBuildHasher),
+        points: Vec::with_capacity(count),
+    };
+    out.start.push(0);
     for edge in &laid.edges {
         if let Some(line) = &meshed.lines[edge.edge as usize] {
             let place = |p: &[f64; 3]| edge.place.as_ref().map_or(*p, |m| moved(m, p));
@@ -75,8 +82,16 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
     let laid = &model.laid[number];
     let mut corners = corners(meshed, laid);
     let mut out = PartMesh::default();
-    let mut degenerate_ends: HashMap<Vertex, u32> = HashMap::new();
-    let edge_number: HashMap<(u32, u32), u32> =
+    let meshes = || laid.faces.iter().map(|face| &meshed.faces[face.face as usize].mesh);
+    let [triangles, points]: [usize; 2] =
+        [meshes().map(|mesh| mesh.triangles.len()).sum(), meshes().map(|mesh| mesh.points.len()).sum()];
+    out.triangles.reserve(triangles);
+    out.triangle_face.reserve(triangles);
+    out.corner.reserve(triangles);
+    out.uv.reserve(points);
+    corners.points.reserve(points);
+    let mut degenerate_ends: FxHashMap<Vertex, u32> = FxHashMap::default();
+    let edge_number: FxHashMap<(u32, u32), u32> =
         (0..).zip(&laid.edges).map(|(i, edge)| ((edge.edge, edge.location), i)).collect();
     for (f, face) in laid.faces.iter().enumerate() {
         let found = &meshed.faces[face.face as usize];
@@ -143,7 +158,7 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
         out.face_reversed.push(face.reversed);
     }
     lines(model, meshed, number, &corners, &mut out);
-    compress(corners.points, &mut out);
+    compress(&corners.points, &mut out);
     out
 }
 
@@ -154,18 +169,24 @@ fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners,
         let all = corners.of(e);
         let classes = &model.classes[number][e];
         let mut begin = 0;
-        for (piece, class) in classes.of_pieces.iter().enumerate() {
-            let end = classes.joints.get(piece).map_or(all.len() - 1, |joint| {
+        let of_pieces = std::iter::once(&classes.first).chain(classes.more.iter().map(|(_, class)| class));
+        for (piece, class) in of_pieces.enumerate() {
+            let end = classes.more.get(piece).map_or(all.len() - 1, |(joint, _)| {
                 let at = line.parameters.partition_point(|t| t < joint);
                 at.clamp(begin, all.len() - 1)
             });
-            let mut nodes: Vec<i32> = all[begin..=end].iter().map(|&n| n as i32).collect();
-            nodes.dedup();
-            if nodes.len() > 1 {
-                out.edge_counts.push(nodes.len() as i32);
-                out.edge_nodes.extend(nodes);
+            let first = out.edge_nodes.len();
+            for &node in &all[begin..=end] {
+                if out.edge_nodes[first..].last() != Some(&(node as i32)) {
+                    out.edge_nodes.push(node as i32);
+                }
+            }
+            if out.edge_nodes.len() > first + 1 {
+                out.edge_counts.push((out.edge_nodes.len() - first) as i32);
                 out.edge_index.push(e as i32);
                 out.edge_class.push(*class as u8);
+            } else {
+                out.edge_nodes.truncate(first);
             }
             begin = end;
         }
@@ -173,12 +194,13 @@ fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners,
 }
 
 /// Points that something uses, in their order.
-fn compress(points: Vec<[f64; 3]>, out: &mut PartMesh) {
+fn compress(points: &[[f64; 3]], out: &mut PartMesh) {
     let mut number = vec![-1i32; points.len()];
+    out.points.reserve(points.len());
     for &i in out.triangles.iter().flatten().chain(&out.edge_nodes) {
         number[i as usize] = 0;
     }
-    for (n, point) in number.iter_mut().zip(points) {
+    for (n, &point) in number.iter_mut().zip(points) {
         if *n == 0 {
             *n = out.points.len() as i32;
             out.points.push(point);

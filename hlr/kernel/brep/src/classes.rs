@@ -2,7 +2,7 @@
 
 use crate::format::Orientation;
 use crate::laid::{LaidFace, LaidPart};
-use crate::model::{Face, Model, Use};
+use crate::model::{Model, Use};
 use crate::tangency::{Meeting, NEARLY_TANGENT, Side, meeting, worst};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,11 +14,12 @@ pub enum EdgeClass {
     Boundary = 3,
 }
 
-/// Of one edge of a part: its pieces' classes, and the parameters on the edge's curve where they join.
+/// Of one edge of a part: its class at the beginning, and that of each further piece with the parameter on the edge's curve
+/// where it begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Classes {
-    pub of_pieces: Vec<EdgeClass>,
-    pub joints: Vec<f64>,
+    pub first: EdgeClass,
+    pub more: Vec<(f64, EdgeClass)>,
 }
 
 /// An edge of two faces is smooth where the surface normals agree along it; a seam whose normals do not agree is a
@@ -26,11 +27,11 @@ pub struct Classes {
 pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
     let laid = &part.edges[number];
     let edge = &model.edges[laid.edge as usize];
-    let whole = |class| Classes { of_pieces: vec![class], joints: Vec::new() };
+    let whole = |first| Classes { first, more: Vec::new() };
     let sharp_or = |smooth: bool, class| if smooth { class } else { EdgeClass::Sharp };
     match laid.faces[..] {
         [one] if laid.twice => {
-            let sides = sides_of_seam(model, &part.faces[one as usize], number as u32);
+            let sides = sides_of_seam(model, part, one, number as u32);
             let agree = match sides.as_ref().map(|sides| (sides.iter().any(|s| s.free), worst(sides))) {
                 Some((false, _)) => true,
                 Some((true, Some(angle))) => angle <= NEARLY_TANGENT,
@@ -40,7 +41,7 @@ pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
         }
         [_] if !laid.inner => whole(EdgeClass::Boundary),
         [one, two] => {
-            let found = [one, two].map(|face| side(model, &part.faces[face as usize], number as u32));
+            let found = [one, two].map(|face| side(model, part, face, number as u32));
             let met = match found {
                 [Some(one), Some(two)] => meeting(&[one, two], edge.tangent),
                 _ => Meeting::Unknown,
@@ -50,9 +51,11 @@ pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
                 Meeting::Whole(smooth) => whole(sharp_or(smooth, EdgeClass::Smooth)),
                 Meeting::Pieces(smooth, shares) => {
                     let [first, last] = edge.range;
+                    let class = |smooth: bool| sharp_or(smooth, EdgeClass::Smooth);
+                    let more = shares.iter().zip(&smooth[1..]);
                     Classes {
-                        of_pieces: smooth.into_iter().map(|s| sharp_or(s, EdgeClass::Smooth)).collect(),
-                        joints: shares.into_iter().map(|s| first + s * (last - first)).collect(),
+                        first: class(smooth[0]),
+                        more: more.map(|(share, smooth)| (first + share * (last - first), class(*smooth))).collect(),
                     }
                 }
             }
@@ -61,13 +64,13 @@ pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
     }
 }
 
-fn uses<'a>(model: &'a Model, laid: &'a LaidFace, number: u32) -> impl Iterator<Item = &'a Use> {
-    let face: &Face = &model.faces[laid.face as usize];
-    laid.uses.iter().zip(face.wires.iter().flatten()).filter(move |(edge, _)| **edge == number).map(|(_, used)| used)
+fn uses<'a>(model: &'a Model, part: &'a LaidPart, face: u32, number: u32) -> impl Iterator<Item = &'a Use> {
+    let wires = &model.faces[part.faces[face as usize].face as usize].wires;
+    part.places(number, face).map(|[wire, k]| &wires[wire][k])
 }
 
-fn side<'a>(model: &'a Model, laid: &'a LaidFace, number: u32) -> Option<Side<'a>> {
-    one_side(model, laid, uses(model, laid, number).next()?)
+fn side<'a>(model: &'a Model, part: &'a LaidPart, face: u32, number: u32) -> Option<Side<'a>> {
+    one_side(model, &part.faces[face as usize], uses(model, part, face, number).next()?)
 }
 
 fn one_side<'a>(model: &'a Model, laid: &'a LaidFace, used: &Use) -> Option<Side<'a>> {
@@ -81,8 +84,9 @@ fn one_side<'a>(model: &'a Model, laid: &'a LaidFace, used: &Use) -> Option<Side
 const LAST_ELEMENTARY: u8 = 5;
 
 /// None where the face does not have the edge once in each sense.
-fn sides_of_seam<'a>(model: &'a Model, laid: &'a LaidFace, number: u32) -> Option<[Side<'a>; 2]> {
-    let both: Vec<&Use> = uses(model, laid, number).collect();
+fn sides_of_seam<'a>(model: &'a Model, part: &'a LaidPart, face: u32, number: u32) -> Option<[Side<'a>; 2]> {
+    let laid = &part.faces[face as usize];
+    let both: Vec<&Use> = uses(model, part, face, number).collect();
     match both[..] {
         [one, two] if one.orientation != two.orientation && two.orientation != Orientation::Internal => {
             Some([one_side(model, laid, one)?, one_side(model, laid, two)?])

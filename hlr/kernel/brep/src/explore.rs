@@ -2,7 +2,7 @@
 //!
 //! The order is that of TopExp::MapShapes, so that a number here is an index in a part's face or edge map.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::format::{Damaged, Dump, Kind, Orientation, Sub};
 
@@ -67,11 +67,11 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
         |&i: &u32| root.subs.get(i as usize).copied().ok_or(Damaged { what: "a part that there is not", at: 0 });
     let children = chosen.map_or_else(|| Ok(root.subs.clone()), |some| some.iter().map(child).collect())?;
     let mut found = Explored { faces: Vec::new(), edges: Vec::new(), parts: Vec::new() };
-    let (mut faces, mut edges) = (HashMap::new(), HashMap::new());
+    let [mut faces, mut edges] = [0, 1].map(|_| vec![None; dump.shapes.len()]);
     let (mut left, mut stack) = (MOST, Vec::new());
     for child in children {
         let mut part = Part::default();
-        let (mut placed_faces, mut placed_edges) = (HashMap::new(), HashMap::new());
+        let (mut placed_faces, mut placed_edges) = (FxHashMap::default(), FxHashMap::default());
         stack.push(Item {
             shape: child.shape,
             location: dump.locations.written(child.location),
@@ -126,8 +126,8 @@ fn placed_key(number: u32, location: u32) -> u64 {
     u64::from(number) << 32 | u64::from(location)
 }
 
-fn numbered(known: &mut HashMap<u32, u32>, all: &mut Vec<u32>, shape: u32) -> u32 {
-    *known.entry(shape).or_insert_with(|| {
+fn numbered(known: &mut [Option<u32>], all: &mut Vec<u32>, shape: u32) -> u32 {
+    *known[shape as usize].get_or_insert_with(|| {
         all.push(shape);
         all.len() as u32 - 1
     })

@@ -1,6 +1,6 @@
 //! Parts with everything that stands in them told by its place in the part: what faces and edges share.
 
-use std::collections::HashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::explore::Part;
 use crate::format::{Locations, Matrix, determinant};
@@ -9,6 +9,19 @@ use crate::model::{Edge, Face, Vertex};
 pub struct LaidPart {
     pub edges: Vec<LaidEdge>,
     pub faces: Vec<LaidFace>,
+    /// By edges: which faces run through it, each in which wire, and where in it. In the faces' order.
+    places: Vec<[u32; 3]>,
+    /// Of each edge.
+    first_place: Vec<u32>,
+}
+
+impl LaidPart {
+    /// Where a face runs through an edge, in its order: wire, and number in the wire.
+    pub fn places(&self, edge: u32, face: u32) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let [begin, end] = [0, 1].map(|k| self.first_place[edge as usize + k] as usize);
+        let all = self.places[begin..end].iter().filter(move |place| place[0] == face);
+        all.map(|&[_, wire, number]| [wire as usize, number as usize])
+    }
 }
 
 pub struct LaidEdge {
@@ -32,7 +45,7 @@ pub struct LaidFace {
     /// Numbers in the part of the edges that its wires run through, one wire after another.
     pub uses: Vec<u32>,
     /// From locations within the face to locations within the part.
-    locations: HashMap<u32, u32>,
+    locations: FxHashMap<u32, u32>,
 }
 
 impl LaidFace {
@@ -43,7 +56,7 @@ impl LaidFace {
 
 pub fn laid(part: &Part, model_faces: &[Face], model_edges: &[Edge], locations: &mut Locations) -> LaidPart {
     let place = |locations: &mut Locations, number: u32| (number != 0).then(|| locations.matrix(number));
-    let mut numbers: HashMap<(u32, u32), u32> = HashMap::with_capacity(part.edges.len());
+    let mut numbers: FxHashMap<(u32, u32), u32> = FxHashMap::with_capacity_and_hasher(part.edges.len(), FxBuildHasher);
     let mut edges = Vec::with_capacity(part.edges.len());
     for (i, placed) in (0..).zip(&part.edges) {
         numbers.insert((placed.edge, placed.location), i);
@@ -55,7 +68,7 @@ pub fn laid(part: &Part, model_faces: &[Face], model_edges: &[Edge], locations: 
             location: placed.location,
             place: place(locations, placed.location),
             ends,
-            faces: Vec::new(),
+            faces: Vec::with_capacity(2),
             twice: false,
             inner: false,
         });
@@ -69,14 +82,15 @@ pub fn laid(part: &Part, model_faces: &[Face], model_edges: &[Edge], locations: 
             edge.faces.push(used.face);
         }
     }
-    let faces = part
+    let faces: Vec<LaidFace> = part
         .faces
         .iter()
         .map(|placed| {
             let matrix = place(locations, placed.location);
-            let mut within = HashMap::new();
-            let mut uses = Vec::new();
-            for used in model_faces[placed.face as usize].wires.iter().flatten() {
+            let mut within = FxHashMap::default();
+            let wires = &model_faces[placed.face as usize].wires;
+            let mut uses = Vec::with_capacity(wires.iter().map(Vec::len).sum());
+            for used in wires.iter().flatten() {
                 for number in [used.location, used.ends[0].1, used.ends[1].1] {
                     within.entry(number).or_insert_with(|| locations.product(placed.location, number));
                 }
@@ -92,5 +106,30 @@ pub fn laid(part: &Part, model_faces: &[Face], model_edges: &[Edge], locations: 
             }
         })
         .collect();
-    LaidPart { edges, faces }
+    let (places, first_place) = places(&faces, model_faces, edges.len());
+    LaidPart { edges, faces, places, first_place }
+}
+
+fn places(faces: &[LaidFace], model_faces: &[Face], edges: usize) -> (Vec<[u32; 3]>, Vec<u32>) {
+    let known = |edge: &&u32| (**edge as usize) < edges;
+    let mut first = vec![0u32; edges + 1];
+    faces.iter().flat_map(|face| &face.uses).filter(known).for_each(|&edge| first[edge as usize + 1] += 1);
+    for i in 0..edges {
+        first[i + 1] += first[i];
+    }
+    let mut next = first.clone();
+    let mut places = vec![[0; 3]; first[edges] as usize];
+    for (number, face) in (0..).zip(faces) {
+        let mut uses = face.uses.iter();
+        for (w, wire) in (0..).zip(&model_faces[face.face as usize].wires) {
+            for (k, edge) in (0..wire.len() as u32).zip(&mut uses) {
+                if known(&edge) {
+                    let place = &mut next[*edge as usize];
+                    places[*place as usize] = [number, w, k];
+                    *place += 1;
+                }
+            }
+        }
+    }
+    (places, first)
 }

@@ -1,12 +1,10 @@
 //! A dump as parts, faces and edges: each underlying face and edge once, however often it is placed.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use crate::classes::{Classes, classes};
 use crate::explore::{self, Part};
-use crate::format::{Damaged, Dump, Kind, Locations, Matrix, On, Orientation, SurfaceRecord};
+use crate::format::{Damaged, Dump, Kind, Locations, Matrix, On, Orientation, Shape, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
@@ -100,7 +98,8 @@ impl Model {
         let found = explore::explore(&mut dump, chosen)?;
         let mut triangulations: Vec<_> = std::mem::take(&mut dump.triangulations).into_iter().map(Some).collect();
         let edges: Vec<Edge> = found.edges.iter().map(|&shape| edge(&mut dump, shape)).collect();
-        let number: HashMap<u32, u32> = (0..).zip(&found.edges).map(|(i, &shape)| (shape, i)).collect();
+        let mut number = vec![None; dump.shapes.len()];
+        (0..).zip(&found.edges).for_each(|(i, &shape)| number[shape as usize] = Some(i));
         let faces: Vec<Face> =
             found.faces.iter().map(|&shape| face(&mut dump, shape, &number, &edges, &mut triangulations)).collect();
         let Dump { mut locations, curves2, .. } = dump;
@@ -118,7 +117,7 @@ impl Model {
         self.classes = self.laid.par_iter().map(of_part).collect();
         for (part, classes) in self.laid.iter().zip(&self.classes) {
             for (laid, classes) in part.edges.iter().zip(classes) {
-                self.edges[laid.edge as usize].joints.extend(&classes.joints);
+                self.edges[laid.edge as usize].joints.extend(classes.more.iter().map(|(joint, _)| joint));
             }
         }
         for edge in &mut self.edges {
@@ -129,8 +128,10 @@ impl Model {
 }
 
 fn edge(dump: &mut Dump, shape: u32) -> Edge {
-    let shape = dump.shapes[shape as usize].clone();
-    let Kind::Edge { tolerance, degenerate, on, continuity, .. } = shape.kind else { unreachable!("an edge") };
+    let shape = &mut dump.shapes[shape as usize];
+    let subs = std::mem::take(&mut shape.subs);
+    let Kind::Edge { tolerance, degenerate, ref mut on, continuity, .. } = shape.kind else { unreachable!("an edge") };
+    let on = std::mem::take(on);
     let mut found = Edge {
         curve: None,
         range: [0.0; 2],
@@ -140,7 +141,7 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
         end_points: [None; 2],
         // 0: nothing recorded, 1: C0, from there on tangent.
         tangent: continuity > 1,
-        on: Vec::new(),
+        on: Vec::with_capacity(on.len()),
         polygon: None,
         only_on: None,
         joints: Vec::new(),
@@ -149,11 +150,12 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
         match on {
             On::Curve { curve, location, range } if found.curve.is_none() => {
                 let location = dump.locations.written(location);
-                found.curve = dump.curves[curve].clone();
-                if location != 0 {
+                found.curve = if location == 0 {
+                    dump.curves[curve].clone()
+                } else {
                     let matrix = dump.locations.matrix(location);
-                    found.curve = found.curve.map(|curve| curve.moved(&matrix));
-                }
+                    dump.curves[curve].as_ref().map(|curve| curve.moved(&matrix))
+                };
                 found.range = range;
             }
             On::Surface { curves, surface, location, range } => {
@@ -180,7 +182,7 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
                 .map(|surface| (on.curves[0], surface));
         }
     }
-    for sub in &shape.subs {
+    for sub in subs {
         let end = match sub.orientation {
             Orientation::Forward => 0,
             Orientation::Reversed => 1,
@@ -199,30 +201,30 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
 fn face(
     dump: &mut Dump,
     shape: u32,
-    number: &HashMap<u32, u32>,
+    number: &[Option<u32>],
     edges: &[Edge],
     triangulations: &mut [Option<crate::format::Triangulation>],
 ) -> Face {
-    let shape = dump.shapes[shape as usize].clone();
+    let shape = &mut dump.shapes[shape as usize];
+    let subs = std::mem::take(&mut shape.subs);
     let Kind::Face { tolerance, surface, location, triangulation } = shape.kind else { unreachable!("a face") };
     let location = dump.locations.written(location);
-    let mut record = surface.and_then(|i| dump.surfaces[i].clone());
-    if location != 0 {
+    let record = if location == 0 {
+        surface.and_then(|i| dump.surfaces[i].clone())
+    } else {
         let matrix = dump.locations.matrix(location);
-        record = record.and_then(|r| moved(r.kind, &r.data, &matrix).map(|data| SurfaceRecord { kind: r.kind, data }));
-    }
+        let written = surface.and_then(|i| dump.surfaces[i].as_ref());
+        written.and_then(|r| Some(SurfaceRecord { kind: r.kind, data: moved(r.kind, &r.data, &matrix)? }))
+    };
     let read = record.as_ref().and_then(|r| Surface::read(r.kind, &r.data));
     let own = if surface.is_none() { triangulation.and_then(|i| triangulations[i].clone()) } else { None };
-    let mut wires = Vec::new();
-    for wire in &shape.subs {
-        let inner = match dump.shapes[wire.shape as usize].kind {
-            Kind::Wire => dump.shapes[wire.shape as usize].subs.clone(),
-            _ => continue,
-        };
+    let mut wires = Vec::with_capacity(subs.len());
+    for wire in subs {
+        let Shape { kind: Kind::Wire, subs: inner } = &dump.shapes[wire.shape as usize] else { continue };
         let outer = dump.locations.written(wire.location);
         let mut uses = Vec::with_capacity(inner.len());
-        for sub in inner {
-            let Some(&edge) = number.get(&sub.shape) else { continue };
+        for &sub in inner {
+            let Some(edge) = number[sub.shape as usize] else { continue };
             let within = dump.locations.written(sub.location);
             let stands = dump.locations.product(outer, within);
             let orientation = wire.orientation.compose(sub.orientation);

@@ -10,7 +10,7 @@
 //!            \     / \       /            (fans to the third corners)
 //! ```
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::faces::Node;
 use crate::format::{Orientation, moved};
@@ -42,8 +42,8 @@ pub fn patched(model: &Model, meshed: &Tessellation, number: usize, mut foreign:
     if uses.len() != foreign.borders.len() || !is_sound(&foreign, uses.iter().map(|used| used.orientation)) {
         return None;
     }
-    let mut node_of: HashMap<u32, Node> = HashMap::new();
-    let mut fans: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+    let mut node_of: FxHashMap<u32, Node> = FxHashMap::default();
+    let mut fans: FxHashMap<[u32; 2], Vec<u32>> = FxHashMap::default();
     for (used, border) in uses.into_iter().zip(&foreign.borders) {
         let line = meshed.lines[used.edge as usize].as_ref()?;
         let last = line.points.len() - 1;
@@ -118,7 +118,7 @@ const OTHER_AREA: f64 = 0.1;
 /// Whether no triangle is turned over in (u, v), and each side has its counterpart: a side of a neighbour, or a chord of
 /// the border in the right sense.
 fn is_sound(foreign: &Foreign, orientations: impl Iterator<Item = Orientation>) -> bool {
-    let mut sides: HashMap<[u32; 2], i32> = HashMap::new();
+    let mut sides: FxHashMap<[u32; 2], i32> = FxHashMap::default();
     for t in &foreign.triangles {
         let [a, b, c] = t.map(|i| foreign.uv[i as usize]);
         let size = area(&a, &b, &c);
@@ -153,7 +153,7 @@ fn nearest(parameters: &[f64], t: f64) -> usize {
 }
 
 /// One side with corners upon it after the other.
-fn divide(t: [u32; 3], fans: &HashMap<[u32; 2], Vec<u32>>, out: &mut Vec<[u32; 3]>) {
+fn divide(t: [u32; 3], fans: &FxHashMap<[u32; 2], Vec<u32>>, out: &mut Vec<[u32; 3]>) {
     for k in 0..3 {
         let [a, b, c] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
         if let Some(between) = fans.get(&[a, b]) {
@@ -173,7 +173,7 @@ fn divide(t: [u32; 3], fans: &HashMap<[u32; 2], Vec<u32>>, out: &mut Vec<[u32; 3
 fn ordered(
     foreign: Foreign,
     triangles: Vec<[u32; 3]>,
-    node_of: &HashMap<u32, Node>,
+    node_of: &FxHashMap<u32, Node>,
     surface: Option<&crate::geometry::surface::Surface>,
 ) -> MeshedFace {
     let count = foreign.points.len() as u32;
@@ -184,7 +184,7 @@ fn ordered(
         place[i as usize] = k;
     }
     let mut nodes = Vec::new();
-    let mut numbers: HashMap<Node, u32> = HashMap::new();
+    let mut numbers: FxHashMap<Node, u32> = FxHashMap::default();
     let of_border = order
         .iter()
         .filter_map(|i| node_of.get(i))
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn corners_on_two_sides_divide_a_triangle_into_fans() {
-        let fans = HashMap::from([([0, 1], vec![5, 6]), ([1, 2], vec![7])]);
+        let fans = FxHashMap::from_iter([([0, 1], vec![5, 6]), ([1, 2], vec![7])]);
         let mut out = Vec::new();
         divide([0, 1, 2], &fans, &mut out);
         assert_eq!(out, [[0, 5, 2], [5, 6, 2], [1, 7, 6], [7, 2, 6]]);

@@ -12,6 +12,10 @@
 //!
 //! Between two breaks surfaces and curve are smooth, and a span has several places. Where the faces are tangent along one
 //! stretch and meet at an angle along another, the edge falls into pieces, each of its own class.
+//!
+//! Most edges need none of this: `glance` tells by closed form, or from a few places, that they are nowhere near a limit.
+
+mod glance;
 
 use std::f64::consts::PI;
 
@@ -19,6 +23,7 @@ use crate::format::{Matrix, moved, turned};
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, cross, dot, length, scaled, sub};
+use glance::{glance, is_even};
 
 /// Radians: surfaces that meet at less are tangent; what STEP and IGES readers assume as well.
 const TANGENT: f64 = 0.01;
@@ -34,6 +39,8 @@ const STEPS: usize = 16;
 const STEPS_OF_SPAN: usize = 2;
 /// Parts of an edge whose surfaces cannot turn to and fro between the places.
 const STEPS_SIMPLE: usize = 3;
+/// Parts of any other edge, for a first look.
+const STEPS_AT_A_GLANCE: usize = 8;
 /// Shares of the way from break to break at which the faces are compared: at a knot, on either side of it.
 const PLACES: [f64; 3] = [1e-6, 0.5, 1.0 - 1e-6];
 /// Of one edge; surfaces with more knots across it are compared at fewer.
@@ -73,48 +80,102 @@ pub fn meeting(sides: &[Side; 2], recorded: bool) -> Meeting {
     if sides.iter().any(|s| s.curve.is_none() && !matches!(s.surface, Surface::Plane(_))) {
         return Meeting::Unknown;
     }
-    let free = sides.iter().any(|s| s.free);
-    let found: Vec<(f64, f64, Vector)> = places(sides, free)
-        .into_iter()
-        .filter_map(|share| angle(sides, share).map(|(angle, point)| (share, angle, point)))
-        .collect();
+    let sides = &sides.each_ref().map(Fixed::new);
+    if is_even(sides)
+        && let Some(angle) = angle(sides, 0.5)
+    {
+        return Meeting::Whole(angle <= TANGENT || (angle <= NEARLY_TANGENT && recorded));
+    }
+    if sides.iter().any(|s| s.side.free) { free_meeting(sides, recorded) } else { plain_meeting(sides, recorded) }
+}
+
+/// Of elementary surfaces.
+fn plain_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
+    if !recorded && angle(sides, 0.5).is_some_and(|angle| angle > WAVERING) {
+        return Meeting::Whole(false);
+    }
+    if let Some(smooth) = glance(sides, STEPS_SIMPLE) {
+        return Meeting::Whole(smooth);
+    }
+    let (mut count, mut squares, mut least, mut most) = (0, 0.0, f64::INFINITY, 0.0f64);
+    for angle in places(sides, false).into_iter().filter_map(|share| angle(sides, share)) {
+        (least, most) = (least.min(angle), most.max(angle));
+        (count, squares) = (count + 1, squares + angle.sin().powi(2));
+        // The other places cannot make it tangent any more.
+        if most > WAVERING && (!recorded || least <= NEARLY_TANGENT) {
+            return Meeting::Whole(recorded);
+        }
+    }
+    if count == 0 {
+        return Meeting::Unknown;
+    }
+    let wavers = most <= WAVERING && squares / f64::from(count) <= MOSTLY_TANGENT.sin().powi(2);
+    Meeting::Whole(most <= TANGENT || (least <= NEARLY_TANGENT && (recorded || wavers)))
+}
+
+/// Where one surface is not elementary.
+fn free_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
+    if let Some(smooth) = glance(sides, STEPS_AT_A_GLANCE) {
+        return Meeting::Whole(smooth);
+    }
+    let found: Vec<(f64, f64)> =
+        places(sides, true).into_iter().filter_map(|share| Some((share, angle(sides, share)?))).collect();
     if found.is_empty() {
         return Meeting::Unknown;
     }
-    let least = found.iter().map(|f| f.1).fold(f64::INFINITY, f64::min);
-    let most = found.iter().map(|f| f.1).fold(0.0, f64::max);
-    if most <= TANGENT {
+    if found.iter().all(|f| f.1 <= TANGENT) {
         return Meeting::Whole(true);
     }
-    if least > NEARLY_TANGENT {
+    if found.iter().all(|f| f.1 > NEARLY_TANGENT) {
         return Meeting::Whole(false);
     }
-    if free {
-        return pieces(&found, recorded, &|share| angle(sides, share).map(|a| a.0));
-    }
-    let mean = found.iter().map(|f| f.1.sin().powi(2)).sum::<f64>() / found.len() as f64;
-    Meeting::Whole(recorded || (most <= WAVERING && mean <= MOSTLY_TANGENT.sin().powi(2)))
+    let at = if sides[0].side.curve.is_some() { &sides[0] } else { &sides[1] };
+    let placed: Vec<_> = found.into_iter().map(|(share, angle)| (share, angle, at.side.point(share))).collect();
+    pieces(&placed, recorded, &|share| angle(sides, share))
 }
 
 /// The largest angle between the two sides of a seam; None where it cannot be told.
 pub fn worst(sides: &[Side; 2]) -> Option<f64> {
-    let free = sides.iter().any(|s| s.free);
-    places(sides, free).into_iter().filter_map(|share| angle(sides, share)).map(|a| a.0).reduce(f64::max)
+    let sides = &sides.each_ref().map(Fixed::new);
+    let free = sides.iter().any(|s| s.side.free);
+    let found = if is_even(sides) { angle(sides, 0.5) } else { None };
+    found.or_else(|| places(sides, free).into_iter().filter_map(|share| angle(sides, share)).reduce(f64::max))
+}
+
+/// A side, with its outward normal where that is one and the same everywhere.
+struct Fixed<'a> {
+    side: &'a Side<'a>,
+    normal: Option<Vector>,
+}
+
+impl<'a> Fixed<'a> {
+    fn new(side: &'a Side<'a>) -> Fixed<'a> {
+        let flat = matches!(side.surface, Surface::Plane(_));
+        Fixed { side, normal: if flat { side.normal([0.0; 2]) } else { None } }
+    }
+
+    /// The outward normal; None where there is none.
+    fn at(&self, share: f64) -> Option<Vector> {
+        self.normal.or_else(|| self.side.normal(self.side.uv(share)))
+    }
 }
 
 impl Side<'_> {
-    /// Place and outward normal; None where there is none.
-    fn at(&self, share: f64) -> Option<(Vector, Vector)> {
-        let uv = self.uv(share);
-        let (mut point, mut du, mut dv) = self.surface.d1(uv);
+    fn normal(&self, uv: [f64; 2]) -> Option<Vector> {
+        let (_, mut du, mut dv) = self.surface.d1(uv);
         if let Some(place) = self.place {
-            (point, du, dv) = (moved(place, &point), turned(place, &du), turned(place, &dv));
+            (du, dv) = (turned(place, &du), turned(place, &dv));
         }
         let normal = cross(&du, &dv);
         let area = length(&normal);
         let longest = dot(&du, &du).max(dot(&dv, &dv));
         let sound = area > 1e-7 * longest;
-        sound.then(|| (point, scaled(&normal, if self.reversed { -1.0 } else { 1.0 } / area)))
+        sound.then(|| scaled(&normal, if self.reversed { -1.0 } else { 1.0 } / area))
+    }
+
+    fn point(&self, share: f64) -> Vector {
+        let point = self.surface.point(self.uv(share));
+        self.place.map_or(point, |place| moved(place, &point))
     }
 
     fn uv(&self, share: f64) -> [f64; 2] {
@@ -132,11 +193,10 @@ impl Side<'_> {
     }
 }
 
-/// Angle between the faces, and the place.
-fn angle(sides: &[Side; 2], share: f64) -> Option<(f64, Vector)> {
-    let ((point, one), (other, two)) = (sides[0].at(share)?, sides[1].at(share)?);
-    let point = if sides[0].curve.is_some() { point } else { other };
-    Some((length(&cross(&one, &two)).atan2(dot(&one, &two)), point))
+/// Angle between the faces.
+fn angle(sides: &[Fixed; 2], share: f64) -> Option<f64> {
+    let (one, two) = (sides[0].at(share)?, sides[1].at(share)?);
+    Some(length(&cross(&one, &two)).atan2(dot(&one, &two)))
 }
 
 fn ascending(shares: &mut Vec<f64>) {
@@ -144,42 +204,15 @@ fn ascending(shares: &mut Vec<f64>) {
     shares.dedup_by(|b, a| *b - *a <= 1e-9);
 }
 
-fn places(sides: &[Side; 2], free: bool) -> Vec<f64> {
-    if sides.iter().all(|s| matches!(s.surface, Surface::Plane(_))) {
+fn places(sides: &[Fixed; 2], free: bool) -> Vec<f64> {
+    if sides.iter().all(|s| matches!(s.side.surface, Surface::Plane(_))) {
         return vec![0.5];
     }
-    let mut spans = vec![0.0, 1.0];
-    sides.iter().for_each(|side| side.breaks(&mut spans));
-    ascending(&mut spans);
+    let spans = spans(sides);
     let parts = if free { STEPS.div_ceil(spans.len() - 1).max(STEPS_OF_SPAN) } else { STEPS_SIMPLE };
-    let mut breaks: Vec<f64> = spans
-        .windows(2)
-        .flat_map(|w| (0..parts).map(move |i| w[0] + (w[1] - w[0]) * i as f64 / parts as f64))
-        .chain([1.0])
-        .collect();
+    let mut breaks = divided(&spans, parts);
     if free {
-        let mut crossed = Vec::new();
-        for side in sides {
-            let uv: Vec<[f64; 2]> = breaks.iter().map(|&share| side.uv(share)).collect();
-            let knots = [0, 1].map(|k| {
-                let values = uv.iter().map(|uv| uv[k]);
-                let (low, high) =
-                    (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
-                side.surface.knots(k, low, high)
-            });
-            for (step, pair) in uv.windows(2).enumerate() {
-                for (k, knots) in knots.iter().enumerate() {
-                    let (here, there) = (pair[0][k], pair[1][k]);
-                    let first = knots.partition_point(|&x| x <= here.min(there));
-                    let last = knots.partition_point(|&x| x < here.max(there));
-                    for &knot in knots.get(first..last).unwrap_or_default() {
-                        let way = (knot - here) / (there - here);
-                        crossed.push(breaks[step] + way * (breaks[step + 1] - breaks[step]));
-                    }
-                }
-            }
-        }
-        breaks.extend(crossed);
+        breaks.extend(crossed(sides, &breaks));
         ascending(&mut breaks);
         let every = breaks.len() / MOST_BREAKS + 1;
         let last = breaks.len() - 1;
@@ -190,6 +223,51 @@ fn places(sides: &[Side; 2], free: bool) -> Vec<f64> {
         });
     }
     breaks.windows(2).flat_map(|w| PLACES.map(|p| w[0] + p * (w[1] - w[0]))).collect()
+}
+
+/// Shares from 0 to 1 between which the curves in (u, v) are smooth.
+fn spans(sides: &[Fixed; 2]) -> Vec<f64> {
+    let mut spans = vec![0.0, 1.0];
+    sides.iter().for_each(|s| s.side.breaks(&mut spans));
+    ascending(&mut spans);
+    spans
+}
+
+/// Each span in so many equal parts.
+fn divided(spans: &[f64], parts: usize) -> Vec<f64> {
+    let part = |w: &[f64], i: usize| w[0] + (w[1] - w[0]) * i as f64 / parts as f64;
+    spans.windows(2).flat_map(|w| (0..parts).map(move |i| part(w, i))).chain([1.0]).collect()
+}
+
+/// Shares at which knots of the surfaces are crossed, as far as two of the breaks have them between them.
+fn crossed(sides: &[Fixed; 2], breaks: &[f64]) -> Vec<f64> {
+    let mut crossed = Vec::new();
+    for Fixed { side, .. } in sides {
+        if !matches!(
+            side.surface,
+            Surface::Spline(_) | Surface::Revolution(..) | Surface::Extrusion(..) | Surface::Offset(..)
+        ) {
+            continue;
+        }
+        let uv: Vec<[f64; 2]> = breaks.iter().map(|&share| side.uv(share)).collect();
+        let knots = [0, 1].map(|k| {
+            let values = uv.iter().map(|uv| uv[k]);
+            let (low, high) = (values.clone().fold(f64::INFINITY, f64::min), values.fold(f64::NEG_INFINITY, f64::max));
+            side.surface.knots(k, low, high)
+        });
+        for (step, pair) in uv.windows(2).enumerate() {
+            for (k, knots) in knots.iter().enumerate() {
+                let (here, there) = (pair[0][k], pair[1][k]);
+                let first = knots.partition_point(|&x| x <= here.min(there));
+                let last = knots.partition_point(|&x| x < here.max(there));
+                for &knot in knots.get(first..last).unwrap_or_default() {
+                    let way = (knot - here) / (there - here);
+                    crossed.push(breaks[step] + way * (breaks[step + 1] - breaks[step]));
+                }
+            }
+        }
+    }
+    crossed
 }
 
 /// The pieces of one edge, from shares of its length, angles between its faces there, and places; closer: the angles at

@@ -81,6 +81,9 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
         return Some(Polyline { points: vec![point; parameters.len()], parameters });
     }
     let (mut parameters, mut points) = match (&edge.curve, on) {
+        (Some(curve @ Curve::Line { .. }), _) if edge.joints.is_empty() => {
+            (vec![first, last], vec![curve.point(first), curve.point(last)])
+        }
         (Some(curve), _) => {
             let mut parameters = vec![first];
             let inner = edge.joints.iter().copied().filter(|t| *t > first && *t < last);

@@ -1,6 +1,6 @@
 //! The border of a face as closed loops in the parameter plane of its surface.
 
-use std::collections::HashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::chain::{NEAR, chained};
 use super::uses::{Run, run};
@@ -86,10 +86,13 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
         high - low
     });
     let mut out = Border { loops: FaceLoops { loops: Vec::new(), periods }, nodes: Vec::new(), chords: Vec::new() };
-    let mut numbers: HashMap<Node, u32> = HashMap::new();
+    let count = all().count();
+    out.nodes.reserve(count);
+    let mut numbers: FxHashMap<Node, u32> = FxHashMap::with_capacity_and_hasher(count, FxBuildHasher);
     for runs in &wires {
         for order in chained(runs, extent, periods)? {
-            let (mut points, mut chords) = (Vec::new(), Vec::new());
+            let count = order.iter().map(|&(i, _)| runs[i].uv.len()).sum();
+            let (mut points, mut chords) = (Vec::with_capacity(count), Vec::with_capacity(count));
             let count = order.len();
             for (k, &(i, shift)) in order.iter().enumerate() {
                 let run = &runs[i];

@@ -4,7 +4,7 @@
 //! location is not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may
 //! differ; a chain times its inverse vanishes. The index maps of a part depend on this, so chains are composed here.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::bytes::{Bytes, Read};
 
@@ -20,9 +20,9 @@ const LONGEST: usize = 1000;
 pub struct Locations {
     datums: Vec<Matrix>,
     chains: Vec<Chain>,
-    numbers: HashMap<Chain, u32>,
-    products: HashMap<(u32, u32), u32>,
-    matrices: HashMap<u32, Matrix>,
+    numbers: FxHashMap<Chain, u32>,
+    products: FxHashMap<(u32, u32), u32>,
+    matrices: FxHashMap<u32, Matrix>,
     /// From the dump's numbers to ours.
     written: Vec<u32>,
 }
@@ -32,9 +32,9 @@ pub fn read(bytes: &mut Bytes) -> Read<Locations> {
     let mut all = Locations {
         datums: Vec::new(),
         chains: vec![Vec::new()],
-        numbers: HashMap::from([(Vec::new(), 0)]),
-        products: HashMap::new(),
-        matrices: HashMap::new(),
+        numbers: FxHashMap::from_iter([(Vec::new(), 0)]),
+        products: FxHashMap::default(),
+        matrices: FxHashMap::default(),
         written: vec![0],
     };
     for _ in 0..count {
@@ -209,9 +209,9 @@ mod tests {
         let mut all = Locations {
             datums: vec![turn, IDENTITY],
             chains: vec![vec![], vec![(0, 1)], vec![(0, 1), (1, 1)]],
-            numbers: HashMap::from([(vec![], 0), (vec![(0, 1)], 1), (vec![(0, 1), (1, 1)], 2)]),
-            products: HashMap::new(),
-            matrices: HashMap::new(),
+            numbers: FxHashMap::from_iter([(vec![], 0), (vec![(0, 1)], 1), (vec![(0, 1), (1, 1)], 2)]),
+            products: FxHashMap::default(),
+            matrices: FxHashMap::default(),
             written: vec![0, 1, 2],
         };
         assert_eq!(all.quotient(1, 1), 0);

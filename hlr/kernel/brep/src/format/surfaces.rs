@@ -20,7 +20,10 @@ pub fn section(bytes: &mut Bytes) -> Read<Vec<Option<SurfaceRecord>>> {
 /// Origin, then the directions of x, y and z; in the dump that of z comes before the others.
 fn frame(bytes: &mut Bytes) -> Read<Vec<f64>> {
     let [a, b, c, zx, zy, zz, x @ .., yx, yy, yz] = bytes.reals::<12>()?;
-    Ok([&[a, b, c], &x[..], &[yx, yy, yz, zx, zy, zz]].concat())
+    // With places for two radii.
+    let mut data = Vec::with_capacity(14);
+    data.extend([a, b, c].into_iter().chain(x).chain([yx, yy, yz, zx, zy, zz]));
+    Ok(data)
 }
 
 fn with_frame<const N: usize>(bytes: &mut Bytes, kind: u8) -> Read<Option<SurfaceRecord>> {

@@ -124,6 +124,11 @@ impl Curve {
 
     pub fn point(&self, t: f64) -> Vec3 {
         match self {
+            Curve::Line { p, a } => [p[0] + t * a[0], p[1] + t * a[1], p[2] + t * a[2]],
+            Curve::Ellipse { p, a, b } => {
+                let (s, c) = t.sin_cos();
+                [0, 1, 2].map(|i| p[i] + (c * a[i] + s * b[i]))
+            }
             Curve::Spline(n) => n.point(t),
             _ => self.derivatives(t)[0],
         }

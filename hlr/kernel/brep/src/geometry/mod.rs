@@ -10,5 +10,6 @@ pub mod offset_curve;
 mod spans;
 pub mod spline_surface;
 pub mod surface;
+pub mod turning;
 pub mod unrolled;
 pub mod vector;

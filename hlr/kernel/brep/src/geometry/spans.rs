@@ -19,6 +19,9 @@ pub struct Spans {
     begins: Vec<u32>,
 }
 
+/// The first function that is not zero; values and first derivatives.
+pub type Slopes<const N: usize> = (usize, [[f64; N]; 2]);
+
 #[derive(Clone, Copy, Debug)]
 struct Span {
     start: f64,
@@ -97,6 +100,22 @@ impl Spans {
         Basis { first: span.first as usize, rows: [value, slope, bend] }
     }
 
+    /// The same without second derivatives.
+    pub fn slopes<const N: usize>(&self, x: f64) -> Slopes<N> {
+        let (span, powers, t) = self.at::<N>(x);
+        let (mut value, mut slope) = ([0.0; N], [0.0; N]);
+        for row in powers {
+            for r in 0..N {
+                slope[r] = slope[r] * t + value[r];
+                value[r] = value[r] * t + row[r];
+            }
+        }
+        for slope in &mut slope {
+            *slope *= span.scale;
+        }
+        (span.first as usize, [value, slope])
+    }
+
     /// The first function that is not zero, and the values.
     pub fn values<const N: usize>(&self, x: f64) -> (usize, [f64; N]) {
         let (span, powers, t) = self.at::<N>(x);
@@ -164,6 +183,7 @@ mod tests {
                 let (got, want) = (spans.basis::<8>(x), Basis::<8>::at(&knots, degree, count, x));
                 assert_eq!(got.first, want.first, "{degree} {x}");
                 assert_eq!(got.rows[0], spans.values::<8>(x).1);
+                assert_eq!((got.first, [got.rows[0], got.rows[1]]), spans.slopes::<8>(x));
                 for (k, (a, b)) in got.rows.iter().zip(&want.rows).enumerate() {
                     let size = b.iter().fold(1.0f64, |m, c| m.max(c.abs()));
                     for r in 0..=degree {

@@ -4,7 +4,7 @@
 
 use super::basis::Basis;
 use super::jet::Jet;
-use super::spans::Spans;
+use super::spans::{Slopes, Spans};
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
 /// Of a surface's size: poles that are as near to where they would be are there.
@@ -53,6 +53,16 @@ impl SplineSurface {
     /// Of u and v; 0 where it is not periodic.
     pub fn period(&self) -> [f64; 2] {
         self.period
+    }
+
+    /// Degrees along u and v, counts of poles, and the poles (x w, y w, z w, w), v fastest.
+    pub fn net(&self) -> ([usize; 2], [usize; 2], &[[f64; 4]]) {
+        (self.degree, self.count, &self.poles)
+    }
+
+    /// Whether its weights differ from 1.
+    pub fn is_rational(&self) -> bool {
+        self.poles.iter().any(|p| p[3] != 1.0)
     }
 
     /// Lower and upper ends of u and v.
@@ -106,21 +116,21 @@ impl SplineSurface {
     }
 
     fn first_derivatives<const N: usize>(&self, u: f64, v: f64) -> (Vector, Vector, Vector) {
-        let (a, b) = (self.basis::<N>(0, u), self.basis::<N>(1, v));
+        let ((i, a), (j, b)) = (self.slopes::<N>(0, u), self.slopes::<N>(1, v));
         let mut sums = [[0.0f64; 4]; 3];
-        for i in 0..=self.degree[0] {
-            let row = &self.poles[(a.first + i) * self.count[1] + b.first..][..=self.degree[1]];
+        for (row, (value_u, slope_u)) in (i..=i + self.degree[0]).zip(a[0].iter().zip(&a[1])) {
+            let row = &self.poles[row * self.count[1] + j..][..=self.degree[1]];
             let mut inner = [[0.0f64; 4]; 2];
-            for (j, pole) in row.iter().enumerate() {
+            for (pole, (value_v, slope_v)) in row.iter().zip(b[0].iter().zip(&b[1])) {
                 for k in 0..4 {
-                    inner[0][k] += b.rows[0][j] * pole[k];
-                    inner[1][k] += b.rows[1][j] * pole[k];
+                    inner[0][k] += value_v * pole[k];
+                    inner[1][k] += slope_v * pole[k];
                 }
             }
             for k in 0..4 {
-                sums[0][k] += a.rows[0][i] * inner[0][k];
-                sums[1][k] += a.rows[1][i] * inner[0][k];
-                sums[2][k] += a.rows[0][i] * inner[1][k];
+                sums[0][k] += value_u * inner[0][k];
+                sums[1][k] += slope_u * inner[0][k];
+                sums[2][k] += value_u * inner[1][k];
             }
         }
         let [p, pu, pv] = sums;
@@ -207,6 +217,18 @@ impl SplineSurface {
     fn inside(&self, side: usize, x: f64) -> f64 {
         let (_, [low, high], period) = self.knots(side);
         if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x }
+    }
+
+    fn slopes<const N: usize>(&self, side: usize, x: f64) -> Slopes<N> {
+        let x = self.inside(side, x);
+        match &self.spans[side] {
+            Some(spans) => spans.slopes(x),
+            None => {
+                let Basis { first, rows: [values, slopes, _] } =
+                    Basis::at(&self.knots[side], self.degree[side], self.count[side], x);
+                (first, [values, slopes])
+            }
+        }
     }
 
     fn basis<const N: usize>(&self, side: usize, x: f64) -> Basis<N> {

@@ -197,6 +197,11 @@ impl Frame {
         self.z
     }
 
+    /// About which u turns from x to y; with a left-handed frame the other way than `axis`.
+    pub(super) fn pole(&self) -> Vector {
+        cross(&self.x, &self.y)
+    }
+
     /// Outward and onward directions at the angle u about z.
     pub(super) fn around(&self, u: f64) -> (Vector, Vector) {
         let (sin, cos) = u.sin_cos();

@@ -1,6 +1,6 @@
 //! The proof of a face's triangles in the parameter plane.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::outline::Outline;
 use super::plane::area;
@@ -68,7 +68,7 @@ fn filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 
 
 /// Numbers of the loops that have a triangle to the right of a chord.
 pub fn turned(outline: &Outline, stand_in: &[u32], triangles: &[[u32; 3]]) -> Vec<usize> {
-    let edges: HashSet<[u32; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    let edges: FxHashSet<[u32; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     let against = |c: &u32| {
         let [a, b] = [*c, outline.after(*c)].map(|p| stand_in[p as usize]);
         !edges.contains(&[a, b]) && edges.contains(&[b, a])

@@ -17,8 +17,6 @@ mod steps;
 mod strips;
 mod sweep;
 
-use std::collections::{HashMap, HashSet};
-
 use crate::geometry::surface::Surface;
 use bound::Corner;
 use outline::Outline;
@@ -60,6 +58,11 @@ pub struct FaceMesh {
     pub normals: Vec<[f64; 3]>,
     /// Numbers of the loops that run the wrong way. They were taken as if they did not.
     pub turned: Vec<usize>,
+}
+
+/// Twice the area of a triangle in (u, v), rounded.
+pub fn area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
+    plane::area(a, b, c)
 }
 
 /// Why a face has no mesh.
@@ -234,28 +237,34 @@ fn finish(surface: &Surface, made: Made) -> FaceMesh {
 /// Without pairs of triangles between the same nodes that are turned opposite ways: they enclose nothing. Where the border
 /// comes twice through one node, at a tip or beside a seam, a narrow face folds onto itself like that.
 fn without_folds(nodes: &[u32], triangles: &mut Vec<[u32; 3]>) {
-    let mut sorted = nodes.to_vec();
+    let mut sorted: Vec<(u32, u32)> = nodes.iter().copied().zip(0..).collect();
     sorted.sort_unstable();
-    let twice: HashSet<u32> = sorted.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
-    if twice.is_empty() {
-        return;
+    let mut twice = vec![false; nodes.len()];
+    for group in sorted.chunk_by(|a, b| a.0 == b.0).filter(|group| group.len() > 1) {
+        group.iter().for_each(|&(_, point)| twice[point as usize] = true);
     }
-    let inner = sorted[sorted.len() - 1] + 1;
-    let place = |i: u32| nodes.get(i as usize).map_or_else(|| inner + i, |&node| node);
-    let mut open: HashMap<([u32; 3], bool), Vec<usize>> = HashMap::new();
-    let mut kept = vec![true; triangles.len()];
+    let Some(&(last, _)) = sorted.last().filter(|_| twice.contains(&true)) else { return };
+    let place = |i: u32| nodes.get(i as usize).map_or_else(|| last + 1 + i, |&node| node);
+    // By their nodes, rising; then in their order, and how each is turned: whether these follow one another in it.
+    let mut found: Vec<([u32; 3], usize, bool)> = Vec::new();
     for (i, t) in triangles.iter().enumerate() {
-        let [a, b, c] = t.map(place);
-        if ![a, b, c].iter().any(|node| twice.contains(node)) {
-            continue;
+        if t.iter().any(|&point| twice.get(point as usize) == Some(&true)) {
+            let [a, b, c] = t.map(place);
+            let mut corners = [a, b, c];
+            corners.sort_unstable();
+            found.push((corners, i, [[a, b, c], [b, c, a], [c, a, b]].contains(&corners)));
         }
-        let mut corners = [a, b, c];
-        corners.sort_unstable();
-        // Turned one way or the other: whether the lowest, middle and highest follow one another.
-        let rising = [[a, b, c], [b, c, a], [c, a, b]].contains(&corners);
-        match open.get_mut(&(corners, !rising)).and_then(Vec::pop) {
-            Some(other) => (kept[i], kept[other]) = (false, false),
-            None => open.entry((corners, rising)).or_default().push(i),
+    }
+    found.sort_unstable();
+    let mut kept = vec![true; triangles.len()];
+    for same in found.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
+        // Those that have no counterpart yet: all turned the same way.
+        let mut open: Vec<(usize, bool)> = Vec::new();
+        for &(_, i, rising) in same {
+            match open.pop_if(|(_, other)| *other != rising) {
+                Some((other, _)) => (kept[i], kept[other]) = (false, false),
+                None => open.push((i, rising)),
+            }
         }
     }
     let mut kept = kept.into_iter();
@@ -289,4 +298,4 @@ mod folds {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

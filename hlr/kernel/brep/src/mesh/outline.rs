@@ -25,7 +25,7 @@ impl Outline {
     /// Chords whose ends share a node are poles: they are one place in space, and `divide` may put points on them. It gets
     /// the ends of such a chord and appends shares of the way, rising.
     pub fn new(face: &FaceLoops, divide: impl Fn([f64; 2], [f64; 2], &mut Vec<f64>)) -> Result<Outline, Fault> {
-        let mut out = Outline::default();
+        let mut out = Outline::with_capacity(face.loops.iter().map(Vec::len).sum());
         for (number, points) in face.loops.iter().enumerate() {
             for (k, p) in points.iter().enumerate() {
                 if !(p.uv.iter().chain(&p.point).all(|x| x.is_finite())) {
@@ -57,7 +57,8 @@ impl Outline {
             let one = (0..count).all(|i| self.nodes[at(i)] == self.nodes[start as usize]);
             return if one { Ok(()) } else { Err(Fault::Degenerate) };
         };
-        let mut kept = vec![at(first) as u32];
+        let mut kept = Vec::with_capacity(count as usize);
+        kept.push(at(first) as u32);
         let mut aside = Vec::new();
         for i in first + 1..first + count {
             let last = kept[kept.len() - 1];
@@ -137,9 +138,29 @@ impl Outline {
         self.after.push(after);
     }
 
+    fn with_capacity(count: usize) -> Outline {
+        Outline {
+            uv: Vec::with_capacity(count),
+            points: Vec::with_capacity(count),
+            nodes: Vec::with_capacity(count),
+            before: Vec::with_capacity(count),
+            after: Vec::with_capacity(count),
+            origin: Vec::with_capacity(count),
+            aside: Vec::new(),
+        }
+    }
+
     /// The same loops with other parameters.
     pub fn mapped(&self, map: impl Fn([f64; 2]) -> [f64; 2]) -> Outline {
-        Outline { uv: self.uv.iter().map(|&p| map(p)).collect(), ..self.clone() }
+        Outline {
+            uv: self.uv.iter().map(|&p| map(p)).collect(),
+            points: self.points.clone(),
+            nodes: self.nodes.clone(),
+            before: self.before.clone(),
+            after: self.after.clone(),
+            origin: self.origin.clone(),
+            aside: self.aside.clone(),
+        }
     }
 
     pub fn len(&self) -> usize {

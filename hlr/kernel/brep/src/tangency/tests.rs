@@ -159,7 +159,8 @@ fn elementary_faces_that_waver_about_tangency_are_tangent_where_they_mostly_are(
             Side { surface: &cone, curve, place: None, reversed: true, free: false },
             Side { surface: &plane, curve: None, place: None, reversed: false, free: false },
         ];
-        let found = places(&sides, false).into_iter().map(|s| angle(&sides, s).unwrap().0).fold(0.0, f64::max);
+        let fixed = sides.each_ref().map(Fixed::new);
+        let found = places(&fixed, false).into_iter().map(|s| angle(&fixed, s).unwrap()).fold(0.0, f64::max);
         assert!((found - cone_tilt - plane_tilt).abs() < 1e-6, "{found}");
         assert_eq!(meeting(&sides, false), Meeting::Whole(smooth), "{cone_tilt} {plane_tilt}");
     }
@@ -181,7 +182,8 @@ fn faces_are_compared_on_either_side_of_each_knot_that_an_edge_passes() {
     let (fine, plain) = (patch(&[0.0, 0.21, 0.4, 0.63, 1.0]), patch(&[0.0, 1.0]));
     let along = Curve::Line { p: [1.0, 0.0, 0.0], a: [0.0, 1.0, 0.0] };
     let side = |surface| Side { surface, curve: Some((&along, [0.0, 1.0])), place: None, reversed: false, free: true };
-    let found = places(&[side(&fine), side(&plain)], true);
+    let places = |one, other| places(&[Fixed::new(&side(one)), Fixed::new(&side(other))], true);
+    let found = places(&fine, &plain);
     for knot in [0.21, 0.4, 0.63] {
         for beside in [-1e-5, 1e-5] {
             let (low, high) = if beside < 0.0 { (knot + beside, knot) } else { (knot, knot + beside) };
@@ -190,5 +192,33 @@ fn faces_are_compared_on_either_side_of_each_knot_that_an_edge_passes() {
     }
     assert!(found.windows(2).all(|w| w[0] < w[1] && w[1] - w[0] < 1.0 / 16.0));
     // Without them there are fewer.
-    assert!(places(&[side(&plain), side(&plain)], true).len() < found.len());
+    assert!(places(&plain, &plain).len() < found.len());
+}
+
+#[test]
+fn a_glance_tells_what_is_far_from_every_limit_and_nothing_else() {
+    // Along v, beside a flat patch, one whose outer corners rise: the angle goes from one rise to the other.
+    let rising = |low: f64, high: f64| {
+        let mut data = vec![1.0, 1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0];
+        data.extend([0.0, 0.0, low, 1.0, 0.0, 1.0, high, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0]);
+        Surface::read(8, &data).unwrap()
+    };
+    let flat = patch(&[0.0, 1.0]);
+    let along = Curve::Line { p: [1.0, 0.0, 0.0], a: [0.0, 1.0, 0.0] };
+    let curve = Some((&along, [0.0, 1.0]));
+    for (low, high, told) in [
+        (0.0, 0.0, Some(true)),
+        (0.001, 0.006, Some(true)),
+        (0.001, 0.0099, None),
+        (0.0, 0.5, None),
+        (0.05, 0.05, None),
+        (0.101, 0.2, None),
+        (0.2, 0.5, Some(false)),
+        (1.0, -1.0, None),
+    ] {
+        let tilted = rising(low, high);
+        let sides = [&flat, &tilted].map(|surface| Side { surface, curve, place: None, reversed: false, free: true });
+        assert_eq!(glance(&sides.each_ref().map(Fixed::new), 8), told, "{low} {high}");
+        assert!(told.is_none_or(|smooth| meeting(&sides, false) == Meeting::Whole(smooth)));
+    }
 }
