@@ -79,10 +79,10 @@ def guides(
 
     curve, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
     curves, places = NO_CURVES, HERE
-    if sought and edge_curves is not None:
-        drawn = np.zeros(len(edge), bool)
-        drawn[lines] = True
-        tied = np.flatnonzero(drawn & (edge >= 0))
+    drawn = np.zeros(len(edge), bool)
+    drawn[lines] = True
+    tied = np.flatnonzero(drawn & (edge >= 0))
+    if len(tied) and edge_curves is not None:
         found = edge_curves(part[tied], edge[tied])
         curve[tied], place[tied] = found.which, found.place
         curves, places = found.curves, np.concatenate([found.places, HERE])

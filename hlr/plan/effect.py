@@ -27,6 +27,7 @@ class Facts(NamedTuple):
     parts, groups  how many there are; groups: surfaces that the visibility pass treats as one
     curved, planar faces of either kind
     faces          planar and curved ones together are known at all: there is a B-rep
+    ball           all there is is a ball, of which only lines are drawn
     failed         faces that the kernel could not mesh
     repeated       two triangles of a part have the same corners, or two of its points the same place
     borders        of parts without B-rep: sides that only one triangle has
@@ -49,6 +50,7 @@ class Facts(NamedTuple):
     curved: int = 0
     planar: int = 0
     faces: bool = True
+    ball: bool = False
     failed: int = 0
     repeated: bool = False
     borders: int = 0

@@ -28,10 +28,13 @@ from hlr.source.model import EdgeClass, Meshed
 from hlr.source.together import Together, together
 
 
-def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
+def build(
+    meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None, ball: bool = False
+) -> Scene:
     """The scene of all parts. crease: degrees, for parts without B-rep; deflection: what they were meshed with.
 
-    planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
+    planner: decides what is looked for at all. ball: all there is is one face on a sphere: a ball, if it is closed; its
+    mesh may fold where the sphere does not. Raises SourceError where nothing is left to draw.
     """
     plan = planner or Planner(DRAWING, Options())
     whole, mesh, doubled = _repaired(together(meshed.parts), plan)
@@ -53,7 +56,7 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     groups = groups_of(found, brep)
     with plan.deciding():
         meeting = int(np.count_nonzero(_kernel.boxes_meet(groups.low, groups.high)))
-        folded = found.folded
+        folded = found.folded & ~(ball & groups.cull)
     begin = perf_counter()
     if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(folded)))):
         met = clashes(points, triangles, found.mesh, group_of, groups, folded, found.curved, deflection)

@@ -180,16 +180,28 @@ class BrepSource:
             placed.append(self._roots.shapes[part.root].Moved(TopLoc_Location(move), False))
         return compound(placed)
 
+    @property
+    def _meshed_by(self) -> Tessellator:
+        if self._tessellator is None:
+            low, high = self.bounds()
+            self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
+        return self._tessellator
+
+    def ball(self) -> float | None:
+        """The radius where all there is is one face on a sphere, most likely a ball; else None. Millimetres."""
+        if len(self._parts) > 1 or self._roots.counts[self._parts[0].root, 0] != 1:
+            return None
+        record = self._meshed_by.records([0])
+        return float(record.data[-1]) if record.kind[0] == SPHERE else None
+
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).
 
         Raises:
             SourceError: no part could be meshed.
         """
-        if self._tessellator is None:
-            low, high = self.bounds()
-            self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
-        tables, faults = self._tessellator.mesh(deflection, angle, progress)
+        surfaces = self._meshed_by
+        tables, faults = surfaces.mesh(deflection, angle, progress)
         number = {root: i for i, root in enumerate(self._used)}
         starts = tables.triangle_start
         counts = (starts[1:] - starts[:-1]).tolist()
@@ -211,7 +223,6 @@ class BrepSource:
         transforms = np.array([part.transform[:3] for part in kept])
         placed = tables.placed(roots, transforms, _precisions(tables)[roots])
         labels = [Label(part.name, part.color, part.transform) for part in kept]
-        surfaces = self._tessellator
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
             keys = roots[part].astype(np.int64) << 32 | edge
@@ -221,6 +232,10 @@ class BrepSource:
 
         parts = Together(labels, placed, surfaces if placed.brep.any() else None)
         return Meshed(parts, notes, len(faults.rescued), len(faults.lost), edge_curves)
+
+
+SPHERE = 4
+"""Kind of a surface, whose last number is the radius (`kernel/brep/src/geometry/surface.rs`)."""
 
 
 def _precisions(tables: _kernel.PartTables) -> Floats:

@@ -96,7 +96,9 @@ def _sheets(scene: Scene, on: TrueSurfaces) -> Ints:
     """(f,) one number for all faces that go on smoothly into one another."""
     face = on.first[scene.triangle_part] + scene.triangle_face
     count = np.diff(scene.offsets)
-    tangent = np.flatnonzero(np.isin(scene.edge_kind, (EdgeClass.SMOOTH, EdgeClass.SEAM)) & (count == 2))
+    tangent = np.flatnonzero(
+        ((scene.edge_kind == EdgeClass.SMOOTH) | (scene.edge_kind == EdgeClass.SEAM)) & (count == 2)
+    )
     pair = np.stack([face[scene.incident[scene.offsets[tangent] + k]] for k in (0, 1)], axis=1)
     key = distinct(pair[:, 0].astype(np.int64) << 32 | pair[:, 1])
     pair = np.stack([key >> 32, key & 0xFFFFFFFF], axis=1).astype(np.int32)

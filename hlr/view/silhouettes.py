@@ -36,6 +36,13 @@ from hlr.tolerance import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT, 
 from hlr.view.camera import Camera
 from hlr.view.own_faces import Grazing, with_own_faces
 
+SMOOTH = np.zeros(256, bool)
+SMOOTH[[INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM]] = True
+"""By the kind of an edge: the surface goes on smoothly there."""
+BARE = np.zeros(256, bool)
+BARE[[EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.SMOOTH]] = True
+"""By the kind of an edge: two faces meet there, or one ends."""
+
 
 def with_silhouettes(
     scene: Scene, camera: Camera, tolerances: Tolerances, threads: int, planner: Planner | None = None
@@ -56,7 +63,7 @@ def with_silhouettes(
 
 def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
     face = on.first[scene.triangle_part] + scene.triangle_face
-    smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
+    smooth = SMOOTH[scene.edge_kind]
     found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
     scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
     return _with_lines(scene, on, found, camera, tolerances.deflection)
@@ -180,7 +187,10 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
         chains=joined(scene.chains, walks),
     )
     # Edges and outlines, those that their own body does not hide anyway.
-    bare = np.isin(scene.edge_kind[found["grazing_edge"]], (EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.SMOOTH))
+    bare = BARE[scene.edge_kind[found["grazing_edge"]]]
+    if scene.convex and not bare.any():
+        # Of one convex body culling alone decides: nothing has to be told apart from its own faces.
+        return outlined
     closed = scene.groups.cull[scene.edge_group[found["grazing_edge"][bare]]]
     # Of a closed body the outer side alone is seen, and whatever lies on it is within reach of the sight.
     side = np.where(closed | found["grazing_front"][bare], 1.0, -1.0)[:, None, None]
