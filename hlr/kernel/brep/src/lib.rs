@@ -1,6 +1,7 @@
 //! Boundary representations: curves, surfaces, and the mesh of a face. No Python here.
 
 pub mod assemble;
+pub mod certificate;
 pub mod classes;
 pub mod edges;
 pub mod explore;
