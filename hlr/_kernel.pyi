@@ -48,17 +48,6 @@ def stitched(points: Floats, triangles: Ints, reach: float) -> tuple[Ints, Ints,
 def components(triangles: Ints, n_points: int) -> Ints: ...
 def edge_components(edges: Ints, n_points: int) -> Ints: ...
 def clashes(points: Floats, triangles: Ints, triangle_part: Ints, itself: Bools) -> dict[str, Any]: ...
-def reach(
-    points: Floats,
-    triangles: Ints,
-    edges: Ints,
-    offsets: Ints,
-    incident: Ints,
-    normals: Floats,
-    pairs: Ints,
-    at: Floats,
-    most: Floats,
-) -> Floats: ...
 def boxes_meet(low: Floats, high: Floats) -> Bools: ...
 def projected(
     points: Floats, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None = None
@@ -511,6 +500,9 @@ class MeshScene:
     face_inward: Bools
     face_curved: Bools
     reports: list[list[int]]
+    def crossings(self, touch: Floats, deflection: float) -> tuple[Floats, Ints, Ints, Bools, int]:
+        """As in `hlr.scene.clash.Clashes`. touch (g,), model units: nearer than this to another surface, a group
+        touches it; deflection: what the parts were meshed with."""
 
 class ShadedModel:
     """A triangle mesh with normals and colours, for any number of pictures."""

@@ -59,7 +59,7 @@ def build(
         folded = found.folded & ~(ball & groups.cull)
     begin = perf_counter()
     if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(folded)))):
-        met = clashes(points, triangles, found.mesh, group_of, groups, folded, found.curved, deflection)
+        met = clashes(found, groups, deflection)
         met = replace(met, through=met.through | through_their_axis(whole, found))
     else:
         met = no_clashes(len(groups.closed))

@@ -28,7 +28,7 @@ from hlr.source.parts import Part, compound
 from hlr.source.precision import precision
 from hlr.source.roots import Roots
 from hlr.source.tessellate import Tessellator
-from hlr.source.together import Label, Together, check_count
+from hlr.source.together import Together, check_count
 
 
 class BrepSource:
@@ -222,7 +222,6 @@ class BrepSource:
         roots = np.array([number[part.root] for part in kept], np.int32)
         transforms = np.array([part.transform[:3] for part in kept])
         placed = tables.placed(roots, transforms, _precisions(tables)[roots])
-        labels = [Label(part.name, part.color, part.transform) for part in kept]
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
             keys = roots[part].astype(np.int64) << 32 | edge
@@ -230,7 +229,7 @@ class BrepSource:
             found = surfaces.edge_curves((distinct >> 32).astype(np.int32), distinct.astype(np.int32))
             return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
 
-        parts = Together(labels, placed, surfaces if placed.brep.any() else None)
+        parts = Together(kept, placed, surfaces if placed.brep.any() else None)
         return Meshed(parts, notes, len(faults.rescued), len(faults.lost), edge_curves)
 
 

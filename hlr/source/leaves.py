@@ -8,7 +8,7 @@ from dataclasses import replace
 from hlr.errors import SourceError, counted
 from hlr.notes import Note, NoteCode
 from hlr.source.brep import BrepSource
-from hlr.source.model import Ints, Look
+from hlr.source.model import Look
 from hlr.source.parts import Leaf, Part, Parts
 from hlr.source.roots import LiveRoots
 
@@ -23,14 +23,14 @@ def source_of(name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note
     for leaf in leaves:
         found.add(leaf)
     roots = LiveRoots(found.roots)
-    counts = roots.counts
-    parts = [part for part in found.parts if counts[part.root, 0]]
-    wires = [part for part in found.parts if not counts[part.root, 0]]
+    faced = roots.faced
+    parts = [part for part in found.parts if faced[part.root]]
+    wires = [part for part in found.parts if not faced[part.root]]
     if not found.parts:
         raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
     if not parts:
         raise SourceError(
-            f"{name} holds {_edges(wires, counts)} but no faces: a hidden-line drawing needs surfaces "
+            f"{name} holds {_edges(wires, roots)} but no faces: a hidden-line drawing needs surfaces "
             "(export solids or shells instead of wires)."
         )
     # In a file, wires under the name of a part that is drawn are its construction lines, axes or sketches. Few
@@ -41,8 +41,8 @@ def source_of(name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note
     said = [
         *notes,
         *found.notes,
-        *_left_out("free-edges-left-out", [part for part in wires if part.product in drawn], counts),
-        *_left_out("wires-left-out", [part for part in wires if part.product not in drawn], counts),
+        *_left_out("free-edges-left-out", [part for part in wires if part.product in drawn], roots),
+        *_left_out("wires-left-out", [part for part in wires if part.product not in drawn], roots),
     ]
     if of_file:
         return BrepSource(name, kind, [looking(part, part.look()) for part in parts], roots.alone(), said)
@@ -54,14 +54,14 @@ def looking(part: Part, look: Look) -> Part:
     return replace(part, look=lambda: look)
 
 
-def _left_out(code: NoteCode, wires: list[Part], counts: Ints) -> list[Note]:
+def _left_out(code: NoteCode, wires: list[Part], roots: LiveRoots) -> list[Note]:
     if not wires:
         return []
     names = sorted({part.product for part in wires})
     some = f'Part "{wires[0].name}"' if len(wires) == 1 else f"{len(wires)} parts"
     beside = f' beside "{names[0]}"' if code == "free-edges-left-out" and len(names) == 1 else ""
-    return [Note(code, f"{some} without faces ({_edges(wires, counts)}){beside} left out.")]
+    return [Note(code, f"{some} without faces ({_edges(wires, roots)}){beside} left out.")]
 
 
-def _edges(wires: list[Part], counts: Ints) -> str:
-    return counted(int(sum(counts[part.root, 1] for part in wires)), "edge")
+def _edges(wires: list[Part], roots: LiveRoots) -> str:
+    return counted(int(sum(roots.counts[part.root, 1] for part in wires)), "edge")

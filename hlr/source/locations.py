@@ -17,6 +17,8 @@ def chained(outer: Rows, inner: Rows) -> Rows:
     """What moves by `inner`, then by `outer`."""
     if inner is HERE:
         return outer
+    if outer is HERE:
+        return inner
     p, q, r = inner[0:4], inner[4:8], inner[8:12]
     out = []
     for i in (0, 4, 8):

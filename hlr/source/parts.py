@@ -58,6 +58,9 @@ class Parts:
     """Collects leaves into `parts` over distinct `roots`; `notes` says what was left out."""
 
     def __init__(self) -> None:
+        from OCP.TopLoc import TopLoc_Location
+
+        self._origin = TopLoc_Location()
         self.parts: list[Part] = []
         self.roots: list[Any] = []
         self.notes: list[Note] = []
@@ -107,36 +110,29 @@ class Parts:
     def _split(self, leaf: Leaf) -> list[_Piece]:
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-        bare = located(leaf.shape, None)
+        bare = leaf.shape.Located(self._origin, False)
         if bare.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE):
-            return [self._piece(bare, leaf)]
+            return [self._piece(bare, leaf, bare.ShapeType() == Kind.TopAbs_SOLID)]
         solids = explored(bare, Kind.TopAbs_SOLID)
         shells = explored(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
         faces = explored(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
         edges = explored(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
         self.has_edges |= bool(edges)
-        pieces = [self._piece(solid, leaf) for solid in solids]
+        pieces = [self._piece(solid, leaf, True) for solid in solids]
         loose = shells + faces
         if loose or edges:
             # What is not a solid stays together: the leaf itself where it holds nothing else.
             pieces.append(self._piece(compound(loose + edges) if solids else bare, leaf))
         return pieces
 
-    def _piece(self, shape: Any, leaf: Leaf) -> _Piece:
-        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
+    def _piece(self, shape: Any, leaf: Leaf, solid: bool = False) -> _Piece:
         key = (shape.TShape(), shape.Orientation())
         number = self._numbers.get(key)
         if number is None:
             number = self._numbers[key] = len(self.roots)
-            self.roots.append(located(shape, None))
-        place = shape.Location()
-        return _Piece(
-            number,
-            matrix(place),
-            shape.ShapeType() == Kind.TopAbs_SOLID,
-            _majority(shape, leaf) if leaf.colors else None,
-        )
+            self.roots.append(shape.Located(self._origin, False))
+        color = _majority(shape, leaf) if leaf.colors else None
+        return _Piece(number, matrix(shape.Location()), solid, color)
 
 
 def _majority(shape: Any, leaf: Leaf) -> Color | None:
@@ -213,4 +209,8 @@ def matrix(location: Any) -> Rows:
     if location.IsIdentity():
         return HERE
     value = location.Transformation().Value
-    return tuple([value(i, j) for i in (1, 2, 3) for j in (1, 2, 3, 4)])
+    return tuple([value(i, j) for i, j in _PLACES])
+
+
+_PLACES = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3, 4)]
+"""Row and column of each number, as OpenCASCADE counts them."""

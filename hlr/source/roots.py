@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
@@ -26,13 +27,19 @@ class Roots:
         self.dump, self.counts, self.boxes = dump, counts, boxes
 
     @cached_property
+    def faced(self) -> list[bool]:
+        """Of each whether it has faces."""
+        found: list[bool] = (self.counts[:, 0] > 0).tolist()
+        return found
+
+    @cached_property
     def model(self) -> _kernel.BrepModel:
         """All of them in the kernel. Raises ValueError where the dump is damaged."""
         return _kernel.BrepModel(self.dump)
 
     def model_of(self, chosen: Sequence[int]) -> _kernel.BrepModel:
         """Those with these numbers, ascending, as the parts of a model of the kernel."""
-        if len(chosen) == len(self.counts):
+        if len(chosen) == len(self.faced):
             return self.model
         return _kernel.BrepModel(self.dump, chosen)
 
@@ -60,11 +67,24 @@ class Roots:
 
 
 class LiveRoots(Roots):
-    """Roots as shapes in memory, which stay as they are: boxes and dump are made when they are asked for."""
+    """Roots as shapes in memory, which stay as they are: counts, boxes and dump are made when they are asked for."""
 
     def __init__(self, shapes: Sequence[Any]) -> None:
         self._shapes = list(shapes)
-        self.counts = np.array([_counts(shape) for shape in self._shapes], np.int32).reshape(-1, 3)
+
+    @cached_property
+    def counts(self) -> Ints:  # type: ignore[override]
+        """(r, 3) faces, edges and solids in the index maps of each."""
+        return np.array(_counts(self._shapes), np.int32).reshape(-1, 3)
+
+    @cached_property
+    def faced(self) -> list[bool]:
+        """Of each whether it has faces."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopExp import TopExp_Explorer
+
+        face = Kind.TopAbs_FACE
+        return [bool(TopExp_Explorer(shape, face).More()) for shape in self._shapes]
 
     @property
     def shapes(self) -> list[Any]:
@@ -86,14 +106,16 @@ class LiveRoots(Roots):
     @cached_property
     def boxes(self) -> Floats:  # type: ignore[override]
         """(r, 2, 3) lower and upper corner of each; the lower is beyond the upper where it has no extent."""
-        return np.array([_box(shape) for shape in self._shapes]).reshape(-1, 2, 3)
+        return np.array(_boxes(self._shapes)).reshape(-1, 2, 3)
 
     def alone(self) -> Roots:
         """The same without the shapes."""
         return Roots(self.dump, self.counts, self.boxes)
 
 
-VOID = np.array([[np.inf] * 3, [-np.inf] * 3])
+Corner = tuple[float, float, float]
+
+VOID: tuple[Corner, Corner] = ((math.inf,) * 3, (-math.inf,) * 3)
 """The box of a shape that has no extent."""
 
 
@@ -109,30 +131,34 @@ def dumped(shapes: Sequence[Any]) -> bytes:
     return stream.getvalue()
 
 
-def _counts(root: Any) -> tuple[int, int, int]:
-    """(faces, edges, solids) of the index maps of a shape."""
+def _counts(shapes: Sequence[Any]) -> list[list[int]]:
+    """[faces, edges, solids] of the index maps of each shape."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp
 
-    counts = []
-    for kind in (Kind.TopAbs_FACE, Kind.TopAbs_EDGE, Kind.TopAbs_SOLID):
+    def count(shape: Any, kind: Any) -> int:
         found = collection("shape_map")
-        TopExp.MapShapes_s(root, kind, found)
-        counts.append(found.Extent())
-    return counts[0], counts[1], counts[2]
+        TopExp.MapShapes_s(shape, kind, found)
+        number: int = found.Extent()
+        return number
+
+    kinds = Kind.TopAbs_FACE, Kind.TopAbs_EDGE, Kind.TopAbs_SOLID
+    return [[count(shape, kind) for kind in kinds] for shape in shapes]
 
 
-def _box(root: Any) -> Floats:
-    """(2, 3) lower and upper corner of a shape's box; the lower is beyond the upper where it has no extent."""
+def _boxes(shapes: Sequence[Any]) -> list[tuple[Corner, Corner]]:
+    """Lower and upper corner of each shape's box; the lower is beyond the upper where it has no extent."""
     from OCP.Bnd import Bnd_Box
     from OCP.BRepBndLib import BRepBndLib
 
-    box = Bnd_Box()
-    # From the geometry, not from a triangulation that an earlier drawing may have left: the accuracy depends on it, and
-    # the same shape is to give the same drawing twice. Faces that are nothing but a triangulation have only that.
-    BRepBndLib.Add_s(root, box, False)
-    if box.IsVoid():
-        BRepBndLib.Add_s(root, box, True)
-    if box.IsVoid():
-        return VOID
-    return np.array([box.CornerMin().Coord(), box.CornerMax().Coord()])
+    box, add, out = Bnd_Box(), BRepBndLib.Add_s, []
+    for shape in shapes:
+        box.SetVoid()
+        # From the geometry, not from a triangulation that an earlier drawing may have left: the accuracy depends on it,
+        # and the same shape is to give the same drawing twice. Faces that are nothing but a triangulation have only
+        # that.
+        add(shape, box, False)
+        if box.IsVoid():
+            add(shape, box, True)
+        out.append(VOID if box.IsVoid() else (box.CornerMin().Coord(), box.CornerMax().Coord()))
+    return out

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,9 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.errors import SourceError
 from hlr.source.model import Color, Floats, Ints, OnSurfaces, PartMesh, Surfaces
+
+if TYPE_CHECKING:
+    from hlr.source.parts import Part
 
 MOST_TRIANGLES = 2**31 // 3 - 1
 """Indices are 32 bits wide; three sides a triangle."""
@@ -32,7 +35,7 @@ class Together(Sequence[PartMesh]):
     labels: who they are; tables: their meshes; surfaces: those under their faces, None where no part has any
     """
 
-    def __init__(self, labels: Sequence[Label], tables: _kernel.PartTables, surfaces: Surfaces | None) -> None:
+    def __init__(self, labels: Sequence[Label | Part], tables: _kernel.PartTables, surfaces: Surfaces | None) -> None:
         self.labels, self.tables, self.surfaces = labels, tables, surfaces
 
     def __len__(self) -> int:

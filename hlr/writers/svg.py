@@ -22,6 +22,7 @@ from hlr.writers.number import number
 from hlr.writers.strokes import strokes
 
 # Characters that XML 1.0 cannot carry, escaped or not.
+_SPECIAL = re.compile("[^ -~]|[&<>\"']")
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
@@ -132,6 +133,8 @@ def _escaped(text: str) -> str:
 
 def _quoted(text: str) -> str:
     """The value of an attribute, with its quotes."""
+    if _SPECIAL.search(text) is None:
+        return f'"{text}"'
     value = _escaped(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
     if '"' not in value:
         return f'"{value}"'

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use hlr_exact::snap::Grid;
 use hlr_visibility::clash::meet::{Numbered, meet};
-use hlr_visibility::clash::search::{Clash, Surfaces};
+use hlr_visibility::clash::search::{Clash, NO_PLANE, Surfaces};
 use hlr_visibility::clash::weld::weld;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -63,7 +63,8 @@ impl Case {
     }
 
     fn found(&self, pool: &ThreadPool, group: &[i32], itself: &[bool]) -> Vec<Clash> {
-        let surfaces = Surfaces { points: &self.points, triangles: &self.triangles, group, itself };
+        let plane = vec![NO_PLANE; self.triangles.len()];
+        let surfaces = Surfaces { points: &self.points, triangles: &self.triangles, group, itself, plane: &plane };
         pool.install(|| surfaces.clashes(&|| false)).found
     }
 

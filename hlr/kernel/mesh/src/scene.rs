@@ -56,6 +56,14 @@ pub struct Surfaces {
     pub curved: Vec<bool>,
 }
 
+impl Scene {
+    /// Of each triangle the planar face that it is of, counted over all parts; None where its face is curved.
+    pub fn planar_face(&self, tables: &Tables) -> impl Iterator<Item = Option<i32>> {
+        let face = |t: usize| tables.face_start[self.triangle_part[t] as usize] + tables.triangle_face[t];
+        (0..self.curved.len()).map(move |t| (!self.curved[t]).then(|| face(t)))
+    }
+}
+
 pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     let triangle_part = tables.triangle_part();
     let face_of = |t: usize| (tables.face_start[triangle_part[t] as usize] + tables.triangle_face[t]) as usize;

@@ -1,19 +1,53 @@
-//! `clashes` and `reach` as Python sees them.
+//! Crossings of surfaces as Python sees them.
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
+use super::mesh::table;
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat, rows};
+use super::view::{Flat, Rows};
 use hlr_exact::snap::Grid;
+use hlr_mesh::facts::Facts;
+use hlr_mesh::scene::Scene;
+use hlr_mesh::tables::Tables;
+use hlr_visibility::clash::depth::{Bodies, Depth};
 use hlr_visibility::clash::reach::Sheet;
-use hlr_visibility::clash::search::Surfaces;
+use hlr_visibility::clash::real::real;
+use hlr_visibility::clash::search::{Clash, Clashes, NO_PLANE, Surfaces};
 use hlr_visibility::clash::weld::weld;
 use hlr_visibility::scan::box_tree::{Aabb, BoxTree};
 
+/// Crossings of which it is told how deep they go, before it is worth while to ask another thread.
+const FEW_CLASHES: usize = 256;
+
+/// What a search tells: None where points are not finite, then None where it was stopped.
+type Told<T> = Option<Option<T>>;
+
+fn told<T>(result: Told<T>) -> PyResult<T> {
+    let Some(result) = result else {
+        return Err(PyValueError::new_err("points hold coordinates that are not finite"));
+    };
+    result.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))
+}
+
+/// All pairs of triangles that cross, and the grid that their ends were rounded to.
+fn search(
+    points: &[[f64; 3]],
+    (triangles, group, plane): (&[[i32; 3]], &[i32], &[i32]),
+    itself: &[bool],
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<(Grid, Clashes)> {
+    let grid = Grid::around(points)?.uniform();
+    let points: Vec<_> = points.par_iter().with_min_len(1 << 13).map(|p| grid.snap(p)).collect();
+    let found = Surfaces { points: &points, triangles, group, itself, plane }.clashes(stopped);
+    Some((grid, found))
+}
+
+/// Every two triangles that cross, however little.
 #[pyfunction]
 pub fn clashes<'py>(
     py: Python<'py>,
@@ -28,25 +62,17 @@ pub fn clashes<'py>(
     expect_len("triangle_part", group.len(), triangles.len())?;
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
     expect_below("triangle_part", group.iter().copied(), itself.len())?;
-    let result = run(py, 0, triangles.len(), |stopped| {
-        let grid = Grid::around(points)?.uniform();
-        let snapped: Vec<_> = points.par_iter().with_min_len(1 << 13).map(|p| grid.snap(p)).collect();
-        let found = Surfaces { points: &snapped, triangles, group, itself }.clashes(stopped);
+    let (grid, found, points, edges) = told(run(py, 0, triangles.len(), |stopped| {
+        let (grid, found) = search(points, (triangles, group, &vec![NO_PLANE; triangles.len()]), itself, stopped)?;
         let (points, edges) = weld(&found.found);
         let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();
         Some((!stopped()).then_some((grid, found, points, edges)))
-    })?;
-    let Some(result) = result else {
-        return Err(PyValueError::new_err("points hold coordinates that are not finite"));
-    };
-    let (grid, found, points, edges) = result.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
-    let (n, m) = (points.len(), edges.len());
+    })?)?;
     let out = PyDict::new(py);
     let all = &found.found;
-    out.set_item("points", points.into_flattened().into_pyarray(py).reshape([n, 3])?)?;
-    out.set_item("edges", edges.into_flattened().into_pyarray(py).reshape([m, 2])?)?;
-    let triangles: Vec<i32> = all.iter().flat_map(|c| c.triangles.map(|t| t as i32)).collect();
-    out.set_item("triangles", triangles.into_pyarray(py).reshape([m, 2])?)?;
+    out.set_item("points", table(py, points)?)?;
+    out.set_item("edges", table(py, edges)?)?;
+    out.set_item("triangles", table(py, all.iter().map(|c| c.triangles.map(|t| t as i32)).collect())?)?;
     let depth: Vec<f64> = all.iter().map(|c| c.meeting.depth / grid.scale_xy).collect();
     out.set_item("depth", depth.into_pyarray(py))?;
     out.set_item("sine", all.iter().map(|c| c.meeting.sine).collect::<Vec<f64>>().into_pyarray(py))?;
@@ -55,52 +81,54 @@ pub fn clashes<'py>(
     Ok(out)
 }
 
-/// (m, 2): how far the surface of the other triangle of a pair goes beyond the plane of each, near the place where they
-/// cross, on its shallower side: no more is told than `most`, and infinity where it cannot be told.
-#[pyfunction]
-#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
-pub fn reach<'py>(
+/// Intersection lines of a scene: ends (n, 3), segments (m, 2) of them, groups (m, 2) of each; of every group whether it
+/// passes through itself; and how many pairs of triangles were looked at.
+pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
+
+fn widest(low: &[f64; 3], high: &[f64; 3]) -> f64 {
+    (0..3).map(|k| high[k] - low[k]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// touch: of every group of the scene, model units.
+pub fn crossings<'py>(
     py: Python<'py>,
-    points: PyReadonlyArray2<'py, f64>,
-    triangles: PyReadonlyArray2<'py, i32>,
-    edges: PyReadonlyArray2<'py, i32>,
-    offsets: PyReadonlyArray1<'py, i32>,
-    incident: PyReadonlyArray1<'py, i32>,
-    normals: PyReadonlyArray2<'py, f64>,
-    pairs: PyReadonlyArray2<'py, i32>,
-    at: PyReadonlyArray2<'py, f64>,
-    most: PyReadonlyArray1<'py, f64>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
-    let (edges, offsets) = (rows::<i32, 2>(&edges, "edges")?, flat(&offsets, "offsets")?);
-    let (incident, normals) = (flat(&incident, "incident")?, rows::<f64, 3>(&normals, "normals")?);
-    let (pairs, at, most) = (rows::<i32, 2>(&pairs, "pairs")?, rows::<f64, 3>(&at, "at")?, flat(&most, "most")?);
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-    expect_below("incident", incident.iter().copied(), triangles.len())?;
-    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
-    expect_below("pairs", pairs.iter().flatten().copied(), triangles.len())?;
-    expect_len("offsets", offsets.len(), edges.len() + 1)?;
-    expect_len("normals", normals.len(), triangles.len())?;
-    expect_len("at", at.len(), pairs.len())?;
-    expect_len("most", most.len(), pairs.len())?;
-    if offsets.windows(2).any(|w| w[0] > w[1]) {
-        return Err(PyValueError::new_err("offsets must ascend"));
-    }
-    let found: Vec<[f64; 2]> = run(py, 0, pairs.len(), |stopped| {
-        let sheet = Sheet { points, triangles, edges, offsets, incident, normals };
-        (0..pairs.len())
-            .into_par_iter()
-            .map(|i| {
-                let [a, b] = pairs[i].map(|t| t as u32);
-                if stopped() {
-                    return [0.0; 2];
-                }
-                [sheet.reach(a, b, &at[i], most[i]), sheet.reach(b, a, &at[i], most[i])]
-            })
-            .collect()
-    })?;
-    let m = found.len();
-    found.into_flattened().into_pyarray(py).reshape([m, 2])
+    (tables, facts, scene): (&Tables, &Facts, &Scene),
+    touch: &[f64],
+    deflection: f64,
+) -> PyResult<Crossings<'py>> {
+    let group = &scene.bodies.group_of[..];
+    let triangles = &scene.turned.as_ref().map_or(&tables.triangles, |turned| &turned.triangles)[..];
+    expect_len("touch", touch.len(), scene.folded.len())?;
+    let (points, real, through, tests) = told(run(py, 0, triangles.len(), |stopped| {
+        let plane: Vec<i32> = scene.planar_face(tables).map(|face| face.unwrap_or(NO_PLANE)).collect();
+        let (grid, found) = search(&tables.points, (triangles, group, &plane), &scene.folded, stopped)?;
+        let (points, ends) = weld(&found.found);
+        let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();
+        let bare: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
+        let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
+        let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, normals: &facts.normals };
+        let bodies = Bodies { sheet, group, curved: &scene.curved, bare: &bare, touch, deflection };
+        let depth = |(clash, [a, b]): (&Clash, &[i32; 2])| {
+            let ends = [a, b].map(|&end| &points[end as usize]);
+            bodies.depth(clash, &[0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2.0))
+        };
+        let depth: Vec<Depth> = found.found.par_iter().zip(&ends).with_min_len(FEW_CLASHES).map(depth).collect();
+        let width: Vec<f64> =
+            scene.bodies.low.iter().zip(&scene.bodies.high).map(|(low, high)| widest(low, high)).collect();
+        let (real, through) = real(&bodies, &found.found, &ends, &depth, &points, &width);
+        Some((!stopped()).then_some((points, real, through, found.tests)))
+    })?)?;
+    let mut used: Vec<i32> = real.iter().flat_map(|segment| segment.ends).collect();
+    used.sort_unstable();
+    used.dedup();
+    let number = |end: i32| used.partition_point(|&e| e < end) as i32;
+    Ok((
+        table(py, used.iter().map(|&end| points[end as usize]).collect())?,
+        table(py, real.iter().map(|segment| segment.ends.map(number)).collect())?,
+        table(py, real.iter().map(|segment| segment.groups.map(|g| g as i32)).collect())?,
+        through.into_pyarray(py),
+        tests,
+    ))
 }
 
 /// Whether each box (low, high) comes near another one: never no where it does, rarely yes where it does not.

@@ -35,7 +35,6 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(scan::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(scan::visibility, m)?)?;
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
-    m.add_function(wrap_pyfunction!(clash::reach, m)?)?;
     m.add_function(wrap_pyfunction!(clash::boxes_meet, m)?)?;
     m.add_function(wrap_pyfunction!(place::projected, m)?)?;
     m.add_function(wrap_pyfunction!(place::placed_boxes, m)?)?;

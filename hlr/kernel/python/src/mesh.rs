@@ -13,7 +13,8 @@ use hlr_mesh::needles::needles as low_ones;
 type Flat<'py, T> = Bound<'py, PyArray1<T>>;
 type Rows<'py, T> = Bound<'py, PyArray2<T>>;
 
-fn table<T: numpy::Element, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> PyResult<Rows<'_, T>> {
+/// (n, N)
+pub fn table<T: numpy::Element, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> PyResult<Rows<'_, T>> {
     let n = rows.len();
     rows.into_flattened().into_pyarray(py).reshape([n, N])
 }

@@ -6,6 +6,7 @@ use numpy::{PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use super::clash::{Crossings, crossings};
 use super::guard::caught;
 use super::running::run;
 use super::scan::{expect_below, expect_len, flat as slice, rows as table};
@@ -320,6 +321,11 @@ arrays! { MeshScene {
     fn turned<'py>(slf: &Bound<'py, Self>) -> Option<Flat<'py, bool>> {
         slf.get().scene.turned.as_ref()?;
         Some(flat(slf, |s| s.scene.turned.as_ref().map_or(&[], |t| &t.which[..])))
+    }
+
+    /// Where its surfaces pass through one another.
+    fn crossings<'py>(&self, py: Python<'py>, touch: PyReadonlyArray1<'py, f64>, deflection: f64) -> PyResult<Crossings<'py>> {
+        crossings(py, (&self.tables, &self.facts, &self.scene), slice(&touch, "touch")?, deflection)
     }
 
     /// Per part its counts.

@@ -1,5 +1,5 @@
 //! B-splines, rational or not, in homogeneous coordinates.
-//! (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997: A2.1 find span, A2.3 basis functions and derivatives.)
+//! (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997: A2.1 find span, A2.3 basis functions and their first derivatives.)
 
 use super::basis::{Basis, values};
 
@@ -37,12 +37,12 @@ pub fn find_span(knots: &[f64], degree: usize, poles: usize, t: f64) -> usize {
     low
 }
 
-/// The basis functions that are not zero on a span, with their first and second derivatives: out[k][j] is the k-th
-/// derivative of N(span - degree + j).
-pub fn basis(knots: &[f64], degree: usize, span: usize, t: f64) -> [[f64; MOST_DEGREE + 1]; 3] {
+/// The basis functions that are not zero on a span, with their first derivatives: out[k][j] is the k-th derivative of
+/// N(span - degree + j). N: at least one more than the degree; short arrays are much faster.
+pub fn basis<const N: usize>(knots: &[f64], degree: usize, span: usize, t: f64) -> [[f64; N]; 2] {
     let p = degree;
-    let mut ndu = [[0.0; MOST_DEGREE + 1]; MOST_DEGREE + 1];
-    let (mut left, mut right) = ([0.0; MOST_DEGREE + 1], [0.0; MOST_DEGREE + 1]);
+    let mut ndu = [[0.0; N]; N];
+    let (mut left, mut right) = ([0.0; N], [0.0; N]);
     ndu[0][0] = 1.0;
     for j in 1..=p {
         left[j] = t - knots[span + 1 - j];
@@ -56,44 +56,13 @@ pub fn basis(knots: &[f64], degree: usize, span: usize, t: f64) -> [[f64; MOST_D
         }
         ndu[j][j] = saved;
     }
-    let mut out = [[0.0; MOST_DEGREE + 1]; 3];
+    let mut out = [[0.0; N]; 2];
     for j in 0..=p {
         out[0][j] = ndu[j][p];
-    }
-    for r in 0..=p {
-        let mut a = [[0.0; MOST_DEGREE + 1]; 2];
-        let (mut s1, mut s2) = (0, 1);
-        a[0][0] = 1.0;
-        for k in 1..=p.min(2) {
-            let mut d = 0.0;
-            let pk = p - k;
-            if r >= k {
-                a[s2][0] = a[s1][0] / ndu[pk + 1][r - k];
-                d = a[s2][0] * ndu[r - k][pk];
-            }
-            let first = if r + 1 >= k { 1 } else { k - r };
-            let last = if r <= pk + 1 { k - 1 } else { p - r };
-            for j in first..=last {
-                let below = r + j - k;
-                a[s2][j] = (a[s1][j] - a[s1][j - 1]) / ndu[pk + 1][below];
-                d += a[s2][j] * ndu[below][pk];
-            }
-            if r <= pk {
-                a[s2][k] = -a[s1][k - 1] / ndu[pk + 1][r];
-                d += a[s2][k] * ndu[r][pk];
-            }
-            out[k][r] = d;
-            std::mem::swap(&mut s1, &mut s2);
-        }
-    }
-    let mut factor = 1.0;
-    for (k, row) in out.iter_mut().enumerate().skip(1) {
-        if k > p {
-            break;
-        }
-        factor *= (p + 1 - k) as f64;
-        for value in &mut row[..=p] {
-            *value *= factor;
+        if p > 0 {
+            let before = if j > 0 { 1.0 / ndu[p][j - 1] * ndu[j - 1][p - 1] } else { 0.0 };
+            let after = if j < p { 1.0 / ndu[p][j] * ndu[j][p - 1] } else { 0.0 };
+            out[1][j] = p as f64 * (before - after);
         }
     }
     out

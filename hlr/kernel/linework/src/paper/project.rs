@@ -2,7 +2,7 @@
 //! projection differ in nothing but a third coordinate that is constant or not.
 
 use hlr_brep::geometry::curve::{Curve, Vec3};
-use hlr_brep::geometry::nurbs::{basis, find_span};
+use hlr_brep::geometry::nurbs::{MOST_DEGREE, basis, find_span};
 
 pub type Vec2 = [f64; 2];
 
@@ -82,19 +82,9 @@ impl Paper {
                 let (s, c) = (t.sinh(), t.cosh());
                 form(p, a, b, [[c, s], [s, c]])
             }
-            Paper::Spline { degree, knots, poles, .. } => {
-                let span = find_span(knots, *degree, poles.len(), t);
-                let values = basis(knots, *degree, span, t);
-                let mut sums = [[0.0; 3]; 2];
-                for (row, value) in sums.iter_mut().zip(&values) {
-                    for (pole, v) in poles[span - degree..=span].iter().zip(value) {
-                        for (sum, c) in row.iter_mut().zip(pole) {
-                            *sum += c * v;
-                        }
-                    }
-                }
-                plain(&sums[0], &sums[1])
-            }
+            Paper::Spline { degree: degree @ 0..=3, knots, poles, .. } => on_spline::<4>(*degree, knots, poles, t),
+            Paper::Spline { degree: degree @ 4..=7, knots, poles, .. } => on_spline::<8>(*degree, knots, poles, t),
+            Paper::Spline { degree, knots, poles, .. } => on_spline::<{ MOST_DEGREE + 1 }>(*degree, knots, poles, t),
         }
     }
 
@@ -112,6 +102,19 @@ impl Paper {
         let Paper::Spline { knots, .. } = self else { return 4 };
         1 + knots.windows(2).filter(|w| w[0] < w[1] && w[1] > a && w[1] < b).count()
     }
+}
+
+fn on_spline<const N: usize>(degree: usize, knots: &[f64], poles: &[Vec3], t: f64) -> [Vec2; 2] {
+    let span = find_span(knots, degree, poles.len(), t);
+    let mut sums = [[0.0; 3]; 2];
+    for (row, value) in sums.iter_mut().zip(&basis::<N>(knots, degree, span, t)) {
+        for (pole, v) in poles[span - degree..=span].iter().zip(value) {
+            for (sum, c) in row.iter_mut().zip(pole) {
+                *sum += c * v;
+            }
+        }
+    }
+    plain(&sums[0], &sums[1])
 }
 
 fn plain(v: &Vec3, d: &Vec3) -> [Vec2; 2] {

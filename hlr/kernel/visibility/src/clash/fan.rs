@@ -148,7 +148,7 @@ mod tests {
     }
 
     fn told((points, triangles): &(Vec<Point>, Vec<[i32; 3]>), group: &[i32], itself: &[bool]) -> bool {
-        flat_vertices(&Surfaces { points, triangles, group, itself })[0]
+        flat_vertices(&Surfaces { points, triangles, group, itself, plane: &[] })[0]
     }
 
     #[test]

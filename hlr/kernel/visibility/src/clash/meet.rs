@@ -60,32 +60,79 @@ fn way(from: &Point, to: &Point) -> [i64; 3] {
 }
 
 /// Whether two triangles certainly do not meet, or only in the corner that they share: the other corners of one lie on one
-/// side of the other's plane. Decided in floating point, and only where the rounding cannot matter.
+/// side of the other's plane, or of the wall on one of its sides. Decided in floating point, and only where the rounding
+/// cannot matter.
 #[inline]
 pub fn apart(a: &Numbered, b: &Numbered) -> bool {
-    beyond(a, b) || beyond(b, a)
+    beyond(a, b) || beyond(b, a) || beside(a, b) || beside(b, a)
 }
 
 fn beyond(plane: &Numbered, of: &Numbered) -> bool {
-    // Differences of 32-bit numbers are exact.
-    let origin = plane.corner[0].map(f64::from);
-    let d = |v: &Point| [0, 1, 2].map(|k| f64::from(v[k]) - origin[k]);
-    let (u, v) = (d(plane.corner[1]), d(plane.corner[2]));
-    let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    let mut size = u.iter().chain(&v).fold(0.0f64, |m, c| m.max(c.abs()));
+    let [_, u, v] = ways(plane, &plane.corner);
+    let n = product(&u, &v);
+    let mut size = longest(&u).max(longest(&v));
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for k in 0..3 {
-        if plane.number.contains(&of.number[k]) {
+    for (w, number) in ways(plane, &of.corner).iter().zip(of.number) {
+        if plane.number.contains(&number) {
             continue;
         }
-        let w = d(of.corner[k]);
-        size = w.iter().fold(size, |m, c| m.max(c.abs()));
-        let side = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
+        size = size.max(longest(w));
+        let side = scalar(&n, w);
         (low, high) = (low.min(side), high.max(side));
     }
     // Each component of n is off by 4 units of 2^-53 size^2 at most, the sum so by 30 of 2^-53 size^3.
     let error = 32.0 * f64::EPSILON * size * size * size;
     low > error || high < -error
+}
+
+/// ```text
+///        /\   |   b      A wall stands on each side of a, square to its plane: all of b is outside one of them.
+///       / a\  |  /\
+///      /____\ | /__\
+/// ```
+fn beside(a: &Numbered, b: &Numbered) -> bool {
+    if a.number.iter().any(|v| b.number.contains(v)) {
+        return false;
+    }
+    let (own, other) = (ways(a, &a.corner), ways(a, &b.corner));
+    let n = product(&own[1], &own[2]);
+    let size = own.iter().chain(&other).map(longest).fold(0.0, f64::max);
+    // n is as above, a wall's normal off by 32 units of 2^-53 size^3 and at most 8 size^3 long, a place beside it 2 sizes
+    // away: the sum is off by 320 units of 2^-53 size^4.
+    let error = 256.0 * f64::EPSILON * size * size * size * size;
+    (0..3).any(|k| {
+        let (from, to) = (&own[k], &own[(k + 1) % 3]);
+        let outward = product(&difference(to, from), &n);
+        other.iter().all(|w| scalar(&outward, &difference(w, from)) > error)
+    })
+}
+
+/// From the first corner of a triangle to places. Differences of 32-bit numbers are exact.
+#[inline]
+fn ways(from: &Numbered, to: &[&Point; 3]) -> [[f64; 3]; 3] {
+    let origin = from.corner[0].map(f64::from);
+    let way = |v: &Point| difference(&[f64::from(v[0]), f64::from(v[1]), f64::from(v[2])], &origin);
+    [way(to[0]), way(to[1]), way(to[2])]
+}
+
+#[inline]
+fn difference(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[inline]
+fn product(u: &[f64; 3], v: &[f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+#[inline]
+fn scalar(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline]
+fn longest(v: &[f64; 3]) -> f64 {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
 /// None where they do not meet, or only in a point, or lie in one plane.
@@ -96,11 +143,15 @@ pub fn meet(a: &Numbered, b: &Numbered) -> Option<Meeting> {
     pierce(a, &side_a, b, &mut found);
     pierce(b, &side_b, a, &mut found);
     let ends = found.farthest()?;
+    let normal = |of: &Numbered| {
+        let [_, u, v] = ways(of, &of.corner);
+        product(&u, &v)
+    };
     let (na, nb) = (normal(a), normal(b));
+    let length = |v: &[f64; 3]| scalar(v, v).sqrt();
     let (la, lb) = (length(&na), length(&nb));
-    let cross = [na[1] * nb[2] - na[2] * nb[1], na[2] * nb[0] - na[0] * nb[2], na[0] * nb[1] - na[1] * nb[0]];
     let depth = (shallower(&side_a) / lb).min(shallower(&side_b) / la);
-    Some(Meeting { ends, depth, sine: length(&cross) / (la * lb) })
+    Some(Meeting { ends, depth, sine: length(&product(&na, &nb)) / (la * lb) })
 }
 
 /// Sides of `of`'s corners against the plane of `plane`; None where the plane does not part them.
@@ -173,17 +224,6 @@ fn shallower(side: &[i128; 3]) -> f64 {
     let above = side.iter().copied().fold(0, i128::max);
     let below = side.iter().copied().fold(0, i128::min);
     above.min(-below) as f64
-}
-
-fn normal(t: &Numbered) -> [f64; 3] {
-    let [p, q, r] = t.corner;
-    let d = |v: &Point| [0, 1, 2].map(|k| f64::from(v[k]) - f64::from(p[k]));
-    let (u, v) = (d(q), d(r));
-    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-}
-
-fn length(v: &[f64; 3]) -> f64 {
-    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
 #[cfg(test)]

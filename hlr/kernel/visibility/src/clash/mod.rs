@@ -5,15 +5,19 @@
 //!    `fan`     and which of those are neighbours that meet in their common vertex alone
 //! 2. `meet`    the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`    ends that fall on one grid point are one point
-//! 4. `reach`   how far a surface goes beyond a triangle that it crosses: touching surfaces do, by what tessellation rounds
+//! 4. `depth`   how deep they go: touching surfaces cross as well, by what tessellation rounds
+//!    `reach`   and how far a surface goes beyond a triangle that it crosses, right there
+//! 5. `real`    which segments are more than a contact
 //!
 //! Independent of any view: done once per scene, on a grid of its own in model space. What is found is drawn as edges
 //! without triangles, which the visibility pass treats like any wire: the ends, rounded to the grid, lie off both
 //! surfaces by less than the contact tolerance.
 
+pub mod depth;
 pub mod fan;
 pub mod meet;
 pub mod reach;
+pub mod real;
 pub mod search;
 pub mod tree;
 pub mod weld;

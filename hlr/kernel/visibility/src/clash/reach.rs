@@ -119,15 +119,15 @@ fn leave(corners: &[Vec3; 3], side: usize, section: &Vec3) -> Option<Exit> {
     Some(Exit { side, place: [0, 1, 2].map(|k| p[k] + t * (q[k] - p[k])) })
 }
 
-fn dot(a: &Vec3, b: &Vec3) -> f64 {
+pub fn dot(a: &Vec3, b: &Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
+pub fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
     [0, 1, 2].map(|k| a[k] - b[k])
 }
 
-fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
+pub fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 

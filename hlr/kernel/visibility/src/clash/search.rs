@@ -45,7 +45,11 @@ pub struct Surfaces<'a> {
     pub group: &'a [i32],
     /// Per group, whether it is searched for passing through itself.
     pub itself: &'a [bool],
+    /// Per triangle the planar face that it is of, or NO_PLANE: those of one plane do not pass through one another.
+    pub plane: &'a [i32],
 }
+
+pub const NO_PLANE: i32 = -1;
 
 impl Surfaces<'_> {
     fn numbered(&self, t: u32) -> Numbered<'_> {
@@ -137,6 +141,10 @@ impl Surfaces<'_> {
         let same = self.group[s as usize] == self.group[t as usize];
         let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
         if same {
+            let plane = self.plane[s as usize];
+            if plane != NO_PLANE && plane == self.plane[t as usize] {
+                return;
+            }
             let (a, b) = (&self.triangles[s as usize], &self.triangles[t as usize]);
             let mut shared = a.iter().filter(|v| b.contains(v));
             match (shared.next(), shared.next()) {
@@ -173,5 +181,26 @@ impl Surfaces<'_> {
             pairs[first..].sort_unstable();
         }
         pairs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_of_one_plane_are_not_tried() {
+        let points = [[0, 0, 0], [9, 0, 0], [0, 9, 0], [3, 3, -5], [4, 3, 7], [3, 4, 7]].map(|p| p.map(|c| 1000 * c));
+        let triangles = [[0, 1, 2], [3, 4, 5]];
+        let tests = |group: &[i32], plane: &[i32]| {
+            let itself = [true; 2];
+            let found = Surfaces { points: &points, triangles: &triangles, group, itself: &itself, plane };
+            let found = found.clashes(&|| false);
+            (found.tests, found.found.len())
+        };
+        assert_eq!(tests(&[0, 0], &[NO_PLANE; 2]), (1, 1));
+        assert_eq!(tests(&[0, 0], &[7, 8]), (1, 1));
+        assert_eq!(tests(&[0, 0], &[7, 7]), (0, 0));
+        assert_eq!(tests(&[0, 1], &[7, 7]), (1, 1));
     }
 }
