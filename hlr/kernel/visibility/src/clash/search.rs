@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::fan::flat_vertices;
+use super::height_field::{MOST, is_height_field, only_at, seen_along};
 use super::meet::{Meeting, Numbered, apart, meet};
 use super::tree::{Found, Item, Tree};
 use crate::scan::box_tree::{Aabb, BoxTree};
@@ -96,32 +96,40 @@ impl Surfaces<'_> {
         };
         let boxes: Vec<Aabb> = members.par_iter().map(|of| around(of)).collect();
         let pairs = self.pairs(&boxes, &members);
-        let own = pairs.iter().any(|[a, b]| a == b);
-        let flat = if own { flat_vertices(self) } else { Vec::new() };
         let mut wanted = vec![false; count];
         for &[a, b] in &pairs {
             wanted[a as usize] = true;
             wanted[b as usize] = true;
         }
-        let mut items: Vec<Vec<Item>> = members
+        let seen = |t: u32| {
+            if !self.itself[self.group[t as usize] as usize] {
+                return 0;
+            }
+            seen_along(self.triangles[t as usize].map(|v| &self.points[v as usize]))
+        };
+        let trees: Vec<Tree> = members
             .par_iter()
             .zip(&wanted)
             .map(|(of, &wanted)| {
                 let of = if wanted { *of } else { &[] };
-                of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect()
+                let items: Vec<Item> = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect();
+                Tree::new(items, &seen)
             })
             .collect();
-        let trees: Vec<Tree> = items.par_iter_mut().map(|items| Tree::new(items)).collect();
         let try_pair = |s: u32, t: u32, out: &mut Part| {
             if !stopped() {
-                self.try_pair(s, t, &flat, out);
+                self.try_pair(s, t, out);
             }
+        };
+        let apart = |items: &[Item], along: u8| {
+            let triangles = items.iter().map(|&(_, t)| self.triangles[t as usize]);
+            items.len() <= MOST && !stopped() && is_height_field(self.points, triangles, along)
         };
         let parts: Vec<Part> = pairs
             .par_iter()
             .map(|&[a, b]| {
-                let (a, b) = (&trees[a as usize], &trees[b as usize]);
-                if std::ptr::eq(a, b) { a.within(&try_pair) } else { a.between(b, &try_pair) }
+                let (first, second) = (&trees[a as usize], &trees[b as usize]);
+                if a == b { first.within(&try_pair, &apart) } else { first.between(second, &try_pair) }
             })
             .collect();
         let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
@@ -137,7 +145,7 @@ impl Surfaces<'_> {
     }
 
     /// Two triangles whose boxes overlap: of different groups that of the lower one first, or both of one group.
-    fn try_pair(&self, s: u32, t: u32, flat: &[bool], out: &mut Part) {
+    fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
         let same = self.group[s as usize] == self.group[t as usize];
         let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
         if same {
@@ -149,7 +157,7 @@ impl Surfaces<'_> {
             let mut shared = a.iter().filter(|v| b.contains(v));
             match (shared.next(), shared.next()) {
                 (Some(_), Some(_)) => return, // neighbours along an edge meet there by right
-                (Some(&v), None) if flat[v as usize] => return,
+                (Some(&v), None) if only_at(self.points, a, b, v) => return,
                 _ => {}
             }
         }

@@ -1,27 +1,38 @@
 //! Boxes in a hierarchy that is searched against itself or another: all pairs that overlap, each once.
 //!
 //! Two hierarchies are gone down side by side, so what lies near one another is found together: per item that takes a few
-//! comparisons, where each item alone would begin at the root.
+//! comparisons, where each item alone would begin at the root. Items lie in the order of the curve that G. Morton put
+//! through space ("A computer oriented geodetic data base", 1966): one sort makes the hierarchy.
+
+use rayon::prelude::*;
 
 use crate::scan::box_tree::Aabb;
 
 pub type Item = (Aabb, u32);
 
-pub struct Tree<'a> {
-    pub bounds: Aabb,
-    pub count: usize,
-    node: Node<'a>,
+pub struct Tree {
+    items: Vec<Item>,
+    nodes: Vec<Node>,
 }
 
-enum Node<'a> {
-    Leaf(&'a [Item]),
-    Inner(Box<[Tree<'a>; 2]>),
+struct Node {
+    bounds: Aabb,
+    first: u32,
+    count: u32,
+    /// How many nodes further on the second half is, the first half follows at once; 0 for leaves.
+    second: u32,
+    /// What all its items have in common.
+    common: u8,
 }
 
 /// Items of a leaf, at most.
-const LEAF: usize = 24;
+const LEAF: usize = 12;
 /// Items below which nothing is gained by a second thread.
 const ALONE: usize = 4096;
+/// Items that one thread does not sort alone.
+const MANY: usize = 1 << 18;
+/// How often, from a node down to a leaf, it is asked in vain whether nothing within it meets.
+const ASKED: u32 = 5;
 
 /// What is found, added up over all pairs.
 pub trait Found: Default + Send {
@@ -32,110 +43,185 @@ pub trait Found: Default + Send {
 pub trait Visit<F>: Fn(u32, u32, &mut F) + Sync {}
 impl<F, V: Fn(u32, u32, &mut F) + Sync> Visit<F> for V {}
 
-impl<'a> Tree<'a> {
-    /// Median split along the longest side. Items are put in the order of the leaves.
-    pub fn new(items: &'a mut [Item]) -> Tree<'a> {
+/// Whether no two of these items meet, which have this in common: yes only where it is certain.
+pub trait Apart: Fn(&[Item], u8) -> bool + Sync {}
+impl<A: Fn(&[Item], u8) -> bool + Sync> Apart for A {}
+
+impl Tree {
+    /// kind: of an item, bits that are looked at where several have them in common.
+    pub fn new(items: Vec<Item>, kind: &(impl Fn(u32) -> u8 + Sync)) -> Tree {
         let bounds = items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
-        let count = items.len();
-        if count <= LEAF {
-            return Tree { bounds, count, node: Node::Leaf(items) };
-        }
-        let axis = (0..3).max_by_key(|&k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).unwrap_or(0);
-        let half = count / 2;
-        items.select_nth_unstable_by_key(half, |(b, i)| (i64::from(b.low[axis]) + i64::from(b.high[axis]), *i));
-        let (low, high) = items.split_at_mut(half);
-        let (low, high) = if count > ALONE {
-            rayon::join(|| Tree::new(low), || Tree::new(high))
+        let mut order: Vec<(u64, u32)> = items
+            .par_iter()
+            .with_min_len(ALONE)
+            .zip(0..items.len() as u32)
+            .map(|((a, _), k)| (code(&bounds, a), k))
+            .collect();
+        if order.len() > MANY {
+            order.par_sort_unstable();
         } else {
-            (Tree::new(low), Tree::new(high))
-        };
-        Tree { bounds, count, node: Node::Inner(Box::new([low, high])) }
+            order.sort_unstable();
+        }
+        let sorted: Vec<Item> = order.par_iter().with_min_len(ALONE).map(|&(_, k)| items[k as usize]).collect();
+        drop(items);
+        let nodes = if sorted.is_empty() { Vec::new() } else { built(&order, &sorted, 0, kind) };
+        Tree { items: sorted, nodes }
     }
 
     /// Pairs of items of this hierarchy.
-    pub fn within<F: Found>(&self, visit: &impl Visit<F>) -> F {
+    pub fn within<F: Found>(&self, visit: &impl Visit<F>, apart: &impl Apart) -> F {
+        if self.nodes.is_empty() { F::default() } else { self.inside(0, 0, visit, apart) }
+    }
+
+    fn inside<F: Found>(&self, at: usize, asked: u32, visit: &impl Visit<F>, apart: &impl Apart) -> F {
+        let node = &self.nodes[at];
         let mut out = F::default();
-        match &self.node {
-            Node::Leaf(items) => {
-                for (k, (a, s)) in items.iter().enumerate() {
-                    for (b, t) in &items[k + 1..] {
-                        if a.overlaps(b) {
-                            visit(*s, *t, &mut out);
-                        }
+        let asks = node.common != 0 && asked < ASKED;
+        if asks && apart(self.of(node), node.common) {
+            return out;
+        }
+        let asked = asked + u32::from(asks);
+        let Some([low, high]) = self.halves(at) else {
+            let items = self.of(node);
+            for (k, (a, s)) in items.iter().enumerate() {
+                for (b, t) in &items[k + 1..] {
+                    if a.overlaps(b) {
+                        visit(*s, *t, &mut out);
                     }
                 }
             }
-            Node::Inner(halves) => {
-                let [low, high] = &**halves;
-                if self.count > ALONE {
-                    let (a, b) = rayon::join(|| low.within(visit), || high.within(visit));
-                    out = a;
-                    out.join(b);
-                } else {
-                    out = low.within(visit);
-                    out.join(high.within(visit));
-                }
-                out.join(low.between(high, visit));
-            }
+            return out;
+        };
+        if node.count as usize > ALONE {
+            let (a, b) =
+                rayon::join(|| self.inside(low, asked, visit, apart), || self.inside(high, asked, visit, apart));
+            out = a;
+            out.join(b);
+        } else {
+            out = self.inside(low, asked, visit, apart);
+            out.join(self.inside(high, asked, visit, apart));
         }
+        self.meet(low, self, high, visit, &mut out);
         out
     }
 
     /// Pairs of an item of this hierarchy and one of another.
     pub fn between<F: Found>(&self, other: &Tree, visit: &impl Visit<F>) -> F {
         let mut out = F::default();
-        self.meet(other, visit, &mut out);
+        if !self.nodes.is_empty() && !other.nodes.is_empty() {
+            self.meet(0, other, 0, visit, &mut out);
+        }
         out
     }
 
-    fn meet<F: Found>(&self, other: &Tree, visit: &impl Visit<F>, out: &mut F) {
-        if !self.bounds.overlaps(&other.bounds) {
+    fn of(&self, node: &Node) -> &[Item] {
+        &self.items[node.first as usize..(node.first + node.count) as usize]
+    }
+
+    fn halves(&self, at: usize) -> Option<[usize; 2]> {
+        let second = self.nodes[at].second as usize;
+        (second > 0).then_some([at + 1, at + second])
+    }
+
+    fn meet<F: Found>(&self, at: usize, other: &Tree, there: usize, visit: &impl Visit<F>, out: &mut F) {
+        let (mine, theirs) = (&self.nodes[at], &other.nodes[there]);
+        if !mine.bounds.overlaps(&theirs.bounds) {
             return;
         }
-        match (&self.node, &other.node) {
-            (Node::Leaf(mine), Node::Leaf(theirs)) => {
-                let mut near = [0usize; LEAF];
-                let mut count = 0;
-                for (k, (b, _)) in theirs.iter().enumerate() {
-                    near[count] = k;
-                    count += usize::from(b.overlaps(&self.bounds));
-                }
-                if count == 0 {
-                    return;
-                }
-                for (a, s) in mine.iter().filter(|(a, _)| a.overlaps(&other.bounds)) {
-                    for &k in &near[..count] {
-                        if a.overlaps(&theirs[k].0) {
-                            visit(*s, theirs[k].1, out);
-                        }
-                    }
-                }
-            }
-            (Node::Inner(halves), _) if self.count >= other.count || matches!(other.node, Node::Leaf(_)) => {
-                let [low, high] = &**halves;
-                if self.count + other.count > ALONE {
-                    let (a, b) = rayon::join(|| low.between(other, visit), || high.between(other, visit));
-                    out.join(a);
-                    out.join(b);
-                } else {
-                    low.meet(other, visit, out);
-                    high.meet(other, visit, out);
-                }
-            }
-            (_, Node::Inner(halves)) => {
-                let [low, high] = &**halves;
-                if self.count + other.count > ALONE {
-                    let (a, b) = rayon::join(|| self.between(low, visit), || self.between(high, visit));
-                    out.join(a);
-                    out.join(b);
-                } else {
-                    self.meet(low, visit, out);
-                    self.meet(high, visit, out);
-                }
-            }
-            (Node::Inner(_), Node::Leaf(_)) => unreachable!("taken by the arm before"),
+        let ways = match (self.halves(at), other.halves(there)) {
+            (None, None) => return self.leaves(mine, other, theirs, visit, out),
+            (Some([low, high]), None) => [(low, there), (high, there)],
+            (Some([low, high]), _) if mine.count >= theirs.count => [(low, there), (high, there)],
+            (_, Some([low, high])) => [(at, low), (at, high)],
+        };
+        if (mine.count + theirs.count) as usize > ALONE {
+            let run = |(a, b): (usize, usize)| {
+                let mut found = F::default();
+                self.meet(a, other, b, visit, &mut found);
+                found
+            };
+            let (a, b) = rayon::join(|| run(ways[0]), || run(ways[1]));
+            out.join(a);
+            out.join(b);
+        } else {
+            ways.into_iter().for_each(|(a, b)| self.meet(a, other, b, visit, out));
         }
     }
+
+    fn leaves<F: Found>(&self, mine: &Node, other: &Tree, theirs: &Node, visit: &impl Visit<F>, out: &mut F) {
+        let (a, b) = (self.of(mine), other.of(theirs));
+        let mut near = [0usize; LEAF];
+        let mut count = 0;
+        for (k, (bounds, _)) in b.iter().enumerate() {
+            near[count] = k;
+            count += usize::from(bounds.overlaps(&mine.bounds));
+        }
+        if count == 0 {
+            return;
+        }
+        for (bounds, s) in a.iter().filter(|(bounds, _)| bounds.overlaps(&theirs.bounds)) {
+            for &k in &near[..count] {
+                if bounds.overlaps(&b[k].0) {
+                    visit(*s, b[k].1, out);
+                }
+            }
+        }
+    }
+}
+
+/// The place of a box's middle along the curve: 21 bits of each coordinate, one after another.
+fn code(bounds: &Aabb, of: &Aabb) -> u64 {
+    let spread = |x: u64| {
+        let x = (x | x << 32) & 0x001F_0000_0000_FFFF;
+        let x = (x | x << 16) & 0x001F_0000_FF00_00FF;
+        let x = (x | x << 8) & 0x100F_00F0_0F00_F00F;
+        let x = (x | x << 4) & 0x10C3_0C30_C30C_30C3;
+        (x | x << 2) & 0x1249_2492_4924_9249
+    };
+    let side = (0..3).map(|k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).max().unwrap_or(0);
+    // Sums of two coordinates: twice as far.
+    let down = (65 - (side as u64).leading_zeros()).saturating_sub(21);
+    (0..3).fold(0, |out, k| {
+        let twice = i64::from(of.low[k]) + i64::from(of.high[k]) - 2 * i64::from(bounds.low[k]);
+        out | spread(twice as u64 >> down) << k
+    })
+}
+
+/// Halves where the highest bit that differs changes; or equal ones, where none does.
+fn built(order: &[(u64, u32)], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync)) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(items.len() / 3 + 1);
+    build(order, items, first, kind, &mut nodes);
+    nodes
+}
+
+fn build(order: &[(u64, u32)], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync), nodes: &mut Vec<Node>) {
+    let count = items.len();
+    if count <= LEAF {
+        let bounds = items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
+        let common = items.iter().fold(u8::MAX, |common, &(_, item)| common & kind(item));
+        nodes.push(Node { bounds, first, count: count as u32, second: 0, common });
+        return;
+    }
+    let differ = order[0].0 ^ order[count - 1].0;
+    let half = match differ.checked_ilog2() {
+        Some(bit) => order.partition_point(|(code, _)| code >> bit & 1 == 0),
+        None => count / 2,
+    };
+    let (at, then) = (nodes.len(), first + half as u32);
+    let ((order_low, order_high), (low, high)) = (order.split_at(half), items.split_at(half));
+    nodes.push(Node { bounds: Aabb::EMPTY, first, count: count as u32, second: 0, common: 0 });
+    if count > ALONE {
+        let (a, b) = rayon::join(|| built(order_low, low, first, kind), || built(order_high, high, then, kind));
+        nodes.extend(a);
+        nodes[at].second = (nodes.len() - at) as u32;
+        nodes.extend(b);
+    } else {
+        build(order_low, low, first, kind, nodes);
+        nodes[at].second = (nodes.len() - at) as u32;
+        build(order_high, high, then, kind, nodes);
+    }
+    let (a, b) = (&nodes[at + 1], &nodes[at + nodes[at].second as usize]);
+    (nodes[at].bounds, nodes[at].common) = (a.bounds.union(&b.bounds), a.common & b.common);
 }
 
 #[cfg(test)]
@@ -166,7 +252,7 @@ mod tests {
                 };
                 (0..count).map(|k| (cube(), first + k)).collect()
             };
-            let (mut a, mut b) = (boxes(0), boxes(count));
+            let (a, b) = (boxes(0), boxes(count));
             let plain = |of: &dyn Fn(usize) -> usize, a: &[Item], b: &[Item]| -> Vec<[u32; 2]> {
                 let pairs = (0..a.len()).flat_map(|i| (of(i)..b.len()).map(move |j| (i, j)));
                 let mut all: Vec<_> =
@@ -175,9 +261,9 @@ mod tests {
                 all
             };
             let (own, both) = (plain(&|i| i + 1, &a, &a), plain(&|_| 0, &a, &b));
-            let (s, t) = (Tree::new(&mut a), Tree::new(&mut b));
+            let (s, t) = (Tree::new(a, &|_| 0), Tree::new(b, &|_| 0));
             let visit = |i: u32, j: u32, out: &mut Pairs| out.0.push([i, j]);
-            let mut found = s.within(&visit).0;
+            let mut found = s.within(&visit, &|_, _| false).0;
             found.iter_mut().for_each(|pair| pair.sort_unstable());
             found.sort_unstable();
             assert_eq!(found, own);
