@@ -179,7 +179,7 @@ impl BrepMesh {
         let (points, uv) = (rows_of::<f64, 3>(&points, "points")?, rows_of::<f64, 2>(&uv, "uv")?);
         let triangles = rows_of::<i32, 3>(&triangles, "triangles")?;
         expect_len("uv", uv.len(), points.len())?;
-        expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+        expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
         expect_below("face", [face as i32].into_iter(), self.model.faces.len())?;
         if borders.iter().flat_map(|b| &b.0).any(|&i| i as usize >= points.len()) {
             return Err(PyValueError::new_err("borders must count points"));

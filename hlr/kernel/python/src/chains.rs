@@ -27,7 +27,7 @@ pub fn chain<'py>(
     expect_len("key", key.len(), edges.len())?;
     let points = points.as_ref().map(|p| rows::<f64, 3>(p, "points")).transpose()?;
     if let Some(points) = points {
-        expect_below("edges", edges.iter().flatten().copied(), points.len())?;
+        expect_below("edges", edges.as_flattened().iter().copied(), points.len())?;
     }
     let straight = points.map(|points| Straight { points, turn: turn.to_radians() });
     let c = chain_edges(edges, key, straight.as_ref());
@@ -98,7 +98,7 @@ impl Chains {
             expect_len("facing", surface.facing.len(), triangles)?;
             expect_len("role", surface.role.len(), edges.len())?;
             expect_len("edge_group", surface.edge_group.len(), edges.len())?;
-            expect_below("edges", edges.iter().flatten().copied(), points)?;
+            expect_below("edges", edges.as_flattened().iter().copied(), points)?;
             expect_below("edge_group", surface.edge_group.iter().copied(), groups)?;
             expect_below("triangle_part", surface.triangle_part.iter().copied(), surface.has_faces.len())?;
             check_incidence(edges.len(), surface.offsets, surface.incident, triangles)?;

@@ -83,7 +83,7 @@ impl Cut {
             let edges = rows::<i32, 2>(&edges, "edges")?;
             let (rank, bare) = (flat(&rank, "rank")?, flat(&bare, "bare")?);
             expect_len("points", space.len(), projected.len())?;
-            expect_below("edges", edges.iter().flatten().copied(), projected.len())?;
+            expect_below("edges", edges.as_flattened().iter().copied(), projected.len())?;
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
             expect_len("rank", rank.len(), chains.about.len())?;
             expect_len("bare", bare.len(), chains.about.len())?;

@@ -54,7 +54,7 @@ pub fn needles<'py>(
     expect_len("normals", normals.len(), triangles.len())?;
     expect_len("part", part.len(), triangles.len())?;
     expect_below("part", part.iter().copied(), least.len())?;
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
     let found = run(py, 0, triangles.len(), |_| low_ones(points, triangles, normals, &|t| least[part[t] as usize]))?;
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }

@@ -147,7 +147,7 @@ arrays! { PartTables {
             expect_len("precision", tables.precision.len(), n)?;
             expect_len("face_shape", tables.face_shape.len(), f)?;
             expect_len("face_reversed", tables.face_reversed.len(), f)?;
-            expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+            expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
             expect_below("edge_nodes", nodes.iter().copied(), points.len())?;
             expect_below("corner + 1", corner.iter().flatten().map(|c| c.saturating_add(1)), uv.len() + 1)?;
             for p in 0..n {

@@ -106,8 +106,8 @@ impl ShadedModel {
             for (name, found) in [("corner", corner.len()), ("paint", paint.len()), ("cull", cull.len())] {
                 expect_len(name, found, triangles.len())?;
             }
-            expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-            expect_below("paint", paint.iter().flatten().copied(), colours.len())?;
+            expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
+            expect_below("paint", paint.as_flattened().iter().copied(), colours.len())?;
             let smooth = corner.iter().filter(|c| c[0] >= 0);
             expect_below("corner", smooth.flatten().copied(), normals.len())?;
             Ok(ShadedModel {
@@ -259,7 +259,7 @@ pub fn surface_normals<'py>(
     expect_len("corner", corner.len(), triangles.len())?;
     expect_len("face_place", place.len(), surface.len())?;
     expect_len("surface_offsets", at.len(), kind.len() + 1)?;
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
     expect_below("triangle_face", face.iter().copied(), surface.len())?;
     expect_below("corner", corner.iter().filter(|c| c[0] >= 0).flatten().copied(), uv.len())?;
     expect_below("face_surface", surface.iter().copied().filter(|&s| s >= 0), kind.len())?;

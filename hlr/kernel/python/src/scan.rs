@@ -6,6 +6,7 @@ use numpy::{
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 use super::running::run;
 use hlr_exact::arithmetic::{Double, Exact, Single};
@@ -42,13 +43,16 @@ pub fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
     Err(PyValueError::new_err(format!("{name} has {found} entries, {wanted} are needed")))
 }
 
-pub fn expect_below(name: &str, values: impl Iterator<Item = i32>, limit: usize) -> PyResult<()> {
-    for v in values {
-        if v < 0 || v as usize >= limit {
-            return Err(PyValueError::new_err(format!("{name} holds {v}, allowed are 0..{limit}")));
-        }
+pub fn expect_below(name: &str, values: impl Iterator<Item = i32> + Clone, limit: usize) -> PyResult<()> {
+    // Without a sign negative ones are the largest: one number tells of all, without a branch for each.
+    let largest = values.clone().fold(0u32, |most, v| most.max(v as u32));
+    if (largest as usize) < limit {
+        return Ok(());
     }
-    Ok(())
+    match values.into_iter().find(|&v| v < 0 || v as usize >= limit) {
+        Some(v) => Err(PyValueError::new_err(format!("{name} holds {v}, allowed are 0..{limit}"))),
+        None => Ok(()),
+    }
 }
 
 type StitchArrays<'py> = (Bound<'py, PyArray2<i32>>, Bound<'py, PyArray1<i32>>, usize);
@@ -61,7 +65,7 @@ pub fn edge_table<'py>(
     n_points: usize,
 ) -> PyResult<EdgeArrays<'py>> {
     let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-    expect_below("triangles", triangles.iter().flatten().copied(), n_points)?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), n_points)?;
     let t = run(py, 0, triangles.len(), |_| topology::topology(triangles, n_points))?;
     let n = t.edges.len();
     let edges = t.edges.into_flattened().into_pyarray(py).reshape([n, 2])?;
@@ -76,7 +80,7 @@ pub fn stitched<'py>(
     reach: f64,
 ) -> PyResult<StitchArrays<'py>> {
     let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
     let found = py.detach(|| stitch::stitch(points, triangles, reach));
     let n = found.triangles.len();
     let triangles = found.triangles.into_flattened().into_pyarray(py).reshape([n, 3])?;
@@ -90,7 +94,7 @@ pub fn components<'py>(
     n_points: usize,
 ) -> PyResult<Bound<'py, PyArray1<i32>>> {
     let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-    expect_below("triangles", triangles.iter().flatten().copied(), n_points)?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), n_points)?;
     Ok(topology::components(triangles, n_points).into_pyarray(py))
 }
 
@@ -101,7 +105,7 @@ pub fn edge_components<'py>(
     n_points: usize,
 ) -> PyResult<Bound<'py, PyArray1<i32>>> {
     let edges = rows::<i32, 2>(&edges, "edges")?;
-    expect_below("edges", edges.iter().flatten().copied(), n_points)?;
+    expect_below("edges", edges.as_flattened().iter().copied(), n_points)?;
     Ok(topology::components(edges, n_points).into_pyarray(py))
 }
 
@@ -199,8 +203,8 @@ pub fn visibility<'py>(
     expect_len("role", role.len(), edges.len())?;
     expect_len("sound", sound.len(), cull.len())?;
     expect_len("delta", delta.len(), cull.len())?;
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-    expect_below("edges", edges.iter().flatten().copied(), points.len())?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
+    expect_below("edges", edges.as_flattened().iter().copied(), points.len())?;
     expect_below("triangle_part", triangle_part.iter().copied(), cull.len())?;
     expect_below("edge_part", edge_part.iter().copied(), cull.len())?;
     check_incidence(edges.len(), offsets, incident, triangles.len())?;
@@ -208,7 +212,7 @@ pub fn visibility<'py>(
     let outcome = run(py, threads, triangles.len(), |stopped| {
         let grid = Grid::around(points)?.with_room(delta.iter().copied().fold(0.0, f64::max));
         let mesh = Mesh {
-            points: points.iter().map(|p| grid.snap(p)).collect(),
+            points: points.par_iter().with_min_len(1 << 13).map(|p| grid.snap(p)).collect(),
             triangles,
             triangle_part,
             edges,

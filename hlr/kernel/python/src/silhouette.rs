@@ -68,8 +68,8 @@ pub fn silhouettes<'py>(
         expect_len(name, found, face_surface.len())?;
     }
     expect_len("surface_offsets", at.len(), kind.len() + 1)?;
-    expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-    expect_below("edges", edges.iter().flatten().copied(), points.len())?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
+    expect_below("edges", edges.as_flattened().iter().copied(), points.len())?;
     expect_below("triangle_face", triangle_face.iter().copied(), face_surface.len())?;
     expect_below("surface_offsets", at.iter().copied(), data.len() + 1)?;
     check_incidence(edges.len(), offsets, incident, triangles.len())?;

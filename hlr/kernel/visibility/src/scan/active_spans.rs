@@ -1,10 +1,9 @@
 //! Seeds: how many polygons lie in front of an end point of a drawn edge.
 //!
-//! Within one band the polygons are sorted by where they begin and the end points by x; the sweep moves right, a
-//! polygon is "in" from its left to its right end in this band (the active spans), and depth is compared only for
-//! polygons that are in and cover the point. A point is asked once, however many edges end there: what is strictly
-//! decided holds for all of them, and only the ties (the faces around the vertex itself, mostly) are decided per
-//! edge, by the direction in which it leaves.
+//! Within one band the asked points are sorted by x, and each polygon looks at those from its left to its right end in
+//! this band; depth is compared only where it covers the point. A point is asked once, however many edges end there: what
+//! is strictly decided holds for all of them, and only the ties (the faces around the vertex itself, mostly) are decided
+//! per edge, by the direction in which it leaves.
 //!
 //! ```text
 //!   band ________________________________________________
@@ -12,12 +11,15 @@
 //!              |--------- polygon 7 -.------|
 //!   _________________________________.____________________
 //! ```
+//!
+//! Of a fine mesh few corners are asked for: a coarse grid tells at once where there is none behind a polygon.
 
 use rayon::prelude::*;
 
 use super::bands::{Bands, clipped_x, y_range};
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
+use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::Cover;
 
@@ -34,22 +36,6 @@ pub struct Seeds {
     tie_offsets: Vec<u32>,
     ties: Vec<u32>,
     pub asked: usize,
-}
-
-struct Span {
-    xmin: i32,
-    xmax: i32,
-    triangle: u32,
-}
-
-struct Active<A: Arithmetic> {
-    xmax: i32,
-    ymin: i32,
-    ymax: i32,
-    zmin: i32,
-    zmax: i32,
-    triangle: u32,
-    cover: Cover<A>,
 }
 
 #[derive(Default)]
@@ -76,8 +62,12 @@ impl Seeds {
                 }
             }
         }
-        let counted: Vec<u32> =
-            (0..mesh.triangles.len()).filter(|&t| table.counted(mesh, t)).map(|t| t as u32).collect();
+        let places = Places::new(asked.iter().map(|&(v, _)| &mesh.points[v as usize]));
+        let counted: Vec<u32> = (0..mesh.triangles.len() as u32)
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .filter(|&t| table.counted(mesh, t as usize) && places.any_behind(mesh.corners(t as usize)))
+            .collect();
         let ranges: Vec<(i32, i32)> = counted
             .par_iter()
             .map(|&t| {
@@ -116,6 +106,10 @@ impl Seeds {
         let (h, o) = (&mesh.points[here as usize], &mesh.points[there as usize]);
         for &t in &self.ties[self.tie_offsets[s] as usize..self.tie_offsets[s + 1] as usize] {
             let t = t as usize;
+            // The edge is one of its sides: at no place behind it, and the less so if moved toward the viewer.
+            if mesh.triangles[t].contains(&here) && mesh.triangles[t].contains(&there) {
+                continue;
+            }
             let Some(cover) = mesh.cover::<A>(t) else { continue };
             let (plain, moved) = cover.hides_end(h, o, mesh.delta(part, mesh.triangle_part[t]));
             count.plain += i32::from(plain);
@@ -135,91 +129,151 @@ fn sweep_band<A: Arithmetic>(
     counted: &[u32],
 ) -> Found {
     let (y0, y1) = bands.limits(band);
-    let mut spans: Vec<Span> = polygons.iter().map(|&i| span(mesh, counted[i as usize], y0, y1)).collect();
-    spans.sort_unstable_by_key(|s| (s.xmin, s.triangle));
-    let mut stops: Vec<(i32, u32)> = here.iter().map(|&s| (mesh.points[asked[s as usize].0 as usize][0], s)).collect();
-    stops.sort_unstable();
-    let mut active: Vec<Active<A>> = Vec::new();
-    let mut next = 0;
+    let mut stops: Vec<Stop> = here.iter().map(|&slot| Stop::new(mesh, slot, asked[slot as usize])).collect();
+    stops.sort_unstable_by_key(|s| (s.at[0], s.slot));
+    let xs: Vec<i32> = stops.iter().map(|s| s.at[0]).collect();
+    let mut counts = vec![Count::default(); stops.len()];
     let mut found = Found::default();
-    for &(x, slot) in &stops {
-        while next < spans.len() && spans[next].xmin <= x {
-            if spans[next].xmax >= x {
-                enter(mesh, &spans[next], &mut active);
-            }
-            next += 1;
+    for &i in polygons {
+        let triangle = counted[i as usize];
+        let (p, q, r) = mesh.corners(triangle as usize);
+        let least = |k: usize| p[k].min(q[k]).min(r[k]);
+        let most = |k: usize| p[k].max(q[k]).max(r[k]);
+        let first = xs.partition_point(|&x| x < least(0));
+        if first == xs.len() || xs[first] > most(0) {
+            continue;
         }
-        let (vertex, part) = asked[slot as usize];
-        let v = &mesh.points[vertex as usize];
-        let mut count = Count::default();
-        let mut i = 0;
-        while i < active.len() {
-            let a = &active[i];
-            if a.xmax < x {
-                active.swap_remove(i);
+        let (left, right) = within([p, q, r], y0, y1);
+        let first = first + xs[first..].partition_point(|&x| x < left);
+        let (ymin, ymax, zmin, zmax) = (least(1), most(1), least(2), most(2));
+        let mut cover = None;
+        for (stop, count) in stops[first..].iter().zip(&mut counts[first..]) {
+            let v = &stop.at;
+            if v[0] > right {
+                break;
+            }
+            if v[1] < ymin || v[1] > ymax || v[2] < zmin {
                 continue;
             }
-            i += 1;
-            if v[1] < a.ymin || v[1] > a.ymax || v[2] < a.zmin {
-                continue;
-            }
-            let sides = a.cover.sides(v);
+            let Some(cover) = cover.get_or_insert_with(|| Cover::<A>::new(p, q, r)) else { break };
+            let sides = cover.sides(v);
             let zero = A::Area::ZERO;
             if sides[0] < zero || sides[1] < zero || sides[2] < zero {
                 continue;
             }
             if sides[0] == zero || sides[1] == zero || sides[2] == zero {
-                found.ties.push((slot, a.triangle));
+                found.ties.push((stop.slot, triangle));
                 continue;
             }
-            let delta = mesh.delta(part, mesh.triangle_part[a.triangle as usize]);
-            if i64::from(a.zmax) + delta < i64::from(v[2]) {
+            let delta = mesh.delta(stop.part, mesh.triangle_part[triangle as usize]);
+            if i64::from(zmax) + delta < i64::from(v[2]) {
                 count.plain += 1;
                 count.moved += 1;
                 continue;
             }
-            let beneath = a.cover.beneath(v, &sides);
-            let shift = a.cover.shift(delta);
+            let beneath = cover.beneath(v, &sides);
+            let shift = cover.shift(delta);
             if beneath == A::Volume::ZERO || beneath == shift {
-                found.ties.push((slot, a.triangle));
+                found.ties.push((stop.slot, triangle));
                 continue;
             }
             count.plain += i32::from(beneath > A::Volume::ZERO);
             count.moved += i32::from(beneath > shift);
         }
-        if count != Count::default() {
-            found.strict.push((slot, count));
-        }
     }
+    let strict = stops.iter().zip(counts).filter(|(_, count)| *count != Count::default());
+    found.strict.extend(strict.map(|(stop, count)| (stop.slot, count)));
     found
 }
 
-fn span(mesh: &Mesh, triangle: u32, y0: i64, y1: i64) -> Span {
-    let (p, q, r) = mesh.corners(triangle as usize);
-    let (mut xmin, mut xmax) = (i32::MAX, i32::MIN);
+/// x extent of the part of a triangle between y0 and y1, never too small.
+fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
+    let (mut left, mut right) = (i32::MAX, i32::MIN);
     for (a, b) in [(p, q), (q, r), (r, p)] {
         let (low, high) = y_range(a, b);
         if i64::from(low) <= y1 && i64::from(high) >= y0 {
-            let (left, right) = clipped_x(a, b, y0, y1);
-            xmin = xmin.min(left);
-            xmax = xmax.max(right);
+            let (from, to) = clipped_x(a, b, y0, y1);
+            left = left.min(from);
+            right = right.max(to);
         }
     }
-    Span { xmin, xmax, triangle }
+    (left, right)
 }
 
-fn enter<A: Arithmetic>(mesh: &Mesh, span: &Span, active: &mut Vec<Active<A>>) {
-    let (p, q, r) = mesh.corners(span.triangle as usize);
-    if let Some(cover) = Cover::new(p, q, r) {
-        active.push(Active {
-            xmax: span.xmax,
-            ymin: p[1].min(q[1]).min(r[1]),
-            ymax: p[1].max(q[1]).max(r[1]),
-            zmin: p[2].min(q[2]).min(r[2]),
-            zmax: p[2].max(q[2]).max(r[2]),
-            triangle: span.triangle,
-            cover,
-        });
+/// An asked point in its band.
+struct Stop {
+    at: Point,
+    slot: u32,
+    part: i32,
+}
+
+impl Stop {
+    fn new(mesh: &Mesh, slot: u32, (vertex, part): (u32, i32)) -> Stop {
+        Stop { at: mesh.points[vertex as usize], slot, part }
+    }
+}
+
+/// Where points are asked for: per cell of the image the depth of the farthest.
+struct Places {
+    low: [i64; 2],
+    shift: u32,
+    columns: usize,
+    rows: usize,
+    farthest: Vec<i32>,
+}
+
+/// Cells a polygon covers beyond which they are not looked at: it is large, and something will lie there.
+const MANY_CELLS: usize = 16;
+
+impl Places {
+    fn new<'p>(points: impl Iterator<Item = &'p Point> + Clone) -> Places {
+        let (mut low, mut high, mut count) = ([i64::MAX; 2], [i64::MIN; 2], 0usize);
+        for p in points.clone() {
+            count += 1;
+            for k in [0, 1] {
+                low[k] = low[k].min(i64::from(p[k]));
+                high[k] = high[k].max(i64::from(p[k]));
+            }
+        }
+        if count == 0 {
+            return Places { low: [0; 2], shift: 0, columns: 0, rows: 0, farthest: Vec::new() };
+        }
+        let size = [0, 1].map(|k| high[k] - low[k] + 1);
+        // Four cells a point, and a few million in all.
+        let wanted = (4.0 * count as f64).sqrt().clamp(1.0, 2048.0);
+        let mut shift = 0;
+        while (size[0].max(size[1]) >> shift) as f64 >= wanted {
+            shift += 1;
+        }
+        let [columns, rows] = size.map(|s| (s >> shift) as usize + 1);
+        let mut farthest = vec![i32::MIN; columns * rows];
+        for p in points {
+            let [column, row] = [0, 1].map(|k| ((i64::from(p[k]) - low[k]) >> shift) as usize);
+            let cell = &mut farthest[row * columns + column];
+            *cell = p[2].max(*cell);
+        }
+        Places { low, shift, columns, rows, farthest }
+    }
+
+    /// Whether a point may lie behind the triangle's nearest corner, in its box: no only where it is certain.
+    #[inline]
+    fn any_behind(&self, (p, q, r): (&Point, &Point, &Point)) -> bool {
+        let cells = |k: usize, count: usize| {
+            let (least, most) = (p[k].min(q[k]).min(r[k]), p[k].max(q[k]).max(r[k]));
+            let from = ((i64::from(least) - self.low[k]) >> self.shift).max(0) as usize;
+            let to = (i64::from(most) - self.low[k]) >> self.shift;
+            from..((to + 1).max(0) as usize).min(count)
+        };
+        let (columns, rows) = (cells(0, self.columns), cells(1, self.rows));
+        if columns.is_empty() || rows.is_empty() {
+            return false;
+        }
+        let nearest = p[2].min(q[2]).min(r[2]);
+        columns.len() * rows.len() > MANY_CELLS
+            || rows.into_iter().any(|row| {
+                let line = &self.farthest[row * self.columns..(row + 1) * self.columns];
+                line[columns.clone()].iter().any(|&farthest| farthest >= nearest)
+            })
     }
 }
 
@@ -246,4 +300,33 @@ fn gather(slot: Vec<u32>, slots: usize, found: &[Found]) -> Seeds {
         }
     }
     Seeds { slot, strict, tie_offsets, ties, asked: slots }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_point_behind_a_triangle_is_overlooked() {
+        let mut state = 1u64;
+        let mut random = |n: i32| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 33) as i32).rem_euclid(n)
+        };
+        let mut none = 0;
+        for round in 0..400 {
+            let points: Vec<Point> = (0..round % 50).map(|_| [random(2000) - 900, random(900), random(99)]).collect();
+            let places = Places::new(points.iter());
+            let at = [random(4000) - 2000, random(3000) - 1500, random(99)];
+            let corner = |_| [at[0] + random(150), at[1] + random(150), at[2] + random(20)];
+            let [p, q, r] = [0, 1, 2].map(corner);
+            let inside =
+                |v: &Point| (0..2).all(|k| (p[k].min(q[k]).min(r[k])..=p[k].max(q[k]).max(r[k])).contains(&v[k]));
+            let behind = points.iter().any(|v| inside(v) && v[2] >= p[2].min(q[2]).min(r[2]));
+            let told = places.any_behind((&p, &q, &r));
+            assert!(told || !behind);
+            none += i32::from(!told);
+        }
+        assert!(none > 200, "{none}");
+    }
 }

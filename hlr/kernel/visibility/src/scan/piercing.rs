@@ -22,6 +22,9 @@ use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::{Cover, shifted_side};
 
+/// Other parts around one, beyond which their boxes are not told apart.
+const MANY_AROUND: usize = 32;
+
 pub struct Piercings<P> {
     pub events: Vec<Vec<Event<P>>>,
     pub tests: u64,
@@ -41,16 +44,13 @@ pub fn piercings<A: Arithmetic>(
     if searched == 0 {
         return Piercings { events: Vec::new(), tests: 0, parts: 0 };
     }
+    let largest = mesh.parts.iter().map(|p| p.delta).max().unwrap_or(0);
     let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.parts.len()];
-    for (t, &part) in mesh.triangle_part.iter().enumerate() {
-        if sought[part as usize] && table.counted(mesh, t) {
-            let (p, q, r) = mesh.corners(t);
-            members[part as usize].push((Aabb::of(&[p, q, r]), t as u32));
-        }
+    for (reach, t) in reached(mesh, table, &boxes, &sought, largest) {
+        members[mesh.triangle_part[t as usize] as usize].push((reach, t));
     }
     let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::new).collect();
     let parts = BoxTree::new((0..mesh.parts.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
-    let largest = mesh.parts.iter().map(|p| p.delta).max().unwrap_or(0);
     let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
         .par_chunks(256)
         .enumerate()
@@ -152,12 +152,56 @@ fn through<A: Arithmetic>(
     Some((A::piercing(ga, ga - gb), if gb > zero { 1 } else { -1 }))
 }
 
+/// Polygons that edges of other parts may reach, with their boxes; all of parts that are not sound.
+fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], largest: i64) -> Vec<(Aabb, u32)> {
+    let live = || (0..boxes.len()).filter(|&p| sought[p]);
+    let tree = BoxTree::new(live().map(|p| (boxes[p].toward_viewer(largest), p as u32)).collect());
+    // None: with so many parts around it all are taken.
+    let mut near: Vec<Option<Vec<Aabb>>> = vec![None; boxes.len()];
+    for p in live().filter(|&p| mesh.parts[p].sound) {
+        let mut around = Vec::new();
+        tree.query(&boxes[p], |other| {
+            if other as usize != p && around.len() <= MANY_AROUND {
+                around.push(boxes[other as usize].toward_viewer(largest));
+            }
+        });
+        near[p] = (around.len() <= MANY_AROUND).then_some(around);
+    }
+    (0..mesh.triangles.len() as u32)
+        .into_par_iter()
+        .with_min_len(1 << 12)
+        .filter_map(|t| {
+            let part = mesh.triangle_part[t as usize] as usize;
+            if !sought[part] || !table.counted(mesh, t as usize) {
+                return None;
+            }
+            let (p, q, r) = mesh.corners(t as usize);
+            let own = Aabb::of(&[p, q, r]);
+            let asked = near[part].as_ref().is_none_or(|near| near.iter().any(|other| other.overlaps(&own)));
+            asked.then_some((own, t))
+        })
+        .collect()
+}
+
 fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
+    let of = |triangles: &[[i32; 3]], parts: &[i32]| {
+        let mut boxes = vec![Aabb::EMPTY; mesh.parts.len()];
+        for (t, &part) in triangles.iter().zip(parts) {
+            let [p, q, r] = t.map(|v| &mesh.points[v as usize]);
+            let b = &mut boxes[part as usize];
+            *b = b.union(&Aabb::of(&[p, q, r]));
+        }
+        boxes
+    };
+    // A table for each thread, where there are few parts.
+    let count = mesh.triangles.len();
+    let threads = if mesh.parts.len() < count / 64 { rayon::current_num_threads() } else { 1 };
+    let chunk = count.div_ceil(threads).max(1);
+    let tables: Vec<Vec<Aabb>> =
+        mesh.triangles.par_chunks(chunk).zip(mesh.triangle_part.par_chunks(chunk)).map(|(t, p)| of(t, p)).collect();
     let mut boxes = vec![Aabb::EMPTY; mesh.parts.len()];
-    for (t, &part) in mesh.triangle_part.iter().enumerate() {
-        let (p, q, r) = mesh.corners(t);
-        let b = &mut boxes[part as usize];
-        *b = b.union(&Aabb::of(&[p, q, r]));
+    for table in tables {
+        boxes.iter_mut().zip(table).for_each(|(b, own)| *b = b.union(&own));
     }
     for (e, &part) in mesh.edge_part.iter().enumerate() {
         if mesh.incident(e).is_empty() {

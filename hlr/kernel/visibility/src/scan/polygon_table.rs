@@ -20,19 +20,17 @@ pub struct PolygonTable {
 
 impl PolygonTable {
     pub fn new<A: Arithmetic>(mesh: &Mesh) -> PolygonTable {
-        let facing: Vec<i8> = (0..mesh.triangles.len())
+        let (mut facing, mut almost): (Vec<i8>, Vec<bool>) = (Vec::new(), Vec::new());
+        (0..mesh.triangles.len())
             .into_par_iter()
             .map(|t| {
                 let (p, q, r) = mesh.corners(t);
-                orient2d::<A>(p, q, r).sign() as i8
+                let facing = orient2d::<A>(p, q, r).sign() as i8;
+                (facing, facing != 0 && almost_edge_on((p, q, r)))
             })
-            .collect();
+            .unzip_into_vecs(&mut facing, &mut almost);
         let culled =
             facing.par_iter().zip(mesh.triangle_part).filter(|&(&f, &p)| f < 0 && mesh.parts[p as usize].cull).count();
-        let almost = (0..mesh.triangles.len())
-            .into_par_iter()
-            .map(|t| facing[t] != 0 && almost_edge_on(mesh.corners(t)))
-            .collect();
         PolygonTable { facing, almost, culled }
     }
 
