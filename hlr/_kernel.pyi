@@ -1,7 +1,6 @@
 """The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape.
 
-A part of the visibility pass (triangle_part, edge_part, cull, sound, delta, cap, tight) is a scene's group. Parts share
-no points.
+Lengths are of the model unless another unit is named. Groups are those of a scene; they share no points.
 """
 
 from collections.abc import Callable, Sequence
@@ -58,54 +57,187 @@ def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floa
     """Corners (p, 8, 3) of boxes (r, 2, 3), of each part that of its root, moved by matrices (p, 4, 4); the box (2, 3)
     around them. A box whose lower corner lies beyond the upper one is void: its corners are 0, and do not count."""
 
+class Mesh:
+    """points (n, 3), triangles (t, 3), edges (e, 2) and, at edge i, triangles incident[offsets[i]:offsets[i + 1]].
+
+    offsets (e + 1,); edges without triangles are lines. The arrays are not copied: they must stay as they are.
+    ValueError where they do not fit.
+    """
+
+    def __new__(cls, points: Floats, triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Mesh: ...
+
+class Groups:
+    """triangle (t,), edge (e,): the group of each; per group (g,) what may be assumed of it.
+
+    cull: closed and turned outward, so that faces turned away need not be looked at; sound: does not pass through
+    itself; delta: contact tolerance, cap: the most that anything may be moved before it is compared with this group,
+    both in depth units of the view; tight: lines that lie exactly on triangles of other groups. ValueError where they
+    do not fit. The numbers of groups are not copied.
+    """
+
+    def __new__(
+        cls,
+        triangle: Ints,
+        edge: Ints,
+        cull: Bools,
+        sound: Bools,
+        delta: Floats,
+        cap: Floats,
+        tight: Bools,
+    ) -> Groups: ...
+
+class OwnFaces:
+    """Edges whose own faces are seen nearly edge-on: the columns of `hlr.scene.scene.OwnFaces`.
+
+    triangle_face (t,): of each triangle its face, numbered through all parts. ValueError where they do not fit.
+    """
+
+    def __new__(
+        cls,
+        edge: Ints,
+        range: Floats,
+        line: Ints,
+        beside: Bytes,
+        dented: Bools,
+        offsets: Ints,
+        face: Ints,
+        off: Ints,
+        triangle_face: Ints,
+        sheet: Ints,
+    ) -> OwnFaces: ...
+
+class Visibility:
+    """Pieces of edges, sorted by edge and parameter; arrays are read-only.
+
+    edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,): 0 visible, 1
+    hidden, 2 hidden by less than the contact tolerance, 3 the same on the way to hidden; facing (t,): sign of each
+    triangle's area on the image; counters of the work; seconds of each step.
+    """
+
+    edge: Ints
+    t0: Floats
+    t1: Floats
+    state: Bytes
+    facing: npt.NDArray[np.int8]
+    counters: dict[str, int]
+    seconds: dict[str, float]
+
 def visibility(
-    points: Floats,
-    triangles: Ints,
-    triangle_part: Ints,
-    edges: Ints,
-    offsets: Ints,
-    incident: Ints,
-    edge_part: Ints,
+    mesh: Mesh,
+    projected: Floats,
+    groups: Groups,
     role: Bytes,
-    cull: Bools,
-    sound: Bools,
-    delta: Floats,
-    cap: Floats,
-    tight: Bools,
-    threads: int = 0,
-    arithmetic: str = "exact",
+    own: OwnFaces | None = None,
+    *,
     crossings: bool = True,
     piercings: bool = True,
     pyramid: bool = False,
-    own: tuple[npt.NDArray[Any], ...] | None = None,
-) -> dict[str, Any]: ...
-def curve_points(kind: Bytes, offsets: Ints, values: Floats, which: Ints, parameters: Floats) -> Floats: ...
-def surface_points(kind: Bytes, offsets: Ints, values: Floats, which: Ints, uv: Floats) -> Floats: ...
-def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
-def silhouettes(
-    points: Floats,
-    triangles: Ints,
-    triangle_face: Ints,
-    edges: Ints,
-    offsets: Ints,
-    incident: Ints,
-    smooth: Bools,
-    source: Ints,
-    corner: Ints,
-    uv: Floats,
-    face_surface: Ints,
-    face_place: Floats,
-    face_inward: Bools,
-    face_curved: Bools,
-    surface_kind: Bytes,
-    surface_offsets: Ints,
-    surface_data: Floats,
-    perspective: bool,
-    eye: tuple[float, float, float],
-    away: tuple[float, float, float],
-    chord: float,
+    arithmetic: str = "exact",
     threads: int = 0,
-) -> dict[str, Any]: ...
+) -> Visibility:
+    """Which pieces of the edges are seen; projected (n, 3): x right, y up, z away from the viewer.
+
+    role (e,): 1 drawn, 2 drawn where it is a contour, 0 not. crossings, piercings, pyramid: the steps gone through, as
+    `hlr.plan.plan.Plan` has them. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is
+    not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
+    """
+
+class Curves:
+    """n curves: kind (n,), range (n, 2), and the numbers of record i, values[offsets[i]:offsets[i + 1]].
+
+    As `hlr.source.geometry` describes them. ValueError where they do not fit.
+    """
+
+    def __new__(cls, kind: Bytes, range: Floats, offsets: Ints, values: Floats) -> Curves: ...
+
+def curve_points(curves: Curves, which: Ints, parameters: Floats) -> Floats:
+    """(m, 3, 3) point, first and second derivative of the curves `which` (m,) at parameters (m,); NaN for unknown."""
+
+class Surfaces:
+    """n surfaces: kind (n,), and the numbers of record i, data[offsets[i]:offsets[i + 1]].
+
+    As `hlr.source.model.SurfaceRecords` has them; ValueError where they do not fit.
+    """
+
+    def __new__(cls, kind: Bytes, offsets: Ints, data: Floats) -> Surfaces: ...
+    def points(self, which: Ints, uv: Floats) -> Floats:
+        """(m, 3, 3) point, du and dv of surfaces `which` (m,) at uv (m, 2); NaN for unknown."""
+
+class TrueSurfaces:
+    """Triangles on the surfaces of their faces, which are numbered through all parts.
+
+    triangle_face (t,); corner (t, 3) into uv (k, 2), -1 for none; of each face number (f,) in surfaces, -1 for none,
+    place (f, 12): rows of the matrix from the surface's frame into the model, inward (f,): the surface's normal points
+    there, curved (f,): may show an outline. Arrays of triangles are not copied. ValueError where they do not fit.
+    """
+
+    def __new__(
+        cls,
+        triangle_face: Ints,
+        corner: Ints,
+        uv: Floats,
+        surfaces: Surfaces,
+        number: Ints,
+        place: Floats,
+        inward: Bools,
+        curved: Bools,
+    ) -> TrueSurfaces: ...
+
+def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
+
+class Outlines:
+    """The curves on true surfaces that are seen edge-on: outline o is points[offsets[o]:offsets[o + 1]].
+
+    points (n, 3), normals (n, 3): outward; rise (n,): how far triangles stand out beyond them; face (o,); source (o,):
+    the source edge that it runs along, -1 for none; concave (o,): its own body hides it; curve_*: records of their
+    curves, as in `Curves`; traced (f,): faces whose outlines these are. grazing: borders seen nearly edge-on.
+    """
+
+    offsets: Ints
+    points: Floats
+    normals: Floats
+    rise: Floats
+    face: Ints
+    source: Ints
+    concave: Bools
+    curve_kind: Bytes
+    curve_range: Floats
+    curve_offsets: Ints
+    curve_values: Floats
+    traced: Bools
+    grazing: GrazingBorders
+
+    def __len__(self) -> int: ...
+
+class GrazingBorders:
+    """Stretches of borders of faces that are seen nearly edge-on, between places where a face turns over.
+
+    edge (k,), range (k, 2): parameters of the stretch; face (k,); normals (k, 2, 3): outward ones of the face at both
+    ends; front (k,): its outer side is seen; beside (k,): the faces there show the edge (1), hide it (2), or it is not
+    known (0); dented (k,): turned toward the viewer, but its triangle is not; rise (k, 2): as in `Outlines`, -1 where
+    no outline ends.
+    """
+
+    edge: Ints
+    range: Floats
+    face: Ints
+    normals: Floats
+    front: Bools
+    beside: Bytes
+    dented: Bools
+    rise: Floats
+
+    def __len__(self) -> int: ...
+
+def silhouettes(
+    mesh: Mesh, on: TrueSurfaces, smooth: Bools, source: Ints, camera: Camera, chord: float, threads: int = 0
+) -> Outlines:
+    """The outlines of true surfaces.
+
+    smooth (e,): the surface goes on smoothly across the edge; source (e,): the source edge of which it is a chord, -1
+    for none; chord: how far chords may stay off an outline. ValueError where they do not fit, KeyboardInterrupt within
+    milliseconds of Ctrl-C.
+    """
 
 Lens = tuple[
     tuple[float, float, float],
@@ -130,25 +262,39 @@ class Camera:
         cls, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None, scale: float
     ) -> Camera: ...
 
+class Walks:
+    """Walks over mesh edges: the columns of `hlr.scene.scene.Chains`. ValueError where they do not fit."""
+
+    def __new__(
+        cls,
+        offsets: Ints,
+        edges: Ints,
+        reversed: Bools,
+        kind: Bytes,
+        part: Ints,
+        index: Ints,
+        face: Ints,
+        other: Ints,
+        straight: Bools,
+    ) -> Walks: ...
+
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
 
-    chains: offsets, edges, reversed, kind, part, index, face, other of `hlr.scene.scene.Chains`; straight (c,) too;
-    drawn: per EdgeClass, whether chains of it are drawn; points: how many there are; mesh: edges, offsets, incident,
-    edge_group, triangle_part, triangle_face of the scene; has_faces (parts,); groups: how many; facing (t,) int8 and
-    role (e,) uint8 as the visibility pass has them; found (s,): edges drawn or contours, ascending. ValueError where
-    they do not fit.
+    drawn: per EdgeClass, whether walks of it are drawn; triangle_part, triangle_face (t,); has_faces (parts,); facing
+    (t,) int8 and role (e,) uint8 as the visibility pass has them; found (s,): edges drawn or contours, ascending.
+    ValueError where they do not fit.
     """
 
     def __new__(
         cls,
-        chains: tuple[Ints, Ints, Bools, Bytes, Ints, Ints, Ints, Ints],
-        straight: Bools,
+        walks: Walks,
         drawn: list[bool],
-        points: int,
-        mesh: tuple[Ints, Ints, Ints, Ints, Ints, Ints],
+        mesh: Mesh,
+        groups: Groups,
+        triangle_part: Ints,
+        triangle_face: Ints,
         has_faces: Bools,
-        groups: int,
         facing: npt.NDArray[np.int8],
         role: Bytes,
         found: Ints,
@@ -182,34 +328,51 @@ class Chains:
         """(c,) in the part's TopExp edge map, -1 for none."""
 
     @property
-    def noisy(self) -> Bools:
-        """(c,) the contour of a mesh, which may turn to and fro by an edge."""
-
-    @property
     def straight(self) -> Bools:
         """(c,) known to be, so that no curve is looked for."""
+
+class LineTolerances:
+    """What lines may be off by, and what is too short: those of `Tolerances`, millimetres on paper.
+
+    But thin_model, closed (what closes a curve) and contact (what touches), in the model; and chord: the share of the
+    accuracy that points along circles may be off.
+    """
+
+    def __new__(
+        cls,
+        *,
+        accuracy: float,
+        short: float,
+        flip: float,
+        stub: float,
+        width: float,
+        under: float,
+        thin_paper: float,
+        thin_model: float,
+        chord: float,
+        closed: float,
+        contact: float,
+    ) -> LineTolerances: ...
 
 class Cut:
     """Lines on paper: chained, of coincident ones one, without what is shorter than the accuracy, thinned out.
 
-    projected (n, 3) as Camera.project gives it; points (n, 3) in the model; edges (e, 2); pieces: edge, start, end and
-    state of the visibility pass, by edge; rank (c,) uint8: of coincident lines the lower sixteen is drawn, of equal
-    ones the nearer, then the lower; bare (c,): of a mesh without faces; lengths: accuracy, short, flip, stub, width,
-    under and thin_paper of `Tolerances`, millimetres on paper, and thin_model, in the model; hidden: whether hidden
-    lines are drawn. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    projected (n, 3) as Camera.project gives it, of the mesh's points; pieces: edge, start, end and state of the
+    visibility pass, by edge; rank (c,) uint8: of coincident lines the lower sixteen is drawn, of equal ones the nearer,
+    then the lower; bare (c,): of a mesh without faces; hidden: whether hidden lines are drawn. ValueError where they do
+    not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
     def __new__(
         cls,
         camera: Camera,
         projected: Floats,
-        points: Floats,
-        edges: Ints,
+        mesh: Mesh,
         pieces: tuple[Ints, Floats, Floats, Bytes],
         chains: Chains,
         rank: Bytes,
         bare: Bools,
-        lengths: tuple[float, float, float, float, float, float, float, float],
+        tolerances: LineTolerances,
         hidden: bool,
         threads: int,
     ) -> Cut: ...
@@ -221,21 +384,12 @@ class Cut:
         """(lines,) the chain of each, also of hidden ones that are there only for others to end on."""
 
     def finished(
-        self,
-        known: bool,
-        records: tuple[Bytes, Floats, Ints, Floats],
-        places: Floats,
-        curve: Ints,
-        place: Ints,
-        bulge: Floats,
-        lengths: tuple[float, float, float, float],
-        threads: int,
+        self, curves: Curves | None, places: Floats, curve: Ints, place: Ints, bulge: Floats, threads: int
     ) -> tuple[Lines, tuple[float, float]]:
         """The lines on their curves, sorted by part, kind, edge and face, and their lower left corner; only once.
 
-        known: there may be curves; records: kind, range, offsets and values of `Curves`; places (p, 3, 4); curve (c,)
-        of each chain, -1 for none, place (c,) and bulge (c,), millimetres on paper; lengths: the accuracy, its share
-        that points along circles may be off, and in the model what closes a curve and what touches.
+        curves: None where there are none; places (p, 3, 4); curve (c,) of each chain, -1 for none, place (c,) and bulge
+        (c,), millimetres on paper.
         """
 
 class Lines:
@@ -546,19 +700,9 @@ def filled_areas(
     fine: float,
     threads: int = 0,
 ) -> dict[str, Any]: ...
-def surface_normals(
-    points: Floats,
-    triangles: Ints,
-    triangle_face: Ints,
-    corner: Ints,
-    uv: Floats,
-    face_surface: Ints,
-    face_place: Floats,
-    surface_kind: Bytes,
-    surface_offsets: Ints,
-    surface_data: Floats,
-    threads: int = 0,
-) -> npt.NDArray[np.float32]: ...
+def surface_normals(mesh: Mesh, on: TrueSurfaces, threads: int = 0) -> npt.NDArray[np.float32]:
+    """(k, 3) unit normals at the places uv, on the outer side; nought where the surface has none."""
+
 def nearest(
     points: Floats, point_key: Ints, segments: Floats, segment_key: Ints, most: float, threads: int
 ) -> tuple[Floats, Ints]: ...

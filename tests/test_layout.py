@@ -47,7 +47,7 @@ CRATES = {
     "exact": set(),
     "brep": set(),
     "mesh": {"brep"},
-    "visibility": {"exact"},
+    "visibility": {"exact", "mesh"},
     "linework": {"exact", "brep", "mesh", "visibility"},
     "preview": {"brep"},
     "methods": {"exact"},

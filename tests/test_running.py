@@ -15,9 +15,8 @@ from hlr import _kernel
 def lengths(count: int) -> float:
     """Points of a straight line, by a kernel function that runs in parallel; their sum."""
     line = np.array([0.0, 0, 0, 1, 0, 0, 0, 0, 0])
-    found = _kernel.curve_points(
-        np.array([1], np.uint8), np.array([0, 9], np.int32), line, np.zeros(count, np.int32), np.arange(count) * 1.0
-    )
+    curves = _kernel.Curves(np.array([1], np.uint8), np.zeros((1, 2)), np.array([0, 9], np.int32), line)
+    found = _kernel.curve_points(curves, np.zeros(count, np.int32), np.arange(count) * 1.0)
     return float(found[:, 0, 0].sum())
 
 

@@ -57,14 +57,25 @@ def draw_lines(
     cut = _kernel.Cut(
         camera.scaled(per_model),
         projected,
-        scene.points,
-        scene.edges,
+        segments.mesh,
         (segments.edge, segments.t0, segments.t1, segments.state),
         chains,
         rank,
         # The contours of meshes are smoothed; those of a B-rep's tessellation have no accuracy left for it.
         np.array([p.faces == 0 for p in scene.parts], bool)[chains.part],
-        (t.accuracy, t.short, t.flip, t.stub, t.width, t.under, t.thin_paper, t.thin_model),
+        _kernel.LineTolerances(
+            accuracy=t.accuracy,
+            short=t.short,
+            flip=t.flip,
+            stub=t.stub,
+            width=t.width,
+            under=t.under,
+            thin_paper=t.thin_paper,
+            thin_model=t.thin_model,
+            chord=CURVE_CHORD,
+            closed=CLOSED * t.accuracy / per_model,
+            contact=t.contact,
+        ),
         hidden,
         threads,
     )
@@ -73,13 +84,13 @@ def draw_lines(
     along = guides(scene, plan, chains, cut.chain, edge_curves, camera, per_model, tolerances)
     curves = along.curves
     lines, origin = cut.finished(
-        along.known,
-        (curves.kind, np.ascontiguousarray(curves.range), curves.offsets, curves.values),
+        _kernel.Curves(curves.kind, np.ascontiguousarray(curves.range), curves.offsets, curves.values)
+        if along.known
+        else None,
         along.places,
         along.curve,
         along.place,
         along.bulge,
-        (t.accuracy, CURVE_CHORD, CLOSED * t.accuracy / per_model, t.contact),
         threads,
     )
     return Lines(lines), origin, along.sought
@@ -88,30 +99,25 @@ def draw_lines(
 def _chains(scene: Scene, plan: Plan, segments: Segments) -> _kernel.Chains:
     """Source edges, then contours of the mesh among the segments' edges."""
     chains = scene.chains
-    return _kernel.Chains(
-        (
-            chains.offsets,
-            chains.edges,
-            chains.reversed,
-            chains.kind,
-            chains.part,
-            chains.index,
-            chains.face,
-            chains.other,
-        ),
+    walks = _kernel.Walks(
+        chains.offsets,
+        chains.edges,
+        chains.reversed,
+        chains.kind,
+        chains.part,
+        chains.index,
+        chains.face,
+        chains.other,
         plan.straight,
+    )
+    return _kernel.Chains(
+        walks,
         plan.drawn_kind.tolist(),
-        len(scene.points),
-        (
-            scene.edges,
-            scene.offsets,
-            scene.incident,
-            scene.edge_group,
-            scene.triangle_part,
-            scene.triangle_face,
-        ),
+        segments.mesh,
+        segments.groups,
+        scene.triangle_part,
+        scene.triangle_face,
         np.array([p.faces > 0 for p in scene.parts], bool),
-        len(scene.groups.closed),
         segments.facing,
         plan.role,
         segments.edge,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from hlr import _kernel
 from hlr.notes import Note
 from hlr.source.model import Color, Curves, Floats, Ints, Surfaces
 
@@ -60,6 +61,24 @@ class TrueSurfaces:
     curved: npt.NDArray[np.bool_]
     planar: npt.NDArray[np.bool_]
     surfaces: Surfaces
+
+    def of(self, wanted: npt.NDArray[np.bool_], face: Ints) -> _kernel.TrueSurfaces:
+        """As the kernel takes them, with the surfaces of the faces that are wanted (f,); face (t,) of each triangle."""
+        known = wanted & (self.number >= 0)
+        used, which = np.unique(self.number[known], return_inverse=True)
+        number = np.full(len(known), -1, np.int32)
+        number[known] = which
+        records = self.surfaces.records(used.tolist())
+        return _kernel.TrueSurfaces(
+            face,
+            self.corner,
+            self.uv,
+            _kernel.Surfaces(records.kind, records.offsets, records.data),
+            number,
+            np.ascontiguousarray(self.place.reshape(-1, 12)),
+            self.inward,
+            self.curved,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,3 +203,13 @@ class Scene:
     silhouettes: Silhouettes | None = None
     convex: bool = False
     facets: Floats | None = None
+
+    def mesh(self) -> _kernel.Mesh:
+        """Points, triangles and edges as the kernel takes them; the arrays are not copied."""
+        return _kernel.Mesh(self.points, self.triangles, self.edges, self.offsets, self.incident)
+
+    def all_faces(self) -> Ints:
+        """(t,) of each triangle its face, numbered through all parts; only where there are true surfaces."""
+        if self.true_surfaces is None:
+            raise ValueError("no face of this scene has a surface")
+        return (self.true_surfaces.first[self.triangle_part] + self.triangle_face).astype(np.int32)

@@ -34,25 +34,8 @@ def _of_surfaces(scene: Scene, threads: int) -> tuple[Normals, Ints]:
     none = np.full((len(scene.triangles), 3), FLAT, np.int32)
     if on is None:
         return np.zeros((0, 3), np.float32), none
-    face = np.ascontiguousarray(on.first[scene.triangle_part] + scene.triangle_face, np.int32)
-    known = on.number >= 0
-    used, which = np.unique(on.number[known], return_inverse=True)
-    surface = np.full(len(on.number), -1, np.int32)
-    surface[known] = which
-    records = on.surfaces.records(used.tolist())
-    normals = _kernel.surface_normals(
-        scene.points,
-        scene.triangles,
-        face,
-        on.corner,
-        on.uv,
-        surface,
-        np.ascontiguousarray(on.place.reshape(-1, 12)),
-        records.kind,
-        records.offsets,
-        records.data,
-        threads,
-    )
+    every = np.ones(len(on.number), bool)
+    normals = _kernel.surface_normals(scene.mesh(), on.of(every, scene.all_faces()), threads)
     found = np.asarray((normals != 0.0).any(axis=1))
     # Number -1 is the last one: it is never found.
     sound = np.asarray(np.append(found, False)[on.corner].all(axis=1))

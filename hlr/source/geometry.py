@@ -204,9 +204,7 @@ def evaluated(curves: Curves, which: Ints, parameters: Floats) -> Floats:
     from hlr import _kernel
 
     return _kernel.curve_points(
-        curves.kind,
-        curves.offsets,
-        curves.values,
+        _kernel.Curves(curves.kind, np.ascontiguousarray(curves.range), curves.offsets, curves.values),
         np.ascontiguousarray(which, np.int32),
         np.ascontiguousarray(parameters, np.float64),
     )

@@ -20,7 +20,6 @@ the face by more than they do, on the side that is seen (`kernel/visibility/src/
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -62,10 +61,10 @@ def with_silhouettes(
 
 
 def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
-    face = on.first[scene.triangle_part] + scene.triangle_face
+    face = scene.all_faces()
     smooth = SMOOTH[scene.edge_kind]
     found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
-    scene = replace(scene, edge_curved=_untraced(scene, face, np.asarray(found["traced"]) & on.curved))
+    scene = replace(scene, edge_curved=_untraced(scene, face, found.traced & on.curved))
     return _with_lines(scene, on, found, camera, tolerances.deflection)
 
 
@@ -77,7 +76,7 @@ def _traced(
     camera: Camera,
     chord: float,
     threads: int,
-) -> dict[str, Any]:
+) -> _kernel.Outlines:
     """The kernel's answer."""
     wanted = on.curved.copy()
     # Planes as well, where a curved face runs into them: they may be what the fold is against.
@@ -87,11 +86,6 @@ def _traced(
     one, two = face[scene.incident[first]], face[scene.incident[first + 1]]
     wanted[one[on.curved[two]]] = True
     wanted[two[on.curved[one]]] = True
-    wanted &= on.number >= 0
-    used, which = np.unique(on.number[wanted], return_inverse=True)
-    surface = np.full(len(wanted), -1, np.int32)
-    surface[wanted] = which
-    records = on.surfaces.records(used.tolist())
     # Where several run along one chord, any of them tells the fold's curve.
     source = np.full(len(scene.edges), -1, np.int32)
     tied = np.flatnonzero(scene.chains.index >= 0)
@@ -99,30 +93,8 @@ def _traced(
     of_chain = np.full(len(count), -1, np.int32)
     of_chain[tied] = tied
     source[scene.chains.edges] = np.repeat(of_chain, count)
-    d = camera.direction
     return _kernel.silhouettes(
-        scene.points,
-        scene.triangles,
-        np.ascontiguousarray(face, np.int32),
-        scene.edges,
-        scene.offsets,
-        scene.incident,
-        smooth,
-        source,
-        on.corner,
-        on.uv,
-        surface,
-        np.ascontiguousarray(on.place.reshape(-1, 12)),
-        on.inward,
-        on.curved,
-        records.kind,
-        records.offsets,
-        records.data,
-        camera.eye is not None,
-        camera.eye or (0.0, 0.0, 0.0),
-        (-d[0], -d[1], -d[2]),
-        chord,
-        threads,
+        scene.mesh(), on.of(wanted, face), smooth, source, camera.scaled(1.0), chord, threads=threads
     )
 
 
@@ -136,12 +108,12 @@ def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.ND
     return scene.edge_curved & ~known
 
 
-def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: Camera, deflection: float) -> Scene:
-    offsets, face, source = found["offsets"], found["face"], found["source"]
+def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera: Camera, deflection: float) -> Scene:
+    offsets, face, source = found.offsets, found.face, found.source
     n, m = len(scene.points), len(offsets) - 1
     count = np.diff(offsets)
     # Every two neighbours of one line are an edge.
-    inner = np.ones(len(found["points"]), bool)
+    inner = np.ones(len(found.points), bool)
     inner[offsets[1:] - 1] = False
     start = np.flatnonzero(inner).astype(np.int32)
     line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
@@ -151,9 +123,9 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
     group_of_face = np.zeros(len(on.number), np.int32)
     group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
     group = group_of_face[face]
-    inside_out = np.repeat(found["concave"] & ~scene.groups.cull[group], count)
-    outward = np.where(inside_out, -1.0, 1.0)[:, None] * found["normals"]
-    distance = _lift(found["rise"], deflection)
+    inside_out = np.repeat(found.concave & ~scene.groups.cull[group], count)
+    outward = np.where(inside_out, -1.0, 1.0)[:, None] * found.normals
+    distance = _lift(found.rise, deflection)
     lift = outward * distance[:, None]
     walks = Chains(
         offsets=(offsets - np.arange(m + 1)).astype(np.int32),
@@ -166,10 +138,10 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
         face=(face - on.first[part]).astype(np.int32),
         straight=np.zeros(m, bool),
     )
-    hidden = np.asarray(found["concave"] & scene.groups.cull[group])
+    hidden = np.asarray(found.concave & scene.groups.cull[group])
     outlined = replace(
         scene,
-        points=np.concatenate([scene.points, found["points"]]),
+        points=np.concatenate([scene.points, found.points]),
         edges=np.ascontiguousarray(np.concatenate([scene.edges, lines])),
         offsets=np.concatenate([scene.offsets, np.full(len(lines), scene.offsets[-1], np.int32)]),
         edge_part=np.concatenate([scene.edge_part, part[line]]),
@@ -181,45 +153,46 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: dict[str, Any], camera: C
             hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
             own=OwnFaces.none(),
             number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line]),
-            curves=Curves(*(found[f"curve_{name}"] for name in ("kind", "range", "offsets", "values"))),
+            curves=Curves(found.curve_kind, found.curve_range, found.curve_offsets, found.curve_values),
             source=np.where(source >= 0, scene.chains.index[source], -1).astype(np.int32),
         ),
         chains=joined(scene.chains, walks),
     )
+    grazing = found.grazing
     # Edges and outlines, those that their own body does not hide anyway.
-    bare = BARE[scene.edge_kind[found["grazing_edge"]]]
+    bare = BARE[scene.edge_kind[grazing.edge]]
     if scene.convex and not bare.any():
         # Of one convex body culling alone decides: nothing has to be told apart from its own faces.
         return outlined
-    closed = scene.groups.cull[scene.edge_group[found["grazing_edge"][bare]]]
+    closed = scene.groups.cull[scene.edge_group[grazing.edge[bare]]]
     # Of a closed body the outer side alone is seen, and whatever lies on it is within reach of the sight.
-    side = np.where(closed | found["grazing_front"][bare], 1.0, -1.0)[:, None, None]
-    beside = np.where(closed, found["grazing_beside"][bare], np.uint8(0))
+    side = np.where(closed | grazing.front[bare], 1.0, -1.0)[:, None, None]
+    beside = np.where(closed, grazing.beside[bare], np.uint8(0))
     # Beside the end of an outline the edge is moved like the outline: what touches the face there has facets too. And
     # toward the viewer: moved off its curved face it may lie in the plane of the other one.
-    rise = found["grazing_rise"][bare]
+    rise = grazing.rise[bare]
     turns = ((beside == 1) & (rise >= 0.0).all(axis=1))[:, None, None]
-    ends = scene.points[scene.edges[found["grazing_edge"][bare]]]
+    ends = scene.points[scene.edges[grazing.edge[bare]]]
     toward = camera.toward(ends.reshape(-1, 3)).reshape(ends.shape)
-    off = found["grazing_normals"][bare] * _lift(rise, deflection)[:, :, None] + OUTLINE_SPARE * deflection * toward
+    off = grazing.normals[bare] * _lift(rise, deflection)[:, :, None] + OUTLINE_SPARE * deflection * toward
     lift_there = np.where(turns, off, 0.0)
     free = np.flatnonzero(~hidden[line]).astype(np.int32)
-    grazing = Grazing(
-        edge=np.concatenate([found["grazing_edge"][bare], free + np.int32(len(scene.edges))]),
-        range=np.concatenate([found["grazing_range"][bare], np.tile([0.0, 1.0], (len(free), 1))]),
-        face=np.concatenate([found["grazing_face"][bare], face[line[free]]]),
+    stretches = Grazing(
+        edge=np.concatenate([grazing.edge[bare], free + np.int32(len(scene.edges))]),
+        range=np.concatenate([grazing.range[bare], np.tile([0.0, 1.0], (len(free), 1))]),
+        face=np.concatenate([grazing.face[bare], face[line[free]]]),
         off=np.concatenate(
             [
-                OWN_LIFT * deflection * side * found["grazing_normals"][bare],
+                OWN_LIFT * deflection * side * grazing.normals[bare],
                 # Not less than from everything else: its triangles may stand out by more.
                 (outward * np.maximum(distance, OWN_LIFT * deflection)[:, None])[lines[free] - n],
             ]
         ),
         lift=np.concatenate([lift_there, np.zeros((len(free), 2, 3))]),
         beside=np.concatenate([beside, np.zeros(len(free), np.uint8)]),
-        dented=np.concatenate([found["grazing_dented"][bare], np.zeros(len(free), bool)]),
+        dented=np.concatenate([grazing.dented[bare], np.zeros(len(free), bool)]),
     )
-    return with_own_faces(outlined, on, grazing, camera)
+    return with_own_faces(outlined, on, stretches, camera)
 
 
 def _lift(rise: Floats, deflection: float) -> Floats:

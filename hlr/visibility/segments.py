@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +21,7 @@ class Segments:
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,) VISIBLE, HIDDEN or
     WITHIN (hidden by less than the contact tolerance) or DIVING (the same, on the way to hidden); facing (t,) int8 of
-    every triangle; seconds of the kernel's steps.
+    every triangle; seconds of the kernel's steps. mesh, groups: what they were found on.
     """
 
     edge: Ints
@@ -32,6 +31,8 @@ class Segments:
     facing: npt.NDArray[np.int8]
     counters: dict[str, int]
     seconds: dict[str, float]
+    mesh: _kernel.Mesh
+    groups: _kernel.Groups
 
 
 def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic: str = "exact") -> Segments:
@@ -41,34 +42,35 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
 
     Raises KeyboardInterrupt within milliseconds of Ctrl-C.
     """
-    found = _kernel.visibility(
-        np.ascontiguousarray(projected),
-        scene.triangles,
+    mesh = scene.mesh()
+    groups = _kernel.Groups(
         scene.triangle_group,
-        scene.edges,
-        scene.offsets,
-        scene.incident,
         scene.edge_group,
-        plan.role,
-        plan.cull,
-        plan.sound,
-        np.ascontiguousarray(plan.delta),
+        cull=plan.cull,
+        sound=plan.sound,
+        delta=np.ascontiguousarray(plan.delta),
         # Of tolerance and cap the less counts: so the grid, which leaves room for the tolerance, stays the same.
-        np.ascontiguousarray(plan.cap if plan.contact else np.zeros_like(plan.cap)),
-        scene.groups.tight,
-        threads,
-        arithmetic,
-        plan.crossings,
-        plan.piercings,
-        plan.pyramid,
-        _own_faces(scene),
+        cap=np.ascontiguousarray(plan.cap if plan.contact else np.zeros_like(plan.cap)),
+        tight=scene.groups.tight,
     )
-    state, edge = found["state"], found["edge"]
-    contacts = found["counters"]["contacts"] = int(np.count_nonzero(state >= WITHIN))
+    found = _kernel.visibility(
+        mesh,
+        np.ascontiguousarray(projected),
+        groups,
+        plan.role,
+        _own_faces(scene),
+        crossings=plan.crossings,
+        piercings=plan.piercings,
+        pyramid=plan.pyramid,
+        arithmetic=arithmetic,
+        threads=threads,
+    )
+    edge, t0, t1, state = found.edge, found.t0, found.t1, found.state
+    contacts = int(np.count_nonzero(state >= WITHIN))
     if contacts:
         # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
-        state[(state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]] = VISIBLE
-    t0, t1 = found["t0"], found["t1"]
+        on_surface = (state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]
+        state = np.where(on_surface, np.uint8(VISIBLE), state)
     if scene.silhouettes is not None and scene.silhouettes.hidden.any():
         own = np.flatnonzero(scene.silhouettes.hidden).astype(np.int32)
         order = np.argsort(np.concatenate([edge, own]), kind="stable")
@@ -81,17 +83,19 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
         t0=t0,
         t1=t1,
         state=state,
-        facing=found["facing"],
-        counters=found["counters"],
-        seconds=found["seconds"],
+        facing=found.facing,
+        counters={**found.counters, "contacts": contacts},
+        seconds=found.seconds,
+        mesh=mesh,
+        groups=groups,
     )
 
 
-def _own_faces(scene: Scene) -> tuple[npt.NDArray[Any], ...] | None:
-    """`own` of the kernel."""
+def _own_faces(scene: Scene) -> _kernel.OwnFaces | None:
+    """The faces that edges and outlines bound, as the kernel takes them; None where there are none to think of."""
     if scene.silhouettes is None or len(scene.silhouettes.own.edge) == 0:
         return None
     own = scene.silhouettes.own
     face = (own.first[scene.triangle_part] + scene.triangle_face).astype(np.int32)
     stretches = own.edge, own.range, own.line, own.beside, own.dented
-    return *stretches, own.offsets, own.face, own.off, face, own.sheet
+    return _kernel.OwnFaces(*stretches, own.offsets, own.face, own.off, face, own.sheet)

@@ -32,13 +32,14 @@ def off(model, face, points, uv):
     """Errors of triangles of curved faces: face (m,) the underlying face; points and uv (m, 3, ..) of the corners."""
     used, which = np.unique(face, return_inverse=True)
     kind, offsets, data = model.surface_records(used.astype(np.int32))
+    surfaces = _kernel.Surfaces(kind, offsets, data)
     normal = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     size = np.linalg.norm(normal, axis=1)
     keep = (size > 0) & (kind[which] > 1) & np.isfinite(uv).all(axis=(1, 2))
     worst = np.zeros(int(keep.sum()))
     for share in SHARES:
         place = np.ascontiguousarray((uv[keep] * share[:, None]).sum(axis=1))
-        true = _kernel.surface_points(kind, offsets, data, which[keep].astype(np.int32), place)[:, 0]
+        true = surfaces.points(which[keep].astype(np.int32), place)[:, 0]
         apart = ((true - points[keep, 0]) * normal[keep]).sum(axis=1) / size[keep]
         worst = np.maximum(worst, np.abs(apart))
     return worst

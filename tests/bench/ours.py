@@ -36,25 +36,20 @@ class Kernel:
         role = np.where(_member(keys, mesh.drawn), 1, 2).astype(np.uint8)
         edge_part = mesh.triangle_part[incident[offsets[:-1]]]
         closed = np.full(mesh.parts, True)
-        found = _kernel.visibility(
-            points,
-            mesh.triangles,
+        groups = _kernel.Groups(
             mesh.triangle_part,
-            edges,
-            offsets,
-            incident,
             edge_part,
-            role,
             cull=closed,
             sound=closed,
             delta=np.full(mesh.parts, self._contact),
             cap=np.full(mesh.parts, self._contact),
             tight=np.zeros(mesh.parts, bool),
-            threads=threads,
         )
+        whole = _kernel.Mesh(points, mesh.triangles, edges, offsets, incident)
+        found = _kernel.visibility(whole, points, groups, role, threads=threads)
         seconds = time.perf_counter() - start
-        self.counters = {name: int(value) for name, value in found["counters"].items()}
-        self.counters["pieces"] = len(found["edge"])
+        self.counters = {name: int(value) for name, value in found.counters.items()}
+        self.counters["pieces"] = len(found.edge)
         return seconds
 
 

@@ -21,23 +21,24 @@ def states_behind_a_valley(own: float, other: float) -> list[int]:
     triangles = np.array([[0, 2, 1], [1, 2, 3], [2, 4, 3], [3, 4, 5]], np.int32)
     edges, offsets, incident = _kernel.edge_table(triangles, len(points))
     wire = len(edges)
-    found = _kernel.visibility(
+    mesh = _kernel.Mesh(
         np.array(points, float),
         triangles,
-        np.ones(4, np.int32),
         np.concatenate([edges, np.array([[6, 7]], np.int32)]),
         np.append(offsets, offsets[-1]).astype(np.int32),
         incident,
+    )
+    groups = _kernel.Groups(
+        np.ones(4, np.int32),
         np.array([1] * wire + [0], np.int32),
-        role=np.ones(wire + 1, np.uint8),
         cull=np.zeros(2, bool),
         sound=np.ones(2, bool),
         delta=np.array([own, other]),
         cap=np.full(2, 100.0),
         tight=np.zeros(2, bool),
-        threads=1,
     )
-    return [min(int(state), WITHIN) for edge, state in zip(found["edge"], found["state"], strict=True) if edge == wire]
+    found = _kernel.visibility(mesh, np.array(points, float), groups, np.ones(wire + 1, np.uint8), threads=1)
+    return [min(int(state), WITHIN) for edge, state in zip(found.edge, found.state, strict=True) if edge == wire]
 
 
 def test_a_wire_within_the_contact_tolerance() -> None:
@@ -56,32 +57,37 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     nothing = np.zeros(0, np.int32)
     edges = np.array([[0, 1], [1, 2], [2, 3], [3, 0]], np.int32)
     none = np.full(1, -1, np.int32)
+    walks = _kernel.Walks(
+        np.array([0, 4], np.int32),
+        np.arange(4, dtype=np.int32),
+        np.zeros(4, bool),
+        np.zeros(1, np.uint8),
+        np.zeros(1, np.int32),
+        none,
+        none,
+        none,
+        np.zeros(1, bool),
+    )
+    space = np.column_stack([flat, np.zeros(4)])
+    mesh = _kernel.Mesh(space, np.zeros((0, 3), np.int32), edges, np.zeros(5, np.int32), nothing)
+    one = np.zeros(1)
+    groups = _kernel.Groups(nothing, np.zeros(4, np.int32), one == 1, one == 1, one, one, one == 1)
     chains = _kernel.Chains(
-        (
-            np.array([0, 4], np.int32),
-            np.arange(4, dtype=np.int32),
-            np.zeros(4, bool),
-            np.zeros(1, np.uint8),
-            np.zeros(1, np.int32),
-            none,
-            none,
-            none,
-        ),
-        np.zeros(1, bool),
+        walks,
         [True] * 6,
-        4,
-        (edges, np.zeros(5, np.int32), nothing, np.zeros(4, np.int32), nothing, nothing),
+        mesh,
+        groups,
+        nothing,
+        nothing,
         np.zeros(1, bool),
-        1,
         np.zeros(0, np.int8),
         np.zeros(4, np.uint8),
         nothing,
     )
     cut = _kernel.Cut(
         _kernel.Camera((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), None, 1.0),
-        np.column_stack([flat, np.zeros(4)]),
-        np.column_stack([flat, np.zeros(4)]),
-        edges,
+        space,
+        mesh,
         (
             np.array(drawn, np.int32),
             np.zeros(3),
@@ -91,14 +97,23 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
         chains,
         np.zeros(1, np.uint8),
         np.zeros(1, bool),
-        (0.1, 0.1, 0.1, 1.0, 0.05, 0.3, 0.01, 0.01),
+        _kernel.LineTolerances(
+            accuracy=0.1,
+            short=0.1,
+            flip=0.1,
+            stub=1.0,
+            width=0.05,
+            under=0.3,
+            thin_paper=0.01,
+            thin_model=0.01,
+            chord=0.1,
+            closed=0.1,
+            contact=0.1,
+        ),
         True,
         1,
     )
-    records = np.zeros(0, np.uint8), np.zeros((0, 2)), np.zeros(1, np.int32), np.zeros(0)
-    lines, _ = cut.finished(
-        False, records, np.zeros((0, 3, 4)), none, np.zeros(1, np.int32), np.zeros(1), (0.1, 0.1, 0.1, 0.1), 1
-    )
+    lines, _ = cut.finished(None, np.zeros((0, 3, 4)), none, np.zeros(1, np.int32), np.zeros(1), 1)
     held = lines.columns()
     points, offsets = held["points"].tolist(), held["offsets"].tolist()
     return sorted(points[i:j] for i, j in itertools.pairwise(offsets))

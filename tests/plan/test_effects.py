@@ -291,7 +291,7 @@ def test_views_drawn_together_trace_outlines_once(monkeypatch):
 
     calls = []
     real = _kernel.silhouettes
-    monkeypatch.setattr(_kernel, "silhouettes", lambda *a: calls.append(1) or real(*a))
+    monkeypatch.setattr(_kernel, "silhouettes", lambda *a, **k: calls.append(1) or real(*a, **k))
     hlr.draw_views(ball(), ["front", "iso", "top"])
     assert len(calls) == 3
 

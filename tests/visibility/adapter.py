@@ -67,26 +67,21 @@ def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exac
         triangle_part = np.array(scene.parts, dtype=np.int32)
         parts = max(scene.parts, default=-1) + 2
         edge_part = np.array([scene.part_of((int(i), int(j))) % parts for i, j in edges], dtype=np.int32)
-    found = _kernel.visibility(
-        points,
-        triangles,
+    mesh = _kernel.Mesh(points, triangles, np.ascontiguousarray(edges), np.ascontiguousarray(offsets), incident)
+    groups = _kernel.Groups(
         triangle_part,
-        np.ascontiguousarray(edges),
-        np.ascontiguousarray(offsets),
-        incident,
         edge_part,
-        role=np.full(len(edges), DRAWN, dtype=np.uint8),
         cull=np.full(parts, way.trusted),
         sound=np.full(parts, way.trusted),
         delta=np.full(parts, float(way.bias)),
         cap=np.full(parts, float(way.bias)),
         tight=np.zeros(parts, bool),
-        threads=threads,
-        arithmetic=arithmetic,
     )
+    role = np.full(len(edges), DRAWN, dtype=np.uint8)
+    found = _kernel.visibility(mesh, points, groups, role, threads=threads, arithmetic=arithmetic)
     pieces: dict[Edge, list[Piece]] = {}
     # Diving (3) is a way of being within the tolerance.
-    for number, t0, t1, state in zip(found["edge"], found["t0"], found["t1"], found["state"], strict=True):
+    for number, t0, t1, state in zip(found.edge, found.t0, found.t1, found.state, strict=True):
         edge = (int(edges[number][0]), int(edges[number][1]))
         pieces.setdefault(edge, []).append((float(t0), float(t1), min(int(state), WITHIN)))
-    return Found(pieces, {name: int(value) for name, value in found["counters"].items()})
+    return Found(pieces, {name: int(value) for name, value in found.counters.items()})

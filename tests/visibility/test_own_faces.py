@@ -34,7 +34,7 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         away.append(len(edges) + 1)
         edges += [[n, n + 1], [n + 2, n + 3]]
     k = len(stretches)
-    told = (
+    told = _kernel.OwnFaces(
         np.zeros(k, np.int32),
         np.array(stretches, float),
         np.array(line, np.int32),
@@ -46,25 +46,19 @@ def pieces(slope, *, own=True, face=0, stretches=((0.0, 1.0),), beside=(UNKNOWN,
         np.zeros(1, np.int32),
         np.arange(2, dtype=np.int32),
     )
-    found = _kernel.visibility(
+    mesh = _kernel.Mesh(
         np.array(points, float),
         np.array([[2, 3, 4]], np.int32),
-        np.zeros(1, np.int32),
         np.array(edges, np.int32),
         np.zeros(len(edges) + 1, np.int32),
         np.zeros(0, np.int32),
-        np.zeros(len(edges), np.int32),
-        role=np.array([1] + [0] * (len(edges) - 1), np.uint8),
-        cull=np.array([False]),
-        sound=np.array([False]),
-        delta=np.zeros(1),
-        cap=np.zeros(1),
-        tight=np.array([False]),
-        threads=1,
-        own=told if own else None,
     )
-    assert set(found["edge"].tolist()) == {0}
-    t0, t1, state = found["t0"].round(6).tolist(), found["t1"].round(6).tolist(), found["state"].tolist()
+    no = np.array([False])
+    groups = _kernel.Groups(np.zeros(1, np.int32), np.zeros(len(edges), np.int32), no, no, np.zeros(1), np.zeros(1), no)
+    role = np.array([1] + [0] * (len(edges) - 1), np.uint8)
+    found = _kernel.visibility(mesh, np.array(points, float), groups, role, told if own else None, threads=1)
+    assert set(found.edge.tolist()) == {0}
+    t0, t1, state = found.t0.round(6).tolist(), found.t1.round(6).tolist(), found.state.tolist()
     return list(zip(t0, t1, state, strict=True))
 
 

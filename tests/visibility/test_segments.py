@@ -15,30 +15,32 @@ EDGES = [0, 0, 1, 1, 3, 3]
 
 @pytest.fixture
 def solve(monkeypatch):
-    """solve(tight, hidden, contact) on a kernel that always answers the same; .given: what it was asked."""
+    """solve(tight, hidden, contact) on a kernel that always answers the same; .given: the groups it was told of."""
     given = []
 
-    def visibility(*arguments):
-        given.append(arguments)
-        return {
-            "edge": np.array(EDGES, np.int32),
-            "t0": np.array([0.0, 0.5, 0.0, 0.25, 0.0, 0.75]),
-            "t1": np.array([0.5, 1.0, 0.25, 1.0, 0.75, 1.0]),
-            "state": np.array(STATES, np.uint8),
-            "facing": np.array([1, -1], np.int8),
-            "counters": {"seeds": 7},
-            "seconds": {"scan": 0.5},
-        }
+    def groups(triangle, edge, **columns):
+        given.append(columns)
+
+    def visibility(*arguments, **steps):
+        return SimpleNamespace(
+            edge=np.array(EDGES, np.int32),
+            t0=np.array([0.0, 0.5, 0.0, 0.25, 0.0, 0.75]),
+            t1=np.array([0.5, 1.0, 0.25, 1.0, 0.75, 1.0]),
+            state=np.array(STATES, np.uint8),
+            facing=np.array([1, -1], np.int8),
+            counters={"seeds": 7},
+            seconds={"scan": 0.5},
+        )
 
     monkeypatch.setattr(segments._kernel, "visibility", visibility)
+    monkeypatch.setattr(segments._kernel, "Groups", groups)
 
     def call(tight=(False, False), hidden=None, contact=True):
         silhouettes = None if hidden is None else SimpleNamespace(hidden=np.array(hidden), own=OwnFaces.none())
         scene = SimpleNamespace(
             groups=SimpleNamespace(tight=np.array(tight)), edge_group=np.array([0, 1, 1, 0]), silhouettes=silhouettes
         )
-        for name in ("triangles", "triangle_group", "edges", "offsets", "incident"):
-            setattr(scene, name, name)
+        scene.triangle_group, scene.mesh = "triangle_group", lambda: "mesh"
         plan = SimpleNamespace(delta=np.array([3, 4]), cap=np.array([5, 6]), contact=contact)
         for name in ("role", "cull", "sound", "crossings", "piercings", "pyramid"):
             setattr(plan, name, name)
@@ -61,8 +63,8 @@ def test_the_answer_is_handed_on(solve):
 
 def test_the_cap_counts_only_where_contact_does(solve):
     solve(), solve(contact=False)
-    assert [given[11].tolist() for given in solve.given] == [[5, 6], [0, 0]]
-    assert solve.given[0][10].tolist() == [3, 4]
+    assert [given["cap"].tolist() for given in solve.given] == [[5, 6], [0, 0]]
+    assert solve.given[0]["delta"].tolist() == [3, 4]
 
 
 def test_a_line_on_a_surface_is_never_nearly_hidden(solve):

@@ -3,9 +3,10 @@
 
 use std::sync::OnceLock;
 
-use hlr_exact::snap::Grid;
-use hlr_visibility::scan::mesh::{DRAWN, Mesh, Part};
-use hlr_visibility::scan::sweep::{Outcome, visibility};
+use hlr_visibility::scan::mesh::{DRAWN, Mesh};
+use hlr_visibility::scan::own_faces::OwnFaces;
+use hlr_visibility::scan::scene::{Group, Numbers, Scene as Seen, solve};
+use hlr_visibility::scan::sweep::{Outcome, Steps};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::bytes::Bytes;
@@ -20,30 +21,33 @@ pub fn run(data: &[u8]) {
 }
 
 pub fn check(scene: &Scene) {
-    let Some(grid) = Grid::around(&scene.points) else { return };
-    let mesh = Mesh {
-        points: scene.points.iter().map(|p| grid.snap(p)).collect(),
+    let groups: Vec<Group> = (0..scene.cull.len())
+        .map(|p| Group {
+            cull: scene.cull[p],
+            sound: scene.sound[p],
+            delta: scene.delta[p],
+            cap: scene.cap[p],
+            tight: scene.tight[p],
+        })
+        .collect();
+    let seen = Seen {
+        points: &scene.points,
         triangles: &scene.triangles,
-        triangle_part: &scene.triangle_part,
+        triangle_group: &scene.triangle_part,
         edges: &scene.edges,
         offsets: &scene.offsets,
         incident: &scene.incident,
-        edge_part: &scene.edge_part,
+        edge_group: &scene.edge_part,
         role: &scene.role,
-        parts: (0..scene.cull.len())
-            .map(|p| Part {
-                cull: scene.cull[p],
-                sound: scene.sound[p],
-                delta: grid.delta(scene.delta[p]),
-                cap: grid.delta(scene.cap[p]),
-                tight: scene.tight[p],
-            })
-            .collect(),
+        groups: &groups,
     };
+    let Some((mesh, _)) = seen.snapped() else { return };
     for p in &mesh.points {
         assert!(p[0].abs() < 1 << 30 && p[1].abs() < 1 << 30 && p[2].abs() <= 1 << 29, "off the grid: {p:?}");
     }
-    let [one, two] = pools().each_ref().map(|pool| pool.install(|| visibility(&mesh, &|| false)).expect("not stopped"));
+    let [one, two] = pools().each_ref().map(|pool| {
+        pool.install(|| solve(&seen, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &|| false)).expect("an answer")
+    });
     assert_eq!(listed(&one), listed(&two), "another answer on two threads");
     assert_eq!((&one.facing, format!("{:?}", one.counters)), (&two.facing, format!("{:?}", two.counters)));
     if scene.proper {

@@ -7,10 +7,10 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, P
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows as rows_of};
 use super::guard::caught;
 use super::parts::PartTables;
 use super::running::{FEW, run, run_telling};
-use super::scan::{expect_below, expect_len, flat, rows as rows_of};
 use hlr_brep::assemble::assemble;
 use hlr_brep::geometry::flat::is_flat;
 use hlr_brep::geometry::surface::Surface;

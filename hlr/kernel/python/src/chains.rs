@@ -6,11 +6,12 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::drawn::kind_of;
 use super::guard::caught;
-use super::scan::{check_incidence, expect_below, expect_len, flat, rows};
+use super::held::{Groups, Mesh};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
-use hlr_linework::lines::outlines::{About, Chains as Walks, Surface, add_outlines};
+use hlr_linework::lines::outlines::{About, Chains as Found, Surface, add_outlines};
 
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
 
@@ -34,77 +35,138 @@ pub fn chain<'py>(
     Ok((c.offsets.into_pyarray(py), c.order.into_pyarray(py), c.reversed.into_pyarray(py)))
 }
 
+/// Walks over mesh edges, of which some become lines.
+#[pyclass(frozen)]
+pub struct Walks {
+    offsets: Vec<i32>,
+    edges: Vec<i32>,
+    reversed: Vec<bool>,
+    about: Vec<About>,
+}
+
+#[pymethods]
+impl Walks {
+    #[new]
+    #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
+    fn new(
+        py: Python<'_>,
+        offsets: PyReadonlyArray1<'_, i32>,
+        edges: PyReadonlyArray1<'_, i32>,
+        reversed: PyReadonlyArray1<'_, bool>,
+        kind: PyReadonlyArray1<'_, u8>,
+        part: PyReadonlyArray1<'_, i32>,
+        index: PyReadonlyArray1<'_, i32>,
+        face: PyReadonlyArray1<'_, i32>,
+        other: PyReadonlyArray1<'_, i32>,
+        straight: PyReadonlyArray1<'_, bool>,
+    ) -> PyResult<Walks> {
+        caught(py, || {
+            let (offsets, edges) = (flat(&offsets, "offsets")?, flat(&edges, "edges")?);
+            let reversed = flat(&reversed, "reversed")?;
+            let kind = flat(&kind, "kind")?;
+            let (part, index) = (flat(&part, "part")?, flat(&index, "index")?);
+            let (face, other) = (flat(&face, "face")?, flat(&other, "other")?);
+            let straight = flat(&straight, "straight")?;
+            for (name, found) in [
+                ("part", part.len()),
+                ("index", index.len()),
+                ("face", face.len()),
+                ("other", other.len()),
+                ("straight", straight.len()),
+            ] {
+                expect_len(name, found, kind.len())?;
+            }
+            expect_len("offsets", offsets.len(), kind.len() + 1)?;
+            expect_len("reversed", reversed.len(), edges.len())?;
+            expect_below("offsets", offsets.iter().copied(), edges.len() + 1)?;
+            if offsets.windows(2).any(|w| w[0] >= w[1]) {
+                return Err(PyValueError::new_err("offsets must ascend"));
+            }
+            let about = |i: usize| {
+                Ok(About {
+                    kind: kind_of(kind[i])?,
+                    part: part[i],
+                    edge: index[i],
+                    face: face[i],
+                    other: other[i],
+                    noisy: false,
+                    straight: straight[i],
+                })
+            };
+            Ok(Walks {
+                offsets: offsets.to_vec(),
+                edges: edges.to_vec(),
+                reversed: reversed.to_vec(),
+                about: (0..kind.len()).map(about).collect::<PyResult<_>>()?,
+            })
+        })
+    }
+}
+
+impl Walks {
+    /// Those whose class is drawn.
+    fn chosen(&self, drawn: &[bool; 6]) -> Found {
+        let mut out = Found::new();
+        for (about, w) in self.about.iter().zip(self.offsets.windows(2)) {
+            // Chains of a kind that was not asked for may still hold contours: those are drawn as outlines instead.
+            if drawn[about.kind as usize] {
+                let run = w[0] as usize..w[1] as usize;
+                out.push(&self.edges[run.clone()], &self.reversed[run], *about);
+            }
+        }
+        out
+    }
+}
+
 /// The walks over mesh edges that become lines.
 #[pyclass(frozen)]
-pub struct Chains(pub(super) Arc<Walks>);
-
-/// Offsets, edges, reversed, kind, part, index, face, other: the chains of a scene.
-type SceneChains<'py> = (
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, bool>,
-    PyReadonlyArray1<'py, u8>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-);
-
-/// Edges, their triangles (offsets, incident), their groups, and part and face of each triangle.
-type SceneMesh<'py> = (
-    PyReadonlyArray2<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-    PyReadonlyArray1<'py, i32>,
-);
+pub struct Chains(pub(super) Arc<Found>);
 
 #[pymethods]
 impl Chains {
-    /// Chains of the source whose class is drawn, then the contours among the edges `found`, which ascend.
+    /// Walks of the source whose class is drawn, then the contours among the edges `found`, which ascend.
     #[new]
-    #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+    #[allow(clippy::too_many_arguments)] // two objects, what is drawn, and columns of triangles and edges
     fn new(
         py: Python<'_>,
-        chains: SceneChains<'_>,
-        straight: PyReadonlyArray1<'_, bool>,
+        walks: &Walks,
         drawn: [bool; 6],
-        points: usize,
-        mesh: SceneMesh<'_>,
+        mesh: &Mesh,
+        groups: &Groups,
+        triangle_part: PyReadonlyArray1<'_, i32>,
+        triangle_face: PyReadonlyArray1<'_, i32>,
         has_faces: PyReadonlyArray1<'_, bool>,
-        groups: usize,
         facing: PyReadonlyArray1<'_, i8>,
         role: PyReadonlyArray1<'_, u8>,
         found: PyReadonlyArray1<'_, i32>,
     ) -> PyResult<Chains> {
         caught(py, || {
-            let edges = rows::<i32, 2>(&mesh.0, "edges")?;
+            let (reading, of) = (mesh.reading(py)?, groups.reading(py)?);
+            let all = reading.slices()?;
+            let (edges, triangles) = (all.edges, all.triangles.len());
             let surface = Surface {
-                points,
+                points: all.points.len(),
                 edges,
-                offsets: flat(&mesh.1, "offsets")?,
-                incident: flat(&mesh.2, "incident")?,
-                edge_group: flat(&mesh.3, "edge_group")?,
-                triangle_part: flat(&mesh.4, "triangle_part")?,
-                triangle_face: flat(&mesh.5, "triangle_face")?,
+                offsets: all.offsets,
+                incident: all.incident,
+                edge_group: flat(&of.1, "edge")?,
+                triangle_part: flat(&triangle_part, "triangle_part")?,
+                triangle_face: flat(&triangle_face, "triangle_face")?,
                 has_faces: flat(&has_faces, "has_faces")?,
                 facing: flat(&facing, "facing")?,
                 role: flat(&role, "role")?,
-                groups,
+                groups: groups.groups.len(),
             };
-            let triangles = surface.triangle_part.len();
+            expect_len("triangle_part", surface.triangle_part.len(), triangles)?;
             expect_len("triangle_face", surface.triangle_face.len(), triangles)?;
             expect_len("facing", surface.facing.len(), triangles)?;
             expect_len("role", surface.role.len(), edges.len())?;
-            expect_len("edge_group", surface.edge_group.len(), edges.len())?;
-            expect_below("edges", edges.as_flattened().iter().copied(), points)?;
-            expect_below("edge_group", surface.edge_group.iter().copied(), groups)?;
+            expect_len("groups of edges", surface.edge_group.len(), edges.len())?;
             expect_below("triangle_part", surface.triangle_part.iter().copied(), surface.has_faces.len())?;
-            check_incidence(edges.len(), surface.offsets, surface.incident, triangles)?;
             let found = flat(&found, "found")?;
             expect_below("found", found.iter().copied(), edges.len())?;
-            let mut out = of_source(&chains, flat(&straight, "straight")?, &drawn, edges.len())?;
+            expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;
+            let mut out = walks.chosen(&drawn);
             add_outlines(&surface, found, &mut out);
             Ok(Chains(Arc::new(out)))
         })
@@ -148,11 +210,6 @@ impl Chains {
     }
 
     #[getter]
-    fn noisy<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        self.column(py, |a| a.noisy)
-    }
-
-    #[getter]
     fn straight<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         self.column(py, |a| a.straight)
     }
@@ -162,46 +219,4 @@ impl Chains {
     fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&About) -> T) -> Bound<'py, PyArray1<T>> {
         self.0.about.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
     }
-}
-
-fn of_source(c: &SceneChains, straight: &[bool], drawn: &[bool; 6], edges: usize) -> PyResult<Walks> {
-    let (offsets, members, reversed) = (flat(&c.0, "offsets")?, flat(&c.1, "edges")?, flat(&c.2, "reversed")?);
-    let kind = flat(&c.3, "kind")?;
-    let (part, index) = (flat(&c.4, "part")?, flat(&c.5, "index")?);
-    let (face, other) = (flat(&c.6, "face")?, flat(&c.7, "other")?);
-    for (name, found) in [
-        ("part", part.len()),
-        ("index", index.len()),
-        ("face", face.len()),
-        ("other", other.len()),
-        ("straight", straight.len()),
-    ] {
-        expect_len(name, found, kind.len())?;
-    }
-    expect_len("offsets", offsets.len(), kind.len() + 1)?;
-    expect_len("reversed", reversed.len(), members.len())?;
-    expect_below("edges", members.iter().copied(), edges)?;
-    expect_below("offsets", offsets.iter().copied(), members.len() + 1)?;
-    if offsets.windows(2).any(|w| w[0] >= w[1]) {
-        return Err(PyValueError::new_err("offsets must ascend"));
-    }
-    let mut out = Walks::new();
-    for i in 0..kind.len() {
-        // Chains of a kind that was not asked for may still hold contours: those are drawn as outlines instead.
-        let kind = kind_of(kind[i])?;
-        if drawn[kind as usize] {
-            let run = offsets[i] as usize..offsets[i + 1] as usize;
-            let about = About {
-                kind,
-                part: part[i],
-                edge: index[i],
-                face: face[i],
-                other: other[i],
-                noisy: false,
-                straight: straight[i],
-            };
-            out.push(&members[run.clone()], &reversed[run], about);
-        }
-    }
-    Ok(out)
 }

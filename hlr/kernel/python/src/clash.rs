@@ -6,9 +6,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::mesh::table;
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat, rows};
 use super::view::{Flat, Rows};
 use hlr_exact::snap::Grid;
 use hlr_mesh::facts::Facts;

@@ -7,9 +7,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
+use super::arrays::{expect_len, flat, rows};
 use super::guard::caught;
 use super::running::run;
-use super::scan::{expect_len, flat, rows};
 use hlr_linework::ink::arcs::{Arc, Rows};
 use hlr_linework::ink::dashes::{Ends, Fitted, Pattern, dashes};
 use hlr_linework::ink::layer::{Layer as Inked, layers};

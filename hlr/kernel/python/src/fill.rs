@@ -5,9 +5,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use super::arrays::{expect_len, flat};
 use super::preview::{LensTuple, ShadedModel, lens_of, stopped_error};
 use super::running::run;
-use super::scan::{expect_len, flat};
 use hlr_preview::fill::areas;
 use hlr_preview::shade::{Light, Scene};
 

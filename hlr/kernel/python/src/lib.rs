@@ -1,5 +1,6 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry. This file registers the module.
 
+mod arrays;
 mod brep;
 mod chains;
 mod clash;
@@ -7,6 +8,7 @@ mod drawn;
 mod fill;
 mod geometry;
 mod guard;
+mod held;
 mod lines;
 mod measure;
 mod mesh;
@@ -18,32 +20,40 @@ mod place;
 mod preview;
 mod raster;
 mod running;
-mod scan;
 mod silhouette;
+mod topology;
+mod true_surfaces;
 mod view;
+mod visibility;
 
 use pyo3::prelude::*;
 
 #[pymodule]
 fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
-    m.add_function(wrap_pyfunction!(scan::stitched, m)?)?;
-    m.add_function(wrap_pyfunction!(scan::components, m)?)?;
-    m.add_function(wrap_pyfunction!(scan::edge_table, m)?)?;
+    m.add_function(wrap_pyfunction!(topology::stitched, m)?)?;
+    m.add_function(wrap_pyfunction!(topology::components, m)?)?;
+    m.add_function(wrap_pyfunction!(topology::edge_table, m)?)?;
     m.add_function(wrap_pyfunction!(mesh::clean_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(mesh::needles, m)?)?;
     m.add_function(wrap_pyfunction!(mesh::edge_kinds, m)?)?;
-    m.add_function(wrap_pyfunction!(scan::edge_components, m)?)?;
-    m.add_function(wrap_pyfunction!(scan::visibility, m)?)?;
+    m.add_function(wrap_pyfunction!(topology::edge_components, m)?)?;
+    m.add_function(wrap_pyfunction!(visibility::visibility, m)?)?;
+    m.add_class::<held::Mesh>()?;
+    m.add_class::<held::Groups>()?;
+    m.add_class::<visibility::OwnFaces>()?;
+    m.add_class::<visibility::Visibility>()?;
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(clash::boxes_meet, m)?)?;
     m.add_function(wrap_pyfunction!(place::projected, m)?)?;
     m.add_function(wrap_pyfunction!(place::placed_boxes, m)?)?;
     m.add_function(wrap_pyfunction!(geometry::curve_points, m)?)?;
-    m.add_function(wrap_pyfunction!(geometry::surface_points, m)?)?;
     m.add_class::<drawn::Lines>()?;
     m.add_class::<drawn::Layer>()?;
     m.add_function(wrap_pyfunction!(chains::chain, m)?)?;
     m.add_class::<lines::Camera>()?;
+    m.add_class::<lines::LineTolerances>()?;
+    m.add_class::<geometry::Curves>()?;
+    m.add_class::<chains::Walks>()?;
     m.add_class::<chains::Chains>()?;
     m.add_class::<lines::Cut>()?;
     m.add_class::<brep::BrepModel>()?;
@@ -57,6 +67,10 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(preview::surface_normals, m)?)?;
     m.add_function(wrap_pyfunction!(painters::quadric_row, m)?)?;
     m.add_class::<raster::RasterScene>()?;
+    m.add_class::<true_surfaces::Surfaces>()?;
+    m.add_class::<true_surfaces::TrueSurfaces>()?;
+    m.add_class::<silhouette::Outlines>()?;
+    m.add_class::<silhouette::GrazingBorders>()?;
     m.add_function(wrap_pyfunction!(silhouette::silhouettes, m)?)?;
     m.add_function(wrap_pyfunction!(meshfile::read_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(measure::nearest, m)?)?;

@@ -6,26 +6,26 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyReadonl
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::chains::Chains;
 use super::drawn::Lines;
-use super::geometry::curves;
+use super::geometry::Curves as Records;
 use super::guard::caught;
+use super::held::Mesh;
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat, rows};
 use hlr_linework::lines::camera::Camera as Seen;
 use hlr_linework::lines::cover::Widths;
 use hlr_linework::lines::cut::{Cut as Found, Tolerances, Trait, cut};
-use hlr_linework::lines::finish::finish;
-use hlr_linework::lines::outlines::{About, Chains as Walks};
+use hlr_linework::lines::finish::{finish, guide};
+use hlr_linework::lines::outlines::Chains as Walks;
 use hlr_linework::lines::runs::{Geometry, Piece};
-use hlr_linework::paper::junction::Border;
 use hlr_linework::paper::routes::{Curves, Fit, Guide};
 use hlr_visibility::scan::invisibility::State;
 
 type Vec3 = [f64; 3];
 
 #[pyclass(frozen)]
-pub struct Camera(Seen);
+pub struct Camera(pub(super) Seen);
 
 #[pymethods]
 impl Camera {
@@ -39,11 +39,37 @@ impl Camera {
 type Pieces<'py> =
     (PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, u8>);
 
-/// accuracy, short, flip, stub, same, under, flat, space.
-type Lengths = [f64; 8];
+/// What lines may be off by, and what is too short to be drawn.
+#[pyclass(frozen)]
+pub struct LineTolerances {
+    cut: Tolerances,
+    fit: Fit,
+}
 
-fn tolerances([accuracy, short, flip, stub, same, under, flat, space]: Lengths) -> Tolerances {
-    Tolerances { accuracy, short, flip, stub, widths: Widths { same, under }, flat, space }
+#[pymethods]
+impl LineTolerances {
+    #[new]
+    #[pyo3(signature = (*, accuracy, short, flip, stub, width, under, thin_paper, thin_model, chord, closed, contact))]
+    #[allow(clippy::too_many_arguments)] // one argument per length: the stub names them
+    fn new(
+        accuracy: f64,
+        short: f64,
+        flip: f64,
+        stub: f64,
+        width: f64,
+        under: f64,
+        thin_paper: f64,
+        thin_model: f64,
+        chord: f64,
+        closed: f64,
+        contact: f64,
+    ) -> LineTolerances {
+        let widths = Widths { same: width, under };
+        LineTolerances {
+            cut: Tolerances { accuracy, short, flip, stub, widths, flat: thin_paper, space: thin_model },
+            fit: Fit { accuracy, chord, closed, contact },
+        }
+    }
 }
 
 /// Lines on paper, chained, merged and thinned out, on their way to their curves.
@@ -52,6 +78,7 @@ pub struct Cut {
     chains: Arc<Walks>,
     traits: Vec<Trait>,
     camera: Seen,
+    fit: Fit,
     hidden: bool,
     /// Of each line.
     chain: Vec<i32>,
@@ -67,23 +94,23 @@ impl Cut {
         py: Python<'_>,
         camera: &Camera,
         projected: PyReadonlyArray2<'_, f64>,
-        points: PyReadonlyArray2<'_, f64>,
-        edges: PyReadonlyArray2<'_, i32>,
+        mesh: &Mesh,
         pieces: Pieces<'_>,
         chains: &Chains,
         rank: PyReadonlyArray1<'_, u8>,
         bare: PyReadonlyArray1<'_, bool>,
-        lengths: Lengths,
+        tolerances: &LineTolerances,
         hidden: bool,
         threads: usize,
     ) -> PyResult<Cut> {
         caught(py, || {
             let (camera, chains) = (camera.0, &chains.0);
-            let (projected, space) = (rows::<f64, 3>(&projected, "projected")?, rows::<f64, 3>(&points, "points")?);
-            let edges = rows::<i32, 2>(&edges, "edges")?;
+            let reading = mesh.reading(py)?;
+            let all = reading.slices()?;
+            let (projected, space, edges) = (rows::<f64, 3>(&projected, "projected")?, all.points, all.edges);
             let (rank, bare) = (flat(&rank, "rank")?, flat(&bare, "bare")?);
-            expect_len("points", space.len(), projected.len())?;
-            expect_below("edges", edges.as_flattened().iter().copied(), projected.len())?;
+            let (cutting, fit) = (tolerances.cut, tolerances.fit);
+            expect_len("projected", projected.len(), space.len())?;
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
             expect_len("rank", rank.len(), chains.about.len())?;
             expect_len("bare", bare.len(), chains.about.len())?;
@@ -96,7 +123,7 @@ impl Cut {
                 let view = camera.view();
                 let (pieces, piece_offsets) = (&pieces[..], &piece_offsets[..]);
                 let geometry = Geometry { flat: &flat, space, view: &view, edges, pieces, piece_offsets };
-                let mut found = cut(&geometry, chains, &traits, &tolerances(lengths), stopped)?;
+                let mut found = cut(&geometry, chains, &traits, &cutting, stopped)?;
                 if !hidden {
                     found.keep_sighted(traits.len());
                 }
@@ -107,6 +134,7 @@ impl Cut {
                 chains: chains.clone(),
                 traits,
                 camera,
+                fit,
                 hidden,
                 chain: found.lines.iter().map(|line| line.chain as i32).collect(),
                 drawn: found.lines.iter().filter(|line| line.visible || hidden).count(),
@@ -131,23 +159,19 @@ impl Cut {
     fn finished(
         &self,
         py: Python<'_>,
-        known: bool,
-        records: Records<'_>,
+        curves: Option<&Records>,
         places: PyReadonlyArray3<'_, f64>,
         curve: PyReadonlyArray1<'_, i32>,
         place: PyReadonlyArray1<'_, i32>,
         bulge: PyReadonlyArray1<'_, f64>,
-        lengths: [f64; 4],
         threads: usize,
     ) -> PyResult<(Lines, (f64, f64))> {
-        let (kind, ranges, offsets, values) = &records;
         let curves = Curves {
-            known,
-            curves: curves(flat(kind, "kind")?, flat(offsets, "offsets")?, flat(values, "values")?)?,
-            ranges: rows::<f64, 2>(ranges, "ranges")?.to_vec(),
+            known: curves.is_some(),
+            curves: curves.map_or(Vec::new(), |c| c.curves.clone()),
+            ranges: curves.map_or(Vec::new(), |c| c.ranges.clone()),
             places: matrices(&places)?.to_vec(),
         };
-        expect_len("ranges", curves.ranges.len(), curves.curves.len())?;
         let (curve, place, bulge) = (flat(&curve, "curve")?, flat(&place, "place")?, flat(&bulge, "bulge")?);
         for (name, found) in [("curve", curve.len()), ("place", place.len()), ("bulge", bulge.len())] {
             expect_len(name, found, self.traits.len())?;
@@ -157,28 +181,16 @@ impl Cut {
         expect_below("place", (0..place.len()).filter(used).map(|c| place[c]), curves.places.len())?;
         let about = &self.chains.about;
         let guides: Vec<Guide> = (0..curve.len())
-            .map(|c| Guide {
-                curve: u32::try_from(curve[c]).ok(),
-                place: place[c] as u32,
-                border: border(&about[c], self.traits[c].bare),
-                bulge: bulge[c],
-                smoothed: self.traits[c].noisy && self.traits[c].bare,
-            })
+            .map(|c| guide(&about[c], &self.traits[c], u32::try_from(curve[c]).ok(), place[c] as u32, bulge[c]))
             .collect();
-        let [accuracy, chord, closed, contact] = lengths;
-        let fit = Fit { accuracy, chord, closed, contact };
         let held = self.found.lock().unwrap_or_else(PoisonError::into_inner).take();
         let found = held.ok_or_else(|| PyValueError::new_err("these lines were finished before"))?;
         let size = found.lines.iter().map(|line| line.flat.len()).sum();
         let (lines, [x, y]) =
-            run(py, threads, size, |_| finish(found, about, &guides, &curves, &self.camera, &fit, self.hidden))?;
+            run(py, threads, size, |_| finish(found, about, &guides, &curves, &self.camera, &self.fit, self.hidden))?;
         Ok((Lines(Arc::new(lines)), (x, y)))
     }
 }
-
-/// Kind, ranges, offsets and values of curves.
-type Records<'py> =
-    (PyReadonlyArray1<'py, u8>, PyReadonlyArray2<'py, f64>, PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, f64>);
 
 fn matrices<'a>(places: &'a PyReadonlyArray3<'_, f64>) -> PyResult<&'a [[[f64; 4]; 3]]> {
     let wrong = || PyValueError::new_err("places must be a C-contiguous (n, 3, 4) array");
@@ -186,17 +198,6 @@ fn matrices<'a>(places: &'a PyReadonlyArray3<'_, f64>) -> PyResult<&'a [[[f64; 4
         return Err(wrong());
     }
     Ok(places.as_slice().map_err(|_| wrong())?.as_chunks::<4>().0.as_chunks::<3>().0)
-}
-
-/// Where a surface may end in the image. The outline of a mesh is an edge of it.
-fn border(about: &About, bare: bool) -> Border {
-    use hlr_linework::lines::drawn::Kind::{Boundary, Outline, Sharp};
-    match about.kind {
-        Sharp | Boundary => Border::Edge,
-        Outline if bare => Border::Edge,
-        Outline => Border::Outline,
-        _ => Border::None,
-    }
 }
 
 /// Pieces, and where those of each edge begin.

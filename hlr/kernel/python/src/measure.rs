@@ -6,8 +6,8 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat, rows};
 use hlr_mesh::measure::nearest::{Segment, Segments};
 use hlr_mesh::measure::rays::Caster;
 

@@ -4,8 +4,8 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, P
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat, rows};
 use hlr_mesh::clean::clean;
 use hlr_mesh::kinds::{Limits, kinds};
 use hlr_mesh::needles::needles as low_ones;

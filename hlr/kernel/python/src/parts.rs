@@ -6,10 +6,10 @@ use numpy::{PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
 use super::guard::caught;
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat as slice, rows as table};
 use super::view::{Flat, Holder, Rows, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;

@@ -5,7 +5,7 @@ use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, P
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use super::scan::{expect_below, expect_len, flat, rows};
+use super::arrays::{expect_below, expect_len, flat, rows};
 
 type Vec3 = [f64; 3];
 

@@ -7,10 +7,11 @@ use numpy::{PyReadwriteArray3, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::guard::caught;
+use super::held::Mesh;
 use super::running::run;
-use super::scan::{expect_below, expect_len, flat, rows};
-use hlr_brep::geometry::surface::Surface;
+use super::true_surfaces::TrueSurfaces;
 use hlr_preview::faces::MOST_PIXELS;
 use hlr_preview::lens::Lens;
 use hlr_preview::maps::seen;
@@ -230,46 +231,27 @@ pub fn stroke_picture(
 
 /// Unit normals (k, 3) float32 of the true surfaces at the places uv (k, 2), on the outer side; nought where there is none.
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_face, corner, uv, face_surface, face_place, surface_kind,
-    surface_offsets, surface_data, threads = 0))]
-#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+#[pyo3(signature = (mesh, on, threads = 0))]
 pub fn surface_normals<'py>(
     py: Python<'py>,
-    points: PyReadonlyArray2<'py, f64>,
-    triangles: PyReadonlyArray2<'py, i32>,
-    triangle_face: PyReadonlyArray1<'py, i32>,
-    corner: PyReadonlyArray2<'py, i32>,
-    uv: PyReadonlyArray2<'py, f64>,
-    face_surface: PyReadonlyArray1<'py, i32>,
-    face_place: PyReadonlyArray2<'py, f64>,
-    surface_kind: PyReadonlyArray1<'py, u8>,
-    surface_offsets: PyReadonlyArray1<'py, i32>,
-    surface_data: PyReadonlyArray1<'py, f64>,
+    mesh: &Mesh,
+    on: &TrueSurfaces,
     threads: usize,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let points = rows::<f64, 3>(&points, "points")?;
-    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-    let face = flat(&triangle_face, "triangle_face")?;
-    let corner = rows::<i32, 3>(&corner, "corner")?;
-    let uv = rows::<f64, 2>(&uv, "uv")?;
-    let (surface, place) = (flat(&face_surface, "face_surface")?, rows::<f64, 12>(&face_place, "face_place")?);
-    let (kind, at) = (flat(&surface_kind, "surface_kind")?, flat(&surface_offsets, "surface_offsets")?);
-    let data = flat(&surface_data, "surface_data")?;
-    expect_len("triangle_face", face.len(), triangles.len())?;
-    expect_len("corner", corner.len(), triangles.len())?;
-    expect_len("face_place", place.len(), surface.len())?;
-    expect_len("surface_offsets", at.len(), kind.len() + 1)?;
-    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
-    expect_below("triangle_face", face.iter().copied(), surface.len())?;
-    expect_below("corner", corner.iter().filter(|c| c[0] >= 0).flatten().copied(), uv.len())?;
-    expect_below("face_surface", surface.iter().copied().filter(|&s| s >= 0), kind.len())?;
-    expect_below("surface_offsets", at.iter().copied(), data.len() + 1)?;
-    if at.windows(2).any(|w| w[0] > w[1]) {
-        return Err(PyValueError::new_err("surface_offsets must ascend"));
-    }
-    let surfaces: Vec<Option<Surface>> =
-        (0..kind.len()).map(|i| Surface::read(kind[i], &data[at[i] as usize..at[i + 1] as usize])).collect();
-    let on = OnSurfaces { points, triangles, face, corner, uv, surface, place, surfaces: &surfaces };
+    let (reading, places) = (mesh.reading(py)?, on.reading(py)?);
+    let all = reading.slices()?;
+    let (face, corner, uv) = places.slices()?;
+    expect_len("triangle_face", face.len(), all.triangles.len())?;
+    let on = OnSurfaces {
+        points: all.points,
+        triangles: all.triangles,
+        face,
+        corner,
+        uv,
+        surface: &on.number,
+        place: &on.place,
+        surfaces: on.surfaces(),
+    };
     let found = run(py, threads, usize::MAX, |_| normals(&on))?;
     let n = found.len();
     found.into_flattened().into_pyarray(py).reshape([n, 3])

@@ -7,10 +7,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
+use super::arrays::{expect_below, expect_len, flat, rows};
 use super::guard::caught;
 use super::methods::{CameraTuple, LimitsTuple, Method, camera_of, method_of, with_tree, within};
 use super::painters::{counted, sorted_list, tree_list};
-use super::scan::{expect_below, expect_len, flat, rows};
 use hlr_methods::active_edges::ActiveEdges;
 use hlr_methods::bsp::Tree;
 use hlr_methods::canvas::{Canvas, Visit, Write};

@@ -1,164 +1,262 @@
-//! `silhouettes` as Python sees it.
+//! Outlines of true surfaces, as Python sees them.
 
-use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
+use super::arrays::{expect_below, expect_len, flat as slice};
+use super::held::Mesh;
+use super::lines::Camera;
 use super::running::run;
-use super::scan::{check_incidence, expect_below, expect_len, flat, rows};
+use super::true_surfaces::TrueSurfaces;
+use super::view::{Flat, Holder, Rows, flat, rows};
 use hlr_brep::geometry::curve::Curve;
-use hlr_brep::geometry::surface::Surface;
-use hlr_linework::lines::View;
-use hlr_linework::silhouette::trace::{Traced, trace};
+use hlr_linework::silhouette::grazing::Grazing as Stretch;
+use hlr_linework::silhouette::trace::{Silhouette, Traced, trace};
 use hlr_linework::silhouette::{FaceRecord, Model};
 
 const TURN: [f64; 2] = [0.0, std::f64::consts::TAU];
 
+/// The curves on true surfaces that are seen edge-on, and borders of faces that nearly are.
 #[pyfunction]
-#[pyo3(signature = (points, triangles, triangle_face, edges, offsets, incident, smooth, source, corner, uv, face_surface,
-    face_place, face_inward, face_curved, surface_kind, surface_offsets, surface_data, perspective, eye, away, chord,
-    threads = 0))]
-#[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
+#[pyo3(signature = (mesh, on, smooth, source, camera, chord, threads = 0))]
+#[allow(clippy::too_many_arguments)] // two arrays, and what they are about
 pub fn silhouettes<'py>(
     py: Python<'py>,
-    points: PyReadonlyArray2<'py, f64>,
-    triangles: PyReadonlyArray2<'py, i32>,
-    triangle_face: PyReadonlyArray1<'py, i32>,
-    edges: PyReadonlyArray2<'py, i32>,
-    offsets: PyReadonlyArray1<'py, i32>,
-    incident: PyReadonlyArray1<'py, i32>,
+    mesh: &Mesh,
+    on: &TrueSurfaces,
     smooth: PyReadonlyArray1<'py, bool>,
     source: PyReadonlyArray1<'py, i32>,
-    corner: PyReadonlyArray2<'py, i32>,
-    uv: PyReadonlyArray2<'py, f64>,
-    face_surface: PyReadonlyArray1<'py, i32>,
-    face_place: PyReadonlyArray2<'py, f64>,
-    face_inward: PyReadonlyArray1<'py, bool>,
-    face_curved: PyReadonlyArray1<'py, bool>,
-    surface_kind: PyReadonlyArray1<'py, u8>,
-    surface_offsets: PyReadonlyArray1<'py, i32>,
-    surface_data: PyReadonlyArray1<'py, f64>,
-    perspective: bool,
-    eye: [f64; 3],
-    away: [f64; 3],
+    camera: &Camera,
     chord: f64,
     threads: usize,
-) -> PyResult<Bound<'py, PyDict>> {
-    let points = rows::<f64, 3>(&points, "points")?;
-    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-    let triangle_face = flat(&triangle_face, "triangle_face")?;
-    let edges = rows::<i32, 2>(&edges, "edges")?;
-    let (offsets, incident) = (flat(&offsets, "offsets")?, flat(&incident, "incident")?);
-    let (smooth, source) = (flat(&smooth, "smooth")?, flat(&source, "source")?);
-    let corner = rows::<i32, 3>(&corner, "corner")?;
-    let uv = rows::<f64, 2>(&uv, "uv")?;
-    let (face_surface, face_place) =
-        (flat(&face_surface, "face_surface")?, rows::<f64, 12>(&face_place, "face_place")?);
-    let (inward, curved) = (flat(&face_inward, "face_inward")?, flat(&face_curved, "face_curved")?);
-    let (kind, at) = (flat(&surface_kind, "surface_kind")?, flat(&surface_offsets, "surface_offsets")?);
-    let data = flat(&surface_data, "surface_data")?;
-    expect_len("triangle_face", triangle_face.len(), triangles.len())?;
-    expect_len("corner", corner.len(), triangles.len())?;
-    expect_len("smooth", smooth.len(), edges.len())?;
-    expect_len("source", source.len(), edges.len())?;
-    for (name, found) in
-        [("face_place", face_place.len()), ("face_inward", inward.len()), ("face_curved", curved.len())]
-    {
-        expect_len(name, found, face_surface.len())?;
+) -> PyResult<Outlines> {
+    let (reading, places) = (mesh.reading(py)?, on.reading(py)?);
+    let all = reading.slices()?;
+    let (triangle_face, corner, uv) = places.slices()?;
+    let (smooth, source) = (slice(&smooth, "smooth")?, slice(&source, "source")?);
+    expect_len("triangle_face", triangle_face.len(), all.triangles.len())?;
+    expect_len("smooth", smooth.len(), all.edges.len())?;
+    expect_len("source", source.len(), all.edges.len())?;
+    if chord.is_nan() || chord <= 0.0 {
+        return Err(PyValueError::new_err("chord must be positive"));
     }
-    expect_len("surface_offsets", at.len(), kind.len() + 1)?;
-    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
-    expect_below("edges", edges.as_flattened().iter().copied(), points.len())?;
-    expect_below("triangle_face", triangle_face.iter().copied(), face_surface.len())?;
-    expect_below("surface_offsets", at.iter().copied(), data.len() + 1)?;
-    check_incidence(edges.len(), offsets, incident, triangles.len())?;
-    if at.windows(2).any(|w| w[0] > w[1]) || chord.is_nan() || chord <= 0.0 {
-        return Err(PyValueError::new_err("surface_offsets must ascend, chord must be positive"));
-    }
-    let surfaces: Vec<Option<Surface>> =
-        (0..kind.len()).map(|i| Surface::read(kind[i], &data[at[i] as usize..at[i + 1] as usize])).collect();
-    let faces: Vec<FaceRecord> = (0..face_surface.len())
-        .map(|i| {
-            let m = &face_place[i];
-            let row = |k: usize| [m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]];
-            let surface =
-                u32::try_from(face_surface[i]).ok().filter(|&s| surfaces.get(s as usize).is_some_and(Option::is_some));
-            FaceRecord {
-                surface,
-                place: [row(0), row(1), row(2)],
-                sign: if inward[i] { -1.0 } else { 1.0 },
-                curved: curved[i],
-            }
-        })
-        .collect();
+    let faces: Vec<FaceRecord> = (0..on.number.len()).map(|i| record(on, i)).collect();
     let traced: Vec<bool> = faces.iter().map(|f| f.surface.is_some()).collect();
-    for (corners, &face) in corner.iter().zip(triangle_face) {
-        if traced[face as usize] {
-            expect_below("corner", corners.iter().copied(), uv.len())?;
-        }
-    }
-    let view = View { origin: eye, away, perspective };
+    let known = (0..corner.len()).filter(|&t| traced[triangle_face[t] as usize]);
+    expect_below("corner", known.flat_map(|t| corner[t]), uv.len())?;
     let model = Model {
-        points,
-        triangles,
+        points: all.points,
+        triangles: all.triangles,
         triangle_face,
-        edges,
-        offsets,
-        incident,
+        edges: all.edges,
+        offsets: all.offsets,
+        incident: all.incident,
         smooth,
         source,
         corner,
         uv,
         faces,
-        surfaces,
-        view,
+        surfaces: on.surfaces(),
+        view: camera.0.view(),
         chord,
     };
-    let Traced { silhouettes: found, grazing } =
-        run(py, threads, model.triangles.len(), |stopped| trace(&model, stopped))?
-            .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
-    let mut starts = vec![0i32];
-    let (mut flat_points, mut normals, mut rise) = (Vec::<f64>::new(), Vec::<f64>::new(), Vec::<f64>::new());
-    for s in &found {
-        flat_points.extend(s.points.iter().flatten());
-        normals.extend(s.normals.iter().flatten());
-        rise.extend(&s.rise);
-        starts.push((flat_points.len() / 3) as i32);
+    let Traced { silhouettes, grazing } = run(py, threads, model.triangles.len(), |stopped| trace(&model, stopped))?
+        .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+    Ok(Outlines { columns: Columns::of(&silhouettes), lines: silhouettes, stretches: grazing, traced })
+}
+
+fn record(on: &TrueSurfaces, face: usize) -> FaceRecord {
+    let m = &on.place[face];
+    let row = |k: usize| [m[4 * k], m[4 * k + 1], m[4 * k + 2], m[4 * k + 3]];
+    FaceRecord {
+        surface: on.surface(face as i32),
+        place: [row(0), row(1), row(2)],
+        sign: if on.inward[face] { -1.0 } else { 1.0 },
+        curved: on.curved[face],
     }
-    let (mut curve_kind, mut curve_range, mut curve_starts, mut curve_values) = (vec![], vec![], vec![0i32], vec![]);
-    for s in &found {
-        let range =
-            s.curve.as_ref().map_or([0.0; 2], |c| if let Curve::Spline(n) = c { n.domain().into() } else { TURN });
-        curve_kind.push(s.curve.as_ref().map_or(0, |c| c.record(&mut curve_values)));
-        curve_range.extend(range);
-        curve_starts.push(curve_values.len() as i32);
+}
+
+/// Outlines one after another.
+#[pyclass(frozen)]
+pub struct Outlines {
+    lines: Vec<Silhouette>,
+    columns: Columns,
+    stretches: Vec<Stretch>,
+    traced: Vec<bool>,
+}
+
+impl Holder for Outlines {}
+
+/// Points of all outlines, and records of their curves.
+struct Columns {
+    offsets: Vec<i32>,
+    points: Vec<[f64; 3]>,
+    normals: Vec<[f64; 3]>,
+    rise: Vec<f64>,
+    curve_kind: Vec<u8>,
+    curve_range: Vec<[f64; 2]>,
+    curve_offsets: Vec<i32>,
+    curve_values: Vec<f64>,
+}
+
+impl Columns {
+    fn of(lines: &[Silhouette]) -> Columns {
+        let mut out = Columns {
+            offsets: vec![0],
+            points: Vec::new(),
+            normals: Vec::new(),
+            rise: Vec::new(),
+            curve_kind: Vec::new(),
+            curve_range: Vec::new(),
+            curve_offsets: vec![0],
+            curve_values: Vec::new(),
+        };
+        for line in lines {
+            out.points.extend(&line.points);
+            out.normals.extend(&line.normals);
+            out.rise.extend(&line.rise);
+            out.offsets.push(out.points.len() as i32);
+            let range = |c: &Curve| if let Curve::Spline(n) = c { n.domain().into() } else { TURN };
+            out.curve_range.push(line.curve.as_ref().map_or([0.0; 2], range));
+            out.curve_kind.push(line.curve.as_ref().map_or(0, |c| c.record(&mut out.curve_values)));
+            out.curve_offsets.push(out.curve_values.len() as i32);
+        }
+        out
     }
-    let n = flat_points.len() / 3;
-    let out = PyDict::new(py);
-    out.set_item("offsets", starts.into_pyarray(py))?;
-    out.set_item("points", flat_points.into_pyarray(py).reshape([n, 3])?)?;
-    out.set_item("normals", normals.into_pyarray(py).reshape([n, 3])?)?;
-    out.set_item("face", found.iter().map(|s| s.face).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("source", found.iter().map(|s| s.source).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("curve_kind", curve_kind.into_pyarray(py))?;
-    out.set_item("curve_range", curve_range.into_pyarray(py).reshape([found.len(), 2])?)?;
-    out.set_item("curve_offsets", curve_starts.into_pyarray(py))?;
-    out.set_item("curve_values", curve_values.into_pyarray(py))?;
-    out.set_item("concave", found.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("rise", rise.into_pyarray(py))?;
-    let k = grazing.len();
-    let range: Vec<f64> = grazing.iter().flat_map(|g| g.range).collect();
-    let normals_there: Vec<f64> = grazing.iter().flat_map(|g| g.normals).flatten().collect();
-    out.set_item("grazing_edge", grazing.iter().map(|g| g.edge as i32).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("grazing_range", range.into_pyarray(py).reshape([k, 2])?)?;
-    out.set_item("grazing_face", grazing.iter().map(|g| g.face).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("grazing_normals", normals_there.into_pyarray(py).reshape([k, 2, 3])?)?;
-    out.set_item("grazing_dented", grazing.iter().map(|g| g.dented).collect::<Vec<_>>().into_pyarray(py))?;
-    let rises: Vec<f64> = grazing.iter().flat_map(|g| g.rise.unwrap_or([-1.0; 2])).collect();
-    out.set_item("grazing_rise", rises.into_pyarray(py).reshape([k, 2])?)?;
-    out.set_item("grazing_beside", grazing.iter().map(|g| g.beside as u8).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("grazing_front", grazing.iter().map(|g| g.front).collect::<Vec<_>>().into_pyarray(py))?;
-    out.set_item("traced", traced.into_pyarray(py))?;
-    Ok(out)
+}
+
+#[pymethods]
+impl Outlines {
+    fn __len__(&self) -> usize {
+        self.lines.len()
+    }
+
+    #[getter]
+    fn offsets<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i32> {
+        flat(slf, |o| &o.columns.offsets)
+    }
+
+    #[getter]
+    fn points<'py>(slf: &Bound<'py, Self>) -> Rows<'py, f64> {
+        rows(slf, |o| &o.columns.points)
+    }
+
+    #[getter]
+    fn normals<'py>(slf: &Bound<'py, Self>) -> Rows<'py, f64> {
+        rows(slf, |o| &o.columns.normals)
+    }
+
+    #[getter]
+    fn rise<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
+        flat(slf, |o| &o.columns.rise)
+    }
+
+    #[getter]
+    fn curve_kind<'py>(slf: &Bound<'py, Self>) -> Flat<'py, u8> {
+        flat(slf, |o| &o.columns.curve_kind)
+    }
+
+    #[getter]
+    fn curve_range<'py>(slf: &Bound<'py, Self>) -> Rows<'py, f64> {
+        rows(slf, |o| &o.columns.curve_range)
+    }
+
+    #[getter]
+    fn curve_offsets<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i32> {
+        flat(slf, |o| &o.columns.curve_offsets)
+    }
+
+    #[getter]
+    fn curve_values<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
+        flat(slf, |o| &o.columns.curve_values)
+    }
+
+    #[getter]
+    fn traced<'py>(slf: &Bound<'py, Self>) -> Flat<'py, bool> {
+        flat(slf, |o| &o.traced)
+    }
+
+    #[getter]
+    fn face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
+        self.lines.iter().map(|s| s.face).collect::<Vec<_>>().into_pyarray(py)
+    }
+
+    #[getter]
+    fn source<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
+        self.lines.iter().map(|s| s.source).collect::<Vec<_>>().into_pyarray(py)
+    }
+
+    #[getter]
+    fn concave<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.lines.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py)
+    }
+
+    /// The borders of faces that are seen nearly edge-on.
+    #[getter]
+    fn grazing(&self) -> GrazingBorders {
+        GrazingBorders(self.stretches.clone())
+    }
+}
+
+/// Stretches of borders of faces that are seen nearly edge-on.
+#[pyclass(frozen)]
+pub struct GrazingBorders(Vec<Stretch>);
+
+impl GrazingBorders {
+    fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Stretch) -> T) -> Bound<'py, PyArray1<T>> {
+        self.0.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
+    }
+
+    fn pairs<'py>(&self, py: Python<'py>, of: impl Fn(&Stretch) -> [f64; 2]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.0.iter().flat_map(of).collect::<Vec<f64>>().into_pyarray(py).reshape([self.0.len(), 2])
+    }
+}
+
+#[pymethods]
+impl GrazingBorders {
+    fn __len__(&self) -> usize {
+        self.0.len()
+    }
+
+    #[getter]
+    fn edge<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
+        self.column(py, |g| g.edge as i32)
+    }
+
+    #[getter]
+    fn range<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.pairs(py, |g| g.range)
+    }
+
+    #[getter]
+    fn face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
+        self.column(py, |g| g.face)
+    }
+
+    #[getter]
+    fn normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let all: Vec<f64> = self.0.iter().flat_map(|g| g.normals).flatten().collect();
+        all.into_pyarray(py).reshape([self.0.len(), 2, 3])
+    }
+
+    #[getter]
+    fn front<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.column(py, |g| g.front)
+    }
+
+    #[getter]
+    fn beside<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
+        self.column(py, |g| g.beside as u8)
+    }
+
+    #[getter]
+    fn dented<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        self.column(py, |g| g.dented)
+    }
+
+    #[getter]
+    fn rise<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.pairs(py, |g| g.rise.unwrap_or([-1.0; 2]))
+    }
 }

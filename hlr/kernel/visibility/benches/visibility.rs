@@ -7,15 +7,16 @@
 use std::time::Instant;
 
 use hlr_exact::arithmetic::Exact;
-use hlr_exact::snap::Grid;
 use hlr_mesh::topology::{Topology, topology};
 use hlr_visibility::scan::active_edges::crossings;
 use hlr_visibility::scan::active_spans::Seeds;
 use hlr_visibility::scan::edge_table::EdgeTable;
-use hlr_visibility::scan::mesh::{DRAWN, Mesh, OUTLINE, Part};
+use hlr_visibility::scan::mesh::{DRAWN, OUTLINE};
+use hlr_visibility::scan::own_faces::OwnFaces;
 use hlr_visibility::scan::piercing::piercings;
 use hlr_visibility::scan::polygon_table::PolygonTable;
-use hlr_visibility::scan::sweep::visibility;
+use hlr_visibility::scan::scene::{Group, Numbers, Scene as Seen, solve};
+use hlr_visibility::scan::sweep::Steps;
 
 /// Sides of a prism: half of them are boxes, half of them cylinders.
 const ROUND: usize = 40;
@@ -130,22 +131,19 @@ fn main() {
         let role = roles(&scene, &t);
         let edge_part: Vec<i32> =
             (0..t.edges.len()).map(|e| scene.part[t.incident[t.offsets[e] as usize] as usize]).collect();
-        let grid = Grid::around(&view).expect("finite points");
-        let snapped: Vec<[i32; 3]> = view.iter().map(|p| grid.snap(p)).collect();
-        let mesh = Mesh {
-            points: snapped.clone(),
+        let groups = vec![Group { cull: true, sound: true, delta: 0.125, cap: 1.0, tight: false }; count];
+        let seen = Seen {
+            points: &view,
             triangles: &scene.triangles,
-            triangle_part: &scene.part,
+            triangle_group: &scene.part,
             edges: &t.edges,
             offsets: &t.offsets,
             incident: &t.incident,
-            edge_part: &edge_part,
+            edge_group: &edge_part,
             role: &role,
-            parts: vec![
-                Part { cull: true, sound: true, delta: grid.delta(0.125), cap: grid.delta(1.0), tight: false };
-                count
-            ],
+            groups: &groups,
         };
+        let (mesh, grid) = seen.snapped().expect("finite points");
         let go = || false;
         let topo = median(|| drop(topology(&scene.triangles, scene.points.len())));
         let snap = median(|| drop(view.iter().map(|p| grid.snap(p)).collect::<Vec<_>>()));
@@ -155,7 +153,7 @@ fn main() {
         let seeds = median(|| drop(Seeds::new::<Exact>(&mesh, &polygons, &edges.drawn, &go)));
         let cross = median(|| drop(crossings::<Exact>(&mesh, &edges.drawn, &edges.contours, &go)));
         let pierce = median(|| drop(piercings::<Exact>(&mesh, &polygons, &edges.drawn, &go)));
-        let whole = median(|| drop(visibility(&mesh, &go)));
+        let whole = median(|| drop(solve(&seen, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &go)));
         println!(
             "| {count} | {} | {topo:.1} | {snap:.1} | {tables:.1} | {seeds:.1} | {cross:.1} | {pierce:.1} | {whole:.1} |",
             scene.triangles.len(),

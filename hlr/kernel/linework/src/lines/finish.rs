@@ -2,13 +2,14 @@
 
 use super::Polyline;
 use super::camera::Camera;
-use super::cut::Cut;
-use super::drawn::{Curve, Line, Lines};
+use super::cut::{Cut, Trait};
+use super::drawn::{Curve, Kind, Line, Lines};
 use super::outlines::About;
 use crate::ink::arcs::Arc;
 use crate::paper::Form;
 use crate::paper::arc::grow;
 use crate::paper::bezier::Chain;
+use crate::paper::junction::Border;
 use crate::paper::project::Vec2;
 use crate::paper::routes::{Curves, Fit, Guide, OnCurve, on_curves};
 
@@ -17,6 +18,18 @@ struct Made {
     line: Polyline,
     curve: Option<Curve>,
     bounds: [Vec2; 2],
+}
+
+/// The guide of a chain whose curve, where that is known, stands in a place.
+pub fn guide(about: &About, of: &Trait, curve: Option<u32>, place: u32, bulge: f64) -> Guide {
+    // Where a surface may end in the image. The outline of a mesh is an edge of it.
+    let border = match about.kind {
+        Kind::Sharp | Kind::Boundary => Border::Edge,
+        Kind::Outline if of.bare => Border::Edge,
+        Kind::Outline => Border::Outline,
+        _ => Border::None,
+    };
+    Guide { curve, place, border, bulge, smoothed: of.noisy && of.bare }
 }
 
 /// The lines, sorted by part, kind, edge, face and second part, and the lower left corner they were moved from.

@@ -25,6 +25,9 @@ pub mod runs;
 pub mod simplify;
 pub mod specks;
 
+#[cfg(test)]
+mod tests;
+
 /// A line on paper with its twin in space, point for point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyline {

@@ -172,6 +172,7 @@ mod tests {
         let points =
             [[-70.0, -0.100000000043331, 0.0], [-93.0, -0.1, 1e-13], [-87.0, -0.1, 1e-13], [-80.0, -0.1, -60.0]];
         let plane = Surface::read(1, &[0.0, -0.1, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0]);
+        let surfaces = [plane];
         let face = |surface| FaceRecord {
             surface,
             place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
@@ -190,7 +191,7 @@ mod tests {
             corner: &[[0, 1, 2], [0, 1, 3]],
             uv: &[[0.0; 2]; 4],
             faces: vec![face(surface)],
-            surfaces: vec![plane.clone()],
+            surfaces: &surfaces,
             view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
             chord: 0.01,
         };

@@ -28,6 +28,9 @@ pub mod refine;
 pub mod trace;
 pub mod wrinkle;
 
+#[cfg(test)]
+mod tests;
+
 use crate::lines::View;
 use hlr_brep::geometry::surface::Surface;
 
@@ -51,7 +54,7 @@ pub struct Model<'a> {
     pub corner: &'a [[i32; 3]],
     pub uv: &'a [[f64; 2]],
     pub faces: Vec<FaceRecord>,
-    pub surfaces: Vec<Option<Surface>>,
+    pub surfaces: &'a [Option<Surface>],
     pub view: View,
     /// How far chords may stay off the curve, in the model.
     pub chord: f64,

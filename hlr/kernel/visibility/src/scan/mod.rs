@@ -33,4 +33,5 @@ pub mod one_sheet;
 pub mod own_faces;
 pub mod piercing;
 pub mod polygon_table;
+pub mod scene;
 pub mod sweep;

@@ -61,6 +61,39 @@ pub struct OwnFaces<'a> {
     pub depth_scale: f64,
 }
 
+/// The same, with columns of its own.
+#[derive(Clone, Debug, Default)]
+pub struct Owned {
+    pub edge: Vec<i32>,
+    pub range: Vec<[f64; 2]>,
+    pub line: Vec<i32>,
+    pub beside: Vec<u8>,
+    pub dented: Vec<bool>,
+    pub offsets: Vec<i32>,
+    pub face: Vec<i32>,
+    pub off: Vec<i32>,
+    pub triangle_face: Vec<i32>,
+    pub sheet: Vec<i32>,
+}
+
+impl Owned {
+    pub fn borrowed(&self) -> OwnFaces<'_> {
+        OwnFaces {
+            edge: &self.edge,
+            range: &self.range,
+            line: &self.line,
+            beside: &self.beside,
+            dented: &self.dented,
+            offsets: &self.offsets,
+            face: &self.face,
+            off: &self.off,
+            triangle_face: &self.triangle_face,
+            sheet: &self.sheet,
+            depth_scale: 1.0,
+        }
+    }
+}
+
 /// |N . v|: triangles seen at more are compared with the edge as it lies. They do not come in front of it by being off; where
 /// they do, far from the edge, they are what hides it.
 const EDGE_ON: f64 = 0.5;

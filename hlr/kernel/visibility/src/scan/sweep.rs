@@ -15,7 +15,7 @@ use super::one_sheet::one_sheet;
 use super::own_faces::OwnFaces;
 use super::piercing::{Piercings, piercings};
 use super::polygon_table::PolygonTable;
-use hlr_exact::arithmetic::{Arithmetic, Exact};
+use hlr_exact::arithmetic::Arithmetic;
 
 /// One piece of one edge; parameters run from the edge's first to its second vertex.
 #[derive(Clone, Copy, Debug)]
@@ -84,12 +84,7 @@ impl Steps {
     pub const ALL: Steps = Steps { crossings: true, piercings: true, pyramid: false };
 }
 
-/// None if `stopped` said so.
-pub fn visibility(mesh: &Mesh, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Outcome> {
-    visibility_by::<Exact>(mesh, Steps::ALL, &OwnFaces::NONE, stopped)
-}
-
-/// The same with any numbers: with others than exact ones pieces may be wrong, and counts contradict each other.
+/// None if `stopped` said so. With other numbers than exact ones pieces may be wrong, and counts contradict each other.
 pub fn visibility_by<A: Arithmetic>(
     mesh: &Mesh,
     steps: Steps,

@@ -1,0 +1,148 @@
+//! Outlines of simple bodies, as the whole of the tracer gives them.
+
+use std::f64::consts::TAU;
+
+use hlr_brep::geometry::curve::Curve;
+use hlr_brep::geometry::surface::Surface;
+use hlr_brep::geometry::vector::{Vector, dot, length, sub};
+use hlr_mesh::topology::topology;
+
+use super::trace::{Traced, trace};
+use super::{FaceRecord, Model};
+use crate::lines::View;
+
+/// Chords around.
+const SIDES: usize = 24;
+const RADIUS: f64 = 2.0;
+
+/// One face without a seam in its mesh: its corners in (u, v) count on beyond a whole turn.
+struct Body {
+    points: Vec<Vector>,
+    triangles: Vec<[i32; 3]>,
+    corner: Vec<[i32; 3]>,
+    uv: Vec<[f64; 2]>,
+    surface: Surface,
+}
+
+impl Body {
+    /// Rows of nodes at heights v, between u = 0 and a whole turn.
+    fn around(kind: u8, heights: &[f64]) -> Body {
+        let frame = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, RADIUS];
+        let surface = Surface::read(kind, &frame).expect("a surface");
+        let mut body = Body { points: vec![], triangles: vec![], corner: vec![], uv: vec![], surface };
+        for &v in heights {
+            for k in 0..=SIDES {
+                // Half a chord aside, so that no node is seen edge-on.
+                let u = TAU * (k as f64 + 0.5) / SIDES as f64;
+                body.uv.push([u, v]);
+                if k < SIDES {
+                    body.points.push(body.surface.d1([u, v]).0);
+                }
+            }
+        }
+        let point = |row: usize, k: usize| (row * SIDES + k % SIDES) as i32;
+        let place = |row: usize, k: usize| (row * (SIDES + 1) + k) as i32;
+        for row in 0..heights.len() - 1 {
+            for k in 0..SIDES {
+                for cell in [[(0, 0), (0, 1), (1, 1)], [(0, 0), (1, 1), (1, 0)]] {
+                    body.triangles.push(cell.map(|(up, on)| point(row + up, k + on)));
+                    body.corner.push(cell.map(|(up, on)| place(row + up, k + on)));
+                }
+            }
+        }
+        body
+    }
+
+    fn traced(&self, inward: bool, stop: bool) -> Option<Traced> {
+        let t = topology(&self.triangles, self.points.len());
+        let model = Model {
+            points: &self.points,
+            triangles: &self.triangles,
+            triangle_face: &vec![0; self.triangles.len()],
+            edges: &t.edges,
+            offsets: &t.offsets,
+            incident: &t.incident,
+            smooth: &vec![true; t.edges.len()],
+            source: &vec![-1; t.edges.len()],
+            corner: &self.corner,
+            uv: &self.uv,
+            faces: vec![FaceRecord {
+                surface: Some(0),
+                place: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]],
+                sign: if inward { -1.0 } else { 1.0 },
+                curved: true,
+            }],
+            surfaces: &[Some(self.surface.clone())],
+            view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
+            chord: 0.01,
+        };
+        trace(&model, &|| stop)
+    }
+}
+
+fn cylinder() -> Body {
+    Body::around(2, &[0.0, 3.0])
+}
+
+/// A sphere without its poles.
+fn zone() -> Body {
+    Body::around(4, &[-1.2, -0.6, 0.0, 0.6, 1.2])
+}
+
+#[test]
+fn a_cylinder_from_the_side_has_two_straight_outlines() {
+    let found = cylinder().traced(false, false).expect("an answer").silhouettes;
+    assert_eq!(found.len(), 2);
+    let mut sides = Vec::new();
+    for line in &found {
+        assert!(line.source == -1 && line.face == 0 && !line.concave);
+        let x = line.points[0][0];
+        for p in &line.points {
+            assert!((p[0] - x).abs() < 1e-9 && p[1].abs() < 1e-5, "{p:?}");
+        }
+        let mut ends = [line.points[0][2], line.points[line.points.len() - 1][2]];
+        ends.sort_by(f64::total_cmp);
+        assert!(ends[0].abs() < 1e-9 && (ends[1] - 3.0).abs() < 1e-9, "{ends:?}");
+        sides.push(x);
+    }
+    sides.sort_by(f64::total_cmp);
+    assert!((sides[0] + RADIUS).abs() < 1e-9 && (sides[1] - RADIUS).abs() < 1e-9, "{sides:?}");
+}
+
+#[test]
+fn a_bore_hides_its_own_outlines() {
+    let found = cylinder().traced(true, false).expect("an answer").silhouettes;
+    assert_eq!(found.iter().map(|line| line.concave).collect::<Vec<_>>(), [true, true]);
+    // The outer side of a bore is where its axis is.
+    assert!(found.iter().all(|line| dot(&line.normals[0], &line.points[0]) < 0.0));
+}
+
+#[test]
+fn outlines_of_a_sphere_are_circles_on_it_where_it_is_seen_edge_on() {
+    let found = zone().traced(false, false).expect("an answer").silhouettes;
+    assert_eq!(found.len(), 2, "one at each side, as the poles are missing");
+    for line in &found {
+        assert!(line.points.len() > 4);
+        for (p, n) in line.points.iter().zip(&line.normals) {
+            assert!((length(p) - RADIUS).abs() < 1e-9 && n[1].abs() < 1e-6, "{p:?} {n:?}");
+            assert!(length(&sub(p, &n.map(|c| RADIUS * c))) < 1e-9);
+        }
+        let Some(Curve::Ellipse { p, a, b }) = &line.curve else { panic!("{:?}", line.curve) };
+        assert!(length(p) < 1e-9 && (length(a) - RADIUS).abs() < 1e-9 && (length(b) - RADIUS).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_same_on_any_number_of_threads() {
+    let listed = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let found = pool.install(|| zone().traced(false, false)).expect("an answer").silhouettes;
+        found.iter().flat_map(|line| line.points.concat()).map(f64::to_bits).collect::<Vec<u64>>()
+    };
+    assert_eq!(listed(1), listed(3));
+}
+
+#[test]
+fn it_can_be_stopped() {
+    assert!(cylinder().traced(false, true).is_none());
+}

@@ -1,0 +1,60 @@
+//! Arrays from Python: shapes and ranges are checked, with the name of the argument in what is said.
+
+use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// Rows of a C-contiguous (n, N) array.
+pub fn rows<'a, T: numpy::Element, const N: usize>(
+    array: &'a PyReadonlyArray2<'_, T>,
+    name: &str,
+) -> PyResult<&'a [[T; N]]> {
+    let wrong = || PyValueError::new_err(format!("{name} must be a C-contiguous (n, {N}) array"));
+    let slice = array.as_slice().map_err(|_| wrong())?;
+    // An array in Fortran's order is contiguous as well, but its slice runs down the columns.
+    if array.as_array().shape()[1] != N || !array.is_c_contiguous() {
+        return Err(wrong());
+    }
+    let (rows, _) = slice.as_chunks::<N>();
+    Ok(rows)
+}
+
+pub fn flat<'a, T: numpy::Element>(array: &'a PyReadonlyArray1<'_, T>, name: &str) -> PyResult<&'a [T]> {
+    array.as_slice().map_err(|_| PyValueError::new_err(format!("{name} must be contiguous")))
+}
+
+pub fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
+    if found == wanted {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!("{name} has {found} entries, {wanted} are needed")))
+}
+
+pub fn expect_below(name: &str, values: impl Iterator<Item = i32> + Clone, limit: usize) -> PyResult<()> {
+    // Without a sign negative ones are the largest: one number tells of all, without a branch for each.
+    let largest = values.clone().fold(0u32, |most, v| most.max(v as u32));
+    if (largest as usize) < limit {
+        return Ok(());
+    }
+    match values.into_iter().find(|&v| v < 0 || v as usize >= limit) {
+        Some(v) => Err(PyValueError::new_err(format!("{name} holds {v}, allowed are 0..{limit}"))),
+        None => Ok(()),
+    }
+}
+
+pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
+    expect_len("offsets", offsets.len(), edges + 1)?;
+    expect_below("incident", incident.iter().copied(), triangles)?;
+    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
+    if offsets.windows(2).any(|w| w[0] > w[1]) {
+        return Err(PyValueError::new_err("offsets must ascend"));
+    }
+    Ok(())
+}
+
+pub fn expect_ascending(name: &str, values: &[i32]) -> PyResult<()> {
+    if values.is_sorted() {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!("{name} must ascend")))
+}

@@ -1,0 +1,230 @@
+//! The visibility pass as Python sees it.
+
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, rows};
+use super::guard::caught;
+use super::held::{Groups, Mesh};
+use super::running::run;
+use super::view::{Flat, Holder, flat};
+use hlr_visibility::scan::own_faces::{OwnFaces as Own, Owned};
+use hlr_visibility::scan::scene::{Numbers, Refusal, Scene, solve};
+use hlr_visibility::scan::sweep::{Counters, Seconds, Steps};
+
+/// Edges, or stretches of them, whose own faces are seen nearly edge-on.
+#[pyclass(frozen)]
+pub struct OwnFaces(Owned);
+
+#[pymethods]
+impl OwnFaces {
+    #[new]
+    #[allow(clippy::too_many_arguments)] // one argument per column: the stub names them
+    fn new(
+        py: Python<'_>,
+        edge: PyReadonlyArray1<'_, i32>,
+        range: PyReadonlyArray2<'_, f64>,
+        line: PyReadonlyArray1<'_, i32>,
+        beside: PyReadonlyArray1<'_, u8>,
+        dented: PyReadonlyArray1<'_, bool>,
+        offsets: PyReadonlyArray1<'_, i32>,
+        face: PyReadonlyArray1<'_, i32>,
+        off: PyReadonlyArray1<'_, i32>,
+        triangle_face: PyReadonlyArray1<'_, i32>,
+        sheet: PyReadonlyArray1<'_, i32>,
+    ) -> PyResult<OwnFaces> {
+        caught(py, || {
+            let own = Owned {
+                edge: slice(&edge, "edge")?.to_vec(),
+                range: rows::<f64, 2>(&range, "range")?.to_vec(),
+                line: slice(&line, "line")?.to_vec(),
+                beside: slice(&beside, "beside")?.to_vec(),
+                dented: slice(&dented, "dented")?.to_vec(),
+                offsets: slice(&offsets, "offsets")?.to_vec(),
+                face: slice(&face, "face")?.to_vec(),
+                off: slice(&off, "off")?.to_vec(),
+                triangle_face: slice(&triangle_face, "triangle_face")?.to_vec(),
+                sheet: slice(&sheet, "sheet")?.to_vec(),
+            };
+            let stretches = own.edge.len();
+            for (name, found) in [
+                ("range", own.range.len()),
+                ("line", own.line.len()),
+                ("beside", own.beside.len()),
+                ("dented", own.dented.len()),
+            ] {
+                expect_len(name, found, stretches)?;
+            }
+            expect_len("offsets", own.offsets.len(), stretches + 1)?;
+            expect_len("off", own.off.len(), own.face.len())?;
+            expect_below("offsets", own.offsets.iter().copied(), own.face.len() + 1)?;
+            expect_below("face", own.triangle_face.iter().chain(&own.face).copied(), own.sheet.len())?;
+            expect_ascending("edge", &own.edge)?;
+            expect_ascending("offsets", &own.offsets)?;
+            Ok(OwnFaces(own))
+        })
+    }
+}
+
+/// What is seen of the edges.
+#[pyclass(frozen)]
+pub struct Visibility {
+    edge: Vec<i32>,
+    t0: Vec<f64>,
+    t1: Vec<f64>,
+    state: Vec<u8>,
+    facing: Vec<i8>,
+    counters: Counters,
+    seconds: Seconds,
+}
+
+impl Holder for Visibility {}
+
+#[pymethods]
+impl Visibility {
+    #[getter]
+    fn edge<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i32> {
+        flat(slf, |v| &v.edge)
+    }
+
+    #[getter]
+    fn t0<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
+        flat(slf, |v| &v.t0)
+    }
+
+    #[getter]
+    fn t1<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
+        flat(slf, |v| &v.t1)
+    }
+
+    #[getter]
+    fn state<'py>(slf: &Bound<'py, Self>) -> Flat<'py, u8> {
+        flat(slf, |v| &v.state)
+    }
+
+    #[getter]
+    fn facing<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i8> {
+        flat(slf, |v| &v.facing)
+    }
+
+    #[getter]
+    fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        counters(py, &self.counters)
+    }
+
+    #[getter]
+    fn seconds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        seconds(py, &self.seconds)
+    }
+}
+
+/// Which pieces of the edges with a role are seen.
+#[pyfunction]
+#[pyo3(signature = (mesh, projected, groups, role, own = None, *, crossings = true, piercings = true, pyramid = false,
+    arithmetic = "exact", threads = 0))]
+#[allow(clippy::too_many_arguments)] // half of them are options
+pub fn visibility<'py>(
+    py: Python<'py>,
+    mesh: &Mesh,
+    projected: PyReadonlyArray2<'py, f64>,
+    groups: &Groups,
+    role: PyReadonlyArray1<'py, u8>,
+    own: Option<&OwnFaces>,
+    crossings: bool,
+    piercings: bool,
+    pyramid: bool,
+    arithmetic: &str,
+    threads: usize,
+) -> PyResult<Visibility> {
+    let numbers = match arithmetic {
+        "exact" => Numbers::Exact,
+        "f64" => Numbers::Double,
+        "f32" => Numbers::Single,
+        _ => return Err(PyValueError::new_err(format!("no arithmetic is called {arithmetic}: exact, f64 or f32"))),
+    };
+    let reading = mesh.reading(py)?;
+    let all = reading.slices()?;
+    let of = groups.reading(py)?;
+    let scene = Scene {
+        points: rows::<f64, 3>(&projected, "projected")?,
+        triangles: all.triangles,
+        triangle_group: slice(&of.0, "triangle")?,
+        edges: all.edges,
+        offsets: all.offsets,
+        incident: all.incident,
+        edge_group: slice(&of.1, "edge")?,
+        role: slice(&role, "role")?,
+        groups: &groups.groups,
+    };
+    expect_len("projected", scene.points.len(), all.points.len())?;
+    expect_len("groups of triangles", scene.triangle_group.len(), all.triangles.len())?;
+    expect_len("groups of edges", scene.edge_group.len(), all.edges.len())?;
+    expect_len("role", scene.role.len(), all.edges.len())?;
+    if let Some(OwnFaces(own)) = own {
+        expect_len("triangle_face", own.triangle_face.len(), all.triangles.len())?;
+        expect_below("own edge", own.edge.iter().chain(&own.line).chain(&own.off).copied(), all.edges.len())?;
+    }
+    let own = own.map_or(Own::NONE, |own| own.0.borrowed());
+    let steps = Steps { crossings, piercings, pyramid };
+    let outcome = run(py, threads, scene.triangles.len(), |stopped| solve(&scene, own, steps, numbers, stopped))?
+        .map_err(|why| match why {
+            Refusal::NotFinite => PyValueError::new_err("points hold coordinates that are not finite"),
+            Refusal::Stopped => PyKeyboardInterrupt::new_err("stopped"),
+        })?;
+    let pieces = &outcome.pieces;
+    Ok(Visibility {
+        edge: pieces.iter().map(|p| p.edge as i32).collect(),
+        t0: pieces.iter().map(|p| p.segment.start).collect(),
+        t1: pieces.iter().map(|p| p.segment.end).collect(),
+        state: pieces.iter().map(|p| p.segment.state as u8).collect(),
+        facing: outcome.facing,
+        counters: outcome.counters,
+        seconds: outcome.seconds,
+    })
+}
+
+fn seconds<'py>(py: Python<'py>, s: &Seconds) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    for (name, value) in [
+        ("tables", s.tables),
+        ("pyramid", s.pyramid),
+        ("seeds", s.seeds),
+        ("crossings", s.crossings),
+        ("piercings", s.piercings),
+        ("counting", s.counting),
+        ("own_faces", s.own_faces),
+    ] {
+        out.set_item(name, value)?;
+    }
+    Ok(out)
+}
+
+fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    for (name, value) in [
+        ("triangles", c.triangles),
+        ("culled", c.culled),
+        ("contours", c.contours),
+        ("drawn", c.drawn),
+        ("hidden_by_culling", c.hidden_by_culling),
+        ("projecting", c.projecting),
+        ("bands", c.bands),
+        ("seeds", c.seeds),
+        ("crossing_tests", c.crossing_tests),
+        ("crossings", c.crossings),
+        ("piercing_parts", c.piercing_parts),
+        ("piercing_tests", c.piercing_tests),
+        ("piercings", c.piercings),
+        ("failed_checks", c.failed_checks),
+        ("contradictions", c.contradictions),
+        ("by_culling_alone", c.by_culling_alone),
+        ("pyramid_parts", c.pyramid_parts),
+        ("hidden_by_pyramid", c.hidden_by_pyramid),
+        ("freed_of_own_faces", c.freed_of_own_faces),
+    ] {
+        out.set_item(name, value)?;
+    }
+    Ok(out)
+}
