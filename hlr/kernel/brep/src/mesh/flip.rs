@@ -68,6 +68,52 @@ pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
     }
 }
 
+/// Height over length of a triangle that is no needle.
+const NEEDLE: f64 = 1e-6;
+
+/// Turn the longest sides of needles, where what comes of it is higher. In a plane corners of the border may lie in one line
+/// but for rounding; a needle between them has no normal, and the grid of an image turns it over.
+///
+/// ```text
+///      p ---- q ---- r          p ---- q ---- r
+///       \ '-.___.-' /            \    / \    /       Before: p r q is a needle. After: there is none.
+///          '-. .-'                 '-/   \-'
+///             s                       s
+/// ```
+pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
+    // The height over the longest side, over that; and that side.
+    let slim = |t: [u32; 3]| {
+        let p = t.map(|i| uv[i as usize]);
+        let length = |k: usize| (p[(k + 1) % 3][0] - p[k][0]).hypot(p[(k + 1) % 3][1] - p[k][1]);
+        let longest = (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best });
+        (area(&p[0], &p[1], &p[2]) / length(longest).powi(2).max(f64::MIN_POSITIVE), longest)
+    };
+    if triangles.iter().all(|&t| slim(t).0 > NEEDLE) {
+        return;
+    }
+    let mut twins = twins(triangles);
+    for _ in 0..ROUNDS {
+        let mut turned = false;
+        for t in 0..triangles.len() {
+            let (height, longest) = slim(triangles[t]);
+            let (edge, twin) = (3 * t + longest, twins[3 * t + longest] as usize);
+            if height > NEEDLE || twins[edge] == NONE {
+                continue;
+            }
+            let (a, b) = (start(triangles, edge), start(triangles, twin));
+            let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
+            let least = |one: [u32; 3], other: [u32; 3]| slim(one).0.min(slim(other).0);
+            if c != d && least([c, d, b], [d, c, a]) > least(triangles[t], triangles[twin / 3]) {
+                turn(triangles, &mut twins, edge, twin);
+                turned = true;
+            }
+        }
+        if !turned {
+            break;
+        }
+    }
+}
+
 pub const NONE: u32 = u32::MAX;
 
 fn start(triangles: &[[u32; 3]], edge: usize) -> u32 {

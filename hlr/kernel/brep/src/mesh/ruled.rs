@@ -6,7 +6,7 @@
 //! them holds everywhere.
 
 use super::delaunay::Delaunay;
-use super::flip::flip;
+use super::flip::{flip, without_needles};
 use super::outline::Outline;
 use super::steps::Steps;
 use super::sweep;
@@ -52,6 +52,10 @@ fn upright(surface: &Surface, outline: &Outline, swapped: bool, deflection: f64,
             (mesh.triangles, mesh.stand_in)
         }
     };
+    if let Surface::Plane(_) = surface {
+        without_needles(&outline.uv, &mut triangles);
+        return Some((triangles, stand_in, 0.0));
+    }
     let error = |a: u32, b: u32| {
         steps.step();
         edge_error(surface, outline.uv[a as usize], outline.uv[b as usize], swapped)

@@ -91,9 +91,7 @@ fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
     if a[0] == b[0] && a[1] == b[1] {
         return Fate::Projecting;
     }
-    let faces = mesh.incident(edge);
-    let part = &mesh.parts[mesh.edge_part[edge] as usize];
-    if part.cull && !faces.is_empty() && faces.iter().all(|&t| table.facing[t as usize] < 0) {
+    if mesh.parts[mesh.edge_part[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge)) {
         return Fate::Hidden;
     }
     Fate::Drawn

@@ -175,10 +175,7 @@ impl OwnFaces<'_> {
         stretches: &[usize],
     ) -> Option<Vec<Segment>> {
         let edge = self.edge[stretches[0]] as usize;
-        let around = mesh.incident(edge);
-        let culled = mesh.parts[mesh.edge_part[edge] as usize].cull
-            && !around.is_empty()
-            && around.iter().all(|&t| table.facing[t as usize] < 0);
+        let culled = mesh.parts[mesh.edge_part[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge));
         let (mut one, mut two) = (Vec::new(), Vec::new());
         let hidden = |s: usize| match self.beside[s] {
             HIDDEN => true,

@@ -10,6 +10,9 @@ use hlr_exact::predicates::orient2d;
 /// Radians to the line of sight up to which a triangle is seen edge-on but for what its file has rounded.
 const ALMOST: f64 = 2e-5;
 
+/// Height in the image, in units of the grid, up to which a triangle may have been turned over by rounding its corners.
+const NEEDLE: f64 = 2.0;
+
 pub struct PolygonTable {
     /// +1 toward the viewer, -1 away, 0 edge-on.
     pub facing: Vec<i8>,
@@ -34,6 +37,13 @@ impl PolygonTable {
         PolygonTable { facing, almost, culled }
     }
 
+    /// Whether culling hides an edge of these triangles without any search: all are turned away, and none of them by
+    /// rounding alone.
+    pub fn turned_away(&self, mesh: &Mesh, triangles: &[i32]) -> bool {
+        let away = |&t: &i32| self.facing[t as usize] < 0 && !is_needle(mesh.corners(t as usize));
+        !triangles.is_empty() && triangles.iter().all(away)
+    }
+
     /// Counted in front of others: not edge-on, and facing the viewer where its part allows culling. A line of sight
     /// that meets a closed solid from outside meets a face toward the viewer first, so the others add nothing to
     /// the question whether anything is in front.
@@ -44,9 +54,31 @@ impl PolygonTable {
     }
 }
 
+/// Hardly higher than the grid is fine, as between corners that lie in one line: rounding turns it any way.
+fn is_needle((p, q, r): (&Point, &Point, &Point)) -> bool {
+    let way = |a: &Point, b: &Point| [0, 1].map(|k| f64::from(b[k]) - f64::from(a[k]));
+    let (u, v, w) = (way(p, q), way(q, r), way(r, p));
+    let area = u[0] * v[1] - u[1] * v[0];
+    let longest = [u, v, w].map(|[x, y]| x * x + y * y).into_iter().fold(0.0, f64::max);
+    area * area <= NEEDLE * NEEDLE * longest
+}
+
 fn almost_edge_on((p, q, r): (&Point, &Point, &Point)) -> bool {
     let way = |a: &Point| [0, 1, 2].map(|k| f64::from(a[k]) - f64::from(p[k]));
     let (u, v) = (way(q), way(r));
     let [x, y, z] = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
     z * z <= ALMOST * ALMOST * (x * x + y * y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_needle;
+
+    #[test]
+    fn a_needle_is_no_higher_than_rounding() {
+        let needle = |y: i32| is_needle((&[0, 0, 0], &[1_000_000, y, 9], &[2_000_000, 0, -9]));
+        assert!(needle(0) && needle(1) && needle(-2));
+        assert!(!needle(3) && !needle(-1000));
+        assert!(!is_needle((&[0, 0, 0], &[5, 0, 0], &[0, 5, 0])));
+    }
 }

@@ -24,6 +24,18 @@ fn a_disc_with_holes() {
 }
 
 #[test]
+fn corners_in_one_line_have_no_needle_between_them() {
+    // Below the upper side, which goes farther to both sides, the lower one bulges by less than can be seen.
+    let low = (0..=8).map(|i| [f64::from(i), -1e-13 * f64::from(i * (8 - i))]);
+    let places = [low.chain([[9.0, 4.0], [-1.0, 4.0]]).collect::<Vec<_>>()];
+    let mesh = meshed(&surface(1, &[]), &places, 0.1);
+    assert_eq!(mesh.triangles.len(), 9);
+    for t in &mesh.triangles {
+        assert!(crate::mesh::area(&t.map(|i| mesh.uv[i as usize])) > 0.5, "{t:?}");
+    }
+}
+
+#[test]
 fn loops_that_run_the_wrong_way_are_named_and_change_nothing() {
     let plane = surface(1, &[]);
     let round = |forward: [bool; 3]| {
