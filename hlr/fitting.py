@@ -13,11 +13,11 @@ from hlr.linework.exact import EdgeCurveLookup
 from hlr.plan.effect import Facts, Planner
 from hlr.plan.options import Options
 from hlr.plan.table import BREP_KINDS, DRAWING
-from hlr.scene.ball import COARSE, is_ball
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.shading.through import glass_of, opacity_of, without_glass
 from hlr.source.model import Look, Meshed, Progress, Source
+from hlr.view.ball import COARSE, is_ball
 from hlr.view.camera import Camera
 from hlr.view.scale import Placed
 from hlr.view.silhouettes import with_silhouettes

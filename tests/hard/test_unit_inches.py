@@ -18,8 +18,13 @@ INCH = 25.4
 @pytest.fixture
 def unit():
     """Sets the unit of the files that OpenCASCADE writes, and puts it back."""
+    from OCP.IGESControl import IGESControl_Controller
     from OCP.Interface import Interface_Static
+    from OCP.STEPControl import STEPControl_Controller
 
+    # Without them there is nothing to set yet.
+    STEPControl_Controller.Init_s()
+    IGESControl_Controller.Init_s()
     yield lambda value: (
         Interface_Static.SetCVal_s("write.step.unit", value),
         Interface_Static.SetCVal_s("write.iges.unit", value),
