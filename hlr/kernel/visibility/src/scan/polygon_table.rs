@@ -10,8 +10,9 @@ use hlr_exact::predicates::orient2d;
 /// Radians to the line of sight up to which a triangle is seen edge-on but for what its file has rounded.
 const ALMOST: f64 = 2e-5;
 
-/// Height in the image, in units of the grid, up to which a triangle may have been turned over by rounding its corners.
-const NEEDLE: f64 = 2.0;
+/// Height in the image over the wider side of the longest side's box, in units of the grid, up to which rounding the corners
+/// may have turned a triangle over.
+const NEEDLE: i128 = 2;
 
 pub struct PolygonTable {
     /// +1 toward the viewer, -1 away, 0 edge-on.
@@ -56,11 +57,11 @@ impl PolygonTable {
 
 /// Hardly higher than the grid is fine, as between corners that lie in one line: rounding turns it any way.
 fn is_needle((p, q, r): (&Point, &Point, &Point)) -> bool {
-    let way = |a: &Point, b: &Point| [0, 1].map(|k| f64::from(b[k]) - f64::from(a[k]));
-    let (u, v, w) = (way(p, q), way(q, r), way(r, p));
-    let area = u[0] * v[1] - u[1] * v[0];
-    let longest = [u, v, w].map(|[x, y]| x * x + y * y).into_iter().fold(0.0, f64::max);
-    area * area <= NEEDLE * NEEDLE * longest
+    let way = |a: &Point, b: &Point| [0, 1].map(|k| i128::from(b[k]) - i128::from(a[k]));
+    let sides = [way(p, q), way(q, r), way(r, p)];
+    let area = sides[0][0] * sides[1][1] - sides[0][1] * sides[1][0];
+    let longest = sides.iter().flatten().map(|d| d.abs()).max().unwrap_or_default();
+    area.abs() <= NEEDLE * longest
 }
 
 fn almost_edge_on((p, q, r): (&Point, &Point, &Point)) -> bool {
