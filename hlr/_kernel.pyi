@@ -30,6 +30,13 @@ def clean_mesh(
     """Points (n, 3) with equal ones joined, triangles (m, 3) without impossible ones, which of the given these are
     (None: all), and how many were left out: not finite, out of range, degenerate."""
 
+def without_needles(
+    points: Floats, triangles: Ints, low: float
+) -> tuple[npt.NDArray[np.uint32], Ints, npt.NDArray[np.uint32], npt.NDArray[np.uint32]] | None:
+    """Needles, hardly higher than low, turned out of a mesh: the triangles (k,) that changed, ascending, their corners
+    (k, 3), the triangle (k,) before whose face each has now, and where its corners (k, 3) stood before: three times a
+    triangle, plus 0..2. None: nothing changed."""
+
 def needles(
     points: Floats, triangles: Ints, normals: Floats, part: Ints, least: Floats
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:

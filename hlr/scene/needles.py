@@ -25,11 +25,9 @@ from hlr._kernel import MeshFacts
 from hlr.distinct import distinct
 from hlr.scene.topology import keys
 from hlr.source.model import Floats, Ints
+from hlr.source.weld import LOW
 
 Indices = npt.NDArray[np.intp]
-
-LOW = 64.0
-"""Times the precision of the coordinates: the normal of a higher triangle is off by less than four degrees."""
 
 MOST_STEPS = 32
 """Needles side by side, of each the longest side on the next one, before what lies beyond is taken as not known."""

@@ -60,18 +60,18 @@ def _corners(mesh: Any, visual: Any, material: Any, clean: Clean) -> Corners | N
     """(m, 3, 4) sRGB and opacity; None where nothing is painted finer than by part."""
     if isinstance(mesh, Painted):
         if mesh.triangles is not None:
-            return np.asarray(_scaled(mesh.colors)[clean.of_kept(mesh.triangles)])
-        return np.repeat(_scaled(clean.of_kept(mesh.colors))[:, None], 3, axis=1)
+            return np.asarray(_scaled(mesh.colors)[clean.of_corners(mesh.triangles)])
+        return np.repeat(_scaled(clean.of_triangles(mesh.colors))[:, None], 3, axis=1)
     kind = getattr(visual, "kind", None)
     if kind == "vertex":
-        return np.asarray(_scaled(visual.vertex_colors)[clean.of_kept(np.asarray(mesh.faces))])
+        return np.asarray(_scaled(visual.vertex_colors)[clean.of_corners(np.asarray(mesh.faces))])
     if kind == "face":
-        return np.repeat(clean.of_kept(_scaled(visual.face_colors))[:, None], 3, axis=1)
+        return np.repeat(clean.of_triangles(_scaled(visual.face_colors))[:, None], 3, axis=1)
     image = getattr(material, "image", None)
     image = getattr(material, "baseColorTexture", None) if image is None else image
     if kind == "texture" and image is not None and visual.uv is not None:
         # A texture is seen only at the vertices.
-        return np.asarray(_scaled(visual.to_color().vertex_colors)[clean.of_kept(np.asarray(mesh.faces))])
+        return np.asarray(_scaled(visual.to_color().vertex_colors)[clean.of_corners(np.asarray(mesh.faces))])
     return None
 
 

@@ -1,4 +1,4 @@
-"""Clean triangle meshes: equal corners joined, impossible triangles left out."""
+"""Clean triangle meshes: equal corners joined, impossible triangles left out, needles turned out of it."""
 
 from __future__ import annotations
 
@@ -12,13 +12,28 @@ from hlr import _kernel
 from hlr.source.model import Floats, Ints
 from hlr.source.precision import precision
 
+LOW = 64.0
+"""Times the precision of the coordinates: the normal of a higher triangle is off by less than four degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """Of the triangles that were kept those (k,) that needles were turned out of.
+
+    like (k,): whose face each has now; stood (k, 3): where its corners stood, three times a triangle plus 0..2
+    """
+
+    triangle: npt.NDArray[np.uint32]
+    like: npt.NDArray[np.uint32]
+    stood: npt.NDArray[np.uint32]
+
 
 @dataclass(frozen=True, slots=True)
 class Clean:
     """points (n, 3), each used and each once; triangles (m, 3) without repeated corners; what was left out.
 
-    kept: of the triangles that were given (m,) which each of these was, None if all of them are there; precision: how
-    far coordinates may be off.
+    kept: of the triangles that were given (m,) which each of these was, None if all of them are there; turned: which of
+    these have other corners now; precision: how far coordinates may be off.
     """
 
     points: Floats
@@ -27,15 +42,32 @@ class Clean:
     out_of_range: int
     degenerate: int
     kept: npt.NDArray[np.uint32] | None
+    turned: Turned | None
     precision: float
 
-    def of_kept(self, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Rows for the triangles that were given, as rows for those that were kept."""
+    def of_triangles(self, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """Rows for the triangles that were given, as rows for those that are here."""
+        rows = self._of_kept(rows)
+        if self.turned is not None:
+            rows = rows.copy()
+            rows[self.turned.triangle] = rows[self.turned.like]
+        return rows
+
+    def of_corners(self, table: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """(m, 3) for the corners of the triangles that were given, as (m, 3) for those that are here."""
+        table = self._of_kept(table)
+        if self.turned is not None:
+            table = table.copy()
+            table[self.turned.triangle] = table.reshape(-1)[self.turned.stood]
+        return table
+
+    def _of_kept(self, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
         return rows if self.kept is None else rows[self.kept]
 
 
 def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) -> Clean:
-    """Join corners with exactly equal coordinates and drop triangles that have none, NaN or repeated corners.
+    """Join corners with exactly equal coordinates, drop triangles that have none, NaN or repeated corners, and turn the
+    longest sides of needles: triangles that are no higher than coordinates are exact.
 
     Kept points are in order of first use by number, so the result depends on the input alone.
     """
@@ -45,7 +77,12 @@ def clean(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) 
         faces = np.where((faces >= 0) & (faces < len(points)), faces, -1)
     found, corners, kept, left_out = _kernel.clean_mesh(points, np.ascontiguousarray(faces, dtype=np.int32))
     not_finite, out_of_range, degenerate = left_out
-    return Clean(found, corners, not_finite, out_of_range, degenerate, kept, precision(found))
+    exact = precision(found)
+    turned = None
+    if (needles := _kernel.without_needles(found, corners, LOW * exact)) is not None:
+        turned = Turned(needles[0], needles[2], needles[3])
+        corners[turned.triangle] = needles[1]
+    return Clean(found, corners, not_finite, out_of_range, degenerate, kept, turned, exact)
 
 
 def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:

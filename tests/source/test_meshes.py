@@ -297,3 +297,17 @@ def test_opening_nothing_loads_nothing():
     code = "import sys, hlr.source; print(*sorted({'numpy.linalg', 'trimesh', 'OCP', 'cadquery'} & set(sys.modules)))"
     run = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True)
     assert not {"trimesh", "OCP", "cadquery"} & set(run.stdout.split())
+
+
+def test_colours_of_needles():
+    # A vertex of the lower triangles lies on a side of the upper one; the needle between has its own colour.
+    points = np.array([[0, 0, 0], [2, 0, 0], [4, 0, 0], [2, 4, 0], [2, -4, 0], [9, 9, 9]], float)
+    triangles = np.array([[5, 5, 0], [0, 1, 2], [0, 2, 3], [1, 0, 4], [2, 1, 4]])
+    red, green, blue = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255)
+    by_face = trimesh.Trimesh(points, triangles, process=False, face_colors=[blue, green, red, blue, blue])
+    by_vertex = trimesh.Trimesh(points, triangles, process=False, vertex_colors=[red, green, blue, red, blue, green])
+    faces, corners = (next(iter(open_source(mesh).looks().values())) for mesh in (by_face, by_vertex))
+    assert faces.triangles.tolist() == [[0, 1, 3], [1, 2, 3], [1, 0, 4], [2, 1, 4]]
+    assert (faces.corners[:2] == np.array(red) / 255).all() and (faces.corners[2:] == np.array(blue) / 255).all()
+    expected = np.array([red, green, blue, red, blue])[faces.triangles] / 255
+    assert (corners.corners == expected).all()

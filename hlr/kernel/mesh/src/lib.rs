@@ -13,4 +13,5 @@ pub mod scene;
 pub mod stitch;
 pub mod tables;
 pub mod topology;
+pub mod turned;
 pub mod walks;

@@ -9,6 +9,7 @@ use super::running::run;
 use hlr_mesh::clean::clean;
 use hlr_mesh::kinds::{Limits, kinds};
 use hlr_mesh::needles::needles as low_ones;
+use hlr_mesh::turned::without_needles as turned;
 
 type Flat<'py, T> = Bound<'py, PyArray1<T>>;
 type Rows<'py, T> = Bound<'py, PyArray2<T>>;
@@ -37,6 +38,27 @@ pub fn clean_mesh<'py>(
     let left_out = (found.not_finite, found.out_of_range, found.degenerate);
     let kept = found.kept.map(|kept| kept.into_pyarray(py));
     Ok((table(py, found.points)?, table(py, found.triangles)?, kept, left_out))
+}
+
+type Turned<'py> = (Flat<'py, u32>, Rows<'py, i32>, Flat<'py, u32>, Rows<'py, u32>);
+
+/// Needles turned out of a mesh: which triangles changed, their corners, whose face each has now, and where each corner
+/// stood. None: there are none.
+#[pyfunction]
+pub fn without_needles<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    low: f64,
+) -> PyResult<Option<Turned<'py>>> {
+    let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
+    let found = run(py, 0, triangles.len(), |_| turned(points, triangles, low))?;
+    if found.triangle.is_empty() {
+        return Ok(None);
+    }
+    let (triangle, like) = (found.triangle.into_pyarray(py), found.like.into_pyarray(py));
+    Ok(Some((triangle, table(py, found.corners)?, like, table(py, found.stood)?)))
 }
 
 /// Which triangles are lower than `least` of their part, or have no area; and the numbers of their longest sides.
