@@ -182,7 +182,7 @@ fn touch(s: &Side, t: &Side) -> bool {
 }
 
 /// Whether two triangles that have a corner in common certainly meet in nothing else: seen along the axis along which the
-/// first is widest, a side of one of them at the corner parts them.
+/// narrower of them is widest, a side of one of them at the corner parts them. Whichever comes first.
 pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> bool {
     let others = |t: &[i32; 3]| {
         let k = t.iter().position(|&v| v == corner).unwrap_or(0);
@@ -196,7 +196,7 @@ pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> boo
     let normal =
         |[u, v]: &[[i64; 3]; 2]| [0, 1, 2].map(|k| u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
     let (n, m) = (normal(&a), normal(&b));
-    let axis = (0..3).max_by_key(|&k| n[k].unsigned_abs()).unwrap_or(0);
+    let axis = (0..3).max_by_key(|&k| n[k].unsigned_abs().min(m[k].unsigned_abs())).unwrap_or(0);
     if n[axis] == 0 || m[axis] == 0 {
         return false;
     }
@@ -316,6 +316,7 @@ mod tests {
             let meets = meet(&numbered(&a), &numbered(&b)).is_some();
             let only = only_at(&points, &a, &b, 0);
             assert!(!(only && meets), "{points:?}");
+            assert_eq!(only, only_at(&points, &b, &a, 0));
             alone += i32::from(only);
             more += i32::from(meets);
         }
