@@ -57,7 +57,8 @@ def ours(roots, deflection, runs):
     # In the frame of the part: bare roots have their faces where they stand, or moved by face_place.
     place = found.face_place[face]
     turned = np.einsum("mji,mkj->mki", place[:, :, :3], _corners(found) - place[:, None, :, 3])
-    errors = off(model, found.face_shape[face], turned, found.uv[found.corner])
+    # Faces that are triangles already have no surface to be off.
+    errors = off(model, found.face_shape[face], turned, found.uv[found.corner]) if len(found.uv) else np.empty(0)
     return statistics.median(times), len(found.triangles), errors, len(meshed.faults()), _open(found)
 
 
@@ -113,8 +114,8 @@ def theirs(roots, deflection, runs):
                 faces.append(np.full(len(corners), number))
             number += 1
     BRepTools.Clean_s(everything)
-    joined = (np.concatenate(x) for x in (faces, points, uv))
-    return statistics.median(times), count, off(model, *joined), empty
+    errors = off(model, *(np.concatenate(x) for x in (faces, points, uv))) if faces else np.empty(0)
+    return statistics.median(times), count, errors, empty
 
 
 def table(models, share, runs):

@@ -145,7 +145,7 @@ def commands(repeat: int, model: Path | None = None) -> Table:
 ARRAYS = """
 import json, resource, sys, time
 sys.path.insert(0, sys.argv[1])
-from loads import tori
+from bench.loads import tori
 points, triangles = tori(int(sys.argv[2]))
 import hlr
 began, used = time.perf_counter(), time.process_time()
@@ -159,7 +159,7 @@ print(json.dumps({"triangles": len(triangles), "seconds": time.perf_counter() - 
 
 def arrays(count: int) -> Table:
     """`hlr.draw` of so many tori as a pair of arrays, with the share of each stage."""
-    command = [sys.executable, "-c", ARRAYS, str(Path(__file__).parent), str(count)]
+    command = [sys.executable, "-c", ARRAYS, str(Path(__file__).parents[1]), str(count)]
     found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     stages = ", ".join(f"{name} {seconds:.2f}" for name, seconds in found["stages"].items() if seconds >= 0.01)
     row = [f"{found['triangles']:,}", f"{found['seconds']:.1f} s", f"{found['processor']:.1f} s"]
