@@ -55,11 +55,6 @@ def components(triangles: Ints, n_points: int) -> Ints: ...
 def edge_components(edges: Ints, n_points: int) -> Ints: ...
 def clashes(points: Floats, triangles: Ints, triangle_part: Ints, itself: Bools) -> dict[str, Any]: ...
 def boxes_meet(low: Floats, high: Floats) -> Bools: ...
-def projected(
-    points: Floats, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None = None
-) -> Floats:
-    """(n, 3) right, up, and away from the viewer; eye: of a perspective view, with the distance of the image plane."""
-
 def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floats]:
     """Corners (p, 8, 3) of boxes (r, 2, 3), of each part that of its root, moved by matrices (p, 4, 4); the box (2, 3)
     around them. A box whose lower corner lies beyond the upper one is void: its corners are 0, and do not count."""
@@ -268,6 +263,8 @@ class Camera:
     def __new__(
         cls, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None, scale: float
     ) -> Camera: ...
+    def image(self, points: Floats) -> Floats:
+        """(n, 3) to the right, up, and away from the viewer, in model units, of points (n, 3)."""
 
 class Walks:
     """Walks over mesh edges: the columns of `hlr.scene.scene.Chains`. ValueError where they do not fit."""

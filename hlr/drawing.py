@@ -54,7 +54,7 @@ class Accuracy:
 
     asked       millimetres on paper; None: the default
     used        millimetres on paper: what the drawing promises
-    deflection  chord error of the triangulation, model units; of a ball alone, whose outline needs none, that of lines
+    deflection  chord error of the triangulation, model units
     contact     depth within which two curved things count as touching, model units
     within      seconds, where a time was given; else None
     """

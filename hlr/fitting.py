@@ -17,7 +17,6 @@ from hlr.scene.build import build
 from hlr.scene.scene import Scene
 from hlr.shading.through import glass_of, opacity_of, without_glass
 from hlr.source.model import Look, Meshed, Progress, Source
-from hlr.view.ball import COARSE, is_ball
 from hlr.view.camera import Camera
 from hlr.view.scale import Placed
 from hlr.view.silhouettes import with_silhouettes
@@ -42,8 +41,7 @@ def meshed_scene(
     clock: Clock,
 ) -> tuple[Scene, EdgeCurveLookup, list[Placed]]:
     """The scene, the curves of its edges, and the scale and tolerances of every view."""
-    planner = Planner(DRAWING, options)
-    scene, curves, views = staged(opened, cameras, placed, options, tell, clock, planner, faces=True)
+    scene, curves, views = staged(opened, cameras, placed, options, tell, clock, Planner(DRAWING, options))
     return scene, curves, [view.at for view in views]
 
 
@@ -55,24 +53,18 @@ def staged(
     tell: Progress,
     clock: Clock,
     planner: Planner,
-    faces: bool = False,
 ) -> tuple[Scene, EdgeCurveLookup, list[Staged]]:
-    """The same with the outlines of each view, where they had to be found to know the scale.
-
-    faces: they are shown as well, not lines alone.
-    """
+    """The same with the outlines of each view, where they had to be found to know the scale."""
     _opened(planner, opened)
-    radius = None if faces or options.fill or options.seam else opened.ball()
     for _ in range(2):
         finest = min(at.tolerances.deflection for at in placed)
-        if radius is not None:
-            scene, meshed = _built(
-                opened, max(finest, COARSE * radius), placed, options, tell, clock, planner, ball=True
-            )
-        if radius is None or not is_ball(scene, cameras):
-            radius = None
-            scene, meshed = _built(opened, finest, placed, options, tell, clock, planner)
-        _surfaces(planner, scene, radius is not None)
+        started = perf_counter()
+        meshed = opened.mesh(finest, placed[0].tolerances.angle, tell)
+        started = lap(clock, "tessellate", started)
+        tell("scene", 0.0)
+        scene = build(meshed, options.crease, finest, planner)
+        _surfaces(planner, scene)
+        lap(clock, "scene", started)
         views = [_fitted(scene, c, at, options, planner.fork()) for c, at in zip(cameras, placed, strict=True)]
         placed = [view.at for view in views]
         if min(at.tolerances.deflection for at in placed) > 0.8 * finest:
@@ -80,26 +72,6 @@ def staged(
     for view in views:
         _rescued(view.planner, scene, meshed)
     return scene, meshed.edge_curves, views
-
-
-def _built(
-    opened: Source,
-    deflection: float,
-    placed: list[Placed],
-    options: Options,
-    tell: Progress,
-    clock: Clock,
-    planner: Planner,
-    ball: bool = False,
-) -> tuple[Scene, Meshed]:
-    """The scene, and the meshes that it is made of; ball: all there is may be one."""
-    started = perf_counter()
-    meshed = opened.mesh(deflection, placed[0].tolerances.angle, tell)
-    started = lap(clock, "tessellate", started)
-    tell("scene", 0.0)
-    scene = build(meshed, options.crease, deflection, planner, ball)
-    lap(clock, "scene", started)
-    return scene, meshed
 
 
 def _fitted(scene: Scene, camera: Camera, at: Placed, options: Options, planner: Planner) -> Staged:
@@ -124,11 +96,8 @@ def _opened(planner: Planner, opened: Source) -> None:
     planner.spent("B-rep reader" if brep else "mesh reader", **{"brep_parts" if brep else "mesh_parts": count})
 
 
-def _surfaces(planner: Planner, scene: Scene, ball: bool) -> None:
-    """What meshing took. The mesher makes no difference between planar and curved faces: they are told apart here.
-
-    ball: all there is is one, and meshed coarsely.
-    """
+def _surfaces(planner: Planner, scene: Scene) -> None:
+    """What meshing took. The mesher makes no difference between planar and curved faces: they are told apart here."""
     on = scene.true_surfaces
     if on is None:
         curved = planar = triangles = bent = 0
@@ -138,7 +107,7 @@ def _surfaces(planner: Planner, scene: Scene, ball: bool) -> None:
         if curved and planar:
             face = on.first[scene.triangle_part] + scene.triangle_face
             bent = triangles - int(np.count_nonzero(on.planar[face]))
-    facts = Facts(curved=curved, planar=planar, faces=on is not None, ball=ball)
+    facts = Facts(curved=curved, planar=planar, faces=on is not None)
     planner.on("meshing of curved faces", facts)
     planner.on("triangulation of planar faces", facts)
     planner.spent("meshing of curved faces", curved_triangles=bent)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from hlr import _kernel
 from hlr.curve import Arc, Bezier, Curve
 from hlr.drawing import Bounds, Line
 from hlr.source.model import EdgeClass
+from hlr.values import LateRecords
 
 POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
 """Forms of lines, as the kernel names them."""
@@ -19,48 +20,21 @@ KINDS = tuple(kind.name.lower() for kind in EdgeClass)
 _NUMBER = {name: number for number, name in enumerate(KINDS)}
 
 
-class Lines(Sequence[Line]):
-    """Lines that become records when the first of them is looked at; equal to a tuple of the same records."""
+class Lines(LateRecords[Line]):
+    """The lines that the kernel holds."""
 
-    __slots__ = ("_records", "held")
+    __slots__ = ("held",)
 
     def __init__(self, held: _kernel.Lines) -> None:
+        super().__init__()
         self.held = held
-        self._records: tuple[Line, ...] | None = None
 
-    @property
-    def records(self) -> tuple[Line, ...]:
-        """All of them."""
-        if self._records is None:
-            self._records = tuple(_records(**self.held.columns()))
-        return self._records
+    def made(self) -> tuple[Line, ...]:
+        """All of them as records."""
+        return tuple(_records(**self.held.columns()))
 
     def __len__(self) -> int:
         return len(self.held)
-
-    def __iter__(self) -> Iterator[Line]:
-        return iter(self.records)
-
-    @overload
-    def __getitem__(self, index: int) -> Line: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Line, ...]: ...
-    def __getitem__(self, index: int | slice) -> Line | tuple[Line, ...]:
-        return self.records[index]
-
-    def __eq__(self, other: object) -> bool:
-        if isinstance(other, Lines):
-            return self.held is other.held or self.records == other.records
-        return self.records == other if isinstance(other, tuple) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self.records)
-
-    def __repr__(self) -> str:
-        return repr(self.records)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return tuple, (self.records,)
 
 
 def held(lines: Sequence[Line]) -> _kernel.Lines:

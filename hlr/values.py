@@ -1,11 +1,15 @@
-"""Records that hold arrays, compared by value: `==` never raises, and equal records have equal hashes."""
+"""Records compared by value, though they hold arrays; and lists of records that are made late."""
 
 from __future__ import annotations
 
+from abc import abstractmethod
+from collections.abc import Iterator, Sequence
 from dataclasses import fields
-from typing import Any
+from typing import Any, TypeVar, overload
 
 import numpy as np
+
+R = TypeVar("R")
 
 
 class ByValue:
@@ -56,3 +60,53 @@ def _key(value: Any) -> Any:
     numbers = value.astype(np.float64) + 0.0  # minus zero equals zero
     numbers[np.isnan(numbers)] = np.nan
     return value.shape, numbers.tobytes()
+
+
+class LateRecords(Sequence[R]):
+    """Records that are made when the first of them is looked at; equal to a tuple of the same records.
+
+    Pickled and copied as that tuple.
+    """
+
+    __slots__ = ("_known",)
+
+    def __init__(self) -> None:
+        self._known: tuple[R, ...] | None = None
+
+    @abstractmethod
+    def made(self) -> tuple[R, ...]:
+        """All of them; called once."""
+
+    @property
+    def records(self) -> tuple[R, ...]:
+        """All of them."""
+        if self._known is None:
+            self._known = self.made()
+        return self._known
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    def __iter__(self) -> Iterator[R]:
+        return iter(self.records)
+
+    @overload
+    def __getitem__(self, index: int) -> R: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[R, ...]: ...
+    def __getitem__(self, index: int | slice) -> R | tuple[R, ...]:
+        return self.records[index]
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, LateRecords):
+            return self is other or self.records == other.records
+        return self.records == other if isinstance(other, tuple) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.records)
+
+    def __repr__(self) -> str:
+        return repr(self.records)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return tuple, (self.records,)

@@ -11,7 +11,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from time import perf_counter
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple
+
+from hlr.values import LateRecords
 
 ASKED, SCENE = "asked", "scene"
 """Who calls for an effect: the request, or what is there to be drawn."""
@@ -27,7 +29,6 @@ class Facts(NamedTuple):
     parts, groups  how many there are; groups: surfaces that the visibility pass treats as one
     curved, planar faces of either kind
     faces          planar and curved ones together are known at all: there is a B-rep
-    ball           all there is is a ball, of which only lines are drawn
     failed         faces that the kernel could not mesh
     repeated       two triangles of a part have the same corners, or two of its points the same place
     borders        of parts without B-rep: sides that only one triangle has
@@ -50,7 +51,6 @@ class Facts(NamedTuple):
     curved: int = 0
     planar: int = 0
     faces: bool = True
-    ball: bool = False
     failed: int = 0
     repeated: bool = False
     borders: int = 0
@@ -225,50 +225,18 @@ class Planner:
         return tuple(out)
 
 
-class Decisions(Sequence[Decision]):
-    """The decisions of a planner that decides no more; they become records when the first of them is looked at."""
+class Decisions(LateRecords[Decision]):
+    """What a planner has decided that decides no more; counters: of the finished drawing."""
 
-    __slots__ = ("_made", "_records")
+    __slots__ = ("_counters", "_planner")
 
     def __init__(self, planner: Planner, counters: Mapping[str, int]) -> None:
-        """counters: of the finished drawing."""
-        self._made: tuple[Planner, Mapping[str, int]] | None = planner, counters
-        self._records: tuple[Decision, ...] = ()
+        super().__init__()
+        self._planner, self._counters = planner, counters
 
-    @property
-    def records(self) -> tuple[Decision, ...]:
-        """All of them."""
-        if self._made is not None:
-            planner, counters = self._made
-            self._records, self._made = planner.decisions(counters), None
-        return self._records
-
-    def __len__(self) -> int:
-        return len(self.records)
-
-    def __iter__(self) -> Iterator[Decision]:
-        return iter(self.records)
-
-    @overload
-    def __getitem__(self, index: int) -> Decision: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Decision, ...]: ...
-    def __getitem__(self, index: int | slice) -> Decision | tuple[Decision, ...]:
-        return self.records[index]
-
-    def __eq__(self, other: object) -> bool:
-        if isinstance(other, Decisions):
-            return self.records == other.records
-        return self.records == other if isinstance(other, tuple) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self.records)
-
-    def __repr__(self) -> str:
-        return repr(self.records)
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return tuple, (self.records,)
+    def made(self) -> tuple[Decision, ...]:
+        """All of them as records."""
+        return self._planner.decisions(self._counters)
 
 
 def explained(decisions: Sequence[Decision]) -> str:

@@ -52,11 +52,6 @@ def _mesh(f: Facts, _o: Options) -> Answer:
 def _curved(f: Facts, _o: Options) -> Answer:
     if not f.faces:
         return False, "a mesh is drawn as it is"
-    if f.ball:
-        return (
-            True,
-            "a ball alone, coarsely: its outline is found on the sphere itself, and nothing else is drawn of it",
-        )
     return f.curved > 0, _count(f.curved, "curved face") if f.curved else "all faces are planar"
 
 

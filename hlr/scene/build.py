@@ -28,13 +28,10 @@ from hlr.source.model import EdgeClass, Meshed
 from hlr.source.together import Together, together
 
 
-def build(
-    meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None, ball: bool = False
-) -> Scene:
+def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
     """The scene of all parts. crease: degrees, for parts without B-rep; deflection: what they were meshed with.
 
-    planner: decides what is looked for at all. ball: all there is is one face on a sphere: a ball, if it is closed; its
-    mesh may fold where the sphere does not. Raises SourceError where nothing is left to draw.
+    planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
     """
     plan = planner or Planner(DRAWING, Options())
     whole, mesh, doubled = _repaired(together(meshed.parts), plan)
@@ -56,9 +53,8 @@ def build(
     groups = groups_of(found, brep)
     with plan.deciding():
         meeting = int(np.count_nonzero(_kernel.boxes_meet(groups.low, groups.high)))
-        folded = found.folded & ~(ball & groups.cull)
     begin = perf_counter()
-    if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(folded)))):
+    if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(found.folded)))):
         met = clashes(found, groups, deflection)
         met = replace(met, through=met.through | through_their_axis(whole, found))
     else:
@@ -109,7 +105,7 @@ def build(
         parts=parts,
         notes=(*meshed.notes, *notes(parts)),
         true_surfaces=_true_surfaces(whole, found),
-        convex=len(folded) == 1 and not folded[0],
+        convex=len(found.folded) == 1 and not found.folded[0],
         facets=facets,
     )
 

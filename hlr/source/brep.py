@@ -187,13 +187,6 @@ class BrepSource:
             self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
         return self._tessellator
 
-    def ball(self) -> float | None:
-        """The radius where all there is is one face on a sphere, most likely a ball; else None. Millimetres."""
-        if len(self._parts) > 1 or self._roots.counts[self._parts[0].root, 0] != 1:
-            return None
-        record = self._meshed_by.records([0])
-        return float(record.data[-1]) if record.kind[0] == SPHERE else None
-
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).
 
@@ -231,10 +224,6 @@ class BrepSource:
 
         parts = Together(kept, placed, surfaces if placed.brep.any() else None)
         return Meshed(parts, notes, len(faults.rescued), len(faults.lost), edge_curves)
-
-
-SPHERE = 4
-"""Kind of a surface, whose last number is the radius (`kernel/brep/src/geometry/surface.rs`)."""
 
 
 def _precisions(tables: _kernel.PartTables) -> Floats:

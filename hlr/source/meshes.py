@@ -153,9 +153,6 @@ class MeshSource:
         chosen._parts = [part for part, _, _ in chosen._drawn]
         return chosen
 
-    def ball(self) -> None:
-        """A mesh has no surfaces but its triangles."""
-
     def transparent(self) -> bool:
         """The file says something of colours."""
         return any(instance.mesh is not None for _, instance, _ in self._drawn)

@@ -237,9 +237,6 @@ class Source(Protocol):
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""
 
-    def ball(self) -> float | None:
-        """The radius where all there is is one face on a sphere, most likely a ball; else None. Model units."""
-
     def transparent(self) -> bool:
         """Some part may be transparent; cheap, and sure where it says no."""
 

@@ -1,4 +1,4 @@
-"""Clean triangle meshes: equal corners joined, impossible triangles left out, needles turned out of it."""
+"""Clean triangle meshes: equal corners joined, impossible triangles left out, needles removed by edge flips."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LOW = 64.0
 
 @dataclass(frozen=True, slots=True)
 class Turned:
-    """Of the triangles that were kept those (k,) that needles were turned out of.
+    """The triangles (k,) that edge flips changed, numbered among those that were kept.
 
     like (k,): whose face each has now; stood (k, 3): where its corners stood, three times a triangle plus 0..2
     """

@@ -78,11 +78,8 @@ class Camera:
 
         divide: by the distance from the eye also in a parallel view, where it is 1 everywhere.
         """
-        points = np.ascontiguousarray(points, np.float64)
-        if self.eye is None or self.distance is None:
-            flat = _kernel.projected(points, self.direction, self.right, self.up)
-            return flat / np.ones((len(points), 1)) if divide else flat
-        return _kernel.projected(points, self.direction, self.right, self.up, (self.eye, self.distance))
+        image = self.scaled(1.0).image(np.ascontiguousarray(points, np.float64))
+        return image / np.ones((len(points), 1)) if divide and self.eye is None else image
 
     def scaled(self, per_model: float) -> _kernel.Camera:
         """As the kernel takes it, with the millimetres on paper per model unit."""

@@ -62,9 +62,6 @@ class Disturbed:
     def boxes(self) -> list[Floats]:
         return self._source.boxes()
 
-    def ball(self) -> None:
-        return None
-
     def transparent(self) -> bool:
         return False
 

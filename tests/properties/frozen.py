@@ -38,9 +38,6 @@ class Frozen:
     def notes(self) -> list[str]:
         return []
 
-    def ball(self) -> None:
-        return None
-
     def transparent(self) -> bool:
         return False
 

@@ -15,7 +15,7 @@ def dot(points, v):
 
 def test_points_of_a_parallel_view_are_those_of_the_formula_bit_by_bit():
     wanted = np.stack([dot(POINTS, RIGHT), dot(POINTS, UP), -dot(POINTS, DIRECTION)], axis=1)
-    assert np.array_equal(_kernel.projected(POINTS, DIRECTION, RIGHT, UP), wanted)
+    assert np.array_equal(_kernel.Camera(DIRECTION, RIGHT, UP, None, 7.0).image(POINTS), wanted)
 
 
 def test_points_before_an_eye_are_those_of_the_formula_bit_by_bit():
@@ -23,7 +23,7 @@ def test_points_before_an_eye_are_those_of_the_formula_bit_by_bit():
     away = POINTS - np.array(eye)
     factor = distance / -dot(away, DIRECTION)
     wanted = np.stack([dot(away, RIGHT) * factor, dot(away, UP) * factor, -distance * factor], axis=1)
-    assert np.array_equal(_kernel.projected(POINTS, DIRECTION, RIGHT, UP, (eye, distance)), wanted)
+    assert np.array_equal(_kernel.Camera(DIRECTION, RIGHT, UP, (eye, distance), 7.0).image(POINTS), wanted)
 
 
 def test_boxes_are_moved_corner_by_corner_and_void_ones_do_not_count():

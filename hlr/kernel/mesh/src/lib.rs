@@ -1,6 +1,7 @@
 //! What can be said of triangles whatever the view, in one pass over arrays of millions.
 
 pub mod bodies;
+pub mod boxes;
 pub mod clean;
 pub mod facts;
 pub mod groups;

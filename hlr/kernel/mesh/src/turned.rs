@@ -1,4 +1,4 @@
-//! Needles turned out of a mesh: triangles whose three corners lie in one line but for rounding.
+//! Edge flips that remove needles: triangles whose three corners lie in one line but for rounding.
 //!
 //! Exporters put them where a vertex of a neighbour lies on an edge. The longest side of a needle a b c becomes the other
 //! diagonal of its two triangles; the surface moves by no more than the needle is high, whatever the fold there:

@@ -1,6 +1,6 @@
-//! Arrays from Python: shapes and ranges are checked, with the name of the argument in what is said.
+//! Arrays from Python: shapes and ranges are checked, with the name of the argument in what is said. And arrays for it.
 
-use numpy::{PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -57,4 +57,10 @@ pub fn expect_ascending(name: &str, values: &[i32]) -> PyResult<()> {
         return Ok(());
     }
     Err(PyValueError::new_err(format!("{name} must ascend")))
+}
+
+/// Rows as an array (n, N).
+pub fn table<T: numpy::Element, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let n = rows.len();
+    rows.into_flattened().into_pyarray(py).reshape([n, N])
 }

@@ -6,8 +6,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
+use super::arrays::table;
 use super::arrays::{expect_below, expect_len, flat, rows};
-use super::mesh::table;
 use super::running::run;
 use super::view::{Flat, Rows};
 use hlr_exact::snap::Grid;

@@ -277,8 +277,7 @@ impl Layer {
         pattern: Option<(f64, f64)>,
         visible: Vec<PyRef<'py, Layer>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let dashes = self.dashes(py, pattern, &visible)?;
-        Ok(PyBytes::new(py, &py.detach(|| svg::elements(&self.0, &dashes))))
+        self.written(py, pattern, &visible, svg::elements)
     }
 
     /// Painted paths, one per stroke; the layer must be one of cubic rows.
@@ -289,8 +288,7 @@ impl Layer {
         pattern: Option<(f64, f64)>,
         visible: Vec<PyRef<'py, Layer>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let dashes = self.dashes(py, pattern, &visible)?;
-        Ok(PyBytes::new(py, &py.detach(|| pdf::painted(&self.0, &dashes))))
+        self.written(py, pattern, &visible, pdf::painted)
     }
 
     fn moved(&self, x: i64, y: i64) -> Layer {
@@ -303,6 +301,17 @@ impl Layer {
 }
 
 impl Layer {
+    fn written<'py>(
+        &self,
+        py: Python<'py>,
+        pattern: Option<(f64, f64)>,
+        visible: &[PyRef<'py, Layer>],
+        format: fn(&Inked, &[Fitted]) -> Vec<u8>,
+    ) -> PyResult<Bound<'py, PyBytes>> {
+        let dashes = self.dashes(py, pattern, visible)?;
+        Ok(PyBytes::new(py, &py.detach(|| format(&self.0, &dashes))))
+    }
+
     /// Dashes of each stroke; none where there is no pattern.
     fn dashes(
         &self,

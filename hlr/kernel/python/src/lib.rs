@@ -1,6 +1,7 @@
 //! NumPy <-> Rust: shapes and ranges are checked here, no geometry. This file registers the module.
 
 mod arrays;
+mod boxes;
 mod brep;
 mod chains;
 mod clash;
@@ -16,7 +17,6 @@ mod meshfile;
 mod methods;
 mod painters;
 mod parts;
-mod place;
 mod preview;
 mod raster;
 mod running;
@@ -45,8 +45,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<visibility::Visibility>()?;
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(clash::boxes_meet, m)?)?;
-    m.add_function(wrap_pyfunction!(place::projected, m)?)?;
-    m.add_function(wrap_pyfunction!(place::placed_boxes, m)?)?;
+    m.add_function(wrap_pyfunction!(boxes::placed_boxes, m)?)?;
     m.add_function(wrap_pyfunction!(geometry::curve_points, m)?)?;
     m.add_class::<drawn::Lines>()?;
     m.add_class::<drawn::Layer>()?;

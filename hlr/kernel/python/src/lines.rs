@@ -2,11 +2,11 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
-use super::arrays::{expect_below, expect_len, flat, rows};
+use super::arrays::{expect_below, expect_len, flat, rows, table};
 use super::chains::Chains;
 use super::drawn::Lines;
 use super::geometry::Curves as Records;
@@ -32,6 +32,11 @@ impl Camera {
     #[new]
     fn new(direction: Vec3, right: Vec3, up: Vec3, eye: Option<(Vec3, f64)>, scale: f64) -> Camera {
         Camera(Seen { direction, right, up, eye, scale })
+    }
+
+    /// (n, 3) to the right, up, and away from the viewer, in model units.
+    fn image<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        table(py, rows(&points, "points")?.iter().map(|p| self.0.image(p)).collect())
     }
 }
 

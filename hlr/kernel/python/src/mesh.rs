@@ -1,24 +1,16 @@
 //! Facts of meshes as Python sees them.
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use super::arrays::{expect_below, expect_len, flat, rows};
+use super::arrays::{expect_below, expect_len, flat, rows, table};
 use super::running::run;
+use super::view::{Flat, Rows};
 use hlr_mesh::clean::clean;
 use hlr_mesh::kinds::{Limits, kinds};
 use hlr_mesh::needles::needles as low_ones;
 use hlr_mesh::turned::without_needles as turned;
-
-type Flat<'py, T> = Bound<'py, PyArray1<T>>;
-type Rows<'py, T> = Bound<'py, PyArray2<T>>;
-
-/// (n, N)
-pub fn table<T: numpy::Element, const N: usize>(py: Python<'_>, rows: Vec<[T; N]>) -> PyResult<Rows<'_, T>> {
-    let n = rows.len();
-    rows.into_flattened().into_pyarray(py).reshape([n, N])
-}
 
 type Cleaned<'py> = (Rows<'py, f64>, Rows<'py, i32>, Option<Flat<'py, u32>>, (usize, usize, usize));
 
@@ -42,7 +34,7 @@ pub fn clean_mesh<'py>(
 
 type Turned<'py> = (Flat<'py, u32>, Rows<'py, i32>, Flat<'py, u32>, Rows<'py, u32>);
 
-/// Needles turned out of a mesh: which triangles changed, their corners, whose face each has now, and where each corner
+/// Edge flips that remove needles: which triangles changed, their corners, whose face each has now, and where each corner
 /// stood. None: there are none.
 #[pyfunction]
 pub fn without_needles<'py>(

@@ -1,17 +1,17 @@
 //! Mesh files as Python sees them: bytes in, arrays out.
 
-use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyEOFError, PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use super::arrays::table;
 use super::running::run;
+use super::view::Rows;
 use hlr_mesh::meshfile::{Fault, MeshFile, Paint, Stop, obj, off, ply, stl};
 
 const ROOM: usize = 4;
 
-type Array<'py, T> = Bound<'py, PyArray2<T>>;
-type Read<'py> = (Array<'py, f64>, Vec<(String, Array<'py, i32>)>, Option<Array<'py, u8>>, Option<Array<'py, u8>>);
+type Read<'py> = (Rows<'py, f64>, Vec<(String, Rows<'py, i32>)>, Option<Rows<'py, u8>>, Option<Rows<'py, u8>>);
 
 /// Points, pieces (name, triangles), and colours of points or of triangles. EOFError: it ends too early; ValueError: it is
 /// broken; both say how.
@@ -35,16 +35,11 @@ pub fn read_mesh<'py>(py: Python<'py>, data: &Bound<'py, PyBytes>, kind: &str) -
         Fault::Stopped => PyKeyboardInterrupt::new_err(()),
     })?;
     let pieces: PyResult<Vec<_>> =
-        found.pieces.into_iter().map(|piece| Ok((piece.name, rows(py, piece.triangles)?))).collect();
+        found.pieces.into_iter().map(|piece| Ok((piece.name, table(py, piece.triangles)?))).collect();
     let (points, triangles) = match found.paint {
         Paint::None => (None, None),
-        Paint::Points(colors) => (Some(rows(py, colors)?), None),
-        Paint::Triangles(colors) => (None, Some(rows(py, colors)?)),
+        Paint::Points(colors) => (Some(table(py, colors)?), None),
+        Paint::Triangles(colors) => (None, Some(table(py, colors)?)),
     };
-    Ok((rows(py, found.points)?, pieces?, points, triangles))
-}
-
-fn rows<T: numpy::Element, const N: usize>(py: Python<'_>, table: Vec<[T; N]>) -> PyResult<Array<'_, T>> {
-    let n = table.len();
-    table.into_flattened().into_pyarray(py).reshape([n, N])
+    Ok((table(py, found.points)?, pieces?, points, triangles))
 }

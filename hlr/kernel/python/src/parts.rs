@@ -10,7 +10,7 @@ use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
 use super::guard::caught;
 use super::running::run;
-use super::view::{Flat, Holder, Rows, flat, matrices, rows};
+use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
@@ -22,25 +22,6 @@ const CHEAP: usize = 64;
 
 fn too_many(_: TooMany) -> PyErr {
     PyValueError::new_err("more than 2^31 items in one mesh")
-}
-
-/// Getters of arrays that lie in a class: name, how it is shown, and where it is. Then the other methods of the class.
-macro_rules! arrays {
-    ($class:ident { $($name:ident: $show:ident $kind:ty = $get:expr;)* } $($methods:tt)*) => {
-        impl Holder for $class {}
-
-        #[pymethods]
-        impl $class {
-            $(
-                #[getter]
-                fn $name<'py>(slf: &Bound<'py, Self>) -> $kind {
-                    $show(slf, $get)
-                }
-            )*
-
-            $($methods)*
-        }
-    };
 }
 
 /// The meshes of all parts, one after another.

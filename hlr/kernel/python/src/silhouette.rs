@@ -9,7 +9,7 @@ use super::held::Mesh;
 use super::lines::Camera;
 use super::running::run;
 use super::true_surfaces::TrueSurfaces;
-use super::view::{Flat, Holder, Rows, flat, rows};
+use super::view::{Flat, Rows, arrays, flat, rows};
 use hlr_brep::geometry::curve::Curve;
 use hlr_linework::silhouette::grazing::Grazing as Stretch;
 use hlr_linework::silhouette::trace::{Silhouette, Traced, trace};
@@ -86,8 +86,6 @@ pub struct Outlines {
     traced: Vec<bool>,
 }
 
-impl Holder for Outlines {}
-
 /// Points of all outlines, and records of their curves.
 struct Columns {
     offsets: Vec<i32>,
@@ -126,55 +124,20 @@ impl Columns {
     }
 }
 
-#[pymethods]
-impl Outlines {
+arrays! { Outlines {
+    offsets: flat Flat<'py, i32> = |o| &o.columns.offsets;
+    points: rows Rows<'py, f64> = |o| &o.columns.points;
+    normals: rows Rows<'py, f64> = |o| &o.columns.normals;
+    rise: flat Flat<'py, f64> = |o| &o.columns.rise;
+    curve_kind: flat Flat<'py, u8> = |o| &o.columns.curve_kind;
+    curve_range: rows Rows<'py, f64> = |o| &o.columns.curve_range;
+    curve_offsets: flat Flat<'py, i32> = |o| &o.columns.curve_offsets;
+    curve_values: flat Flat<'py, f64> = |o| &o.columns.curve_values;
+    traced: flat Flat<'py, bool> = |o| &o.traced;
+}
+
     fn __len__(&self) -> usize {
         self.lines.len()
-    }
-
-    #[getter]
-    fn offsets<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i32> {
-        flat(slf, |o| &o.columns.offsets)
-    }
-
-    #[getter]
-    fn points<'py>(slf: &Bound<'py, Self>) -> Rows<'py, f64> {
-        rows(slf, |o| &o.columns.points)
-    }
-
-    #[getter]
-    fn normals<'py>(slf: &Bound<'py, Self>) -> Rows<'py, f64> {
-        rows(slf, |o| &o.columns.normals)
-    }
-
-    #[getter]
-    fn rise<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
-        flat(slf, |o| &o.columns.rise)
-    }
-
-    #[getter]
-    fn curve_kind<'py>(slf: &Bound<'py, Self>) -> Flat<'py, u8> {
-        flat(slf, |o| &o.columns.curve_kind)
-    }
-
-    #[getter]
-    fn curve_range<'py>(slf: &Bound<'py, Self>) -> Rows<'py, f64> {
-        rows(slf, |o| &o.columns.curve_range)
-    }
-
-    #[getter]
-    fn curve_offsets<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i32> {
-        flat(slf, |o| &o.columns.curve_offsets)
-    }
-
-    #[getter]
-    fn curve_values<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
-        flat(slf, |o| &o.columns.curve_values)
-    }
-
-    #[getter]
-    fn traced<'py>(slf: &Bound<'py, Self>) -> Flat<'py, bool> {
-        flat(slf, |o| &o.traced)
     }
 
     #[getter]

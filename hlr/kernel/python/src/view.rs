@@ -54,3 +54,23 @@ pub fn matrices<'py, C: Holder>(
 
 /// The loan ends; the array stays read-only.
 fn sealed<T: numpy::Element, D: numpy::ndarray::Dimension>(_: numpy::PyReadonlyArray<'_, T, D>) {}
+
+/// Getters of arrays that lie in a class: name, how it is shown, and where it is. Then the other methods of the class.
+macro_rules! arrays {
+    ($class:ident { $($name:ident: $show:ident $kind:ty = $get:expr;)* } $($methods:tt)*) => {
+        impl $crate::view::Holder for $class {}
+
+        #[pymethods]
+        impl $class {
+            $(
+                #[getter]
+                fn $name<'py>(slf: &Bound<'py, Self>) -> $kind {
+                    $show(slf, $get)
+                }
+            )*
+
+            $($methods)*
+        }
+    };
+}
+pub(crate) use arrays;

@@ -9,7 +9,7 @@ use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, r
 use super::guard::caught;
 use super::held::{Groups, Mesh};
 use super::running::run;
-use super::view::{Flat, Holder, flat};
+use super::view::{Flat, arrays, flat};
 use hlr_visibility::scan::own_faces::{OwnFaces as Own, Owned};
 use hlr_visibility::scan::scene::{Numbers, Refusal, Scene, solve};
 use hlr_visibility::scan::sweep::{Counters, Seconds, Steps};
@@ -80,34 +80,13 @@ pub struct Visibility {
     seconds: Seconds,
 }
 
-impl Holder for Visibility {}
-
-#[pymethods]
-impl Visibility {
-    #[getter]
-    fn edge<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i32> {
-        flat(slf, |v| &v.edge)
-    }
-
-    #[getter]
-    fn t0<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
-        flat(slf, |v| &v.t0)
-    }
-
-    #[getter]
-    fn t1<'py>(slf: &Bound<'py, Self>) -> Flat<'py, f64> {
-        flat(slf, |v| &v.t1)
-    }
-
-    #[getter]
-    fn state<'py>(slf: &Bound<'py, Self>) -> Flat<'py, u8> {
-        flat(slf, |v| &v.state)
-    }
-
-    #[getter]
-    fn facing<'py>(slf: &Bound<'py, Self>) -> Flat<'py, i8> {
-        flat(slf, |v| &v.facing)
-    }
+arrays! { Visibility {
+    edge: flat Flat<'py, i32> = |v| &v.edge;
+    t0: flat Flat<'py, f64> = |v| &v.t0;
+    t1: flat Flat<'py, f64> = |v| &v.t1;
+    state: flat Flat<'py, u8> = |v| &v.state;
+    facing: flat Flat<'py, i8> = |v| &v.facing;
+}
 
     #[getter]
     fn counters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {

@@ -1,4 +1,4 @@
-//! The camera: from model coordinates to paper, as `hlr.view.camera` has it, operation by operation.
+//! The camera: from model coordinates to paper.
 
 use super::View;
 use crate::paper::project::{Projection, Vec2};
@@ -30,14 +30,20 @@ impl Camera {
         }
     }
 
-    /// Millimetres on paper.
-    pub fn point(&self, p: &Vec3) -> Vec2 {
+    /// To the right, up, and away from the viewer, in model units: what lies in front has the lesser depth.
+    pub fn image(&self, p: &Vec3) -> Vec3 {
         let Some((eye, distance)) = self.eye else {
-            return [dot(p, &self.right) * self.scale, dot(p, &self.up) * self.scale];
+            return [dot(p, &self.right), dot(p, &self.up), -dot(p, &self.direction)];
         };
         let away = [p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]];
         let factor = distance / -dot(&away, &self.direction);
-        [dot(&away, &self.right) * factor * self.scale, dot(&away, &self.up) * factor * self.scale]
+        [dot(&away, &self.right) * factor, dot(&away, &self.up) * factor, -distance * factor]
+    }
+
+    /// Millimetres on paper.
+    pub fn point(&self, p: &Vec3) -> Vec2 {
+        let [x, y, _] = self.image(p);
+        [x * self.scale, y * self.scale]
     }
 
     /// A point moved square to the line of sight, at its depth, so that its image is there.
