@@ -12,7 +12,7 @@ from hlr.errors import OptionError
 from .outputs import STDOUT, Target, check, is_folder, place, plan
 
 if TYPE_CHECKING:
-    from hlr.drawing import Drawing
+    from hlr.drawing.drawing import Drawing
 
 Targets = list[list[Target]]
 """For each view, where its drawing goes."""
@@ -39,7 +39,8 @@ def targets_of(outputs: Sequence[str], source: str, names: Sequence[str], format
 
 def write(drawings: Sequence[Drawing], targets: Targets, put: Callable[[bytes], None]) -> list[Drawing]:
     """All files or none; the drawings, with what writing took among their timings."""
-    from hlr.writers import render, timed
+    from hlr.drawing.drawing import timed
+    from hlr.drawing.saving import render
 
     made, done = [], []
     for drawing, row in zip(drawings, targets, strict=True):
@@ -72,7 +73,7 @@ def _column(output: str | None, source: str, names: Sequence[str], format: str |
 
 def _format(path: Path, format: str | None) -> str:
     """What the name says, else the option; raises WriteError where neither does."""
-    from hlr.writers import FORMATS, format_of
+    from hlr.drawing.saving import FORMATS, format_of
 
     known = path.suffix.lower().removeprefix(".") in FORMATS
     return format_of(path) if known or format is None else format

@@ -25,8 +25,8 @@ import time
 from pathlib import Path
 from typing import NoReturn
 
+from hlr.common.process import claim
 from hlr.errors import SourceError
-from hlr.process import claim
 
 from .signals import STOPPING, Stopped, hang_up_ignored
 

@@ -70,7 +70,7 @@ def check(targets: Sequence[Target], source: str | None) -> None:
     Raises OptionError where two things would be written to one file, however it is spelled; WriteError for a missing
     folder, a lack of permission, the source itself or another model.
     """
-    from hlr.writers import files, originals
+    from hlr.drawing import files, originals
 
     paths = [(target.path, target.folder is not None) for target in targets if target.path is not None]
     found: dict[str, Path] = {}
@@ -97,7 +97,7 @@ def in_folder(folder: str, names: Sequence[str], source: str | None) -> list[Tar
 
 def place(made: Sequence[tuple[Target, bytes]]) -> None:
     """Write all files or none."""
-    from hlr.writers import files
+    from hlr.drawing import files
 
     from .signals import tidily
 

@@ -30,7 +30,7 @@ class ViewName(click.ParamType[str | Vector3]):
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str | Vector3:
         """A vector where there is a comma; any other text must be a name. Names are checked before a long reading."""
-        from hlr.view.names import NAMED
+        from hlr.request.directions import NAMED
 
         text = str(value).strip()
         if "," not in text:

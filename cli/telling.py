@@ -14,8 +14,8 @@ from .drawn_files import Targets
 from .exits import remark, warn
 
 if TYPE_CHECKING:
-    from hlr.drawing import Drawing
-    from hlr.notes import Note
+    from hlr.drawing.drawing import Drawing
+    from hlr.drawing.notes import Note
 
 
 def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
@@ -62,7 +62,7 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
 
 def tell_report(drawings: Sequence[Drawing]) -> None:
     """What accuracy was asked for and what was reached, for people."""
-    from hlr.measure.table import table
+    from hlr.lab.measure.table import table
 
     for drawing in drawings:
         click.echo(table(drawing), err=True)
@@ -70,7 +70,7 @@ def tell_report(drawings: Sequence[Drawing]) -> None:
 
 def tell_plan(drawings: Sequence[Drawing]) -> None:
     """The table of effects, and how the model was come by, on standard error."""
-    from hlr.plan.effect import explained
+    from hlr.request.effect import explained
 
     for drawing in drawings:
         if len(drawings) > 1:
@@ -88,7 +88,7 @@ def tell_written(text: str, quiet: bool) -> None:
 
 def written(drawing: Drawing, targets: Sequence[object]) -> str:
     """One line about a drawing."""
-    from hlr.writers.style import ratio
+    from hlr.drawing.scale import ratio
 
     counts = _counts(drawing)
     seconds = drawing.timings.get("total", 0.0)

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError
-from hlr.view.names import EYE
+from hlr.request.directions import EYE
 
 from .parameters import Scale, Size, Vector, Vector3, ViewName, Window
 
 if TYPE_CHECKING:
-    from hlr.plan.options import Perspective, View
+    from hlr.request.options import Perspective, View
 
 Command = Callable[..., Any]
 
@@ -137,7 +137,7 @@ def perspective_of(
     perspective: bool, eye: Vector3 | None, target: Vector3 | None, fov: float | None
 ) -> Perspective | None:
     """The camera that the options ask for; eye, target or field of view alone ask for perspective."""
-    from hlr.plan.options import Perspective
+    from hlr.request.options import Perspective
 
     if perspective or eye is not None or target is not None or fov is not None:
         return Perspective(eye=eye, target=target, fov=fov)

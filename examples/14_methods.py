@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.image import imsave
 
-from hlr.surfaces import SCREEN, Patch, areas_table, render, trace_svg
+from hlr.lab.methods import SCREEN, Patch, areas_table, render, trace_svg
 
 here = Path(__file__).parent
 

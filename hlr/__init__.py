@@ -11,70 +11,73 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hlr import compat, study, surfaces
-    from hlr.comparison import compare_methods as methods
-    from hlr.curve import Arc, Bezier
-    from hlr.drawing import Accuracy, Bounds, Drawing, Kind, Line
-    from hlr.drawings import draw, draw_views
+    from hlr import compat
+    from hlr.drawing.curve import Arc, Bezier
+    from hlr.drawing.drawing import Accuracy, Drawing
+    from hlr.drawing.line import Bounds, Kind, Line
+    from hlr.drawing.model_info import ModelInfo, PartReport
+    from hlr.drawing.notes import Note, NoteCode
+    from hlr.drawing.picture import Picture
+    from hlr.drawing.saving import Format
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
-    from hlr.inspection import info
-    from hlr.loading import load
-    from hlr.notes import Note, NoteCode
-    from hlr.picture import Picture
-    from hlr.plan.effect import Decision
-    from hlr.plan.effects import PreviewOptions, PreviewWishes
-    from hlr.plan.options import Options, Perspective, View, ViewName, Wishes
-    from hlr.planning import ViewPlan, plan_views
-    from hlr.previews import preview, preview_views
-    from hlr.scene.report import ModelInfo, PartReport
-    from hlr.writers import Format
+    from hlr.lab import methods as surfaces
+    from hlr.lab import study
+    from hlr.lab.methods.comparison import compare_methods as methods
+    from hlr.public.draw import draw, draw_views
+    from hlr.public.info import info
+    from hlr.public.plan import ViewPlan, plan_views
+    from hlr.public.preview import preview, preview_views
+    from hlr.request.effect import Decision
+    from hlr.request.options import Options, Perspective, View, ViewName, Wishes
+    from hlr.request.picture_effects import PreviewOptions, PreviewWishes
+    from hlr.writers.loading import load
 
 __version__ = "0.1.0"
 
 _HOME = {
-    "Accuracy": "hlr.drawing",
-    "Arc": "hlr.curve",
-    "Bezier": "hlr.curve",
-    "Bounds": "hlr.drawing",
-    "Decision": "hlr.plan.effect",
-    "Drawing": "hlr.drawing",
-    "Format": "hlr.writers",
+    "Accuracy": "hlr.drawing.drawing",
+    "Arc": "hlr.drawing.curve",
+    "Bezier": "hlr.drawing.curve",
+    "Bounds": "hlr.drawing.line",
+    "Decision": "hlr.request.effect",
+    "Drawing": "hlr.drawing.drawing",
+    "Format": "hlr.drawing.saving",
     "HlrError": "hlr.errors",
-    "Kind": "hlr.drawing",
-    "Line": "hlr.drawing",
-    "ModelInfo": "hlr.scene.report",
-    "Note": "hlr.notes",
-    "NoteCode": "hlr.notes",
+    "Kind": "hlr.drawing.line",
+    "Line": "hlr.drawing.line",
+    "ModelInfo": "hlr.drawing.model_info",
+    "Note": "hlr.drawing.notes",
+    "NoteCode": "hlr.drawing.notes",
     "OptionError": "hlr.errors",
-    "Options": "hlr.plan.options",
-    "PartReport": "hlr.scene.report",
-    "Perspective": "hlr.plan.options",
-    "Picture": "hlr.picture",
-    "PreviewOptions": "hlr.plan.effects",
-    "PreviewWishes": "hlr.plan.effects",
+    "Options": "hlr.request.options",
+    "PartReport": "hlr.drawing.model_info",
+    "Perspective": "hlr.request.options",
+    "Picture": "hlr.drawing.picture",
+    "PreviewOptions": "hlr.request.picture_effects",
+    "PreviewWishes": "hlr.request.picture_effects",
     "SourceError": "hlr.errors",
     "StrictError": "hlr.errors",
-    "View": "hlr.plan.options",
+    "View": "hlr.request.options",
     "ViewError": "hlr.errors",
-    "ViewName": "hlr.plan.options",
-    "ViewPlan": "hlr.planning",
-    "Wishes": "hlr.plan.options",
+    "ViewName": "hlr.request.options",
+    "ViewPlan": "hlr.public.plan",
+    "Wishes": "hlr.request.options",
     "WriteError": "hlr.errors",
-    "draw": "hlr.drawings",
-    "draw_views": "hlr.drawings",
-    "info": "hlr.inspection",
-    "load": "hlr.loading",
-    "methods": "hlr.comparison",
-    "plan_views": "hlr.planning",
-    "preview": "hlr.previews",
-    "preview_views": "hlr.previews",
+    "draw": "hlr.public.draw",
+    "draw_views": "hlr.public.draw",
+    "info": "hlr.public.info",
+    "load": "hlr.writers.loading",
+    "methods": "hlr.lab.methods.comparison",
+    "plan_views": "hlr.public.plan",
+    "preview": "hlr.public.preview",
+    "preview_views": "hlr.public.preview",
 }
 """Where each name is defined."""
 
 _CALLED = {"methods": "compare_methods"}
 """Names that are others at home."""
 
-_MODULES = ("compat", "study", "surfaces")
+_MODULES = {"compat": "hlr.compat", "study": "hlr.lab.study", "surfaces": "hlr.lab.methods"}
 
 __all__ = [
     "Accuracy",
@@ -131,5 +134,5 @@ if not TYPE_CHECKING:  # else a type checker would take any name for one of ours
         if name in _HOME:
             return getattr(import_module(_HOME[name]), _CALLED.get(name, name))
         if name in _MODULES:
-            return import_module(f"hlr.{name}")
+            return import_module(_MODULES[name])
         raise AttributeError(f"module 'hlr' has no attribute {name!r}")

@@ -140,8 +140,8 @@ def visibility(
     """Which pieces of the edges are seen; projected (n, 3): x right, y up, z away from the viewer.
 
     role (e,): 1 drawn, 2 drawn where it is a contour, 0 not. crossings, piercings, pyramid: the steps gone through, as
-    `hlr.plan.plan.Plan` has them. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is
-    not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
+    `hlr.visibility.plan.Plan` has them. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a
+    coordinate is not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
 class Curves:

@@ -14,8 +14,9 @@ sys.path.append(str(Path(__file__).resolve().parent))
 from writers.fakes import ISO, drawing, line, sample
 
 import hlr
-from hlr import errors, faults
-from hlr.notes import Note
+from hlr import errors
+from hlr.common import faults
+from hlr.drawing.notes import Note
 
 
 @dataclass(frozen=True)

@@ -11,9 +11,9 @@ from typing import get_args, get_type_hints
 import pytest
 
 import hlr
-from hlr.plan.effects import PreviewOptions, PreviewWishes
-from hlr.plan.options import Options, ViewName, Wishes
-from hlr.view.names import NAMED
+from hlr.request.directions import NAMED
+from hlr.request.options import Options, ViewName, Wishes
+from hlr.request.picture_effects import PreviewOptions, PreviewWishes
 
 
 def test_all_public_names_are_listed_and_there():
@@ -21,7 +21,7 @@ def test_all_public_names_are_listed_and_there():
     for name in hlr.__all__:
         assert getattr(hlr, name) is not None
     assert hlr.__all__ == sorted(hlr.__all__)
-    assert callable(hlr.methods) and callable(hlr.study.study) and "study" in dir(hlr.study)
+    assert callable(hlr.methods) and callable(hlr.lab.study.study) and "study" in dir(hlr.lab.study)
     with pytest.raises(AttributeError, match="no attribute 'darw'"):
         _ = hlr.darw
 
@@ -68,9 +68,9 @@ width: float = drawing.bounds.width
 code: hlr.NoteCode = drawing.notes[0].code
 first: hlr.Line = drawing.visible[0]
 again: hlr.Drawing = hlr.load("a.json")
-hlr.study.study("a.step", wish=hlr.study.Wish(rivals=False))
+hlr.lab.study.study("a.step", wish=hlr.lab.study.Wish(rivals=False))
 hlr.methods(counts=[100], limit=1.0)
-hlr.surfaces.render
+hlr.lab.methods.render
 """
 
 REFUSED = {

@@ -11,9 +11,10 @@ import trimesh
 from writers.fakes import drawing, line, sample
 
 import hlr
-from hlr.curve import Arc, Bezier
-from hlr.drawing import Drawing, DrawnPart, Gradient
-from hlr.notes import Note
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.drawing import Drawing, DrawnPart
+from hlr.drawing.fill import Gradient
+from hlr.drawing.notes import Note
 
 POINTS = np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 2.0], [4.0, 0.0]])
 

@@ -11,36 +11,32 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
-# The order in which a drawing passes through the stages: each imports only those before it.
-STAGES = (
+# The rooms of the package, from the ground up: each imports only those before it, whether at its top, inside a function
+# or for a type checker.
+FLOORS = (
+    "errors",
+    "common",
+    "tables",
+    "request",
+    "drawing",
     "cache",
     "source",
     "scene",
-    "view",
-    "plan",
+    "image",
     "visibility",
-    "surfaces",
     "linework",
-    "shading",
     "window",
+    "shading",
     "writers",
+    "pipeline",
+    "lab",
+    "public",
+    "compat",
+    "cli",
 )
 
-# What every stage may import: no stage, and none of them imports one.
-COMMON = (
-    "distinct",
-    "endings",
-    "process",
-    "cache",
-    "errors",
-    "tolerance",
-    "curve",
-    "clock",
-    "drawing",
-    "lines",
-    "picture",
-    "_kernel",
-)
+# Consumers of what `import hlr` shows.
+ABOVE = ("cli", "__main__")
 
 # The crates of the kernel, and those of them that each may use.
 CRATES = {
@@ -53,9 +49,6 @@ CRATES = {
     "methods": {"exact"},
     "python": {"exact", "brep", "mesh", "visibility", "linework", "preview", "methods"},
 }
-
-# Records without behaviour that say what is handed over; they import no stage, so any stage may read them.
-RECORDS = ("hlr.notes", "hlr.values", "hlr.source.model", "hlr.plan.options", "hlr.plan.effect", "hlr.plan.table")
 
 
 def folders():
@@ -76,13 +69,64 @@ def imports(path, package):
             yield from ((node.lineno, ".".join([*start, alias.name])) for alias in node.names)
 
 
-def wrong_imports(path, stage, package):
-    """Imports of a stage module that go against the order, as sentences."""
-    allowed = tuple(f"hlr.{name}" for name in (*COMMON, *STAGES[: STAGES.index(stage) + 1])) + RECORDS
-    for line, name in imports(path, package):
-        ours = name == "hlr" or name.startswith(("hlr.", "cli."))
-        if ours and not any(name == good or name.startswith(good + ".") for good in allowed):
-            yield f"{path.name}:{line}: {stage} imports {name}"
+def modules(root):
+    """Every module of the program: its name, and its file. The command line is installed as hlr.cli."""
+    found = {}
+    for path in [*(root / "hlr").rglob("*.py"), *(root / "cli").rglob("*.py")]:
+        parts = path.relative_to(root).with_suffix("").parts
+        parts = parts[:-1] if parts[-1] == "__init__" else parts
+        found[".".join(parts if parts[0] == "hlr" else ("hlr", *parts))] = path
+    return found
+
+
+def arrows(root):
+    """(module, line, module) for each import of one module by another."""
+    known = modules(root)
+    for name, path in known.items():
+        package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+        for line, imported in imports(path, package):
+            target = imported
+            while target and target not in known:
+                target = target.rpartition(".")[0]
+            # The kernel is no module of Python; the bare package stands for what users see.
+            if target and target != name and not imported.startswith("hlr._kernel"):
+                yield name, line, target
+
+
+def room(module):
+    """The room of a module; empty for the package itself."""
+    return module.split(".")[1] if "." in module else ""
+
+
+def wrong_arrows(root):
+    """Imports that lead upward, as sentences. The package's own face names everything, for type checkers."""
+    for name, line, target in arrows(root):
+        here, there = room(name), room(target)
+        if here in ("", there) or (here in ABOVE and there in ("", "cli")):
+            continue
+        if here not in ABOVE and (there not in FLOORS or FLOORS.index(there) > FLOORS.index(here)):
+            yield f"{name}:{line}: {here} imports {target}"
+
+
+def circles(root):
+    """Modules that import one another, directly or through others. An import for type checkers alone counts too."""
+    onward = {}
+    for name, _, target in arrows(root):
+        if name != "hlr":
+            onward.setdefault(name, set()).add(target)
+    reached = {}
+
+    def all_from(name):
+        seen, todo = set(), [name]
+        while todo:
+            for one in onward.get(todo.pop(), ()):
+                if one not in seen:
+                    seen.add(one)
+                    todo.append(one)
+        return seen
+
+    reached = {name: all_from(name) for name in onward}
+    return sorted(name for name, seen in reached.items() if name in seen)
 
 
 def loaded_by(code, *arguments):
@@ -186,53 +230,28 @@ def test_every_folder_with_modules_has_an_init():
             assert (path.parent / "__init__.py").exists(), f"{path.parent.relative_to(ROOT)} would not be packaged"
 
 
-@pytest.mark.parametrize("stage", STAGES)
-def test_a_stage_imports_only_the_stages_before_it(stage):
-    paths = sorted((ROOT / "hlr" / stage).rglob("*.py"))
-    assert paths
-    wrong = [text for path in paths for text in wrong_imports(path, stage, f"hlr.{stage}")]
+def test_every_room_stands_on_a_floor():
+    rooms = {path.name for path in (ROOT / "hlr").iterdir() if (path / "__init__.py").exists()}
+    assert rooms | {"errors", "cli"} == set(FLOORS)
+    assert {path.stem for path in (ROOT / "hlr").glob("*.py")} == {"__init__", "__main__", "errors"}
+
+
+def test_no_import_leads_upward():
+    wrong = list(wrong_arrows(ROOT))
     assert not wrong, "\n".join(wrong)
 
 
-def test_only_what_stands_above_the_pipeline_measures():
-    allowed = {"measure", "study", "drawings.py"}
-    paths = [path for path in (ROOT / "hlr").rglob("*.py") if path.relative_to(ROOT / "hlr").parts[0] not in allowed]
-    names = [(path.name, name) for path in paths for _, name in imports(path, f"hlr.{path.parent.name}")]
-    # What a drawing has reached is a record, which its type names.
-    found = {name for _, name in names if name.startswith("hlr.measure") and name != "hlr.measure.reached.Reached"}
-    assert not found
-
-
-def test_measuring_knows_nothing_above_it():
-    paths = sorted((ROOT / "hlr" / "measure").glob("*.py"))
-    names = {name for path in paths for _, name in imports(path, "hlr.measure")}
-    assert paths
-    assert not [name for name in names if name.startswith(("hlr.study", "hlr.drawings", "hlr.within", "hlr.cli"))]
+def test_no_modules_import_one_another():
+    assert not circles(ROOT)
 
 
 def test_a_plain_drawing_loads_no_measure():
     code = "import hlr, sys; hlr.draw(([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)]))"
-    program = f"{code}; print([name for name in sys.modules if name.startswith(('hlr.measure', 'hlr.within'))])"
+    program = (
+        f"{code}; print([name for name in sys.modules if name.startswith(('hlr.lab.measure', 'hlr.pipeline.within'))])"
+    )
     done = subprocess.run([sys.executable, "-P", "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"
-
-
-def test_only_the_command_line_knows_the_study():
-    # It stands above everything else; what it imports itself may be anything below.
-    # The package's face names it, for type checkers only.
-    above = ("study", "__init__.py")
-    paths = [path for path in (ROOT / "hlr").rglob("*.py") if path.relative_to(ROOT / "hlr").parts[0] not in above]
-    package = {path: ".".join(("hlr", *path.relative_to(ROOT / "hlr").parent.parts)) for path in paths}
-    names = [(path.name, name) for path in paths for _, name in imports(path, package[path])]
-    assert ("pipeline.py", "hlr.linework.lines.draw_lines") in names
-    assert not [(file, name) for file, name in names if name.startswith("hlr.study")]
-
-
-def test_the_study_knows_nothing_of_the_command_line():
-    paths = sorted((ROOT / "hlr" / "study").glob("*.py"))
-    assert paths
-    names = [name for path in paths for _, name in imports(path, "hlr.study")]
-    assert not [name for name in names if name.startswith(("hlr.cli", "cli"))]
 
 
 def manifest(crate):
@@ -251,24 +270,6 @@ def test_crates_use_only_those_before_them():
         assert {"numpy", "pyo3"} & set(needed) == ({"numpy", "pyo3"} if crate == "python" else set())
 
 
-@pytest.mark.parametrize("name", ["errors", "tolerance", "drawing", "picture"])
-def test_what_is_common_imports_no_stage(name):
-    path = ROOT / "hlr" / f"{name}.py"
-    if not path.exists():
-        pytest.skip(f"there is no hlr/{name}.py")
-    # Only at the top: a method may reach for a stage when it is called.
-    at_top = [node for node in ast.parse(path.read_text("utf-8")).body if isinstance(node, ast.ImportFrom)]
-    assert not {node.module.split(".")[1] for node in at_top if node.module.startswith("hlr.")} & set(STAGES)
-
-
-@pytest.mark.parametrize("name", RECORDS)
-def test_records_import_no_stage(name):
-    path = ROOT / f"{name.replace('.', '/')}.py"
-    found = [found for _, found in imports(path, name.rpartition(".")[0]) if found.startswith("hlr")]
-    # But one another.
-    assert not [one for one in found if not one.startswith(tuple(f"{record}." for record in RECORDS))]
-
-
 @pytest.mark.parametrize("path", sorted((ROOT / "cli").rglob("*.py")), ids=lambda path: path.stem)
 def test_the_command_line_knows_itself_only_relatively(path):
     # It is installed as hlr.cli: an absolute `cli` would be another package.
@@ -278,18 +279,42 @@ def test_the_command_line_knows_itself_only_relatively(path):
             assert not (node.module or "").startswith("hlr.cli")
 
 
-def test_the_order_is_checked(tmp_path):
-    path = tmp_path / "bad.py"
-    path.write_text(
+def house(folder, files):
+    """A small program of these modules and their texts."""
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        (path.parent / "__init__.py").touch()
+    return folder
+
+
+def test_an_import_that_leads_upward_is_found(tmp_path):
+    text = (
         "from hlr.errors import HlrError\n"
         "from hlr.source.model import PartMesh\n"
         "def f():\n"
         "    from ..writers import svg\n"
-        "    import hlr.linework.chain\n"
+        "    import hlr.linework.lines\n"
         "    from hlr import draw\n"
     )
-    assert list(wrong_imports(path, "scene", "hlr.scene")) == [
-        "bad.py:4: scene imports hlr.writers.svg",
-        "bad.py:5: scene imports hlr.linework.chain",
-        "bad.py:6: scene imports hlr.draw",
+    empty = ("errors", "source/model", "writers/svg", "linework/lines")
+    root = house(tmp_path, {"hlr/scene/bad.py": text, **{f"hlr/{name}.py": "" for name in empty}})
+    assert list(wrong_arrows(root)) == [
+        "hlr.scene.bad:4: scene imports hlr.writers.svg",
+        "hlr.scene.bad:5: scene imports hlr.linework.lines",
+        "hlr.scene.bad:6: scene imports hlr",
     ]
+
+
+def test_a_circle_is_found(tmp_path):
+    files = {
+        "hlr/scene/one.py": "from hlr.scene.two import f\n",
+        "hlr/scene/two.py": "def f():\n    from hlr.scene import three\n",
+        "hlr/scene/three.py": "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import hlr.scene.one\n",
+        "hlr/scene/four.py": "from hlr.scene.one import g\n",
+    }
+    root = house(tmp_path, files)
+    assert circles(root) == ["hlr.scene.one", "hlr.scene.three", "hlr.scene.two"]
+    (root / "hlr/scene/three.py").write_text("")
+    assert not circles(root)

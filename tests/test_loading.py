@@ -10,8 +10,8 @@ import trimesh
 from writers.fakes import sample
 
 import hlr
-from hlr.curve import Arc, Bezier
-from hlr.loading import loads
+from hlr.drawing.curve import Arc, Bezier
+from hlr.writers.loading import loads
 
 cq = pytest.importorskip("cadquery")
 

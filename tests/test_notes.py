@@ -8,7 +8,7 @@ import pytest
 import trimesh
 
 import hlr
-from hlr.notes import CODES, Note, NoteCode
+from hlr.drawing.notes import CODES, Note, NoteCode
 
 
 def test_there_is_one_table_of_codes_and_the_format_describes_it():
@@ -29,7 +29,7 @@ def test_a_drawing_writes_code_and_text():
     drawing = hlr.draw(trimesh.creation.box((1, 1, 1)), "front")
     (note,) = drawing.notes
     assert note.code == "paper-size" and note.text.startswith("the drawing is only")
-    from hlr.writers import render
+    from hlr.drawing.saving import render
 
     assert json.loads(render(drawing, "json"))["notes"] == [{"code": note.code, "text": note.text}]
 

@@ -15,8 +15,10 @@ from linework.measures import apart, counts, placed, segments, straight
 from linework.models import box, parts, rotation, solids
 
 import hlr
-from hlr import Options, Perspective, StrictError, fitting, pipeline
-from hlr.writers import render
+from hlr import Options, Perspective, StrictError
+from hlr.drawing.saving import render
+from hlr.pipeline import drawing as pipeline
+from hlr.pipeline import staging as fitting
 
 FORMATS = ("json", "svg", "pdf")
 
@@ -312,7 +314,7 @@ def test_strict_turns_a_warning_into_an_error():
 
 def test_strict_minds_every_view(monkeypatch):
     # 3 mm seen from the front, 9 mm seen from above. The remark about that stands for a warning.
-    monkeypatch.setattr("hlr.notes.REMARKS", frozenset())
+    monkeypatch.setattr("hlr.drawing.notes.REMARKS", frozenset())
     model = box((2, 9, 2))
     assert not hlr.draw(model, "top").notes
     with pytest.raises(StrictError):

@@ -12,8 +12,9 @@ from pathlib import Path
 import pytest
 
 import hlr
-from hlr import Options, within
+from hlr import Options
 from hlr.errors import OptionError
+from hlr.pipeline import within
 from hlr.source import open_source
 
 DATA = Path(__file__).parent / "data"
@@ -132,7 +133,7 @@ def test_the_result_is_that_of_its_accuracy():
 
 
 def test_the_model_is_read_once(monkeypatch):
-    from hlr import drawings
+    from hlr.public import draw as drawings
 
     opened = []
     monkeypatch.setattr(drawings, "open_chosen", lambda s, _: opened.append(s) or open_source(s))

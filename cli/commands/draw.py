@@ -20,8 +20,8 @@ from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
-    from hlr.drawing import Drawing
-    from hlr.plan.options import Options, View
+    from hlr.drawing.drawing import Drawing
+    from hlr.request.options import Options, View
 
     from ..meter import Progress
 
@@ -133,7 +133,7 @@ def request_of(
     **others: Any,
 ) -> Options:
     """The options of the command line as a request. Raises OptionError where they contradict one another."""
-    from hlr.plan.options import Options
+    from hlr.request.options import Options
 
     if scale is not None and fit is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
@@ -153,10 +153,10 @@ def _within(
     """Each finished drawing is written at once, so that the last one stays, however the process ends."""
     from contextlib import ExitStack
 
-    from hlr.drawings import with_report
-    from hlr.plan.request import checked, checked_views
+    from hlr.pipeline.within import draw_within
+    from hlr.public.draw import with_report
+    from hlr.request.check import checked, checked_views
     from hlr.source.chosen import open_chosen
-    from hlr.within import draw_within
 
     with ExitStack() as stack:
         # What is measured afterwards is written again, with what was reached; standard output takes only one.

@@ -15,7 +15,7 @@ from ..verb import Verb
 from ..view_options import ANNOTATIONS, NO_CACHE
 
 if TYPE_CHECKING:
-    from hlr.scene.report import ModelInfo, PartReport
+    from hlr.drawing.model_info import ModelInfo, PartReport
 
 _HEADINGS = ("part", "solids", "faces", "edges", "triangles", "closed", "defects")
 _LONGEST_NAME = 40

@@ -16,7 +16,7 @@ from ..verb import Verb
 from ..view_options import CHOICE, options
 
 if TYPE_CHECKING:
-    from hlr.plan.options import View
+    from hlr.request.options import View
 
 
 @click.command(cls=Verb)
@@ -80,8 +80,8 @@ def methods(
     start(source or "methods")
     with result_only() as out:
         with meter(quiet) as progress:
-            from hlr.comparison import compare_methods
-            from hlr.surfaces import report
+            from hlr.lab.methods import report
+            from hlr.lab.methods.comparison import compare_methods
 
             # With a choice of scenes only those are measured; a model is a choice as well.
             some = bool(counts or crossing or source)
@@ -98,7 +98,7 @@ def methods(
             )
         out.put(report.text(found).encode("utf-8"))
         if targets:
-            from hlr.surfaces.plot import png
+            from hlr.lab.methods.plot import png
 
             csv, md, plot = targets
             place(

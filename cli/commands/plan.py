@@ -14,7 +14,7 @@ from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, names_
 from .draw import LINES, request_of
 
 if TYPE_CHECKING:
-    from hlr.plan.options import View
+    from hlr.request.options import View
 
 
 @click.command(cls=Verb)
@@ -47,7 +47,7 @@ def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **
             entries = [{"view": p.view, "plan": [d.as_dict() for d in p.decisions]} for p in planned]
             text = json.dumps({"plans": entries}, indent=2)
         else:
-            from hlr.plan.effect import explained
+            from hlr.request.effect import explained
 
             several = len(planned) > 1
             text = "\n\n".join((f"{p.view}\n" if several else "") + explained(p.decisions) for p in planned)

@@ -19,9 +19,9 @@ from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, VIEW, names_of, options, perspective_of
 
 if TYPE_CHECKING:
-    from hlr.picture import Picture
-    from hlr.plan.effects import PreviewOptions
-    from hlr.plan.options import View
+    from hlr.drawing.picture import Picture
+    from hlr.request.options import View
+    from hlr.request.picture_effects import PreviewOptions
 
 
 @click.command(cls=Verb)
@@ -83,7 +83,7 @@ def preview(
             pictures = hlr.preview_views(source, list(views), request, progress=progress)
         tell_notes((note for picture in pictures for note in picture.notes), request.strict, quiet)
         if explain:
-            from hlr.plan.effect import explained
+            from hlr.request.effect import explained
 
             click.echo("\n\n".join(explained(picture.plan) for picture in pictures), err=True)
         place(_encoded(pictures, targets, out.put))
@@ -95,7 +95,7 @@ def preview(
 def _options(
     *, perspective: bool, eye: Vector3 | None, target: Vector3 | None, fov: float | None, **others: Any
 ) -> PreviewOptions:
-    from hlr.plan.effects import PreviewOptions, check_size
+    from hlr.request.picture_effects import PreviewOptions, check_size
     from hlr.writers.png import parse_color
 
     check_size(others["size"])
@@ -105,7 +105,7 @@ def _options(
 
 def _targets(output: str | None, maps: dict[str, str | None], source: str, names: list[str]) -> list[dict[str, Target]]:
     """Per view what is written where. What cannot be written is refused before any work."""
-    from hlr.writers.png import check_png
+    from hlr.drawing.saving import check_png
 
     if output == STDOUT and len(names) > 1:
         raise OptionError("standard output takes one view; write several views to files with {view} in the name")

@@ -19,8 +19,8 @@ from ..verb import Verb
 from ..view_options import CHOICE, options
 
 if TYPE_CHECKING:
-    from hlr.plan.options import View
-    from hlr.study.sweep import Study
+    from hlr.lab.study.sweep import Study
+    from hlr.request.options import View
 
 FILES = ("study.csv", "study.md", "error.png", "stages.png", "arithmetic.csv")
 
@@ -89,11 +89,11 @@ def study(
     targets = {target.name: target for target in in_folder(output, FILES, source)}
     if scale is not None and fit is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
+    from hlr.lab.study import plot
+    from hlr.lab.study.job import ACCURACIES, PIXELS, PREDICATES
+    from hlr.lab.study.sweep import Study, Wish
+    from hlr.lab.study.sweep import study as measure
     from hlr.source.files import check_readable
-    from hlr.study import plot
-    from hlr.study.job import ACCURACIES, PIXELS, PREDICATES
-    from hlr.study.sweep import Study, Wish
-    from hlr.study.sweep import study as measure
 
     check_readable(Path(source))
     plot.available()
@@ -131,7 +131,7 @@ def study(
 
 def _write(targets: dict[str, Target], found: Study) -> None:
     """All files; none where nothing was measured."""
-    from hlr.study import plot, report, table
+    from hlr.lab.study import plot, report, table
 
     if not any(point.failure is None for point in found.points):
         if not found.points:

@@ -32,7 +32,7 @@ TITLES = {
 
 def tables():
     """Name and points of each study that there is."""
-    from hlr.study.table import points_of
+    from hlr.lab.study.table import points_of
 
     for name in MODELS:
         path = HERE / name / "study.csv"
@@ -43,7 +43,7 @@ def tables():
 def plots():
     from matplotlib.figure import Figure
 
-    from hlr.study.plot import error_plot, legend, panel, stage_plot
+    from hlr.lab.study.plot import error_plot, legend, panel, stage_plot
 
     figure = Figure(figsize=(12.0, 7.6), layout="constrained")
     panels = dict(zip(MODELS, figure.subplots(2, 3).flat, strict=True))

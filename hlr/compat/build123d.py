@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from hlr.compat import viewport
 from hlr.compat.edges import edges
-from hlr.drawing import Drawing, Line
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
 from hlr.errors import OptionError, SourceError, ViewError
-from hlr.view.camera import CLOSEST, Vector
+from hlr.request.directions import CLOSEST
+from hlr.request.options import Vector
 
 if TYPE_CHECKING:
     from build123d import Edge, ShapeList

@@ -6,14 +6,14 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from hlr.common.types import Floats
 from hlr.compat import viewport
 from hlr.compat.cadquery_options import checked
 from hlr.compat.cadquery_page import Page, lay_out, to_pdf, to_svg
+from hlr.drawing import files
 from hlr.errors import OptionError
-from hlr.source.model import Floats
-from hlr.source.objects import is_shape_like
-from hlr.tolerance import SMALL_DRAWING
-from hlr.writers import files
+from hlr.request.accuracy import SMALL_DRAWING
+from hlr.source.cad.objects import is_shape_like
 
 PIXEL_SHARE = 0.1
 """Of a pixel: the accuracy of lines."""

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.compat.cadquery_options import DEFAULT_DIRECTION, PictureOptions
 from hlr.compat.viewport import Picture
-from hlr.drawing import Drawing
+from hlr.drawing.drawing import Drawing
 from hlr.writers.number import number
 from hlr.writers.strokes import strokes
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from hlr.curve import Arc, Bezier
-from hlr.drawing import Line, Points
-from hlr.source.bindings import collection
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.line import Line, Points
+from hlr.source.cad.bindings import collection
 
 CIRCLE = 1e-9
 """Relative: an ellipse whose radii differ by no more is a circle."""
@@ -36,7 +36,7 @@ def edges(line: Line, shift: Points) -> list[Any]:
 
 def compound(lines: Iterable[Line], shift: Points) -> Any:
     """A TopoDS_Compound of the edges of all lines; an empty one where there are none."""
-    from hlr.source.parts import compound as compound_of
+    from hlr.source.cad.parts import compound as compound_of
 
     return compound_of([edge for line in lines for edge in edges(line, shift)])
 

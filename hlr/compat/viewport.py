@@ -16,15 +16,17 @@ from typing import Any
 
 import numpy as np
 
-from hlr.drawing import Drawing, Line, Points
+from hlr.common.types import Floats
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line, Points
 from hlr.errors import OptionError
-from hlr.pipeline import draw_views
-from hlr.plan.options import Options, Perspective
-from hlr.plan.request import WIDEST
+from hlr.pipeline.drawing import draw_views
+from hlr.request.accuracy import DEFAULT_ACCURACY
+from hlr.request.check import WIDEST
+from hlr.request.directions import normalized
+from hlr.request.options import Options, Perspective, Vector
 from hlr.source import open_source
-from hlr.source.model import Floats, Source
-from hlr.tolerance import DEFAULT_ACCURACY
-from hlr.view.camera import Vector, normalized
+from hlr.source.model import Source
 
 FINE = 2.5e-4
 """Of the model's diagonal: the accuracy of lines that go on as geometry, where 0.05 mm are not finer."""
@@ -108,7 +110,7 @@ def _sewn(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
     Such edges only divide a surface, as those between the halves of a cylinder do. Where no seams are drawn, they are
     not drawn either.
     """
-    from hlr.source.brep import BrepSource
+    from hlr.source.cad.brep import BrepSource
 
     if not isinstance(opened, BrepSource) or all(line.kind != "smooth" for line in drawing.lines):
         return tuple(drawing.lines)

@@ -22,12 +22,14 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.plan.plan import Plan
+from hlr.common.types import Floats, Ints
+from hlr.image.camera import Camera
+from hlr.request.accuracy import Tolerances
 from hlr.scene.scene import Scene
 from hlr.source.geometry import ELLIPSE, Record, packed
-from hlr.source.model import Curves, EdgeClass, Floats, Ints
-from hlr.tolerance import Tolerances
-from hlr.view.camera import Camera
+from hlr.source.model import Curves
+from hlr.tables.line_classes import EdgeClass
+from hlr.visibility.plan import Plan
 
 SHARE = 0.75
 """Of the accuracy: how far vertices may lie off the circle; the rest is for junctions and digits."""

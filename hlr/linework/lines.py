@@ -7,14 +7,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from hlr import _kernel
-from hlr.drawing import Line
-from hlr.lines import Lines
-from hlr.linework.exact import EdgeCurveLookup, guides
-from hlr.plan.plan import Plan
+from hlr.common.types import Floats
+from hlr.drawing.line import Line
+from hlr.drawing.lines import Lines
+from hlr.image.camera import Camera
+from hlr.linework.curves import EdgeCurveLookup, guides
+from hlr.request.accuracy import CLOSED, CURVE_CHORD, Tolerances
 from hlr.scene.scene import Scene
-from hlr.source.model import EdgeClass, Floats
-from hlr.tolerance import CLOSED, CURVE_CHORD, Tolerances
-from hlr.view.camera import Camera
+from hlr.tables.line_classes import EdgeClass
+from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
 
 KIND_RANK = {

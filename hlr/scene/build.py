@@ -10,9 +10,9 @@ import numpy as np
 from hlr import _kernel
 from hlr._kernel import MeshFacts, MeshScene
 from hlr.errors import SourceError
-from hlr.plan.effect import Facts, Planner
-from hlr.plan.options import Options
-from hlr.plan.table import DRAWING
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Facts, Planner
+from hlr.request.options import Options
 from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, no_clashes
 from hlr.scene.creases import creases
 from hlr.scene.defects import notes, reports
@@ -23,9 +23,10 @@ from hlr.scene.scene import INTERIOR, Chains, Scene, TrueSurfaces
 from hlr.scene.spindle import through_their_axis
 from hlr.scene.stitch import stitched
 from hlr.scene.topology import crease_walks, joined
+from hlr.source.cad.together import Together, together
 from hlr.source.extent import LARGEST
-from hlr.source.model import EdgeClass, Meshed
-from hlr.source.together import Together, together
+from hlr.source.model import Meshed
+from hlr.tables.line_classes import EdgeClass
 
 
 def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None) -> Scene:

@@ -21,12 +21,13 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr._kernel import MeshScene
-from hlr.distinct import distinct
+from hlr.common.distinct import distinct
+from hlr.common.types import Floats, Ints
+from hlr.request.accuracy import CONTACT
 from hlr.scene.groups import touching
 from hlr.scene.scene import Chains, Groups
 from hlr.scene.topology import STRAIGHT_ON
-from hlr.source.model import EdgeClass, Floats, Ints
-from hlr.tolerance import CONTACT
+from hlr.tables.line_classes import EdgeClass
 
 PLANAR = 2.0
 """In deflections: what counts as touching where planar parts meet at a small angle."""

@@ -14,8 +14,9 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr._kernel import MeshFacts
+from hlr.common.types import Floats, Ints
 from hlr.scene.topology import STRAIGHT_ON
-from hlr.source.model import EdgeClass, Floats, Ints
+from hlr.tables.line_classes import EdgeClass
 
 Bools = npt.NDArray[np.bool_]
 Kinds = npt.NDArray[np.uint8]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from hlr.notes import Note
+from hlr.common.types import Ints
+from hlr.drawing.notes import Note
 from hlr.scene.scene import ScenePart
-from hlr.source.model import Ints
-from hlr.source.together import Together
+from hlr.source.cad.together import Together
 
 MOST_NOTES = 5
 """Parts that are named in the notes; how many more there are is said in one sentence."""

@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr._kernel import MeshScene
+from hlr.common.types import Floats, Ints
+from hlr.request.accuracy import MESH_CONTACT
 from hlr.scene.scene import Groups
-from hlr.source.model import Floats, Ints
-from hlr.tolerance import MESH_CONTACT
 
 
 def groups_of(found: MeshScene, brep: npt.NDArray[np.bool_]) -> Groups:

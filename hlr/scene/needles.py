@@ -22,10 +22,10 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr._kernel import MeshFacts
-from hlr.distinct import distinct
+from hlr.common.distinct import distinct
+from hlr.common.types import Floats, Ints
 from hlr.scene.topology import keys
-from hlr.source.model import Floats, Ints
-from hlr.source.weld import LOW
+from hlr.source.mesh.weld import LOW
 
 Indices = npt.NDArray[np.intp]
 

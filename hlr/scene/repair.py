@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from hlr.distinct import distinct
+from hlr.common.distinct import distinct
+from hlr.common.types import Floats, Ints
 from hlr.scene.sides import numbered, one_of_each
-from hlr.source.model import Floats, Ints, PartMesh
-from hlr.source.weld import equal_rows
+from hlr.source.mesh.weld import equal_rows
+from hlr.source.model import PartMesh
 
 Indices = npt.NDArray[np.intp]
 

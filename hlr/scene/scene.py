@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.notes import Note
-from hlr.source.model import Color, Curves, Floats, Ints, Surfaces
+from hlr.common.types import Color, Floats, Ints
+from hlr.drawing.notes import Note
+from hlr.source.model import Curves, Surfaces
 
 INTERIOR = 255
 """Kind of a mesh edge that no source edge runs along."""

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.source.model import Floats, Ints
+from hlr.common.types import Floats, Ints
 
 
 def one_of_each(points: Floats, triangles: Ints, face: Ints) -> Ints:

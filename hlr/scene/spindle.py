@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr._kernel import MeshScene
-from hlr.source.together import Together
+from hlr.source.cad.together import Together
 
 ROUNDING = 1e-9
 """Of the minor radius: what is no further beyond the axis lies on it."""

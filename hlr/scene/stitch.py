@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.source.model import Floats, PartMesh
+from hlr.common.types import Floats
+from hlr.source.model import PartMesh
 
 GAP = 5e-5
 """Of a part's extent, at most: exporters state no tolerance. 0.01 mm of a part of 200 mm, by which CAD programs let the

@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.common.types import Floats, Ints
 from hlr.scene.scene import Chains
-from hlr.source.model import Floats, Ints
 
 STRAIGHT_ON = 30.0
 """Degrees: where more than two creases meet, a line goes on along the straightest if it turns by no more than this, and

@@ -8,13 +8,15 @@ from collections.abc import Mapping
 import numpy as np
 
 from hlr import _kernel
-from hlr.drawing import Fill, Gradient
-from hlr.plan.effects import AMBIENT, DIFFUSE, SHOULDER
+from hlr.common.types import Floats, Ints
+from hlr.drawing.fill import Fill, Gradient
+from hlr.image.camera import NEAR, Camera
+from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
 from hlr.scene.scene import INTERIOR, Scene
 from hlr.shading.lens import lens_at, toward_light
 from hlr.shading.scene import shaded_scene
-from hlr.source.model import EdgeClass, Floats, Ints, Look
-from hlr.view.camera import NEAR, Camera
+from hlr.source.model import Look
+from hlr.tables.line_classes import EdgeClass
 
 MOST = 6_000_000
 """Points of the grid on which is looked for what is seen: about 150 MB while it is made."""

@@ -6,8 +6,10 @@ import math
 
 import numpy as np
 
-from hlr.source.model import Floats
-from hlr.view.camera import NEAR, Camera, Vector, cross, dot, normalized
+from hlr.common.types import Floats
+from hlr.image.camera import NEAR, Camera, dot
+from hlr.request.directions import cross, normalized
+from hlr.request.options import Vector
 
 SINGLE = 2.0**-23
 """Of 1: what numbers of single precision are off by, twice: at the corners, and between them."""

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from hlr.curve import Arc, Bezier, raised
-from hlr.drawing import Line, Points
+from hlr.drawing.curve import Arc, Bezier, raised
+from hlr.drawing.line import Line, Points
 from hlr.shading.lens import Lens
 
 FLATNESS = 0.02

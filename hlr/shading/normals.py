@@ -6,8 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.common.types import Floats, Ints
 from hlr.scene.scene import INTERIOR, Scene
-from hlr.source.model import EdgeClass, Floats, Ints
+from hlr.tables.line_classes import EdgeClass
 
 Normals = npt.NDArray[np.float32]
 

@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
+from hlr.common.types import Floats
+from hlr.scene.colors import corner_paint
 from hlr.scene.scene import Scene
 from hlr.shading.normals import corner_normals
-from hlr.shading.paint import corner_paint
-from hlr.source.model import Floats, Look
+from hlr.source.model import Look
 
 
 @dataclass(frozen=True, slots=True)

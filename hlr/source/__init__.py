@@ -6,12 +6,12 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from hlr.endings import ENDINGS
 from hlr.errors import OptionError, SourceError
 from hlr.source.model import Source
+from hlr.tables.readers import ENDINGS
 
 if TYPE_CHECKING:
-    from hlr.source.brep import BrepSource
+    from hlr.source.cad.brep import BrepSource
 
 __all__ = ["ENDINGS", "open_source"]
 
@@ -32,7 +32,7 @@ def open_source(thing: Any, var: str | None = None, annotations: bool = False) -
     """
     if isinstance(thing, str | os.PathLike):
         return _open_path(Path(os.fspath(thing)), var, annotations)
-    from hlr.source.objects import family
+    from hlr.source.cad.objects import family
 
     if type(thing).__module__.startswith("hlr.source."):
         opened: Source = thing
@@ -41,18 +41,18 @@ def open_source(thing: Any, var: str | None = None, annotations: bool = False) -
         raise OptionError("var names a variable of a script, and an object is no script: leave it out.")
     root = family(thing)
     if root == "trimesh":
-        from hlr.source.meshes import open_trimesh
+        from hlr.source.mesh.arrays import open_trimesh
 
         return open_trimesh(thing)
     if root == "manifold3d":
-        from hlr.source.meshes import open_manifold
+        from hlr.source.mesh.arrays import open_manifold
 
         return open_manifold(thing)
     if _is_arrays(thing):
-        from hlr.source.meshes import open_arrays
+        from hlr.source.mesh.arrays import open_arrays
 
         return open_arrays(*thing)
-    from hlr.source.objects import is_shape_like, open_object
+    from hlr.source.cad.objects import is_shape_like, open_object
 
     if is_shape_like(thing):
         return open_object(thing)
@@ -83,20 +83,20 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
         ending = f'the ending "{path.suffix}"' if path.suffix else "no ending"
         raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {known}.")
     if kind == "script":
-        from hlr.source.script import open_script
+        from hlr.source.cad.script import open_script
 
         return open_script(path, var)
     if var is not None:
         raise OptionError(f"var names a variable of a script, and {path.name} is no script: leave it out.")
     if kind in ("step", "iges", "brep"):
-        from hlr.source.stored import through_cache
+        from hlr.source.cad.stored import through_cache
 
         return through_cache(path, kind, annotations and kind == "step", lambda: _read_cad(path, kind, annotations))
     if kind in ("3mf", "glb"):
-        from hlr.source.packed import open_packed
+        from hlr.source.mesh.packed import open_packed
 
         return open_packed(path, kind)
-    from hlr.source.meshfile import open_mesh_file
+    from hlr.source.mesh.meshfile import open_mesh_file
 
     return open_mesh_file(path, kind)
 
@@ -104,9 +104,9 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
 def _read_cad(path: Path, kind: str, annotations: bool) -> BrepSource:
     """A STEP, IGES or BREP file as OpenCASCADE reads it."""
     if kind == "brep":
-        from hlr.source.brepfile import open_brep
+        from hlr.source.cad.brepfile import open_brep
 
         return open_brep(path)
-    from hlr.source.step import open_iges, open_step
+    from hlr.source.cad.step import open_iges, open_step
 
     return open_step(path, annotations) if kind == "step" else open_iges(path)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from hlr.common.types import Floats
 from hlr.errors import SourceError
-from hlr.source.model import Floats
 
 LARGEST, SMALLEST = 1e60, 1e-60
 """Model units. Products of five lengths neither overflow nor vanish; no true model comes near."""

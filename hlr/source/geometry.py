@@ -20,8 +20,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr.common.types import Floats, Ints
 from hlr.source.locations import moved
-from hlr.source.model import Curves, Floats, Ints
+from hlr.source.model import Curves
 
 NONE, LINE, ELLIPSE, PARABOLA, HYPERBOLA, SPLINE = range(6)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hlr.source.model import Floats
+from hlr.common.types import Floats
 
 Rows = tuple[float, ...]
 """The twelve numbers of a (3, 4) matrix, row by row: for one placement quicker than an array."""

@@ -4,34 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from enum import IntEnum
 from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from hlr.notes import Note
+from hlr.common.types import Color, Floats, Ints, Progress, Rgba
+from hlr.drawing.notes import Note
 
-Floats = npt.NDArray[np.float64]
-Ints = npt.NDArray[np.int32]
-Color = tuple[float, float, float]
-Rgba = tuple[float, float, float, float]
-"""Red, green, blue as screens show them (sRGB), and opacity; 0 to 1."""
 PLAIN: Rgba = (0.70, 0.74, 0.79, 1.0)
 """What nobody gave a colour."""
-Progress = Callable[[str, float], None]
-"""Called with a stage's name and the fraction done (0..1)."""
-
-
-class EdgeClass(IntEnum):
-    """Why an edge is drawn; the names are those of the exchange format."""
-
-    SHARP = 0
-    SMOOTH = 1
-    SEAM = 2
-    BOUNDARY = 3
-    OUTLINE = 4
-    INTERSECTION = 5
 
 
 class Surfaces(Protocol):

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from hlr.distinct import distinct
+from hlr.common.distinct import distinct
+from hlr.common.types import Floats
 from hlr.source.extent import box
-from hlr.source.model import Floats
 
 FINEST_GRID = 2.0**-31
 """Of the size: a finer grid is no rounding."""

@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.plan.plan import Plan
+from hlr.common.types import Floats, Ints
 from hlr.scene.scene import Scene
-from hlr.source.model import Floats, Ints
+from hlr.visibility.plan import Plan
 
 VISIBLE, HIDDEN, WITHIN, DIVING = 0, 1, 2, 3
 

@@ -8,10 +8,11 @@ from time import perf_counter
 import numpy as np
 import numpy.typing as npt
 
-from hlr.drawing import Bounds, Fill, Line
-from hlr.lines import bounds_of
-from hlr.notes import Note
-from hlr.plan.effect import Facts, Planner
+from hlr.drawing.fill import Fill
+from hlr.drawing.line import Bounds, Line
+from hlr.drawing.lines import bounds_of
+from hlr.drawing.notes import Note
+from hlr.request.effect import Facts, Planner
 from hlr.window.fill import cut_fill
 from hlr.window.frame import Frame
 from hlr.window.lines import SLACK, cut_lines

@@ -19,8 +19,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from hlr.distinct import distinct
-from hlr.drawing import Bounds, Fill
+from hlr.common.distinct import distinct
+from hlr.drawing.fill import Fill
+from hlr.drawing.line import Bounds
 
 Loop = list[tuple[float, float]]
 

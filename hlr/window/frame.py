@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hlr.drawing import Bounds, DrawnView
+from hlr.drawing.drawing import DrawnView
+from hlr.drawing.line import Bounds
 
 Floats = npt.NDArray[np.float64]
 

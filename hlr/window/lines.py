@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from hlr.curve import Arc, Bezier, Curve
-from hlr.distinct import distinct
-from hlr.drawing import Line
+from hlr.common.distinct import distinct
+from hlr.drawing.curve import Arc, Bezier, Curve
+from hlr.drawing.line import Line
 from hlr.window.frame import Frame
 from hlr.window.tracks import Track, track_of
 

@@ -11,8 +11,8 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from hlr.curve import Arc, Bezier, Curve
-from hlr.drawing import Line
+from hlr.drawing.curve import Arc, Bezier, Curve
+from hlr.drawing.line import Line
 
 Floats = npt.NDArray[np.float64]
 

@@ -13,8 +13,8 @@ from itertools import groupby, pairwise
 
 import numpy as np
 
-from hlr.distinct import distinct
-from hlr.drawing import Fill, Gradient
+from hlr.common.distinct import distinct
+from hlr.drawing.fill import Fill, Gradient
 from hlr.errors import WriteError
 from hlr.writers.number import NOT_FINITE, grid, number
 

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.curve import Arc, Curve
-from hlr.drawing import Drawing, DrawnView, Line
+from hlr.drawing.curve import Arc, Curve
+from hlr.drawing.drawing import Drawing, DrawnView
+from hlr.drawing.line import Line
 from hlr.errors import WriteError
 from hlr.writers.number import NOT_FINITE
 

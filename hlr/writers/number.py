@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.errors import WriteError
-from hlr.tolerance import DIGITS
+from hlr.request.accuracy import DIGITS
 
 Ints = npt.NDArray[np.int64]
 

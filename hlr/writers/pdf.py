@@ -11,7 +11,8 @@ import zlib
 
 import pydyf
 
-from hlr.drawing import Drawing, Fill
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.fill import Fill
 from hlr.writers import style
 from hlr.writers.number import number
 from hlr.writers.strokes import Strokes, strokes

@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import io
 import json
-from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from hlr.drawing.picture import Picture
 from hlr.errors import OptionError, WriteError
-from hlr.picture import Picture
 
 NOTHING = 65535
 """In a depth map: nothing is seen there."""
@@ -68,33 +66,6 @@ def ids_png(picture: Picture) -> bytes:
     rgb = np.stack([number >> 16, number >> 8, number], axis=2).astype(np.uint8)
     faces = [[part.name, int(first)] for part, first in zip(picture.parts, picture.first_face[:-1], strict=True)]
     return _encoded(picture, rgb, {"Faces": json.dumps(faces)})
-
-
-def write_png(picture: Picture, file: Any, depth: Any, ids: Any) -> Path | None:
-    """All files or none, then what goes into file objects; returns the picture's path, or None for a file object."""
-    from hlr.writers import files
-
-    asked = [(file, picture_png), *((f, make) for f, make in ((depth, depth_png), (ids, ids_png)) if f is not None)]
-    targets = [(f if hasattr(f, "write") else check_png(files.path_of(f)), make) for f, make in asked]
-    if any(one == other for (one, _), (other, _) in combinations(targets, 2)):
-        raise WriteError(
-            f"two maps would be written to one file; give picture, depth and ids a name each, not {targets[0][0]}"
-        )
-    made = [(target, make(picture)) for target, make in targets]
-    files.place({target: data for target, data in made if isinstance(target, Path)})
-    for target, data in made:
-        if not isinstance(target, Path):
-            files.put(target, data)
-    first = targets[0][0]
-    return first if isinstance(first, Path) else None
-
-
-def check_png(path: str | Path) -> Path:
-    """The path; raises WriteError where it does not end in .png."""
-    path = Path(path)
-    if path.suffix.lower() != ".png":
-        raise WriteError(f"cannot write {path}: a picture is written as PNG; give a name that ends in .png")
-    return path
 
 
 def _encoded(picture: Picture, pixels: Any, more: dict[str, str]) -> bytes:

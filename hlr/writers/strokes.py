@@ -15,9 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
-from hlr.drawing import Drawing, Line
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
+from hlr.drawing.lines import KINDS, held
 from hlr.errors import WriteError
-from hlr.lines import KINDS, held
 from hlr.writers import number, style
 
 START, LINE, CONTROL, QUADRATIC, CUBIC, ARC, WHOLE = range(7)

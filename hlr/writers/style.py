@@ -34,10 +34,3 @@ def dash(kind: str, visible: bool) -> tuple[float, float] | None:
         return None
     wide = width(kind, visible)
     return DASH[0] * wide, DASH[1] * wide
-
-
-def ratio(scale: float) -> str:
-    """A scale as a drawing states it: 0.5 is "1:2"."""
-    if scale >= 1.0:
-        return f"{scale:.6g}:1"
-    return f"1:{1.0 / scale:.6g}"

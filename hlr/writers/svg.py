@@ -16,7 +16,8 @@ from __future__ import annotations
 import re
 from itertools import groupby
 
-from hlr.drawing import Drawing
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.scale import ratio
 from hlr.writers import style
 from hlr.writers.number import number
 from hlr.writers.strokes import strokes
@@ -63,7 +64,7 @@ def svg(drawing: Drawing) -> bytes:
 
 def title(drawing: Drawing) -> str:
     """What the drawing shows, in one line: "motor.step, iso, 1:2"."""
-    return f"{drawing.source}, {drawing.view.name}, {style.ratio(drawing.scale)}"
+    return f"{drawing.source}, {drawing.view.name}, {ratio(drawing.scale)}"
 
 
 def _metadata(drawing: Drawing) -> str:
@@ -79,7 +80,7 @@ def _metadata(drawing: Drawing) -> str:
     if view.eye is not None:
         fields["eye"] = _vector(view.eye)
     fields |= {
-        "scale": style.ratio(drawing.scale),
+        "scale": ratio(drawing.scale),
         "origin": _vector(drawing.origin),
         "unit": f"{drawing.unit:.9g}",
         **accuracies(drawing),

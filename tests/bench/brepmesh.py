@@ -20,8 +20,8 @@ from bench.table import Table, geometric_mean
 
 from hlr import _kernel
 from hlr.source import open_source
-from hlr.source.parts import compound, explored
-from hlr.source.roots import dumped
+from hlr.source.cad.parts import compound, explored
+from hlr.source.cad.roots import dumped
 
 ANGLE = 0.35
 """Radians."""

@@ -71,7 +71,7 @@ def _member(keys: np.ndarray, ascending: np.ndarray) -> np.ndarray:
 def draw(shape: Any, accuracy: float) -> tuple[float, dict[str, int]]:
     """Seconds of the stage "visibility" of a whole drawing, which tessellates for itself; and its counters."""
     import hlr
-    from hlr.plan.options import Options
+    from hlr.request.options import Options
 
     (drawing,) = hlr.draw_views(shape, [DIRECTION], Options(accuracy=accuracy))
     return float(drawing.timings["visibility"]), dict(drawing.counters)

@@ -27,16 +27,16 @@ from bench.scenes import SCENES
 from peers.report import markdown
 
 import hlr
-import hlr.clock
-import hlr.finished
-import hlr.fitting
-import hlr.pipeline
-import hlr.plan.effect
-from hlr.plan.effect import PLAN, SCENE, everything_on
+import hlr.common.clock
+import hlr.pipeline.drawing
+import hlr.pipeline.finish
+import hlr.pipeline.staging
+import hlr.request.effect
+from hlr.drawing.saving import render
+from hlr.request.effect import PLAN, SCENE, everything_on
 from hlr.source import ENDINGS, open_source
-from hlr.writers import render
 
-for module in (hlr.clock, hlr.finished, hlr.fitting, hlr.pipeline, hlr.plan.effect):
+for module in (hlr.common.clock, hlr.pipeline.finish, hlr.pipeline.staging, hlr.pipeline.drawing, hlr.request.effect):
     vars(module)["perf_counter"] = time.process_time  # the stages' stopwatch
 
 STAGES = ("tessellate", "scene", "plan", "visibility", "linework")

@@ -78,11 +78,11 @@ def direction(frame: int) -> tuple[float, float, float]:
 
 def ours(given: Arrays, antialias: bool, threads: int) -> Run:
     from hlr import _kernel
-    from hlr.plan.effects import AMBIENT, DIFFUSE, SHOULDER
-    from hlr.plan.options import Options
+    from hlr.image.camera import resolve
+    from hlr.request.options import Options
+    from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
     from hlr.shading.lens import lens, toward_light
     from hlr.source.model import Frame
-    from hlr.view.camera import resolve
 
     points = np.ascontiguousarray(given["points"])
     colours = np.full((1, 4), 0.5, np.float32)

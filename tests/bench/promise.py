@@ -1,8 +1,8 @@
 """Whether drawings keep their promise: `python tests/bench/promise.py FOLDER [-o results.jsonl]`.
 
 Each model is drawn at 1:1 where that is 20 to 400 mm large, else fitted to A4, at each of four accuracies, and measured
-(`hlr.measure`). The table has measured error / promise, class by class; what is above 1 is broken. Each drawing has a
-process and a time limit of its own. Results that are already in the file are not measured again.
+(`hlr.lab.measure`). The table has measured error / promise, class by class; what is above 1 is broken. Each drawing has
+a process and a time limit of its own. Results that are already in the file are not measured again.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ TWENTY = (
 def one(path: Path, accuracy: float) -> dict[str, Any]:
     """Draw and measure."""
     import hlr
-    from hlr.measure import measured
+    from hlr.lab.measure import measured
     from hlr.source import open_source
 
     opened = open_source(path)

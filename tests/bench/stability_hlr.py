@@ -12,8 +12,9 @@ import numpy as np
 import numpy.typing as npt
 from bench.stability_measure import Stroke
 
-from hlr import Options, pipeline
-from hlr.drawing import Drawing
+from hlr import Options
+from hlr.drawing.drawing import Drawing
+from hlr.pipeline import drawing as pipeline
 from hlr.source import open_source
 from hlr.source.model import Meshed, PartMesh, Source
 
@@ -100,7 +101,7 @@ class Model:
         self.size, self.centre = float(np.linalg.norm(high - low)), (low + high) / 2.0
 
     def _mesh(self) -> Meshed:
-        from hlr.tolerance import ANGLE
+        from hlr.request.accuracy import ANGLE
 
         return self.source.mesh(self.deflection, ANGLE)
 

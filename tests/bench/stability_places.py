@@ -18,7 +18,7 @@ from bench.stability_child import REACH
 from bench.stability_hlr import Model, strokes
 from bench.stability_measure import COVER, NEAR, STEP, Ink, covered, ink, unmatched
 
-from hlr.drawing import Drawing
+from hlr.drawing.drawing import Drawing
 
 
 def places(these: Ink, others: Ink, near: float) -> Iterator[np.ndarray]:

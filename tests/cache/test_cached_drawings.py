@@ -12,8 +12,9 @@ import pytest
 
 import hlr
 from hlr.cache.entry import packed, unpacked
-from hlr.source import key, open_source
-from hlr.source.stored import recorded
+from hlr.source import open_source
+from hlr.source.cad import key
+from hlr.source.cad.stored import recorded
 
 DATA = Path(__file__).parents[1] / "data"
 ASSEMBLY, PART, SCREW = (
@@ -187,7 +188,8 @@ def test_what_was_read_from_something_else_or_by_something_else_is_not_used(chan
 
 def test_the_code_that_counts_is_the_version_and_all_that_reads():
     names = {"/".join(path.parts[-2:]) for path in key.code_files()}
-    assert {"hlr/__init__.py", "source/step.py", "source/parts.py", "source/stored.py", "cache/entry.py"} <= names
+    read = {"cad/step.py", "cad/parts.py", "cad/stored.py", "mesh/meshfile.py", "source/files.py"}
+    assert {"hlr/__init__.py", "tables/readers.py", "cache/entry.py", *read} <= names
 
 
 def test_annotations_are_an_entry_of_their_own(own_cache):
@@ -203,7 +205,7 @@ def test_a_copy_in_another_folder_is_not_read_again(tmp_path):
 
 
 def test_a_file_that_changes_while_it_is_read_is_not_kept(tmp_path, own_cache, monkeypatch):
-    from hlr.source import step
+    from hlr.source.cad import step
 
     part = tmp_path / "part.step"
     shutil.copy(ASSEMBLY, part)

@@ -19,7 +19,7 @@ import os, sys, time
 sys.path.insert(0, sys.argv.pop(1))
 import fake_pipeline as fake
 from hlr.cli import main
-from hlr.writers import files
+from hlr.drawing import files
 
 def write(file, data):
     file.write(data)

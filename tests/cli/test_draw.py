@@ -49,13 +49,13 @@ def test_scales(hlr_command, text, scale):
 
 
 def test_the_defaults_are_those_of_the_options(hlr_command):
-    from hlr.plan.options import Options
+    from hlr.request.options import Options
 
     assert options(hlr_command) == Options()
 
 
 def test_every_option_arrives(hlr_command):
-    from hlr.plan.options import Options, Perspective
+    from hlr.request.options import Options, Perspective
 
     asked = options(
         hlr_command, "--no-hidden", "--smooth", "--seam", "--fit", "200x150.5", "--accuracy", "0.01", "--crease", "20",
@@ -180,7 +180,7 @@ def test_a_failure_to_write_leaves_the_earlier_file(hlr_command, tmp_path, monke
     import errno
     import os
 
-    from hlr.writers import files
+    from hlr.drawing import files
 
     def full(*args):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))

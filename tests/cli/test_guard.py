@@ -22,10 +22,10 @@ TESTS = Path(__file__).resolve().parents[1]
 PATCHED = """
 import ctypes, os, signal, sys
 sys.path.insert(0, {tests!r})
-import hlr.source.step
+import hlr.source.cad.step
 def reader(path, annotations=False):
     {body}
-hlr.source.step.open_step = reader
+hlr.source.cad.step.open_step = reader
 from hlr.cli import main
 main()
 """

@@ -2,7 +2,7 @@
 
 from itertools import pairwise
 
-from hlr.source.occt import ready
+from hlr.source.cad.occt import ready
 
 NAMES = ("V", "Rg1LineV", "RgNLineV", "OutLineV", "IsoLineV", "H", "Rg1LineH", "RgNLineH", "OutLineH", "IsoLineH")
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hlr.compat.edges import compound, edges
-from hlr.curve import Arc, Bezier
-from hlr.drawing import Line
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.line import Line
 
 pytest.importorskip("OCP")
 SHIFT = np.array([3.0, -7.0])

@@ -97,11 +97,11 @@ def _serve() -> None:
     import hlr.cli.app
     import hlr.cli.exits
 
-    import hlr.pipeline
-    import hlr.source.brepfile
-    import hlr.source.meshfile
-    import hlr.source.step
-    from hlr.source.occt import ready
+    import hlr.pipeline.drawing
+    import hlr.source.cad.brepfile
+    import hlr.source.cad.step
+    import hlr.source.mesh.meshfile
+    from hlr.source.cad.occt import ready
 
     ready()
     for name in ("OCP.IGESCAFControl", "OCP.STEPCAFControl", "trimesh"):

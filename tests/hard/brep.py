@@ -139,7 +139,7 @@ class Rays:
 
     def faults(self, drawing: Drawing) -> list[str]:
         """What is drawn wrong or missing, in words; refuses a drawing in which there was nothing to judge."""
-        from hlr.writers import render
+        from hlr.drawing.saving import render
 
         judged = self._referee.judge("model", "hlr", exchange.parse(render(drawing, "json")))
         assert judged.verdict is not None and judged.verdict.judged, "nothing was judged"
@@ -147,7 +147,7 @@ class Rays:
 
     def wrong(self, drawing: Drawing) -> int:
         """Samples of lines that are called visible or hidden and are not, missing ones aside."""
-        from hlr.writers import render
+        from hlr.drawing.saving import render
 
         caster = judge.RayCaster(self.model)
         return judge.judge(exchange.parse(render(drawing, "json")), caster).wrong

@@ -297,7 +297,7 @@ def wrong_by_rays(drawing: Drawing, points: npt.ArrayLike, triangles: npt.ArrayL
     """
     from peers import exchange, judge, reference
 
-    from hlr.writers import render
+    from hlr.drawing.saving import render
 
     verdict = judge.judge(
         exchange.parse(render(drawing, "json")), judge.RayCaster(reference.from_arrays(points, triangles))

@@ -11,7 +11,7 @@ import pytest
 from hard.brep import compound
 
 import hlr
-from hlr.notes import Note
+from hlr.drawing.notes import Note
 
 
 def edges(count=28):

@@ -13,7 +13,7 @@ from hard.brep import box_edges, like
 from hard.expected import expect
 
 import hlr
-from hlr.notes import Note
+from hlr.drawing.notes import Note
 
 NOTE = Note("not-meshed", 'Part "part": 1 of 7 faces could not be meshed (face 6).')
 

@@ -14,7 +14,7 @@ from linework.models import turned
 from peers import exchange, referee, reference
 
 import hlr
-from hlr.writers import render
+from hlr.drawing.saving import render
 
 FACETS = 5
 """Of a corner: 18 degrees from one to the next."""

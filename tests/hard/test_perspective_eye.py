@@ -12,7 +12,7 @@ from hard.expected import Ink, agrees, by_oracle, differences, expect, ink
 from hard.shapes import BOX_EDGES, as_parts, box, face, merged, turned_over
 
 import hlr
-from hlr.notes import Note
+from hlr.drawing.notes import Note
 
 AHEAD = box((-3, 20, -2), (3, 26, 4))
 BEHIND = box((-3, -26, -2), (3, -20, 4))

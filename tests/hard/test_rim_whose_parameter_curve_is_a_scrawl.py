@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import hlr
-from hlr.notes import Note
+from hlr.drawing.notes import Note
 from hlr.source import open_source
 
 NOTE = Note("faces-mended", 'Part "part": 1 of 3 faces was meshed by OpenCASCADE (face 0).')

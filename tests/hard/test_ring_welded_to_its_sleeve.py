@@ -14,8 +14,8 @@ import pytest
 from peers import exchange, referee, reference
 
 import hlr
-from hlr.drawing import Drawing
-from hlr.writers import render
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.saving import render
 
 SIDES = 24
 INNER, RADIUS, OUTER = 14.0, 16.0, 28.0

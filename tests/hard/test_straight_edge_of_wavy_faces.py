@@ -13,7 +13,7 @@ from OCP.Geom import Geom_BSplineSurface
 from OCP.gp import gp_Pnt
 
 import hlr
-from hlr.source.bindings import collection
+from hlr.source.cad.bindings import collection
 
 LONG, WIDE = 100.0, 20.0
 FLAT = [0.0] * 9

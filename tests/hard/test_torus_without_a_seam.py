@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import hlr
-from hlr.notes import Note
+from hlr.drawing.notes import Note
 
 NOTE = Note("not-meshed", 'Part "part:2": 1 of 1 faces could not be meshed (face 0).')
 

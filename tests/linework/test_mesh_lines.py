@@ -11,8 +11,8 @@ import trimesh
 from linework.measures import apart, distances, length, placed, samples
 
 import hlr
-from hlr.curve import Arc, Bezier
-from hlr.writers import render
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.saving import render
 
 ACCURACY = 0.2
 RADIUS = 20.0

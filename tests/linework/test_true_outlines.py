@@ -12,13 +12,13 @@ import pytest
 
 import hlr
 from hlr import Perspective
-from hlr.curve import Arc
+from hlr.drawing.curve import Arc
+from hlr.image.camera import Camera, resolve
+from hlr.image.outlines import with_silhouettes
+from hlr.request.accuracy import derive
 from hlr.scene.build import build
 from hlr.source import open_source
 from hlr.source.geometry import evaluated
-from hlr.tolerance import derive
-from hlr.view.camera import Camera, resolve
-from hlr.view.silhouettes import with_silhouettes
 
 cq = pytest.importorskip("cadquery")
 

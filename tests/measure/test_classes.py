@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import hlr
-from hlr.curve import Arc, Bezier
-from hlr.drawing import Line
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.line import Line
 from hlr.errors import OptionError
-from hlr.measure import measured
-from hlr.measure.meshes import mesh_errors
-from hlr.measure.paper import Paper
-from hlr.measure.written import written
+from hlr.lab.measure import measured
+from hlr.lab.measure.meshes import mesh_errors
+from hlr.lab.measure.paper import Paper
+from hlr.lab.measure.written import written
 from hlr.source import open_source
 
 sys.path.append(str(Path(__file__).parent))

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import hlr
-from hlr.measure import measured
+from hlr.lab.measure import measured
 from hlr.source import open_source
 
 sys.path.append(str(Path(__file__).parent))

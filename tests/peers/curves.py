@@ -16,12 +16,13 @@ from typing import Any
 import numpy as np
 
 import hlr
-from hlr.curve import Arc
-from hlr.drawing import Drawing, Line
+from hlr.drawing.curve import Arc
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
+from hlr.drawing.saving import render
 from hlr.source import open_source
+from hlr.source.cad.parts import explored
 from hlr.source.locations import moved
-from hlr.source.parts import explored
-from hlr.writers import render
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
 SHEET = (277, 190)

@@ -79,7 +79,7 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
     from OCP.TopoDS import TopoDS
     from peers.curves import true_curves
 
-    from hlr.source.parts import explored
+    from hlr.source.cad.parts import explored
 
     curves = true_curves(source)
     edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]

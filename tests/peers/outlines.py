@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 
 import hlr
-from hlr.plan.options import Options
+from hlr.image.camera import Camera, resolve
+from hlr.image.outlines import with_silhouettes
+from hlr.image.placement import place
+from hlr.request.accuracy import Tolerances
+from hlr.request.options import Options
 from hlr.scene.build import build
 from hlr.source import open_source
-from hlr.source.parts import explored
-from hlr.tolerance import Tolerances
-from hlr.view.camera import Camera, resolve
-from hlr.view.scale import place
-from hlr.view.silhouettes import with_silhouettes
+from hlr.source.cad.parts import explored
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
 SHEET = (277, 190)

@@ -135,9 +135,9 @@ def view_name(view: View) -> str:
 def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference) -> Iterator[Drawn]:
     """All views in one call, as a user would; what is judged is the JSON that is written."""
     import hlr
+    from hlr.drawing.saving import render
     from hlr.errors import HlrError
-    from hlr.plan.options import Options
-    from hlr.writers import render
+    from hlr.request.options import Options
 
     # The reference holds every face of the file, those of annotation too.
     scale, accuracy = SHEET / (model.diagonal * model.unit), SHEET / model.fineness
@@ -159,7 +159,7 @@ def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference)
 @contextmanager
 def own_triangles(found: list[reference.Reference]) -> Iterator[None]:
     """While this lasts, the triangles that drawings are made from are put into `found`."""
-    from hlr import pipeline
+    from hlr.pipeline import drawing as pipeline
 
     former = pipeline.drawing_of
 

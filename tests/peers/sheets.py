@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.source.bindings import collection
+from hlr.source.cad.bindings import collection
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]

@@ -23,8 +23,9 @@ from typing import Any
 import numpy as np
 
 import hlr
-from hlr.curve import Arc
-from hlr.drawing import Drawing, Line
+from hlr.drawing.curve import Arc
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
 
 SHEET = (277, 190)
 NAMES = {"exact": "HLRBRep_Algo", "poly": "HLRBRep_PolyAlgo", "hlr": "hlr"}

@@ -28,8 +28,8 @@ def test_mesh(name: str, suffix: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["bracket", "ball_in_ring"])
 def test_perspective(name: str, tmp_path: Path) -> None:
-    from hlr.plan.options import Options, Perspective
-    from hlr.writers import render
+    from hlr.drawing.saving import render
+    from hlr.request.options import Options, Perspective
 
     path = models.save(name, tmp_path)
     model = reference.load(path, QUICK)

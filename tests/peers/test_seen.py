@@ -16,8 +16,8 @@ from peers.judge import RayCaster
 from peers.seen import look
 
 import hlr
-from hlr.drawing import Drawing
-from hlr.writers import render
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.saving import render
 
 QUICK = 4000
 """Fineness of the reference mesh, diagonals per deflection."""

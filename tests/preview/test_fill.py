@@ -9,8 +9,8 @@ import pytest
 import trimesh
 
 import hlr
+from hlr.drawing.saving import render as written
 from hlr.errors import OptionError
-from hlr.writers import render as written
 
 CUBE = np.array([[x, y, z] for x in (0, 20) for y in (0, 20) for z in (0, 20)], float)
 SIDES = np.array(

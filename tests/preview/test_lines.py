@@ -64,7 +64,7 @@ def test_lines_behind_glass_are_seen_through_it_and_lighter():
 
 def test_opaque_parts_hide_lines_behind_glass():
     """The cube's far edges are hidden by the cube, the case's far edges before nothing are not."""
-    from hlr.plan.effects import PreviewOptions
+    from hlr.request.picture_effects import PreviewOptions
 
     picture = hlr.preview(boxed(0.3), view="iso", size=(240, 240), edges=True)
     assert {d.name: d.on for d in picture.plan}["lines behind glass"]

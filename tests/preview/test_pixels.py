@@ -7,8 +7,8 @@ import trimesh
 from preview.shapes import box, joined, linear, sheet
 
 import hlr
-from hlr.plan.effects import AMBIENT, DIFFUSE, SHOULDER
-from hlr.shading.paint import PLAIN
+from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
+from hlr.scene.colors import PLAIN
 
 LIGHT = np.array(SHOULDER) / np.linalg.norm(SHOULDER)
 """In the picture's axes: right, up, toward the viewer."""

@@ -8,7 +8,7 @@ import pytest
 from preview.shapes import box
 
 import hlr
-from hlr.plan.effects import PreviewOptions, decide_effects
+from hlr.request.picture_effects import PreviewOptions, decide_effects
 
 
 @pytest.mark.parametrize("size", [(0, 10), (10, -1), (20000, 10), (16000, 16000), (10.5, 10), "big", (10,), (True, 5)])

@@ -17,8 +17,9 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from properties.frozen import Frozen
 
-from hlr.source.meshes import open_manifold
-from hlr.source.model import EdgeClass, PartMesh
+from hlr.source.mesh.arrays import open_manifold
+from hlr.source.model import PartMesh
+from hlr.tables.line_classes import EdgeClass
 
 Vector = tuple[int, int, int]
 ROUND = 24

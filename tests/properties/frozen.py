@@ -13,7 +13,8 @@ from unittest.mock import patch
 
 import numpy as np
 
-from hlr import Drawing, Options, pipeline
+from hlr import Drawing, Options
+from hlr.pipeline import drawing as pipeline
 from hlr.source import open_source
 from hlr.source.model import Frame, Meshed, PartInfo, PartMesh
 

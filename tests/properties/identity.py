@@ -10,8 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from hlr import Drawing, Line
-from hlr.source.model import EdgeClass
-from hlr.writers import render
+from hlr.drawing.saving import render
+from hlr.tables.line_classes import EdgeClass
 
 FORMATS = ("json", "svg", "pdf")
 

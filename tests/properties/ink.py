@@ -19,7 +19,7 @@ Map = Callable[[np.ndarray], np.ndarray]
 STEP = 2.0
 """Accuracies between samples."""
 UNDER = 3.0
-"""Accuracies: a hidden line this close to a visible one is not drawn, for it lies under the ink (`hlr.tolerance`)."""
+"""Accuracies: a hidden line this close to a visible one lies under its ink and is not drawn."""
 
 
 STUB = 10.0

@@ -28,7 +28,7 @@ from visibility import adapter, scenes
 from visibility.scenes import Edge, Scene
 
 from hlr import Perspective
-from hlr.tolerance import under
+from hlr.request.accuracy import under
 
 ACCURACY = 0.01
 degrees = st.integers(1, 359)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hlr.scene.scene import INTERIOR, Scene
-from hlr.source.model import EdgeClass
+from hlr.tables.line_classes import EdgeClass
 
 
 def check(scene: Scene, *, gaps: bool = False) -> None:

@@ -16,8 +16,9 @@ from hlr.scene.build import build
 from hlr.scene.repair import without_duplicates
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
-from hlr.source.model import EdgeClass, Meshed
-from hlr.source.together import together
+from hlr.source.cad.together import together
+from hlr.source.model import Meshed
+from hlr.tables.line_classes import EdgeClass
 
 
 def scene_of(thing, crease=30.0, deflection=0.05):

@@ -31,7 +31,7 @@ from hlr.scene.build import build
 from hlr.scene.defects import MOST_NOTES
 from hlr.scene.scene import Scene
 from hlr.source import open_source
-from hlr.source.model import EdgeClass
+from hlr.tables.line_classes import EdgeClass
 
 DEFLECTIONS = [0.5, 0.05, 0.005]
 

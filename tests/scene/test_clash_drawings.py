@@ -17,8 +17,8 @@ from linework.models import box, parts, solids
 from scene.crossings import CROSSING, THROUGH, TOUCHING, bent, bore, eight, overlapping_boxes, tube
 
 import hlr
-from hlr.notes import Note
-from hlr.writers import render
+from hlr.drawing.notes import Note
+from hlr.drawing.saving import render
 
 VIEW = (2, -3, 1)
 

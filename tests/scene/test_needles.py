@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hlr.scene import needles
+from hlr.source.cad.together import together
 from hlr.source.model import PartMesh
-from hlr.source.together import together
 
 STEP = 1e-6
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hlr import _kernel
-from hlr.source.parts import compound
+from hlr.source.cad.parts import compound
 
 
 def dumped(*shapes):

@@ -124,7 +124,7 @@ def test_tessellated_shapes_are_meshes(tmp_path, gaps):
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS_Face
 
-    from hlr.source.parts import compound
+    from hlr.source.cad.parts import compound
 
     solid = cq.Workplane().box(1, 2, 3).val()
     BRepMesh_IncrementalMesh(solid.wrapped, 0.1)
@@ -206,7 +206,7 @@ def test_nothing_is_printed(folder, tmp_path):
 
 
 def test_a_missing_system_library_is_named():
-    from hlr.source.occt import explain
+    from hlr.source.cad.occt import explain
 
     cause = ImportError("libGL.so.1: cannot open shared object file: No such file or directory")
     assert "apt-get install libgl1" in explain(cause)

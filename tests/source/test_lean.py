@@ -14,7 +14,7 @@ HEAVY = {"scipy", "embreex", "manifold3d", "shapely", "httpx", "jsonschema"}
 
 LOADED = """
 import sys, hlr
-from hlr import process
+from hlr.common import process
 if sys.argv[2] == "own":
     process.claim()
 drawing = hlr.draw(sys.argv[1], accuracy=0.5)

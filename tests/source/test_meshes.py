@@ -14,7 +14,7 @@ import pytest
 
 from hlr.errors import SourceError
 from hlr.source import open_source
-from hlr.source.weld import clean
+from hlr.source.mesh.weld import clean
 
 trimesh = pytest.importorskip("trimesh")
 

@@ -9,7 +9,7 @@ import pytest
 
 from hlr.errors import SourceError
 from hlr.source import open_source
-from hlr.source.together import Label, Together, together
+from hlr.source.cad.together import Label, Together, together
 
 cq = pytest.importorskip("cadquery")
 
@@ -100,7 +100,7 @@ def test_one_bad_part_does_not_stop_the_others():
 
 
 def test_a_mesher_that_fails_on_one_part(monkeypatch):
-    from hlr.source import tessellate
+    from hlr.source.cad import tessellate
 
     class Failing:
         """A mesh of the kernel that has lost its last face."""

@@ -11,7 +11,7 @@ import pytest
 from hard.test_terrain import terrain
 
 from hlr import _kernel
-from hlr.source.roots import dumped
+from hlr.source.cad.roots import dumped
 
 MINUTE = 1e-5
 """Chord error, millimetres, of tens of millions of triangles: many seconds of work on any machine."""

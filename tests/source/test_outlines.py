@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hard.test_faces_with_broken_outlines import cylinder
 
-from hlr.source import outlines
-from hlr.source.parts import explored
+from hlr.source.cad import outlines
+from hlr.source.cad.parts import explored
 
 TURN = 2.0 * math.pi
 

@@ -6,8 +6,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 
-from hlr.source import open_source, rescue
-from hlr.source.rescue import faces_of, run_mesher
+from hlr.source import open_source
+from hlr.source.cad import rescue
+from hlr.source.cad.rescue import faces_of, run_mesher
 
 SHAPES = {
     "plate": lambda: cq.Workplane().box(30, 30, 4).faces(">Z").workplane().rarray(6, 6, 4, 4).hole(3),

@@ -9,7 +9,8 @@ import pytest
 from hard.test_rim_whose_parameter_curve_is_a_scrawl import scrawled
 
 from hlr.source import open_source
-from hlr.source.model import EdgeClass, OnSurfaces, PartMesh
+from hlr.source.model import OnSurfaces, PartMesh
+from hlr.tables.line_classes import EdgeClass
 
 cq = pytest.importorskip("cadquery")
 
@@ -166,8 +167,8 @@ def same(a: PartMesh, b: PartMesh) -> bool:
 @pytest.mark.parametrize("name", ["sinks", "fillets", "sphere", "revolved", "union"])
 def test_triangles_of_another_mesher_are_joined_to_the_edges(name):
     """As they are where ours fails: here for every face of a sound solid, one by one and all."""
-    from hlr.source.rescue import faces_of, rescue
-    from hlr.source.tessellate import HALF
+    from hlr.source.cad.rescue import faces_of, rescue
+    from hlr.source.cad.tessellate import HALF
 
     source = open_source(SOLIDS[name]())
     source.mesh(0.05, 0.3)
@@ -209,7 +210,7 @@ def test_triangles_that_do_not_fill_the_face_are_refused():
 
 def test_a_damaged_dump_is_refused():
     from hlr import _kernel
-    from hlr.source.roots import dumped
+    from hlr.source.cad.roots import dumped
 
     whole = dumped([cq.Workplane().box(1, 2, 3).val().wrapped])
     assert _kernel.BrepModel(whole).n_faces == 6
@@ -224,7 +225,7 @@ def carried(shape):
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS
 
-    from hlr.source.parts import explored
+    from hlr.source.cad.parts import explored
 
     found = []
     for shape_of_face in explored(shape, Kind.TopAbs_FACE):

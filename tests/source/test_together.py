@@ -7,7 +7,7 @@ import pytest
 
 from hlr import _kernel
 from hlr.source import open_source
-from hlr.source.together import Together, together
+from hlr.source.cad.together import Together, together
 
 cq = pytest.importorskip("cadquery")
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from hlr.plan.options import Options
+from hlr.image.camera import resolve
+from hlr.lab.study import occt
+from hlr.lab.study.ink import drawing_of
+from hlr.lab.study.watch import Watch
+from hlr.request.options import Options
 from hlr.source import open_source
 from hlr.source.model import Frame
-from hlr.study import occt
-from hlr.study.ink import drawing_of
-from hlr.study.watch import Watch
-from hlr.view.camera import resolve
 
 
 def camera():
@@ -53,8 +53,8 @@ def test_parts_are_drawn_where_they_stand():
 def test_bare_lines_are_written_like_a_drawing():
     import cadquery as cq
 
-    from hlr.finished import drawn_view
-    from hlr.writers import render
+    from hlr.drawing.saving import render
+    from hlr.pipeline.finish import drawn_view
 
     ink = occt.poly(cq.Workplane().box(10, 10, 10).val().wrapped, camera(), 1.0, 0.1, 0.5, Watch())
     drawing = drawing_of(ink, "box", drawn_view(camera()), 1.0, 0.05)

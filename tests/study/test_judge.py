@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from hlr.curve import Arc, Bezier
-from hlr.study.frontier import frontier
-from hlr.study.ink import _flattened, gathered, load
-from hlr.study.job import HLR, POLY, Cost, Point
-from hlr.study.judge import judged
-from hlr.study.watch import Watch
+from hlr.drawing.curve import Arc, Bezier
+from hlr.lab.study.frontier import frontier
+from hlr.lab.study.ink import _flattened, gathered, load
+from hlr.lab.study.job import HLR, POLY, Cost, Point
+from hlr.lab.study.judge import judged
+from hlr.lab.study.watch import Watch
 
 
 def ink(*lines):
@@ -100,7 +100,7 @@ def test_stages_are_told_apart():
 
 
 def test_what_a_user_needs_in_a_sentence():
-    from hlr.study.advice import advice
+    from hlr.lab.study.advice import advice
 
     def ours(setting, seconds):
         return Point(HLR, setting, stages={"tessellate": Cost(seconds, seconds, 1.0)})

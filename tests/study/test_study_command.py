@@ -11,10 +11,10 @@ import time
 import pytest
 
 from hlr.errors import OptionError
-from hlr.study import plot, report, table
-from hlr.study.job import HLR, Cost, Job, Point
-from hlr.study.process import answer
-from hlr.study.sweep import Study, Wish, study
+from hlr.lab.study import plot, report, table
+from hlr.lab.study.job import HLR, Cost, Job, Point
+from hlr.lab.study.process import answer
+from hlr.lab.study.sweep import Study, Wish, study
 
 BOX = """solid box
 {}endsolid box
@@ -98,7 +98,7 @@ def test_a_stopped_study_keeps_what_is_finished(box, tmp_path, monkeypatch):
     from hlr.cli.commands.study import study as verb
     from hlr.cli.signals import Stopped
 
-    from hlr.study import sweep
+    from hlr.lab.study import sweep
 
     def fake(job):
         if job.work == "look":
@@ -136,7 +136,7 @@ def test_a_point_that_takes_too_long_says_so(box):
 
 
 def test_finer_points_are_not_tried_after_one_that_took_too_long(box, monkeypatch):
-    from hlr.study import sweep
+    from hlr.lab.study import sweep
 
     asked = []
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from hlr.fitting import meshed_scene
-from hlr.plan.options import Options
-from hlr.plan.plan import decide
+from hlr.image.camera import resolve
+from hlr.image.placement import place
+from hlr.lab.study.watch import Watch
+from hlr.lab.study.zbuffer import hidden_lines
+from hlr.pipeline.staging import meshed_scene
+from hlr.request.options import Options
 from hlr.source import open_source
-from hlr.study.watch import Watch
-from hlr.study.zbuffer import hidden_lines
-from hlr.view.camera import resolve
-from hlr.view.scale import place
+from hlr.visibility.plan import decide
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))

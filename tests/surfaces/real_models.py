@@ -10,13 +10,13 @@ import sys
 from pathlib import Path
 
 from hlr.errors import HlrError
-from hlr.plan.options import Options, Perspective
+from hlr.image.camera import resolve
+from hlr.lab.methods import METHODS, NotFinishedError, render
+from hlr.lab.methods.polygons import polygons_of
+from hlr.request.accuracy import ANGLE, SMALL_DRAWING
+from hlr.request.options import Options, Perspective
 from hlr.scene.build import build
 from hlr.source import open_source
-from hlr.surfaces import METHODS, NotFinishedError, render
-from hlr.surfaces.polygons import polygons_of
-from hlr.tolerance import ANGLE, SMALL_DRAWING
-from hlr.view.camera import resolve
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".obj", ".ply", ".off", ".3mf", ".glb")
 VIEWS = (("iso", None), ("front", None), ("-2,1,3", Perspective()))

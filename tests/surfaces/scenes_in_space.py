@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from hlr.plan.options import Options, Perspective
+from hlr.image.camera import resolve
+from hlr.request.options import Options, Perspective
 from hlr.source.model import Frame
-from hlr.view.camera import resolve
 
 SIZE = (24, 18)
 

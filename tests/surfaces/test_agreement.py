@@ -5,7 +5,7 @@ import pytest
 from surfaces.oracle import seen
 from surfaces.random_scenes import KINDS, SIZE
 
-from hlr.surfaces import METHODS, SCREEN, render
+from hlr.lab.methods import METHODS, SCREEN, render
 
 COUNT = 200
 

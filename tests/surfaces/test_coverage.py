@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from hlr.surfaces import METHODS, SCREEN, Polygons, render
-from hlr.surfaces.viewport import Screen
+from hlr.lab.methods import METHODS, SCREEN, Polygons, render
+from hlr.lab.methods.viewport import Screen
 
 
 def triangles(points, faces, cull=False):

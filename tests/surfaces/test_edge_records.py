@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hlr.surfaces import METHODS, SCREEN, edge_records, render
+from hlr.lab.methods import METHODS, SCREEN, edge_records, render
 
 A, B, C, D = 2.0, -3.0, 4.0, -100.0
 """A plane, Ax + By + Cz + D = 0: z = 25 - x / 2 + 3 y / 4."""

@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 from surfaces.random_scenes import SIZE, interpenetrating
 
-from hlr.surfaces import SCREEN, active_edges, render
+from hlr.lab.methods import SCREEN, active_edges, render
 
 SCANNING = [
     ("scan line", None),

@@ -12,8 +12,8 @@ import pytest
 
 from hlr import _kernel
 from hlr.errors import HlrError, KernelError, OptionError
-from hlr.surfaces import METHODS, SCREEN, BspTree, NotFinishedError, Polygons, painters_list, render
-from hlr.surfaces.limits import MEMORY_LIMIT, TIME_LIMIT, Limits, limits
+from hlr.lab.methods import METHODS, SCREEN, BspTree, NotFinishedError, Polygons, painters_list, render
+from hlr.lab.methods.limits import MEMORY_LIMIT, TIME_LIMIT, Limits, limits
 
 
 def soup(count, size=500.0, seed=1):
@@ -68,7 +68,7 @@ def test_triangulating_is_stopped():
 def test_memory_does_not_abort_the_process():
     program = """
         import resource, numpy as np
-        from hlr.surfaces import SCREEN, NotFinishedError, render
+        from hlr.lab.methods import SCREEN, NotFinishedError, render
         soup = list(np.random.default_rng(1).uniform(0.0, 500.0, (20_000, 3, 3)))
         render(soup[:9], SCREEN, (8, 8), "bsp")
         pages = int(open("/proc/self/statm").read().split()[0])
@@ -100,7 +100,7 @@ def test_interrupts_end_the_work(work):
     program = f"""
         import signal, threading, time
         import numpy as np
-        from hlr.surfaces import SCREEN, BspTree, render
+        from hlr.lab.methods import SCREEN, BspTree, render
         signal.signal(signal.SIGINT, signal.default_int_handler)
         triangles = list(np.random.default_rng(1).uniform(0.0, 500.0, (9000, 3, 3)))
         main, sent = threading.main_thread().ident, []

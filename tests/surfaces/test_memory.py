@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from hlr.surfaces import METHODS, SCREEN, frame_memory, method_memory, peak_memory, render
+from hlr.lab.methods import METHODS, SCREEN, frame_memory, method_memory, peak_memory, render
 
 RECTANGLE = [(0, 0, 1), (4, 0, 1), (4, 4, 1), (0, 4, 1)]
 MIB = 1 << 20
@@ -27,7 +27,7 @@ def test_10_methods_hold_what_is_stated(method, size):
 
 TAKEN = """
 import sys
-from hlr.surfaces import SCREEN, render
+from hlr.lab.methods import SCREEN, render
 scene = [[(0, 0, 1), (4, 0, 1), (4, 4, 1)]]
 render(scene, SCREEN, (8, 8), sys.argv[1])
 # Of this program alone: ru_maxrss begins with what the one that started it had.

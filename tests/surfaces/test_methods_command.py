@@ -7,11 +7,11 @@ import sys
 import numpy as np
 import pytest
 
-from hlr.comparison import compare_methods
 from hlr.errors import OptionError
-from hlr.surfaces import SCREEN, render, report, testbed, textbook
-from hlr.surfaces.plot import png
-from hlr.surfaces.timing import TRIALS, Timing, label
+from hlr.lab.methods import SCREEN, render, report, testbed, textbook
+from hlr.lab.methods.comparison import compare_methods
+from hlr.lab.methods.plot import png
+from hlr.lab.methods.timing import TRIALS, Timing, label
 
 
 def run(*arguments, cwd):

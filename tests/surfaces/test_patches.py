@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hlr.errors import OptionError
-from hlr.surfaces import METHODS, SCREEN, BspTree, Patch, Screen, painters_list, render
+from hlr.lab.methods import METHODS, SCREEN, BspTree, Patch, Screen, painters_list, render
 
 DRAWN = [
     ("z-buffer", "smaller"),

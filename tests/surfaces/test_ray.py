@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from hlr.errors import OptionError
-from hlr.plan.options import Options, Perspective
+from hlr.image.camera import resolve
+from hlr.lab.methods import SCREEN, ray_hits, render
+from hlr.request.options import Options, Perspective
 from hlr.source.model import Frame
-from hlr.surfaces import SCREEN, ray_hits, render
-from hlr.view.camera import resolve
 
 SIZE = (41, 31)
 

@@ -5,7 +5,7 @@ import pytest
 from surfaces.oracle_of_views import judged
 from surfaces.scenes_in_space import SIZE, camera, moved, polygons
 
-from hlr.surfaces import METHODS, SCREEN, render
+from hlr.lab.methods import METHODS, SCREEN, render
 
 VIEWS = ("iso", "parallel", "perspective")
 
@@ -106,9 +106,9 @@ def test_two_planes_before_something_far_away():
 
 
 def test_walls_on_a_floor_that_reaches_under_the_eye():
-    from hlr.plan.options import Options, Perspective
+    from hlr.image.camera import resolve
+    from hlr.request.options import Options, Perspective
     from hlr.source.model import Frame
-    from hlr.view.camera import resolve
 
     floor = [(-50, -20, -1.7), (50, -20, -1.7), (50, 90, -1.7), (-50, 90, -1.7)]
     walls = [[(-9, y, -1.7), (9, y, -1.7), (9, y, 4), (-9, y, 4)] for y in (40.0 + 1e-7, 40.0)]

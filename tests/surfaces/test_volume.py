@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from hlr.errors import HlrError, OptionError
-from hlr.plan.options import Options, Perspective
+from hlr.image.camera import resolve
+from hlr.lab.methods import METHODS, SCREEN, NotFinishedError, painters_list, quadric_depths, render
+from hlr.lab.methods.quadric import MISSED
+from hlr.lab.methods.shading import along
+from hlr.request.options import Options, Perspective
 from hlr.source.model import Frame
-from hlr.surfaces import METHODS, SCREEN, NotFinishedError, painters_list, quadric_depths, render
-from hlr.surfaces.quadric import MISSED
-from hlr.surfaces.shading import along
-from hlr.view.camera import resolve
 
 NEAR_ONE = [(2, 2, 1), (6, 2, 1), (6, 6, 1), (2, 6, 1)]
 FAR_ONE = [(0, 0, 5), (8, 0, 5), (8, 8, 5), (0, 8, 5)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from surfaces.random_scenes import KINDS, SIZE
 
-from hlr.surfaces import SCREEN, Area, areas_table, render, trace_svg
+from hlr.lab.methods import SCREEN, Area, areas_table, render, trace_svg
 
 
 def box(x0, y0, x1, y1, z):

@@ -4,17 +4,7 @@ import numpy as np
 import pytest
 from surfaces.random_scenes import SIZE, interpenetrating
 
-from hlr.surfaces import (
-    METHODS,
-    SCREEN,
-    BspTree,
-    Screen,
-    active_edges,
-    crossing_pairs,
-    render,
-    spans,
-    trace_svg,
-)
+from hlr.lab.methods import METHODS, SCREEN, BspTree, Screen, active_edges, crossing_pairs, render, spans, trace_svg
 
 LARGER = Screen(nearer="larger")
 ALL = [(method, variant) for method, variants in METHODS.items() for variant in (variants or (None,))]

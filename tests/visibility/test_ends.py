@@ -6,7 +6,7 @@ import cadquery as cq
 import pytest
 
 import hlr
-from hlr.measure import measured
+from hlr.lab.measure import measured
 from hlr.source import open_source
 
 ACCURACY = 0.5

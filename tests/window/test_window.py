@@ -12,8 +12,10 @@ import pytest
 from linework.models import box
 
 import hlr
-from hlr.curve import Arc, Bezier
-from hlr.drawing import Bounds, DrawnView, Fill, Line
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.drawing import DrawnView
+from hlr.drawing.fill import Fill
+from hlr.drawing.line import Bounds, Line
 from hlr.window.fill import cut_fill
 from hlr.window.frame import Frame
 from hlr.window.lines import cut_lines

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hlr.drawing import Accuracy, Drawing, DrawnPart, DrawnView, Line
-from hlr.notes import Note
+from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
+from hlr.drawing.line import Line
+from hlr.drawing.notes import Note
 
 GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "writers"
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from writers.fakes import drawing, line
 
-from hlr.curve import Arc, Bezier
+from hlr.drawing.curve import Arc, Bezier
 from hlr.writers.pdf import pdf
 from hlr.writers.strokes import strokes
 from hlr.writers.svg import svg

@@ -11,7 +11,7 @@ from writers.fakes import drawing, line
 from writers.test_pdf import content_of, image
 
 import hlr
-from hlr.curve import Arc
+from hlr.drawing.curve import Arc
 from hlr.writers.pdf import pdf
 from hlr.writers.svg import svg
 

@@ -6,8 +6,10 @@ import threading
 import pytest
 from writers.fakes import drawing, sample
 
+from hlr.drawing import files
+from hlr.drawing.drawing import timed
+from hlr.drawing.saving import format_of, render, write
 from hlr.errors import WriteError
-from hlr.writers import files, format_of, render, timed, write
 
 
 @pytest.mark.parametrize(
@@ -89,9 +91,9 @@ def test_no_permission_is_said(tmp_path, monkeypatch):
 
 
 def test_a_bug_while_rendering_leaves_nothing(tmp_path, monkeypatch):
-    from hlr import writers
+    from hlr.drawing import saving
 
-    monkeypatch.setattr(writers, "render", lambda *args: 1 / 0)
+    monkeypatch.setattr(saving, "render", lambda *args: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write(sample(), tmp_path / "a.svg")
     assert list(tmp_path.iterdir()) == []

@@ -1,7 +1,7 @@
 import numpy as np
 from writers.fakes import drawing, line, sample
 
-from hlr.source.model import EdgeClass
+from hlr.tables.line_classes import EdgeClass
 from hlr.writers import style
 from hlr.writers.strokes import strokes
 

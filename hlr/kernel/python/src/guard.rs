@@ -1,4 +1,4 @@
-//! No panic leaves the kernel: all that it exports stands behind `hlr.faults.guarded`, which makes errors of them.
+//! No panic leaves the kernel: all that it exports stands behind `hlr.common.faults.guarded`, which makes errors of them.
 //!
 //! One place, the end of the module's registration, wraps every function and every method of every class, so that no
 //! binding can forget it. Constructors cannot be replaced from outside; they call `caught`.
@@ -30,13 +30,13 @@ pub fn provoke_fault(py: Python<'_>, on_worker: bool) -> PyResult<usize> {
     if on_worker { super::running::run(py, 1, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
 }
 
-/// For constructors: a panic as the exception that `hlr.faults` makes of one.
+/// For constructors: a panic as the exception that `hlr.common.faults` makes of one.
 pub fn caught<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(done) => done,
         Err(_) => {
             let error = py
-                .import("hlr.faults")?
+                .import("hlr.common.faults")?
                 .getattr("fault")?
                 .call1((take_fault().unwrap_or("a place that it could not name".into()),))?;
             Err(PyErr::from_value(error))
@@ -53,7 +53,7 @@ pub fn guard(m: &Bound<'_, PyModule>) -> PyResult<()> {
         let words = words.unwrap_or("no reason given");
         fault().get_or_insert(format!("{place}: {words}"));
     }));
-    let guarded = m.py().import("hlr.faults")?.getattr("guarded")?;
+    let guarded = m.py().import("hlr.common.faults")?.getattr("guarded")?;
     let take = m.getattr("take_fault")?;
     for (name, exported) in m.dict().iter() {
         if let Ok(class) = exported.cast::<PyType>() {

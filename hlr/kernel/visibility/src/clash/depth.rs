@@ -17,7 +17,7 @@ use super::search::Clash;
 pub const SLIGHT_ANGLE: f64 = 0.35;
 /// In deflections, an eighth of the accuracy: a wall that reaches less far beyond a planar face stands on it, and has no
 /// line there but its own edge. That has to be forgiven in view depth as well, which is more, the more obliquely one
-/// looks: `hlr.tolerance` gives it ten times as much.
+/// looks: `hlr.request.accuracy` gives it ten times as much.
 const FLUSH: f64 = 0.25;
 /// Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
 /// solids facets cross by a fifth of a deflection at most.

@@ -1,0 +1,17 @@
+"""Types that all rooms share: arrays of numbers, colours, progress."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int32]
+Color = tuple[float, float, float]
+"""Red, green, blue as screens show them (sRGB); 0 to 1."""
+Rgba = tuple[float, float, float, float]
+"""The same, and opacity; 0 to 1."""
+Progress = Callable[[str, float], None]
+"""Called with a stage's name and the fraction done (0..1)."""

@@ -1,0 +1,178 @@
+"""The drawing: lines on paper, each tied to its part and edge, and what is known about how they came to be."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, Literal, overload
+
+from hlr.common.values import ByValue
+from hlr.drawing.fill import Fill
+from hlr.drawing.line import Bounds, Line, Points
+from hlr.drawing.lines import bounds_of
+from hlr.drawing.notes import Note
+from hlr.drawing.saving import render, write
+from hlr.drawing.scale import ratio
+
+if TYPE_CHECKING:
+    from hlr.drawing.reached import Reached
+    from hlr.drawing.saving import Format
+    from hlr.request.effect import Decision
+    from hlr.request.options import Request
+
+Projection = Literal["orthographic", "perspective"]
+
+
+@dataclass(frozen=True, slots=True)
+class Accuracy:
+    """How exact a drawing is.
+
+    asked       millimetres on paper; None: the default
+    used        millimetres on paper: what the drawing promises
+    deflection  chord error of the triangulation, model units
+    contact     depth within which two curved things count as touching, model units
+    within      seconds, where a time was given; else None
+    """
+
+    asked: float | None
+    used: float
+    deflection: float = 0.0
+    contact: float = 0.0
+    within: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class DrawnPart(ByValue):
+    """A part as the drawing names it. color: sRGB 0..1; transform: (4, 4) placement, row major."""
+
+    name: str
+    color: tuple[float, float, float] | None
+    transform: Points
+
+    def __repr__(self) -> str:
+        return f"<DrawnPart {self.name!r}>"
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnView:
+    """The camera that was used, in model coordinates.
+
+    projection is "orthographic" or "perspective"; direction points from the object toward the viewer.
+    Perspective only: eye, target, fov (vertical, degrees), distance of the image plane from the eye.
+    """
+
+    name: str
+    projection: Projection
+    direction: tuple[float, float, float]
+    right: tuple[float, float, float]
+    up: tuple[float, float, float]
+    eye: tuple[float, float, float] | None = None
+    target: tuple[float, float, float] | None = None
+    fov: float | None = None
+    distance: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Drawing(ByValue):
+    """Visible and hidden lines of one view. points = (P.right, P.up) * unit * scale - origin.
+
+    Drawings are equal that show and state the same; `request`, `timings` and `reading` do not count.
+
+    source    base name of what was drawn
+    accuracy  what was asked for and what was used
+    unit      millimetres per model unit
+    up_axis   (3, 3) model frame -> z-up world
+    fill      faces under the lines, in SVG and PDF; None unless asked for
+    timings   seconds: source, tessellate, scene, plan, visibility, linework, total
+    request   what was asked for; None for drawings that were made otherwise
+    reached   the errors that were measured; None unless asked for
+    plan      what was decided of each effect, why, and what it cost
+    window    the rectangle on paper that lines and fill were cut by; None: nothing was cut off
+    reading   how a CAD file was come by, read or out of the cache, for people; in no file
+    """
+
+    source: str
+    view: DrawnView
+    scale: float
+    origin: tuple[float, float]
+    accuracy: Accuracy
+    unit: float
+    up_axis: tuple[tuple[float, float, float], ...]
+    parts: tuple[DrawnPart, ...]
+    lines: Sequence[Line] = field(hash=False)
+    notes: tuple[Note, ...] = ()
+    counters: Mapping[str, int] = field(default_factory=dict, hash=False)
+    timings: Mapping[str, float] = field(default_factory=dict, compare=False)
+    fill: Fill | None = None
+    request: Request | None = field(default=None, compare=False)
+    reached: Reached | None = None
+    plan: Sequence[Decision] = ()
+    window: Bounds | None = None
+    reading: str = field(default="", compare=False)
+
+    def __repr__(self) -> str:
+        notes = f", {len(self.notes)} note{'s' if len(self.notes) > 1 else ''}" if self.notes else ""
+        visible = len(self.visible)
+        return (
+            f"<Drawing {self.source}, {self.view.name}, {ratio(self.scale)}, "
+            f"{visible} visible and {len(self.lines) - visible} hidden lines{notes}>"
+        )
+
+    @property
+    def visible(self) -> tuple[Line, ...]:
+        """The visible lines, in their order."""
+        return tuple(line for line in self.lines if line.visible)
+
+    @property
+    def hidden(self) -> tuple[Line, ...]:
+        """The hidden lines, in their order."""
+        return tuple(line for line in self.lines if not line.visible)
+
+    @property
+    def bounds(self) -> Bounds:
+        """Around all lines; all zero for an empty drawing."""
+        return bounds_of(self.lines)
+
+    @property
+    def page(self) -> Bounds:
+        """What SVG and PDF show, with a margin around it: the window, or else the bounds."""
+        return self.bounds if self.window is None else self.window
+
+    @overload
+    def save(self, file: str | os.PathLike[str], format: Format | None = None) -> Path: ...
+    @overload
+    def save(self, file: IO[bytes], format: Format) -> None: ...
+    def save(self, file: Any, format: Any = None) -> Path | None:
+        """Write SVG, PDF or JSON into a file or a binary file object.
+
+        file    a path, whose ending names the format, or a file object that is open for bytes
+        format  svg, pdf or json: needed for a file object; of a path it overrides the ending
+
+        Returns the path, or None for a file object. Raises WriteError, in one sentence, where the format is unknown or
+        the file cannot be written.
+        """
+        return write(self, file, format)
+
+    def to_svg(self) -> str:
+        """The text of the SVG file. Raises WriteError where a point is not finite."""
+        return render(self, "svg").decode("utf-8")
+
+    def to_pdf(self) -> bytes:
+        """The content of the PDF file. Raises WriteError where a point is not finite."""
+        return render(self, "pdf")
+
+    def to_json(self) -> str:
+        """The text of the exchange format, which `hlr.load` reads. Raises WriteError where a point is not finite."""
+        return render(self, "json").decode("utf-8")
+
+    def _repr_svg_(self) -> str:
+        """What a notebook shows."""
+        return self.to_svg().partition("?>\n")[2]
+
+
+def timed(drawing: Drawing, seconds: float) -> Drawing:
+    """The drawing with the time that writing it took among its timings, and in their total."""
+    total = drawing.timings.get("total", 0.0) - drawing.timings.get("write", 0.0) + seconds
+    return replace(drawing, timings={**drawing.timings, "write": seconds, "total": total})

@@ -1,0 +1,71 @@
+"""A line of a drawing, and the rectangle around lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.values import ByValue
+from hlr.drawing.curve import Curve
+
+Points = npt.NDArray[np.float64]
+
+Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection"]
+"""What a line is of: `Line.kind`."""
+
+
+class Bounds(NamedTuple):
+    """A rectangle on paper, millimetres, y up."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+
+    @property
+    def width(self) -> float:
+        """Millimetres."""
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> float:
+        """Millimetres."""
+        return self.y1 - self.y0
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Line(ByValue):
+    """One visible or hidden piece of one edge. Lines are equal where all they hold is, number by number.
+
+    kind     sharp, smooth, seam, outline, boundary or intersection
+    part     index into Drawing.parts
+    edge     index in the part's TopExp edge map; None for meshes and outlines
+    face     index in the part's TopExp face map for outlines; else None
+    points   (n, 2) millimetres on paper, y up; along a curve within the accuracy
+    points3  (n, 3) model coordinates, same count
+    curve    what the line is on paper, in millimetres; None: its points
+    other    of an intersection line: index of the second part (the same one where a part meets itself); else None
+    """
+
+    kind: Kind
+    visible: bool
+    part: int
+    edge: int | None
+    face: int | None
+    points: Points
+    points3: Points
+    other: int | None = None
+    curve: Curve | None = None
+
+    def __repr__(self) -> str:
+        seen = "visible" if self.visible else "hidden"
+        whose = "".join(
+            f", {name} {n}"
+            for name, n in (("part", self.part), ("edge", self.edge), ("face", self.face), ("other", self.other))
+            if n is not None
+        )
+        shape = "" if self.curve is None else f", {self.curve!r}"
+        return f"<Line {self.kind}, {seen}{whose}, {len(self.points)} points{shape}>"

@@ -1,0 +1,120 @@
+"""The lines of a drawing as the kernel holds them, and as records where somebody asks for them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.common.values import LateRecords
+from hlr.drawing.curve import Arc, Bezier, Curve
+from hlr.drawing.line import Bounds, Line
+from hlr.tables.line_classes import EdgeClass
+
+POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
+"""Forms of lines, as the kernel names them."""
+
+KINDS = tuple(kind.name.lower() for kind in EdgeClass)
+_NUMBER = {name: number for number, name in enumerate(KINDS)}
+
+
+class Lines(LateRecords[Line]):
+    """The lines that the kernel holds."""
+
+    __slots__ = ("held",)
+
+    def __init__(self, held: _kernel.Lines) -> None:
+        super().__init__()
+        self.held = held
+
+    def made(self) -> tuple[Line, ...]:
+        """All of them as records."""
+        return tuple(_records(**self.held.columns()))
+
+    def __len__(self) -> int:
+        return len(self.held)
+
+
+def held(lines: Sequence[Line]) -> _kernel.Lines:
+    """The same lines as the kernel holds them."""
+    if isinstance(lines, Lines):
+        return lines.held
+    curves = [_numbers(line.curve) for line in lines]
+    return _kernel.Lines(
+        np.array([_NUMBER[line.kind] for line in lines], np.uint8),
+        np.array([line.visible for line in lines], bool),
+        np.array(
+            [[_tie(n) for n in (line.part, line.edge, line.face, line.other)] for line in lines], np.int32
+        ).reshape(-1, 4),
+        _starts([line.points for line in lines]),
+        _together([line.points for line in lines], 2),
+        _together([line.points3 for line in lines], 3),
+        np.array([form for form, _ in curves], np.uint8),
+        _starts([numbers for _, numbers in curves]),
+        np.concatenate([np.zeros(0), *(numbers for _, numbers in curves)]),
+    )
+
+
+def bounds_of(lines: Sequence[Line]) -> Bounds:
+    """Around all lines; all zero where there are none."""
+    return Bounds(*(held(lines).bounds() or (0.0, 0.0, 0.0, 0.0)))
+
+
+def _tie(number: int | None) -> int:
+    return -1 if number is None else number
+
+
+def _numbers(curve: Curve | None) -> tuple[int, Any]:
+    """The form of a line, and the numbers of its curve."""
+    if curve is None:
+        return POLYLINE, np.zeros(0)
+    if isinstance(curve, Arc):
+        return ARC, np.concatenate([curve.centre, curve.axes.ravel(), curve.angles])
+    return QUADRATIC if curve.degree == 2 else CUBIC, curve.points.ravel()
+
+
+def _starts(arrays: list[Any]) -> Any:
+    return np.cumsum([0, *map(len, arrays)], dtype=np.int32)
+
+
+def _together(arrays: list[Any], width: int) -> Any:
+    return np.ascontiguousarray(np.concatenate([np.zeros((0, width)), *arrays]), np.float64)
+
+
+def _records(
+    *,
+    kind: Any,
+    visible: Any,
+    ties: Any,
+    offsets: Any,
+    points: Any,
+    points3: Any,
+    form: Any,
+    data_offsets: Any,
+    data: Any,
+) -> Iterator[Line]:
+    for array in (points, points3, data):
+        array.flags.writeable = False
+    at, of = offsets.tolist(), data_offsets.tolist()
+    columns = zip(kind.tolist(), visible.tolist(), ties.tolist(), form.tolist(), strict=True)
+    for i, (what, seen, (part, edge, face, other), shape) in enumerate(columns):
+        first, last = at[i], at[i + 1]
+        yield Line(
+            KINDS[what],
+            seen,
+            part,
+            edge if edge >= 0 else None,
+            face if face >= 0 else None,
+            points[first:last],
+            points3[first:last],
+            other if other >= 0 else None,
+            _curve(shape, data[of[i] : of[i + 1]]) if shape > STRAIGHT else None,
+        )
+
+
+def _curve(form: int, numbers: Any) -> Curve:
+    if form == ARC:
+        return Arc(numbers[:2], numbers[2:6].reshape(2, 2), numbers[6:8])
+    return Bezier(2 if form == QUADRATIC else 3, numbers.reshape(-1, 2))

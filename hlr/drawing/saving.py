@@ -1,0 +1,92 @@
+"""Drawings and pictures as files: the format is a row of `hlr.tables.writers`.
+
+What is written is an object here: the records know how they are saved, and saving knows no record.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+from typing import Any, Literal
+
+from hlr.drawing import files
+from hlr.errors import WriteError
+from hlr.tables.writers import DEPTH, FACES, PICTURE, WRITERS
+
+Format = Literal["svg", "pdf", "json"]
+"""What a drawing is written as, for type checkers; `FORMATS` is what there is."""
+
+FORMATS = tuple(WRITERS)
+
+
+def format_of(path: str | Path) -> str:
+    """The format that the ending of `path` names. Raises WriteError for any other ending."""
+    ending = Path(path).suffix.lower().removeprefix(".")
+    if ending in WRITERS:
+        return ending
+    has = f"the ending .{ending} is unknown" if ending else "the name has no ending"
+    raise WriteError(f"cannot tell the format of {path}: {has}; use {_listed('.')}")
+
+
+def checked_format(format: Any) -> str:
+    """The format; raises WriteError for what is none."""
+    if isinstance(format, str) and format in WRITERS:
+        return format
+    raise WriteError(f"unknown format {format!r}; use {_listed()}")
+
+
+def _listed(before: str = "", around: str = "") -> str:
+    """All formats, for people: svg, pdf or json."""
+    *first, last = (f"{around}{before}{name}{around}" for name in WRITERS)
+    return f"{', '.join(first)} or {last}"
+
+
+def render(drawing: object, format: str) -> bytes:
+    """The drawing as a file's content; format is one of FORMATS. Raises WriteError for any other."""
+    return WRITERS[checked_format(format)].render(drawing)
+
+
+def write(drawing: object, file: Any, format: Any = None) -> Path | None:
+    """Write a drawing into a file, named by its path, or into a binary file object.
+
+    format: needed for a file object; of a path the ending names it otherwise. Returns the path, or None. A file appears
+    whole or not at all; what was there before stays if anything fails. Raises WriteError, in one sentence, for an
+    unknown format, a missing folder, a lack of permission or a full disk.
+    """
+    if hasattr(file, "write"):
+        if format is None:
+            raise WriteError(f"a file object has no ending that names the format: give format={_listed(around=_QUOTE)}")
+        files.put(file, render(drawing, checked_format(format)))
+        return None
+    path = files.path_of(file)
+    kind = format_of(path) if format is None else checked_format(format)
+    files.place({path: render(drawing, kind)})
+    return path
+
+
+_QUOTE = "'"
+
+
+def write_picture(picture: object, file: Any, depth: Any, ids: Any) -> Path | None:
+    """All files or none, then what goes into file objects; returns the picture's path, or None for a file object."""
+    asked = [(file, PICTURE), *((f, writer) for f, writer in ((depth, DEPTH), (ids, FACES)) if f is not None)]
+    targets = [(f if hasattr(f, "write") else check_png(files.path_of(f)), writer) for f, writer in asked]
+    if any(one == other for (one, _), (other, _) in combinations(targets, 2)):
+        raise WriteError(
+            f"two maps would be written to one file; give picture, depth and ids a name each, not {targets[0][0]}"
+        )
+    made = [(target, writer.render(picture)) for target, writer in targets]
+    files.place({target: data for target, data in made if isinstance(target, Path)})
+    for target, data in made:
+        if not isinstance(target, Path):
+            files.put(target, data)
+    first = targets[0][0]
+    return first if isinstance(first, Path) else None
+
+
+def check_png(path: str | Path) -> Path:
+    """The path; raises WriteError where it does not end in .png."""
+    path = Path(path)
+    if path.suffix.lower() != ".png":
+        raise WriteError(f"cannot write {path}: a picture is written as PNG; give a name that ends in .png")
+    return path

@@ -1,0 +1,161 @@
+"""The camera: from model coordinates to the image plane and depth.
+
+One convention everywhere: x right, y up, z (depth) away from the viewer. Only additions, multiplications, divisions and
+square roots, element by element: they round alike on every machine, which BLAS and trigonometry do not.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.errors import ViewError
+from hlr.request.directions import EYE, apart, axes, directed, normalized
+from hlr.request.options import Options, Perspective, Vector, View
+from hlr.source.model import Frame
+
+Floats = npt.NDArray[np.float64]
+
+NEAR = 1e-3
+"""Of the eye's distance to its target: nothing nearer to the eye plane is drawn."""
+WIDEST = 120.0
+"""Degrees: the field of view where none is given, at most."""
+MARGIN = 1.05
+"""How much wider than the model's bounding sphere a field of view is chosen."""
+
+
+def dot(points: Floats, v: Vector) -> Floats:
+    """(n, 3) . (3,), element by element."""
+    return np.asarray(points[:, 0] * v[0] + points[:, 1] * v[1] + points[:, 2] * v[2])
+
+
+@dataclass(frozen=True, slots=True)
+class Camera:
+    """All vectors in model coordinates; direction points from the object toward the viewer.
+
+    Perspective where eye is not None; `distance` is that of the image plane, through the target.
+    """
+
+    name: str
+    direction: Vector
+    right: Vector
+    up: Vector
+    eye: Vector | None = None
+    target: Vector | None = None
+    fov: float | None = None
+    distance: float | None = None
+    framed: bool = False
+
+    def project(self, points: Floats, divide: bool = False) -> Floats:
+        """(n, 3) model coordinates -> (n, 3) x right, y up, depth; perspective: z maps to -distance^2 / z.
+
+        divide: by the distance from the eye also in a parallel view, where it is 1 everywhere.
+        """
+        image = self.scaled(1.0).image(np.ascontiguousarray(points, np.float64))
+        return image / np.ones((len(points), 1)) if divide and self.eye is None else image
+
+    def scaled(self, per_model: float) -> _kernel.Camera:
+        """As the kernel takes it, with the millimetres on paper per model unit."""
+        eye = None if self.eye is None or self.distance is None else (self.eye, self.distance)
+        return _kernel.Camera(self.direction, self.right, self.up, eye, per_model)
+
+    def ahead(self, points: Floats) -> Floats:
+        """(n,) distance from the eye's plane, positive before the eye; depth along the view for parallel views."""
+        if self.eye is None:
+            return -dot(points, self.direction)
+        return -dot(points - np.asarray(self.eye), self.direction)
+
+    def toward(self, points: Floats) -> Floats:
+        """(n, 3) unit vectors from points toward the viewer."""
+        if self.eye is None:
+            return np.broadcast_to(np.asarray(self.direction), points.shape)
+        away = np.asarray(self.eye) - points
+        return np.asarray(away / np.maximum(np.linalg.norm(away, axis=1), np.finfo(float).tiny)[:, None])
+
+
+def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camera:
+    """The camera for a named view or a direction; `bounds` (2, 3) in model coordinates.
+
+    Raises ViewError for an unknown name, a zero direction, or up parallel to the direction.
+    """
+    perspective = options.perspective
+    eye = target = None
+    if perspective is not None and perspective.eye is not None:
+        # The camera looks elsewhere than the view says: neither its name nor its up has a meaning.
+        name, named_up = EYE, None
+        eye, target, direction = _eye(perspective, (0.0, 0.0, 1.0), frame, bounds)
+    else:
+        name, direction, named_up = directed(view)
+        if perspective is not None:
+            eye, target, direction = _eye(perspective, direction, frame, bounds)
+    right, up = axes(direction, options.up or named_up)
+    camera = Camera(
+        name, _to_model(frame, direction), _to_model(frame, right), _to_model(frame, up), eye=eye, target=target
+    )
+    return camera if eye is None else _framed(camera, perspective, bounds)
+
+
+def _to_model(frame: Frame, v: Vector) -> Vector:
+    """World (z up) to model axes: the transpose of `up`, which is a rotation."""
+    u = frame.up
+    x, y, z = (u[0][k] * v[0] + u[1][k] * v[1] + u[2][k] * v[2] + 0.0 for k in range(3))
+    return (x, y, z)
+
+
+def _eye(perspective: Perspective, direction: Vector, frame: Frame, bounds: Floats) -> tuple[Vector, Vector, Vector]:
+    """Eye and target in model coordinates, and the direction between them in world axes."""
+    centre = [float(c) for c in (bounds[0] + bounds[1]) * 0.5]
+    radius = 0.5 * math.sqrt(sum(float(c) * float(c) for c in bounds[1] - bounds[0])) or 1.0
+    to_world = Frame(up=tuple(zip(*frame.up, strict=True)))
+    target = _given(perspective.target, frame) or (centre[0], centre[1], centre[2])
+    eye = _given(perspective.eye, frame)
+    if eye is None:
+        half = math.radians((perspective.fov or 45.0) * 0.5)
+        away = MARGIN * radius / math.sin(half)
+        d = _to_model(frame, direction)
+        eye = (target[0] + away * d[0], target[1] + away * d[1], target[2] + away * d[2])
+        apart(eye, target, radius)
+        return eye, target, direction
+    apart(eye, target, radius)
+    toward = normalized([e - t for e, t in zip(eye, target, strict=True)], "the way from target to eye")
+    return eye, target, _to_model(to_world, toward)
+
+
+def _given(point: Vector | None, frame: Frame) -> Vector | None:
+    """A point the caller gave in world millimetres, in model coordinates."""
+    if point is None:
+        return None
+    if not all(math.isfinite(c) for c in point):
+        raise ViewError("eye and target need three finite numbers each")
+    return _to_model(frame, (point[0] / frame.unit, point[1] / frame.unit, point[2] / frame.unit))
+
+
+def _framed(camera: Camera, perspective: Perspective | None, bounds: Floats) -> Camera:
+    """The camera with its image plane through the target and its field of view settled."""
+    assert camera.eye is not None and camera.target is not None and perspective is not None
+    distance = math.sqrt(sum((e - t) * (e - t) for e, t in zip(camera.eye, camera.target, strict=True)))
+    fov = perspective.fov
+    if fov is None:
+        corners = np.array([[bounds[i][0], bounds[j][1], bounds[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+        ahead = camera.ahead(corners)
+        if float(ahead.min()) <= 0.0:
+            fov = WIDEST
+        else:
+            away = corners - np.asarray(camera.eye)
+            reach = max(float(np.max(np.abs(dot(away, v)) / ahead)) for v in (camera.right, camera.up))
+            fov = min(WIDEST, 2.0 * math.degrees(math.atan(MARGIN * reach)))
+    return Camera(
+        camera.name,
+        camera.direction,
+        camera.right,
+        camera.up,
+        camera.eye,
+        camera.target,
+        fov,
+        distance,
+        framed=perspective.eye is not None,
+    )

@@ -1,0 +1,298 @@
+"""Cut the scene by planes before a perspective view: the near plane, and the frame where the eye is given.
+
+Done only where something crosses a plane. A cut surface is open, so culling is switched off for it: through the cut one
+may see a face from behind.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.common.types import Floats, Ints
+from hlr.image.camera import NEAR, Camera, dot
+from hlr.request.effect import Facts, Planner
+from hlr.request.options import Vector
+from hlr.scene.scene import INTERIOR, Chains, Groups, OwnFaces, Scene, Silhouettes
+from hlr.scene.topology import keys
+
+ASPECT = 4.0 / 3.0
+"""Width to height of the frame that a field of view spans."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """Kept: points with normal . p >= offset."""
+
+    normal: Vector
+    offset: float
+
+    def height(self, points: Floats) -> Floats:
+        """(n,) signed distance times |normal|."""
+        return np.asarray(dot(points, self.normal) - self.offset)
+
+
+def planes(camera: Camera, aspect: float) -> list[Plane]:
+    """The planes that bound what a perspective camera may see; none for parallel views."""
+    near, sides = _volume(camera, aspect)
+    return [*near, *sides]
+
+
+def _volume(camera: Camera, aspect: float) -> tuple[list[Plane], list[Plane]]:
+    """The near plane, and the sides of the frame. There is no far plane: nothing is too far to be drawn."""
+    if camera.eye is None or camera.distance is None or camera.fov is None:
+        return [], []
+    eye = camera.eye
+    d = camera.direction
+
+    def through(normal: Vector, ahead: float = 0.0) -> Plane:
+        offset = sum(n * e for n, e in zip(normal, eye, strict=True)) + ahead
+        return Plane(normal, offset)
+
+    near = [through((-d[0], -d[1], -d[2]), camera.distance * NEAR)]
+    sides = []
+    if camera.framed:
+        tangent = math.tan(math.radians(camera.fov) * 0.5)
+        for axis, reach in ((camera.right, tangent * aspect), (camera.up, tangent)):
+            for sign in (1.0, -1.0):
+                n = [sign * a - reach * c for a, c in zip(axis, d, strict=True)]
+                sides.append(through((n[0], n[1], n[2])))
+    return near, sides
+
+
+def clipped(scene: Scene, camera: Camera, aspect: float, planner: Planner) -> Scene:
+    """What the camera may see of the scene, cut only where something crosses the near plane or the frame.
+
+    A plane that nothing crosses would leave the scene as it is: where clipping is forced, all are gone through.
+    """
+    for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, aspect), strict=True):
+        with planner.deciding():
+            facts = Facts(perspective=camera.eye is not None, crossed=sum(_crossed(scene, p) for p in cuts))
+        begin = perf_counter()
+        used = 0
+        if planner.on(name, facts):
+            scene, used = clip(scene, cuts or _around(scene, camera, name), every=facts.crossed == 0)
+        planner.spent(name, perf_counter() - begin, **{name.replace(" clipping", "_cuts"): used})
+    return scene
+
+
+def _around(scene: Scene, camera: Camera, name: str) -> list[Plane]:
+    """A near plane, or four sides, that have all of the scene on the side that is kept."""
+    reach = 2.0 * float(np.abs(scene.points).max(initial=0.0)) + 1.0
+    d = camera.direction
+    near = [(-d[0], -d[1], -d[2])]
+    sides = [(s * a[0], s * a[1], s * a[2]) for a in (camera.right, camera.up) for s in (1.0, -1.0)]
+    return [Plane(normal, -2.0 * reach) for normal in (near if name == "near clipping" else sides)]
+
+
+def _crossed(scene: Scene, plane: Plane) -> bool:
+    """Whether anything lies beyond; only points that something uses count: earlier cuts leave unused ones behind."""
+    beyond = plane.height(scene.points) < 0.0
+    return bool(beyond.any()) and bool(beyond[scene.edges].any())
+
+
+def clip(scene: Scene, cuts: list[Plane], every: bool = False) -> tuple[Scene, int]:
+    """The part of the scene that all planes keep, and how many of them cut anything. every: go through all the same."""
+    used = 0
+    for plane in cuts:
+        crossed = _crossed(scene, plane)
+        used += crossed
+        if crossed or every:
+            scene = _cut(scene, plane.height(scene.points))
+    return (_compact(scene) if used else scene), used
+
+
+def _compact(scene: Scene) -> Scene:
+    """Without the points that nothing uses any more: behind the eye they have no place on paper."""
+    used = np.zeros(len(scene.points), bool)
+    used[scene.edges.ravel()] = True
+    used[scene.triangles.ravel()] = True
+    number = (np.cumsum(used) - 1).astype(np.int32)
+    return replace(
+        scene,
+        points=scene.points[used],
+        silhouettes=replace(scene.silhouettes, lift=scene.silhouettes.lift[used]) if scene.silhouettes else None,
+        triangles=np.ascontiguousarray(number[scene.triangles]),
+        edges=np.ascontiguousarray(number[scene.edges]),
+    )
+
+
+def _cut(scene: Scene, height: Floats) -> Scene:
+    inside = height >= 0.0
+    a, b = scene.edges[:, 0], scene.edges[:, 1]
+    crossing = inside[a] != inside[b]
+    n = len(scene.points)
+    new_vertex = np.full(len(scene.edges), -1, np.int32)
+    new_vertex[crossing] = n + np.arange(np.count_nonzero(crossing), dtype=np.int32)
+    # From the lower to the higher vertex always: both triangles at an edge get the same point.
+    t = (height[a[crossing]] / (height[a[crossing]] - height[b[crossing]]))[:, None]
+    pa, pb = scene.points[a[crossing]], scene.points[b[crossing]]
+    points = np.concatenate([scene.points, pa + (pb - pa) * t])
+
+    triangles, parent = _cut_triangles(scene, inside, new_vertex, n)
+    edges, offsets, incident = _kernel.edge_table(triangles, len(points))
+    # Where each old edge went: kept whole, shortened to its new vertex, or gone.
+    keep = inside[a] | inside[b]
+    ends = scene.edges.copy()
+    ends[crossing & ~inside[a], 0] = new_vertex[crossing & ~inside[a]]
+    ends[crossing & ~inside[b], 1] = new_vertex[crossing & ~inside[b]]
+    low_first = np.stack([ends.min(axis=1), ends.max(axis=1)], axis=1).astype(np.int32)
+    swapped = ends[:, 0] > ends[:, 1]
+    key, known = keys(low_first, len(points)), keys(edges, len(points))
+    at = np.searchsorted(known, key)
+    there = keep & (at < len(known))
+    there[there] = known[at[there]] == key[there]
+    # Edges without triangles (free wires) live on behind the others.
+    loose = keep & ~there
+    target = np.full(len(scene.edges), -1, np.int32)
+    target[there] = at[there]
+    target[loose] = len(edges) + np.arange(np.count_nonzero(loose), dtype=np.int32)
+    edges = np.concatenate([edges, low_first[loose]])
+    offsets = np.concatenate([offsets, np.full(np.count_nonzero(loose), offsets[-1], np.int32)])
+
+    def moved(old: np.ndarray, fill: int) -> np.ndarray:
+        out = np.full(len(edges), fill, old.dtype)
+        out[target[keep]] = old[keep]
+        return out
+
+    tied = np.diff(offsets) > 0
+    first = incident[offsets[:-1][tied]]
+    edge_part, edge_group = moved(scene.edge_part, 0), moved(scene.edge_group, 0)
+    edge_part[tied] = scene.triangle_part[parent][first]
+    edge_group[tied] = scene.triangle_group[parent][first]
+    open_now = np.zeros(len(scene.groups.cull), bool)
+    open_now[scene.edge_group[crossing]] = True
+    return replace(
+        scene,
+        points=points,
+        true_surfaces=None,
+        convex=scene.convex and not crossing.any(),
+        silhouettes=_cut_silhouettes(scene, crossing, t, target, moved),
+        triangles=triangles,
+        triangle_part=scene.triangle_part[parent],
+        triangle_group=scene.triangle_group[parent],
+        triangle_face=scene.triangle_face[parent],
+        triangle_origin=scene.triangle_origin[parent],
+        turned=scene.turned[parent],
+        edges=np.ascontiguousarray(edges),
+        offsets=offsets,
+        incident=incident,
+        edge_part=edge_part,
+        edge_group=edge_group,
+        edge_kind=moved(scene.edge_kind, INTERIOR),
+        edge_curved=moved(scene.edge_curved, 0),
+        groups=_opened(scene.groups, open_now),
+        chains=_moved_chains(scene.chains, target, swapped),
+    )
+
+
+def _cut_silhouettes(
+    scene: Scene, crossing: np.ndarray, t: Floats, target: Ints, moved: Callable[[np.ndarray, int], np.ndarray]
+) -> Silhouettes | None:
+    """With new points at (k, 1) parameters t of crossing edges; what was shortened is compared with all alike."""
+    old = scene.silhouettes
+    if old is None:
+        return None
+    a, b = old.lift[scene.edges[crossing, 0]], old.lift[scene.edges[crossing, 1]]
+    return Silhouettes(
+        lift=np.concatenate([old.lift, a + (b - a) * t]),
+        hidden=moved(old.hidden, 0),
+        number=moved(old.number, -1),
+        curves=old.curves,
+        source=old.source,
+        own=_cut_own(old.own, np.where(crossing, -1, target)),
+    )
+
+
+def _cut_own(own: OwnFaces, target: Ints) -> OwnFaces:
+    """Those of edges of which nothing was cut off; target (e,): where each edge went, -1 for one that was."""
+    of = np.repeat(np.arange(len(own.edge)), np.diff(own.offsets))
+    lost = (target[own.edge] < 0) | (target[own.line] < 0)
+    lost[of[target[own.off] < 0]] = True
+    # The stretches of one edge are kept together.
+    lost = np.isin(own.edge, own.edge[lost])
+    kept = np.flatnonzero(~lost)
+    kept = kept[np.argsort(target[own.edge[kept]], kind="stable")]
+    count = np.diff(own.offsets)[kept]
+    offsets = np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
+    member = np.arange(offsets[-1]) + np.repeat(own.offsets[kept] - offsets[:-1], count)
+    return replace(
+        own,
+        edge=target[own.edge[kept]],
+        range=own.range[kept],
+        line=target[own.line[kept]],
+        beside=own.beside[kept],
+        dented=own.dented[kept],
+        offsets=offsets,
+        face=own.face[member],
+        off=target[own.off[member]],
+    )
+
+
+def _opened(groups: Groups, opened: np.ndarray) -> Groups:
+    return replace(groups, closed=groups.closed & ~opened, cull=groups.cull & ~opened)
+
+
+def _cut_triangles(
+    scene: Scene,
+    inside: np.ndarray,
+    new_vertex: Ints,
+    n: int,
+) -> tuple[Ints, Ints]:
+    """Triangles of the kept side and the triangle each came from.
+
+    ::
+
+            2 inside            1 inside
+          p-------q               p
+           \\  / |              / \\
+          .r-------- plane --- x---y --
+    """
+    tri = scene.triangles
+    side = inside[tri]
+    count = side.sum(axis=1)
+    whole = np.flatnonzero(count == 3).astype(np.int32)
+    known = keys(scene.edges[: np.count_nonzero(np.diff(scene.offsets) > 0)], n)
+
+    def between(u: Ints, v: Ints) -> Ints:
+        key = np.minimum(u, v).astype(np.int64) * n + np.maximum(u, v)
+        return new_vertex[np.searchsorted(known, key)]
+
+    one = np.flatnonzero(count == 1).astype(np.int32)
+    k = np.argmax(side[one], axis=1)
+    p, q, r = (tri[one, (k + i) % 3] for i in range(3))
+    tips = np.stack([p, between(p, q), between(p, r)], axis=1)
+    two = np.flatnonzero(count == 2).astype(np.int32)
+    k = np.argmin(side[two], axis=1)
+    r, p, q = (tri[two, (k + i) % 3] for i in range(3))
+    x, y = between(q, r), between(p, r)
+    first, second = np.stack([p, q, x], axis=1), np.stack([p, x, y], axis=1)
+    triangles = np.ascontiguousarray(np.concatenate([tri[whole], tips, first, second]), np.int32)
+    return triangles, np.concatenate([whole, one, two, two])
+
+
+def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
+    edge = target[chains.edges]
+    kept = np.flatnonzero(edge >= 0)
+    owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))[kept]
+    # A chain that lost an edge in between goes on as another.
+    fresh = np.ones(len(kept), bool)
+    fresh[1:] = (np.diff(kept) > 1) | (np.diff(owner) > 0)
+    head = np.flatnonzero(fresh)
+    whole = owner[head]
+    return Chains(
+        offsets=np.append(head, len(kept)).astype(np.int32),
+        edges=edge[kept],
+        reversed=(chains.reversed ^ swapped[chains.edges])[kept],
+        kind=chains.kind[whole],
+        part=chains.part[whole],
+        index=chains.index[whole],
+        other=chains.other[whole],
+        face=chains.face[whole],
+        straight=chains.straight[whole],
+    )

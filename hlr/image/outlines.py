@@ -1,0 +1,202 @@
+"""Outlines of the true surfaces, added to the scene as lines of their own before the visibility pass.
+
+The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets,
+by up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
+compared with them: its own facets are then beside it and cannot hide it, while everything else still does. By how much
+is told by the corners of the triangles that it runs over, which are points of the surface: where that is convex, none
+of them stands out beyond the outline, and hardly any lift is needed; where it is a saddle, the facets' bulge is.
+
+::
+
+        \\   true surface        the outline o, moved along the normal to x, has its own facets on one side
+         o   x
+        /|                      what bends the other way (concave along the sight) lies within its own body: hidden
+       / |
+
+An outline, and an edge whose face is seen nearly edge-on, is compared with the triangles of that face as if it lay off
+the face by more than they do, on the side that is seen (`kernel/visibility/src/scan/own_faces.rs`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.common.types import Floats, Ints
+from hlr.image.camera import Camera
+from hlr.image.own_faces import Grazing, with_own_faces
+from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT, Tolerances
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Facts, Planner
+from hlr.request.options import Options
+from hlr.scene.scene import INTERIOR, Chains, OwnFaces, Scene, Silhouettes, TrueSurfaces
+from hlr.scene.topology import joined
+from hlr.source.model import Curves
+from hlr.tables.line_classes import EdgeClass
+
+SMOOTH = np.zeros(256, bool)
+SMOOTH[[INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM]] = True
+"""By the kind of an edge: the surface goes on smoothly there."""
+BARE = np.zeros(256, bool)
+BARE[[EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.SMOOTH]] = True
+"""By the kind of an edge: two faces meet there, or one ends."""
+
+
+def with_silhouettes(
+    scene: Scene, camera: Camera, tolerances: Tolerances, threads: int, planner: Planner | None = None
+) -> Scene:
+    """The scene with the outlines of its true surfaces; those faces' mesh contours are outlines no longer."""
+    plan = planner or Planner(DRAWING, Options())
+    on = scene.true_surfaces
+    wanted = plan.on(
+        "outlines", Facts(curved=0 if on is None else int(np.count_nonzero(on.curved)), faces=on is not None)
+    )
+    if not wanted or on is None:
+        return scene
+    with plan.timed("outlines"):
+        seen = _with_outlines(scene, on, camera, tolerances, threads)
+    plan.spent("outlines", outlines=len(seen.chains.kind) - len(scene.chains.kind))
+    return seen
+
+
+def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
+    face = scene.all_faces()
+    smooth = SMOOTH[scene.edge_kind]
+    found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
+    scene = replace(scene, edge_curved=_untraced(scene, face, found.traced & on.curved))
+    return _with_lines(scene, on, found, camera, tolerances.deflection)
+
+
+def _traced(
+    scene: Scene,
+    on: TrueSurfaces,
+    face: Ints,
+    smooth: npt.NDArray[np.bool_],
+    camera: Camera,
+    chord: float,
+    threads: int,
+) -> _kernel.Outlines:
+    """The kernel's answer."""
+    wanted = on.curved.copy()
+    # Planes as well, where a curved face runs into them: they may be what the fold is against.
+    bent = scene.edge_kind == EdgeClass.SMOOTH
+    bent[: len(bent)] &= np.diff(scene.offsets) == 2
+    first = scene.offsets[:-1][bent]
+    one, two = face[scene.incident[first]], face[scene.incident[first + 1]]
+    wanted[one[on.curved[two]]] = True
+    wanted[two[on.curved[one]]] = True
+    # Where several run along one chord, any of them tells the fold's curve.
+    source = np.full(len(scene.edges), -1, np.int32)
+    tied = np.flatnonzero(scene.chains.index >= 0)
+    count = np.diff(scene.chains.offsets)
+    of_chain = np.full(len(count), -1, np.int32)
+    of_chain[tied] = tied
+    source[scene.chains.edges] = np.repeat(of_chain, count)
+    return _kernel.silhouettes(
+        scene.mesh(), on.of(wanted, face), smooth, source, camera.scaled(1.0), chord, threads=threads
+    )
+
+
+def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """Edges at which a mesh contour is still an outline: no face there has been traced."""
+    known = np.zeros(len(scene.edges), bool)
+    faced = np.diff(scene.offsets) > 0
+    if len(scene.incident):
+        known[faced] = np.logical_or.reduceat(traced[face][scene.incident], scene.offsets[:-1][faced])
+    # A plane that a curved face runs into was taken for that face's outline.
+    return scene.edge_curved & ~known
+
+
+def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera: Camera, deflection: float) -> Scene:
+    offsets, face, source = found.offsets, found.face, found.source
+    n, m = len(scene.points), len(offsets) - 1
+    count = np.diff(offsets)
+    # Every two neighbours of one line are an edge.
+    inner = np.ones(len(found.points), bool)
+    inner[offsets[1:] - 1] = False
+    start = np.flatnonzero(inner).astype(np.int32)
+    line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
+    lines = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
+    part = (np.searchsorted(on.first, face, side="right") - 1).astype(np.int32)
+    # Groups follow faces: a face's triangles hang together.
+    group_of_face = np.zeros(len(on.number), np.int32)
+    group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
+    group = group_of_face[face]
+    inside_out = np.repeat(found.concave & ~scene.groups.cull[group], count)
+    outward = np.where(inside_out, -1.0, 1.0)[:, None] * found.normals
+    distance = _lift(found.rise, deflection)
+    lift = outward * distance[:, None]
+    walks = Chains(
+        offsets=(offsets - np.arange(m + 1)).astype(np.int32),
+        edges=np.arange(len(lines), dtype=np.int32) + np.int32(len(scene.edges)),
+        reversed=np.zeros(len(lines), bool),
+        kind=np.full(m, EdgeClass.OUTLINE, np.uint8),
+        part=part,
+        index=np.full(m, -1, np.int32),
+        other=np.full(m, -1, np.int32),
+        face=(face - on.first[part]).astype(np.int32),
+        straight=np.zeros(m, bool),
+    )
+    hidden = np.asarray(found.concave & scene.groups.cull[group])
+    outlined = replace(
+        scene,
+        points=np.concatenate([scene.points, found.points]),
+        edges=np.ascontiguousarray(np.concatenate([scene.edges, lines])),
+        offsets=np.concatenate([scene.offsets, np.full(len(lines), scene.offsets[-1], np.int32)]),
+        edge_part=np.concatenate([scene.edge_part, part[line]]),
+        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line]])),
+        edge_kind=np.concatenate([scene.edge_kind, np.full(len(lines), EdgeClass.OUTLINE, np.uint8)]),
+        edge_curved=np.concatenate([scene.edge_curved, np.zeros(len(lines), bool)]),
+        silhouettes=Silhouettes(
+            lift=np.concatenate([np.zeros((n, 3)), lift]),
+            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
+            own=OwnFaces.none(),
+            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line]),
+            curves=Curves(found.curve_kind, found.curve_range, found.curve_offsets, found.curve_values),
+            source=np.where(source >= 0, scene.chains.index[source], -1).astype(np.int32),
+        ),
+        chains=joined(scene.chains, walks),
+    )
+    grazing = found.grazing
+    # Edges and outlines, those that their own body does not hide anyway.
+    bare = BARE[scene.edge_kind[grazing.edge]]
+    if scene.convex and not bare.any():
+        # Of one convex body culling alone decides: nothing has to be told apart from its own faces.
+        return outlined
+    closed = scene.groups.cull[scene.edge_group[grazing.edge[bare]]]
+    # Of a closed body the outer side alone is seen, and whatever lies on it is within reach of the sight.
+    side = np.where(closed | grazing.front[bare], 1.0, -1.0)[:, None, None]
+    beside = np.where(closed, grazing.beside[bare], np.uint8(0))
+    # Beside the end of an outline the edge is moved like the outline: what touches the face there has facets too. And
+    # toward the viewer: moved off its curved face it may lie in the plane of the other one.
+    rise = grazing.rise[bare]
+    turns = ((beside == 1) & (rise >= 0.0).all(axis=1))[:, None, None]
+    ends = scene.points[scene.edges[grazing.edge[bare]]]
+    toward = camera.toward(ends.reshape(-1, 3)).reshape(ends.shape)
+    off = grazing.normals[bare] * _lift(rise, deflection)[:, :, None] + OUTLINE_SPARE * deflection * toward
+    lift_there = np.where(turns, off, 0.0)
+    free = np.flatnonzero(~hidden[line]).astype(np.int32)
+    stretches = Grazing(
+        edge=np.concatenate([grazing.edge[bare], free + np.int32(len(scene.edges))]),
+        range=np.concatenate([grazing.range[bare], np.tile([0.0, 1.0], (len(free), 1))]),
+        face=np.concatenate([grazing.face[bare], face[line[free]]]),
+        off=np.concatenate(
+            [
+                OWN_LIFT * deflection * side * grazing.normals[bare],
+                # Not less than from everything else: its triangles may stand out by more.
+                (outward * np.maximum(distance, OWN_LIFT * deflection)[:, None])[lines[free] - n],
+            ]
+        ),
+        lift=np.concatenate([lift_there, np.zeros((len(free), 2, 3))]),
+        beside=np.concatenate([beside, np.zeros(len(free), np.uint8)]),
+        dented=np.concatenate([grazing.dented[bare], np.zeros(len(free), bool)]),
+    )
+    return with_own_faces(outlined, on, stretches, camera)
+
+
+def _lift(rise: Floats, deflection: float) -> Floats:
+    """How far points are moved of which triangles stand out by `rise`."""
+    return np.asarray(np.minimum(rise + OUTLINE_SPARE * deflection, OUTLINE_LIFT * deflection))

@@ -1,0 +1,73 @@
+"""A few parts far from all others make a drawing so large that the rest is a postage stamp: a remark says which."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.drawing.notes import Note
+from hlr.image.camera import Camera
+from hlr.source.model import Source
+
+MOST = 3
+"""Parts that may be strays; and no more than a quarter of all."""
+
+STRETCH = 3.0
+"""How many times as large they make the drawing, at least."""
+
+GAP = 1.0
+"""How far each is from the rest, in diagonals of the rest."""
+
+
+def stray_note(source: Source, camera: Camera) -> Note | None:
+    """A remark where some of a source's parts stretch the view."""
+    names = source.names()
+    if camera.framed or len(names) < 4:
+        return None
+    boxes = source.boxes()
+    some = [i for i, box in enumerate(boxes) if len(box)]
+    if len(some) < 4:
+        return None
+    low, high = _flat([boxes[i] for i in some], camera)
+    found = strays(low, high)
+    if not found:
+        return None
+    stray = [names[some[i]] for i in found]
+    ratio = _diagonal(low, high) / _diagonal(np.delete(low, found, axis=0), np.delete(high, found, axis=0))
+    cure = " ".join(f'--hide "{name}"' for name in stray)
+    who = f'the part "{stray[0]}" lies' if len(stray) == 1 else f"{len(stray)} parts lie"
+    them = "it" if len(stray) == 1 else "them"
+    listed = ", ".join(f'"{name}"' for name in stray)
+    text = f"{who} far from the rest, and the drawing is {ratio:.2g} times as large for {them}: leave {them} out with"
+    return Note("stray-parts", f"{text} {cure} (in Python, hide=[{listed}]).")
+
+
+def strays(low: Floats, high: Floats) -> list[int]:
+    """Numbers of the parts that lie apart, by the corners (n, 2) of their boxes on paper; none where there are many."""
+    whole, kept, out = _diagonal(low, high), np.arange(len(low)), []
+    for _ in range(min(MOST, len(low) // 4)):
+        # One of those at the rim of all: whichever leaves the smallest rest.
+        rim = {int(i) for i in (*low[kept].argmin(axis=0), *high[kept].argmax(axis=0))}
+        rests = {i: np.delete(kept, i) for i in sorted(rim)}
+        best = min(rests, key=lambda i: _diagonal(low[rests[i]], high[rests[i]]))
+        out.append(int(kept[best]))
+        kept = rests[best]
+        rest = _diagonal(low[kept], high[kept])
+        gaps = np.maximum(low[out] - high[kept].max(axis=0), low[kept].min(axis=0) - high[out]).max(axis=1)
+        if rest * STRETCH <= whole and (gaps >= GAP * rest).all():
+            return sorted(out)
+    return []
+
+
+def _flat(boxes: Sequence[Floats], camera: Camera) -> tuple[Floats, Floats]:
+    """Corners (n, 2) on the image plane of boxes around points in model coordinates."""
+    ends = np.array([(box.min(axis=0), box.max(axis=0)) for box in boxes])
+    corners = np.stack([ends[:, [i, j, k], [0, 1, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)], axis=1)
+    flat = camera.project(corners.reshape(-1, 3))[:, :2].reshape(len(boxes), 8, 2)
+    return flat.min(axis=1), flat.max(axis=1)
+
+
+def _diagonal(low: Floats, high: Floats) -> float:
+    return float(np.hypot(*(high.max(axis=0) - low.min(axis=0))))

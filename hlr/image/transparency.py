@@ -1,0 +1,71 @@
+"""What is seen through glass: the scene without its transparent triangles, but with all of its lines."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.drawing.notes import Note
+from hlr.scene.colors import corner_paint
+from hlr.scene.scene import Scene
+from hlr.source.model import Look
+
+
+def opacity_of(look: Look) -> float:
+    """The least opacity of a part."""
+    found = [1.0 if look.whole is None else look.whole[3], *(color[3] for color in look.faces.values())]
+    if look.corners is not None:
+        found.append(float(look.corners[..., 3].min(initial=1.0)))
+    return min(found)
+
+
+def glass_of(scene: Scene, looks: Mapping[str, Look]) -> npt.NDArray[np.bool_]:
+    """(t,) bool: the triangle is transparent, somewhere at least."""
+    colours, paint = corner_paint(scene, looks)
+    return np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
+
+
+def hiding(scene: Scene, looks: Mapping[str, Look]) -> list[Note]:
+    """The remark that transparent parts hide others, where they may."""
+    if not looks or len(scene.parts) < 2:
+        return []
+    clear = [p.name for p in scene.parts if opacity_of(looks.get(p.name, Look())) < 1.0]
+    if not clear:
+        return []
+    which = f'Part "{clear[0]}" is transparent and hides' if len(clear) == 1 else f"{len(clear)} transparent parts hide"
+    return [Note("glass-hides", f"{which} what is behind, as in other CAD drawings: see_through shows it.")]
+
+
+def without_glass(scene: Scene, glass: npt.NDArray[np.bool_]) -> Scene:
+    """The scene in which the triangles of glass (t,) hide nothing; edges stay, those of glass alone as wires."""
+    kept = ~glass
+    number = np.cumsum(kept, dtype=np.int32) - 1
+    held = kept[scene.incident]
+    per_edge = np.add.reduceat(np.append(held, False), scene.offsets[:-1]) if len(scene.edges) else np.zeros(0, int)
+    # Of an edge without triangles reduceat gives what comes next.
+    per_edge = np.where(np.diff(scene.offsets) > 0, per_edge, 0)
+    opened = np.zeros(len(scene.groups.cull), bool)
+    opened[scene.triangle_group[glass]] = True
+    silhouettes = scene.silhouettes
+    if silhouettes is not None:
+        silhouettes = replace(silhouettes, hidden=silhouettes.hidden & ~opened[scene.edge_group])
+    on = scene.true_surfaces
+    return replace(
+        scene,
+        triangles=np.ascontiguousarray(scene.triangles[kept]),
+        triangle_part=scene.triangle_part[kept],
+        triangle_group=np.ascontiguousarray(scene.triangle_group[kept]),
+        triangle_face=scene.triangle_face[kept],
+        triangle_origin=scene.triangle_origin[kept],
+        turned=scene.turned[kept],
+        facets=None if scene.facets is None else scene.facets[kept],
+        offsets=np.concatenate([[0], np.cumsum(per_edge)]).astype(np.int32),
+        incident=np.ascontiguousarray(number[scene.incident[held]], np.int32),
+        groups=replace(scene.groups, closed=scene.groups.closed & ~opened, cull=scene.groups.cull & ~opened),
+        true_surfaces=None if on is None else replace(on, corner=on.corner[kept]),
+        silhouettes=silhouettes,
+        convex=False,
+    )

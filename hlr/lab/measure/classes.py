@@ -1,0 +1,86 @@
+"""All classes of error of one drawing."""
+
+from __future__ import annotations
+
+from time import perf_counter
+from typing import Any
+
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.reached import Errors, Reached, errors
+from hlr.errors import OptionError
+from hlr.lab.measure.edges import TrueEdges, edge_errors
+from hlr.lab.measure.figures import shortest
+from hlr.lab.measure.finer import Comparison, finer_drawing, on_the_same_paper
+from hlr.lab.measure.intersections import intersection_errors
+from hlr.lab.measure.meshes import mesh_errors
+from hlr.lab.measure.outlines import outline_errors
+from hlr.lab.measure.paper import Paper
+from hlr.lab.measure.rays import Caster, labels
+from hlr.lab.measure.written import written
+from hlr.request.accuracy import under
+from hlr.source import open_source
+
+SAMPLES = 20_000
+"""Points judged by rays, and points of outlines, where the caller does not say how many."""
+
+FINENESS = 4.0
+"""How much finer the drawing is that changes and lost lines are found by."""
+
+
+def measured(
+    source: Any,
+    drawing: Drawing,
+    *,
+    threads: int = 0,
+    samples: int = SAMPLES,
+    finer: Drawing | None = None,
+) -> Reached:
+    """How far a drawing is from the truth.
+
+    source: what it was drawn from: a path or an object, better a source that is open already.
+    samples: how many points are judged by rays, and how many points of outlines are put on their surfaces.
+    finer: the same request at a finer accuracy, where there is one; else it is drawn, `FINENESS` times as fine.
+
+    Raises OptionError where the drawing does not know what was asked for, SourceError where the source cannot be read.
+    """
+    if drawing.request is None:
+        raise OptionError("this drawing does not know what it was asked for: measure one that hlr.draw has made")
+    started = perf_counter()
+    opened = open_source(source, annotations=drawing.request.options.annotations)
+    paper = Paper.of(drawing)
+    forms = (written(drawing), written(drawing, cubic=True))
+    meshes = Errors(None, why="the model is no mesh")
+    edges = Errors(None, why="a mesh has no edges but its own")
+    outlines = Errors(None, why="a mesh has no true surface")
+    if hasattr(opened, "edge_shape"):
+        wanted = sorted({(x.part, x.edge) for x in drawing.lines if x.edge is not None})
+        edges = errors(*edge_errors(TrueEdges(opened, drawing, wanted, paper), drawing, forms, threads))
+        outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples, threads))
+    else:
+        meshes = errors(*mesh_errors(opened, drawing, forms[0], paper, threads))
+    found = finer_drawing(opened, drawing, FINENESS) if finer is None else finer
+    deflection = drawing.accuracy.deflection / FINENESS
+    if not isinstance(found, str):
+        deflection = min(deflection, found.accuracy.deflection)
+    caster = Caster.of(opened, drawing, paper, deflection)
+    if isinstance(found, str):
+        changes = grazing = lost = Errors(None, why=found)
+        bound = None
+    else:
+        beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
+        changes, grazing, bound = beside.changes(caster)
+        lost = beside.lost(under(drawing.accuracy.used))
+    return Reached(
+        accuracy=drawing.accuracy.used,
+        edges=edges,
+        outlines=outlines,
+        meshes=meshes,
+        intersections=intersection_errors(drawing, forms[0], caster, paper, threads),
+        changes=changes,
+        grazing=grazing,
+        bound=bound,
+        lost=lost,
+        short=shortest(drawing, forms[0], threads),
+        labels=labels(drawing, forms[0], caster, samples, threads),
+        seconds=perf_counter() - started,
+    )

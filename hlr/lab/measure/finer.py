@@ -1,0 +1,205 @@
+"""Visibility changes and lost lines: against the same view drawn at a finer accuracy.
+
+Lines are matched edge by edge (outlines face by face, lines of meshes part by part and class by class). Where the two
+drawings disagree about what is visible, a change is displaced by as much as the stretch is long:
+
+::
+
+        this    visible ------------------|- - - - - - - - hidden
+        finer   visible -------------|- - - - - - - - - -  hidden
+                                     <--->  displaced
+
+Of stretches longer than the accuracy, that part counts which rays contradict (see `rays`). The rest is ill-conditioned:
+there, less than the accuracy across the line, or less than the depth of a contact, decides what is seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.common.types import Floats, Ints
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
+from hlr.drawing.reached import Errors, errors
+from hlr.errors import HlrError
+from hlr.lab.measure.rays import DENSE, Caster, contradicted, longest_run, runs
+from hlr.lab.measure.written import Index, Written, written
+
+Mask = npt.NDArray[np.bool_]
+
+LATERAL = 0.25
+"""Of the accuracy: lines of the two drawings this close are the same line."""
+BETWEEN = 5
+"""How much denser rays look at a stretch that is longer than the accuracy."""
+MOST_SAMPLES = 2_000_000
+"""Along all lines; beyond, samples are farther apart than they should be, and what they find is not finer than that."""
+
+
+@dataclass(frozen=True, slots=True)
+class Finer:
+    """The finer drawing on the paper of the one that is measured.
+
+    drawing   as it was drawn; segments (n, 4), their lines (n,), and points along it
+    """
+
+    drawing: Drawing
+    drawn: Written
+    segments: Floats
+    line: Index
+
+
+def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | str:
+    """The same request at a finer accuracy, or the reason why there is none."""
+    request = drawing.request
+    assert request is not None
+    from hlr.pipeline.drawing import draw_views
+
+    accuracy = drawing.accuracy.used / fineness
+    options = replace(request.options, accuracy=accuracy, fill=False, strict=False, report=False)
+    try:
+        (found,) = draw_views(opened, [request.view], options)
+    except (HlrError, MemoryError) as error:
+        return f"no finer drawing to compare with: {error or 'out of memory'}"
+    return found
+
+
+def on_the_same_paper(finer: Drawing, drawing: Drawing) -> Finer:
+    """Fitted into the same size, the two may differ a little in scale, and in their corner."""
+    drawn = written(finer)
+    shift = np.array(finer.origin)
+    points = (drawn.points + shift) * (drawing.scale / finer.scale) - np.array(drawing.origin)
+    drawn = Written(points, drawn.line)
+    return Finer(finer, drawn, *drawn.steps())
+
+
+def _key(line: Line) -> tuple[int, str, int]:
+    """What lines of both drawings are matched by."""
+    if line.edge is not None:
+        return line.part, "edge", line.edge
+    if line.face is not None:
+        return line.part, "face", line.face
+    return line.part, line.kind, -1 if line.other is None else line.other
+
+
+class Comparison:
+    """A drawing beside a finer one."""
+
+    def __init__(self, drawing: Drawing, drawn: Written, finer: Finer, threads: int) -> None:
+        self._drawing, self._drawn, self._finer, self._threads = drawing, drawn, finer, threads
+        self._accuracy = drawing.accuracy.used
+        keys = sorted({_key(x) for x in (*drawing.lines, *finer.drawing.lines)})
+        self._number = {key: i for i, key in enumerate(keys)}
+        self._own = self._keys(drawing)
+        self._theirs = self._keys(finer.drawing)
+
+    def _keys(self, drawing: Drawing) -> Ints:
+        """(lines,) even where visible, odd where hidden."""
+        return np.array([2 * self._number[_key(x)] + (not x.visible) for x in drawing.lines], np.int32)
+
+    def _step(self, drawn: Written) -> float:
+        segments, _ = drawn.steps()
+        length = float(np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]).sum())
+        return max(DENSE * self._accuracy, length / MOST_SAMPLES)
+
+    def _to_finer(self, points: Floats, key: Ints, most: float) -> Floats:
+        return _kernel.nearest(
+            np.ascontiguousarray(points),
+            np.ascontiguousarray(key),
+            self._finer.segments,
+            np.ascontiguousarray(self._theirs[self._finer.line]),
+            most,
+            self._threads,
+        )[0]
+
+    def changes(self, caster: Caster) -> tuple[Errors, Errors, float | None]:
+        """Displaced changes; those that are ill-conditioned; the longest stretch over which that is so."""
+        accuracy, step = self._accuracy, self._step(self._drawn)
+        points, line = self._drawn.middles(step)
+        key = self._own[line]
+        reach = 1e3 * accuracy
+        same, other = self._to_finer(points, key, reach), self._to_finer(points, key ^ 1, reach)
+        differ = (other <= accuracy) & (other < same) & (same > LATERAL * accuracy)
+        start, length = runs(points, line, differ, step)
+        found = [*self._ends().tolist(), *length[length <= accuracy].tolist()]
+        doubtful, bound = [], 0.0
+        for first, size in zip(start[length > accuracy].tolist(), length[length > accuracy].tolist(), strict=True):
+            own = np.arange(first, min(first + int(np.ceil(size / step)) + 1, len(points)))
+            own = own[(line[own] == line[first]) & differ[own]]
+            here = _between(points[own])
+            of = np.full(len(here), line[first])
+            wrong = contradicted(self._drawing, self._drawn, here, of, caster, self._threads)
+            found.append(longest_run(here, of, wrong, step / BETWEEN)[1])
+            doubtful.append(size)
+            bound = max(bound, longest_run(here, of, ~wrong, step / BETWEEN)[1])
+        grazing = errors(np.array(doubtful)) if doubtful else Errors(None, why="none is ill-conditioned")
+        return errors(np.array(found)), grazing, bound if doubtful else None
+
+    def _ends(self) -> Floats:
+        """Ends of lines, as far as the finer drawing has such an end of the same edge within the accuracy."""
+        mine, key = _ends_of(self._drawing, self._own)
+        theirs, their_key = _ends_of(self._finer.drawing, self._theirs)
+        shift = np.array(self._finer.drawing.origin)
+        theirs = (theirs + shift) * (self._drawing.scale / self._finer.drawing.scale) - np.array(self._drawing.origin)
+        dots = np.ascontiguousarray(np.concatenate([theirs, theirs], axis=1))
+        found, _ = _kernel.nearest(mine, key, dots, their_key, self._accuracy, self._threads)
+        return found[np.isfinite(found)]
+
+    def lost(self, under: float) -> Errors:
+        """Stretches of the finer drawing's lines that are not drawn.
+
+        Intersection lines are left out: where parts touch or clash is a matter of depth.
+
+        under: a hidden line this close to a visible one lies under its ink, as far as the accuracy tells
+        """
+        accuracy, step = self._accuracy, self._step(self._finer.drawn)
+        points, line = self._finer.drawn.middles(step)
+        drawn = np.array([x.kind != "intersection" for x in self._finer.drawing.lines], bool)[line]
+        points, line = np.ascontiguousarray(points[drawn]), line[drawn]
+        segments, of = self._drawn.steps()
+        visible = np.array([x.visible for x in self._drawing.lines], bool)[of]
+        wanted = np.array([x.visible for x in self._finer.drawing.lines], bool)[line]
+
+        def far(those: Mask, most: float) -> Mask:
+            none, chosen = np.zeros(len(points), np.int32), segments[those]
+            zero = np.zeros(len(chosen), np.int32)
+            found, _ = _kernel.nearest(points, none, np.ascontiguousarray(chosen), zero, most, self._threads)
+            return ~np.isfinite(found)
+
+        missing = far(np.ones(len(of), bool), (1.0 + LATERAL) * accuracy)
+        if missing.any():
+            missing &= wanted | far(visible, under + accuracy)
+        start, length = runs(points, line, missing, step)
+        if len(points) == 0:
+            return Errors(None, why="the drawing has none")
+        where = [self._name(int(line[i]), points[i]) for i in start]
+        if not len(start):
+            return Errors(0.0, 0.0, len(self._finer.drawing.lines))
+        found = errors(length, where)
+        return replace(found, count=len(self._finer.drawing.lines))
+
+    def _name(self, line: int, at: Floats) -> str:
+        of = self._finer.drawing.lines[line]
+        name = self._finer.drawing.parts[of.part].name
+        tie = f"edge {of.edge}" if of.edge is not None else f"face {of.face}"
+        return f"{name}, {of.kind} {'visible' if of.visible else 'hidden'} {tie} at {at[0]:.2f},{at[1]:.2f}"
+
+
+def _between(points: Floats) -> Floats:
+    """The points (n, 2) of a stretch, and others between them."""
+    t = np.arange(0, (len(points) - 1) * BETWEEN + 1) / BETWEEN
+    return np.stack([np.interp(t, np.arange(len(points)), points[:, k]) for k in (0, 1)], axis=1)
+
+
+def _ends_of(drawing: Drawing, key: Ints) -> tuple[Floats, Ints]:
+    """(2 n, 2) ends of lines that do not close, and the keys (2 n,) of their edges and visibility."""
+    ends = [x.points[[0, -1]] for x in drawing.lines]
+    if not ends:
+        return np.zeros((0, 2)), np.zeros(0, np.int32)
+    points = np.array(ends)
+    open_ = (points[:, 0] != points[:, 1]).any(axis=1)
+    return np.ascontiguousarray(points[open_].reshape(-1, 2)), np.repeat(key[open_], 2).astype(np.int32)

@@ -1,0 +1,206 @@
+"""Distance of written outlines from where the true surface is seen edge-on, by OpenCASCADE's evaluation.
+
+A point q of a written outline is put on the surface of its face, and moved there until
+
+    g(u, v) = N . V = 0          the surface is seen edge-on
+    h(u, v) = (p - q) . t = 0    its place p on paper is beside q, square to the line's direction t
+
+by Newton's method, in the least step that would do. |p - q| is then the error: never less than the distance to the true
+outline. Where a fold lies on an edge of the face, that edge is the true outline.
+
+::
+
+           true outline  ----------p---------
+                                   |  error
+           written       ----------q-----> t
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.drawing.drawing import Drawing
+from hlr.lab.measure.edges import TrueEdges
+from hlr.lab.measure.paper import Paper
+from hlr.lab.measure.written import Index, Written, in_model
+
+ITERATIONS = 30
+EDGE_ON = 1e-9
+"""|N . V| of unit vectors below which a place counts as edge-on."""
+SETTLED = 1e-13
+"""Steps and remainders below which a search has ended, in longest steps and accuracies."""
+STEP = 10.0
+"""In accuracies: the longest step on a surface. What is farther away is another outline."""
+ENOUGH = 0.25
+"""Of the accuracy: where an error is larger, other places are tried, and folds along edges."""
+
+
+def outline_errors(
+    opened: Any, drawing: Drawing, drawn: Written, paper: Paper, samples: int, threads: int
+) -> tuple[Floats, list[str]]:
+    """(n,) error of points of written outlines, at most about `samples` of them, and names for them."""
+    wanted = np.array([x.kind == "outline" and x.face is not None for x in drawing.lines], bool)
+    mine = np.flatnonzero(wanted[drawn.line])
+    mine = mine[:: max(1, len(mine) // max(samples, 1))]
+    if len(mine) == 0:
+        return np.zeros(0), []
+    q, line = drawn.points[mine], drawn.line[mine]
+    way = _directions(drawn, mine)
+    near = in_model(drawing, q, line, threads)
+    accuracy = drawing.accuracy.used
+    faces: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for i, number in enumerate(line.tolist()):
+        of = drawing.lines[number]
+        faces[of.part, of.face or 0].append(i)
+    off = np.full(len(mine), np.inf)
+    for (part, face), those in faces.items():
+        of = drawing.parts[part]
+        judge = _Face(opened.face_shape(of.name, face), of.transform, paper, accuracy)
+        off[those] = judge.errors(near[those], q[those], way[those])
+    far = np.flatnonzero(off > ENOUGH * accuracy)
+    if len(far):
+        off[far] = np.minimum(off[far], _to_folds(opened, drawing, paper, q[far], line[far], threads))
+    names = [f"{drawing.parts[drawing.lines[i].part].name}, outline of face {drawing.lines[i].face}" for i in line]
+    return off, names
+
+
+def _directions(drawn: Written, which: Index) -> Floats:
+    """(n, 2) unit vectors along the lines at some of their points."""
+    last = len(drawn.points) - 1
+    after = np.minimum(which + 1, last)
+    before = np.maximum(which - 1, 0)
+    after = np.where(drawn.line[after] == drawn.line[which], after, which)
+    before = np.where(drawn.line[before] == drawn.line[which], before, which)
+    way = drawn.points[after] - drawn.points[before]
+    size = np.hypot(way[:, 0], way[:, 1])[:, None]
+    return np.asarray(np.divide(way, size, out=np.zeros_like(way), where=size > 0.0))
+
+
+class _Face:
+    """One face's surface, where its part stands."""
+
+    def __init__(self, face: Any, transform: Floats, paper: Paper, accuracy: float) -> None:
+        from OCP.BRep import BRep_Tool
+        from OCP.ShapeAnalysis import ShapeAnalysis_Surface
+
+        self._surface = BRep_Tool.Surface_s(face)
+        self._find = ShapeAnalysis_Surface(self._surface)
+        self._turn, self._shift = transform[:3, :3], transform[:3, 3]
+        self._back = np.linalg.inv(self._turn)
+        self._paper = paper
+        self._most = STEP * accuracy / paper.per_model
+        self._enough = ENOUGH * accuracy
+        self._accuracy = accuracy
+
+    def errors(self, near: Floats, q: Floats, way: Floats) -> Floats:
+        """(n,) distance on paper between q (n, 2) and edge-on places beside them; infinity where none is found."""
+        from OCP.gp import gp_Pnt
+
+        start = [self._find.ValueOfUV(gp_Pnt(*p), 1e-9) for p in ((near - self._shift) @ self._back.T).tolist()]
+        at = np.array([(p.X(), p.Y()) for p in start])
+        # First toward the place beside q; where the outline runs along the sight, at a cusp, to any place nearby.
+        best = self._search(at, q, way, True)
+        again = np.flatnonzero(best > self._enough)
+        best[again] = np.minimum(best[again], self._search(at[again], q[again], way[again], False))
+        return best
+
+    def _search(self, start: Floats, q: Floats, way: Floats, beside: bool) -> Floats:
+        """The least errors at edge-on places that Newton's method comes by; steps that lead astray are halved."""
+        n = len(q)
+        best, least, going = np.full(n, np.inf), np.full(n, np.inf), np.arange(n)
+        at, step = start.copy(), np.zeros((n, 2))
+        for _ in range(ITERATIONS):
+            if len(going) == 0:
+                break
+            jet = self._jets(at[going])
+            point, su, sv, suu, svv, suv = (jet[:, k] for k in range(6))
+            sight = self._paper.sight(point)
+            normal = cross(su, sv)
+            with np.errstate(all="ignore"):
+                size = np.sqrt(dot(normal, normal) * dot(sight, sight))
+                g = dot(normal, sight) / size
+                rows = np.empty((len(going), 2, 2))
+                rows[:, 0, 0] = dot(cross(suu, sv) + cross(su, suv), sight) / size
+                rows[:, 0, 1] = dot(cross(suv, sv) + cross(su, svv), sight) / size
+                along = [self._paper.derived(np.stack([point, s, suv], axis=1)) for s in (su, sv)]
+                off = along[0][:, 0] - q[going]
+                value = np.stack([g, dot(off, way[going]) / self._accuracy], axis=1)
+                for k in (0, 1):
+                    rows[:, 1, k] = dot(along[k][:, 1], way[going]) / self._accuracy
+                found = np.where(np.abs(g) < EDGE_ON, np.sqrt(dot(off, off)), np.inf)
+                best[going] = np.fmin(best[going], found)
+                wrong = np.sqrt(dot(value, value)) if beside else np.abs(g)
+                astray = wrong > least[going]
+                new = _least(rows, value, beside)
+                moved = np.sqrt(dot(su * new[:, :1] + sv * new[:, 1:], su * new[:, :1] + sv * new[:, 1:]))
+                new *= np.minimum(1.0, self._most / moved)[:, None]
+            # Back by half of the last step, or on by a new one.
+            step[going] = np.where(astray[:, None], 0.5 * step[going], new)
+            move = np.where(astray[:, None], step[going], -step[going])
+            least[going] = np.where(astray, least[going], wrong)
+            settled = ~np.isfinite(moved) | (~astray & ((wrong < SETTLED) | (moved < SETTLED * self._most)))
+            going, move = going[~settled], move[~settled]
+            at[going] += move
+        return best
+
+    def _jets(self, at: Floats) -> Floats:
+        """(n, 6, 3) points and derivatives du, dv, duu, dvv, duv in the model; NaN where there are none."""
+        from OCP.gp import gp_Pnt, gp_Vec
+
+        p, d = gp_Pnt(), [gp_Vec() for _ in range(5)]
+        out = np.full((len(at), 6, 3), np.nan)
+        with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone
+            for i, (u, v) in enumerate(at.tolist()):
+                self._surface.D2(u, v, p, *d)
+                out[i] = [p.Coord(), *[w.Coord() for w in d]]
+        moved = np.asarray(np.einsum("ij,nkj->nki", self._turn, out))
+        moved[:, 0] += self._shift
+        return np.asarray(moved, np.float64)
+
+
+def dot(a: Floats, b: Floats) -> Floats:
+    """Row by row."""
+    return np.asarray((a * b).sum(axis=1))
+
+
+def cross(a: Floats, b: Floats) -> Floats:
+    """Row by row."""
+    x, y = a.T, b.T
+    return np.stack([x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]], axis=1)
+
+
+def _least(rows: Floats, values: Floats, both: bool) -> Floats:
+    """(n, 2) the x with rows (n, 2, 2) . x = values (n, 2), or the shortest for the first row alone."""
+    a, b, c, d = rows[:, 0, 0], rows[:, 0, 1], rows[:, 1, 0], rows[:, 1, 1]
+    g, h = values.T
+    if not both:
+        return np.asarray(np.stack([a, b], axis=1) * (g / (a * a + b * b))[:, None])
+    return np.asarray(np.stack([d * g - b * h, a * h - c * g], axis=1) / (a * d - b * c)[:, None])
+
+
+def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Index, threads: int) -> Floats:
+    """(n,) distance to the nearest edge of each outline's face."""
+    edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    for number in np.unique(line).tolist():
+        of = drawing.lines[number]
+        key = of.part, of.face or 0
+        if key not in edges:
+            edges[key] = [(of.part, e) for e in opened.face_edges(drawing.parts[of.part].name, key[1])]
+    true = TrueEdges(opened, drawing, sorted({e for those in edges.values() for e in those}), paper)
+    best = np.full(len(q), np.inf)
+    keys = [(drawing.lines[i].part, drawing.lines[i].face or 0) for i in line.tolist()]
+    for key, own in edges.items():
+        mine = np.array([i for i, k in enumerate(keys) if k == key], np.int64)
+        for edge in own:
+            which = np.full(len(mine), true.number[edge], np.int32)
+            best[mine] = np.minimum(best[mine], true.distance(q[mine], which, threads)[0])
+    return best
+
+
+__all__: Sequence[str] = ["outline_errors"]

@@ -1,0 +1,205 @@
+"""Visible and hidden judged by rays against a finer tessellation.
+
+A sample of a drawn line has nine rays toward the viewer: its own, and eight on a ring as wide as the accuracy. It is
+wrong only where they agree: drawn visible and all are blocked, or drawn hidden and none is. Where they do not agree,
+less than the accuracy decides, and either answer is right. Rays start nearer to the viewer than the sample by the depth
+within which two surfaces count as touching: what covers a line by less than that may hide it or not.
+
+::
+
+         o o o        seen from the viewer: what covers five of nine rays
+        o  x  o ####  leaves the sample undecided
+         o o o #####
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.common.types import Floats, Ints
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.reached import Labels
+from hlr.image.camera import NEAR
+from hlr.lab.measure.paper import Paper
+from hlr.lab.measure.written import Index, Written, in_model
+from hlr.request.accuracy import ANGLE, MESH_CONTACT, under
+
+RING = 8
+CLOSE = 0.1
+"""Of the depth of a contact: nearer than this a sample's own surface may be."""
+DENSE = 0.25
+"""Of the accuracy: how far apart samples are where a stretch is measured."""
+DISAGREE, BLOCKED, FREE = 0, 1, 2
+"""What nine rays say."""
+
+
+@dataclass(frozen=True, slots=True)
+class Caster:
+    """All triangles of a model, the part (t,) of each, and how wide and deep nine rays of one drawing are."""
+
+    points: Floats
+    triangles: Ints
+    part: Ints
+    paper: Paper
+    radius: float
+    depth: float
+    nearest: float
+    right: Floats
+    up: Floats
+
+    @classmethod
+    def of(cls, opened: Any, drawing: Drawing, paper: Paper, deflection: float) -> Caster:
+        """From a mesh of its own, as fine as `deflection` (model units)."""
+        parts = opened.mesh(deflection, ANGLE).parts
+        first = np.cumsum([0, *(len(p.points) for p in parts[:-1])])
+        view, points = drawing.view, np.concatenate([p.points for p in parts])
+        depth = drawing.accuracy.contact
+        if not all(p.brep for p in parts):
+            # What a mesh was made with it does not tell.
+            depth = max(depth, MESH_CONTACT * float(np.linalg.norm(np.ptp(points, axis=0))))
+        return cls(
+            points=points,
+            triangles=np.concatenate([p.triangles + np.int32(f) for p, f in zip(parts, first, strict=True)]),
+            part=np.repeat(np.arange(len(parts), dtype=np.int32), [len(p.triangles) for p in parts]),
+            paper=paper,
+            radius=drawing.accuracy.used,
+            depth=depth,
+            nearest=NEAR * (view.distance or 0.0),
+            right=np.array(view.right),
+            up=np.array(view.up),
+        )
+
+    def verdict(self, points: Floats, threads: int) -> npt.NDArray[np.int8]:
+        """(n,) what nine rays say of points (n, 3) of the model."""
+        angle = np.arange(RING) * (2.0 * np.pi / RING)
+        ring = np.concatenate(
+            [np.zeros((1, 3)), np.outer(np.cos(angle), self.right) + np.outer(np.sin(angle), self.up)]
+        )
+        radius = self.radius / self.paper.magnified(points)
+        starts = points[:, None, :] + ring[None] * radius[:, None, None]
+        count = self._blocked(points, starts, self.depth, threads).sum(axis=1)
+        return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
+
+    def touched(self, points: Floats, threads: int) -> npt.NDArray[np.bool_]:
+        """(n,) whether anything covers points (n, 3), be it no deeper than a contact."""
+        return self._blocked(points, points[:, None, :], CLOSE * self.depth, threads)[:, 0]
+
+    def _blocked(self, points: Floats, starts: Floats, depth: float, threads: int) -> npt.NDArray[np.bool_]:
+        """(n, k) whether rays from starts (n, k, 3), so much nearer to the viewer, meet anything."""
+        sight = self.paper.sight(points)
+        unit = sight / np.linalg.norm(sight, axis=1)[:, None]
+        starts = starts + (unit * depth)[:, None, :]
+        if self.paper.eye is None:
+            reach = np.ptp(self.points, axis=0).sum() * 2.0
+            ways = np.broadcast_to(unit[:, None, :] * reach, starts.shape)
+        else:
+            # To the near plane: what is beyond it is not drawn.
+            ways = self.paper.eye - starts
+            ahead = np.abs(ways @ self.paper.toward)
+            ways = ways * np.clip(1.0 - self.nearest / np.maximum(ahead, 1e-300), 0.0, 1.0)[:, :, None]
+        hit = _kernel.blocked(
+            self.points,
+            np.ascontiguousarray(self.triangles),
+            np.ascontiguousarray(starts.reshape(-1, 3)),
+            np.ascontiguousarray(ways.reshape(-1, 3)),
+            threads,
+        )
+        return np.asarray(hit.reshape(starts.shape[:2]))
+
+
+def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threads: int) -> Labels:
+    """The share and the longest stretch of lines that rays contradict."""
+    accuracy = drawing.accuracy.used
+    segments, _ = drawn.steps()
+    length = float(np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]).sum())
+    if length == 0.0:
+        return Labels(None, why="the drawing has no lines")
+    step = max(accuracy, length / samples)
+    points, line = drawn.middles(step)
+    wrong = contradicted(drawing, drawn, points, line, caster, threads)
+    if not wrong.any():
+        return Labels(0.0, 0.0, length)
+    # How long each stretch is: its line's samples all lie close together now.
+    bad = np.unique(line[wrong])
+    near = Written(drawn.points[np.isin(drawn.line, bad)], drawn.line[np.isin(drawn.line, bad)])
+    dense = max(DENSE * accuracy, step / 64.0)
+    points, line = near.middles(dense)
+    close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step, threads)
+    points, line = points[close], line[close]
+    again = contradicted(drawing, drawn, points, line, caster, threads)
+    where, longest = longest_run(points, line, again, dense)
+    name = None
+    if where is not None:
+        of = drawing.lines[int(line[where])]
+        x, y = points[where]
+        name = f"{drawing.parts[of.part].name}, {of.kind} {'visible' if of.visible else 'hidden'} at {x:.2f},{y:.2f}"
+    return Labels(float(wrong.mean()), longest, length, where=name)
+
+
+def contradicted(
+    drawing: Drawing, drawn: Written, points: Floats, line: Index, caster: Caster, threads: int
+) -> npt.NDArray[np.bool_]:
+    """(n,) whether nine rays agree that points (n, 2) of lines are not what they are drawn as.
+
+    A hidden line under the ink of a visible one, drawn as `drawn` says, is not seen, and never wrong.
+    """
+    at = in_model(drawing, points, line, threads)
+    said = caster.verdict(at, threads)
+    visible = np.array([x.visible for x in drawing.lines], bool)[line]
+    wrong = np.asarray(np.where(visible, said == BLOCKED, said == FREE))
+    # What is covered by less than a contact may be drawn either way.
+    doubtful = np.flatnonzero(wrong & ~visible)
+    wrong[doubtful] &= ~caster.touched(at[doubtful], threads)
+    hidden = np.flatnonzero(wrong & ~visible)
+    if len(hidden):
+        segments, owner = drawn.steps()
+        ink = segments[np.array([x.visible for x in drawing.lines], bool)[owner]]
+        of, none = np.zeros(len(hidden), np.int32), np.zeros(len(ink), np.int32)
+        most = under(drawing.accuracy.used)
+        near = np.ascontiguousarray(points[hidden])
+        off, _ = _kernel.nearest(near, of, np.ascontiguousarray(ink), none, most, threads)
+        wrong[hidden] &= ~np.isfinite(off)
+    return wrong
+
+
+def longest_run(points: Floats, line: Index, chosen: npt.NDArray[np.bool_], step: float) -> tuple[int | None, float]:
+    """Where the longest stretch of chosen points is, and its length; points of a line are about a step apart."""
+    starts, lengths = runs(points, line, chosen, step)
+    if len(starts) == 0:
+        return None, 0.0
+    best = int(np.argmax(lengths))
+    return int(starts[best]), float(lengths[best])
+
+
+def runs(points: Floats, line: Index, chosen: npt.NDArray[np.bool_], step: float) -> tuple[Index, Floats]:
+    """The first point of each stretch of chosen points (n, 2) of one line, and the stretch's length."""
+    which = np.flatnonzero(chosen)
+    if len(which) == 0:
+        return np.zeros(0, np.int64), np.zeros(0)
+    gap = points[which[1:]] - points[which[:-1]]
+    far = np.hypot(gap[:, 0], gap[:, 1])
+    new = np.append(True, (np.diff(which) > 1) | (np.diff(line[which]) != 0) | (far > 2.0 * step))
+    number = np.cumsum(new) - 1
+    lengths = np.bincount(number, minlength=number[-1] + 1).astype(float) * step
+    along = np.bincount(number[1:], weights=np.where(new[1:], 0.0, far), minlength=number[-1] + 1)
+    return which[new], np.minimum(lengths, along + step)
+
+
+def _picked(drawn: Written, step: float, wrong: npt.NDArray[np.bool_]) -> tuple[Floats, Index]:
+    points, line = drawn.middles(step)
+    return points[wrong], line[wrong]
+
+
+def _within(
+    points: Floats, line: Index, seeds: Floats, seed_line: Index, most: float, threads: int
+) -> npt.NDArray[np.bool_]:
+    """(n,) whether a seed on the same line is no farther away than `most`."""
+    dots = np.concatenate([seeds, seeds], axis=1)
+    own, theirs = line.astype(np.int32), seed_line.astype(np.int32)
+    far, _ = _kernel.nearest(np.ascontiguousarray(points), own, np.ascontiguousarray(dots), theirs, most, threads)
+    return np.isfinite(far)

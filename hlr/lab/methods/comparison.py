@@ -1,0 +1,101 @@
+"""The visible-surface methods side by side: on scenes of so many polygons, and on a model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from hlr.common.types import Progress
+from hlr.errors import OptionError
+from hlr.image.camera import Camera
+from hlr.lab.methods.polygons import Polygons, polygons_of
+from hlr.lab.methods.report import model_name, scene_name
+from hlr.lab.methods.table import METHODS
+from hlr.lab.methods.testbed import COUNTS, polygons
+from hlr.lab.methods.timing import TRIALS, Scenery, Timing, Trial, label, measure
+from hlr.lab.methods.viewport import SCREEN, Screen, checked_size, viewport
+from hlr.request.check import checked, checked_views
+from hlr.request.options import Options, View
+
+MOST = 10_000_000
+"""Polygons of a scene: more do not fit into memory."""
+
+
+def compare_methods(
+    source: Any = None,
+    *,
+    counts: Sequence[int] | None = None,
+    crossing: Sequence[int] = (),
+    view: View = "iso",
+    size: tuple[int, int] = (1024, 1024),
+    limit: float = 10.0,
+    methods: Sequence[str] = (),
+    only: Sequence[str] = (),
+    hide: Sequence[str] = (),
+    var: str | None = None,
+    annotations: bool = False,
+    progress: Progress | None = None,
+) -> list[Timing]:
+    """Time every method on every scene.
+
+    source  a model as well, meshed at a two-thousandth of its size; None: none
+    counts  polygons of the scenes; None: COUNTS without a source, nothing but the model with one
+    crossing  polygons of those scenes in which they pass through one another
+    limit   seconds of the processor for each method and scene
+    methods names of the only ones to time: a method, or "method, variant" with any of its variants
+
+    only, hide, var, annotations  which parts of the source, as of a drawing (`hlr.Options`)
+
+    Raises OptionError, SourceError, ViewError.
+    """
+    chosen = checked(Options(only=tuple(only), hide=tuple(hide), var=var, annotations=annotations))
+    if source is None and (only or hide or var is not None or annotations):
+        raise OptionError("only, hide, var and annotations choose parts of a model: name one")
+    size = checked_size(size)
+    if not limit > 0.0:
+        raise OptionError(f"a limit of {limit!r} seconds leaves no time: give a positive number")
+    if counts is None:
+        counts = COUNTS if source is None else ()
+    for count in (*counts, *crossing):
+        if not 1 <= count <= MOST:
+            raise OptionError(f"a scene of {count:,} polygons cannot be made: give 1 to {MOST:,}")
+    trials = _trials(methods)
+    sceneries: list[Scenery] = []
+    if source is not None:
+        sceneries.append(_of_model(source, view, size, chosen, progress))
+    for count, crosses in [*((c, False) for c in counts), *((c, True) for c in crossing)]:
+        sceneries.append(_scenery(scene_name(count, crosses), polygons(count, size, crosses), SCREEN, size))
+    return measure(sceneries, limit, trials, progress)
+
+
+def _trials(methods: Sequence[str]) -> Sequence[Trial]:
+    if not methods:
+        return TRIALS
+    known = {label(t): t for t in (*((m, "") for m in METHODS), *((m, v) for m, vs in METHODS.items() for v in vs))}
+    unknown = [m for m in methods if m not in known]
+    if unknown:
+        raise OptionError(f"no method is called {unknown[0]!r}: use {'; '.join(known)}")
+    return [known[m] for m in dict.fromkeys(methods)]
+
+
+def _scenery(name: str, own: Polygons, camera: Camera | Screen, size: tuple[int, int]) -> Scenery:
+    return Scenery(name, len(own), own.kernel, viewport(camera, own.points, size))
+
+
+def _of_model(source: Any, view: View, size: tuple[int, int], options: Options, progress: Progress | None) -> Scenery:
+    from hlr.image.camera import resolve
+    from hlr.request.accuracy import ANGLE, SMALL_DRAWING
+    from hlr.scene.build import build
+    from hlr.source.chosen import open_chosen
+
+    view = checked_views([view], options)[0]
+    tell = progress or (lambda _stage, _done: None)
+    tell("source", 0.0)
+    opened = open_chosen(source, options)
+    bounds = opened.bounds()
+    camera = resolve(view, options, opened.frame, bounds)
+    tell("tessellate", 0.0)
+    deflection = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5) / SMALL_DRAWING
+    scene = build(opened.mesh(deflection, ANGLE, progress), 30.0, deflection)
+    model = polygons_of(scene)
+    return _scenery(model_name(opened.name, len(model)), model, camera, size)

@@ -1,0 +1,179 @@
+"""`render`: a scene, a camera and a method in; ids, depths and what it cost out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.types import Floats, Ints
+from hlr.common.values import ByValue
+from hlr.errors import OptionError
+from hlr.image.camera import Camera
+from hlr.lab.methods.areas import Area, areas_of
+from hlr.lab.methods.limits import NotFinishedError, limits
+from hlr.lab.methods.patch import checked_patches
+from hlr.lab.methods.polygons import Polygons, checked_values, polygons_of
+from hlr.lab.methods.table import checked
+from hlr.lab.methods.viewport import Screen, Viewport, Window, checked_size, viewport
+from hlr.scene.scene import Scene
+
+__all__ = ["SHADING", "NotFinishedError", "Rendering", "Statistics", "render", "rendering"]
+
+SHADING = ("textbook", "correct")
+
+
+@dataclass(frozen=True, slots=True)
+class Statistics:
+    """What a method did, counted alike in all of them.
+
+    polygons given; culled, clipped, triangulated, edge_on of them; facets: planar pieces that are worked on
+    comparisons of depths, and how many of them were decided in integers (exact)
+    spans: runs of pixels looked at; written: pixels, some more than once; settled: near ties in a painter's order
+    splits of polygons or spans; recursion: areas or nodes visited, deepest: how deep
+    early_stops: areas whose sorted list was not read to its end; passed_over: polygons that were spared by that
+    rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
+    edge_starts, edge_ends: events of the active edge list, row after row; span_starts, span_ends: of the active span
+              list, column after column; their third kind, crossings, are the swaps
+    memory: bytes of the method's own tables and buffers, its frame included, at their largest
+    prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else;
+              of the thread's own work where the system tells it (Linux), else as they passed; equal statistics may
+              differ in these three
+    """
+
+    polygons: int
+    culled: int
+    clipped: int
+    triangulated: int
+    edge_on: int
+    facets: int
+    comparisons: int
+    exact: int
+    spans: int
+    written: int
+    splits: int
+    recursion: int
+    deepest: int
+    early_stops: int
+    passed_over: int
+    rays: int
+    box_tests: int
+    polygon_tests: int
+    swaps: int
+    edge_starts: int
+    edge_ends: int
+    span_starts: int
+    span_ends: int
+    settled: int
+    memory: int
+    prepared: float = field(compare=False)
+    setup: float = field(compare=False)
+    seconds: float = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Rendering(ByValue):
+    """A picture; unpacks as ids, depth, statistics.
+
+    ids      (height, width) int32: the nearest polygon at each pixel's centre, -1 where there is none
+    depth    (height, width) float64: along the view, growing away from the viewer; inf for the background. In
+             perspective the projective depth -distance^2 / z, linear on the screen; `ahead` is z. With larger depths
+             nearer, all of opposite sign
+    values   (height, width, 3) interpolated, where that was asked for; NaN for the background
+    trace    (w, 4) int32 row, from, to, id: the writes in their order, where that was asked for
+    areas    those of Warnock's subdivision in their order, where a trace was asked for
+    """
+
+    ids: Ints
+    depth: Floats
+    statistics: Statistics
+    viewport: Viewport
+    values: Floats | None = None
+    trace: npt.NDArray[np.int32] | None = None
+    areas: tuple[Area, ...] = ()
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter((self.ids, self.depth, self.statistics))
+
+    def ahead(self, camera: Camera) -> Floats:
+        """(height, width) distances from the eye's plane (perspective), or along the view."""
+        if camera.eye is None or camera.distance is None:
+            return self.depth
+        there = np.isfinite(self.depth)
+        ahead = np.full(self.depth.shape, np.inf)
+        ahead[there] = camera.distance * camera.distance / np.abs(self.depth[there])
+        return ahead
+
+
+def render(
+    scene: Scene | Polygons | Any,
+    camera: Camera | Screen,
+    size: tuple[int, int],
+    method: str = "z-buffer",
+    *,
+    variant: str | None = None,
+    rule: str = "even-odd",
+    cull: bool = False,
+    window: Window | None = None,
+    front: float | None = None,
+    back: float | None = None,
+    space: str = "image",
+    values: Any = None,
+    shading: str = "correct",
+    trace: bool = False,
+    time_limit: float | None = None,
+    memory_limit: float | None = None,
+) -> Rendering:
+    """The visible polygon and its depth at every pixel's centre.
+
+    scene    a Scene (its triangles), Polygons, or a list of polygons: (n, 3) points each, or loops of them, or curved
+             patches (`Patch`), which SCREEN alone sees, without front and back planes
+    camera   of `hlr.view`, or SCREEN for polygons given in pixels
+    size     width and height in pixels
+    method   one of METHODS, variant one of its variants; all give the same picture
+    rule, cull  as in `polygons_of`;  window, front, back, space  as in `viewport`
+    values   (points, 3) colours or normals to interpolate; shading "correct" for perspective, or "textbook"
+    trace    note all writes in their order
+    time_limit, memory_limit  seconds and bytes; None: as in `hlr.lab.methods.limits`; math.inf: none
+
+    Raises OptionError for what cannot be asked, NotFinishedError beyond a limit.
+    """
+    method, variant = checked(method, variant)
+    if shading not in SHADING:
+        raise OptionError(f"no shading is called {shading!r}: use {' or '.join(SHADING)}")
+    within = limits(time_limit, memory_limit)
+    polygons = polygons_of(scene, rule, cull)
+    given = checked_values(values, polygons)
+    checked_patches(polygons.patches, method, variant, checked_size(size))
+    if polygons.patches and not (isinstance(camera, Screen) and front is None and back is None):
+        raise OptionError("curved patches are given in pixels: use SCREEN, without front and back planes")
+    port = viewport(camera, polygons.points, size, window=window, front=front, back=back, space=space)
+    with within.over(method):
+        found = polygons.kernel(given, within, curved=True).render(
+            port.kernel(), (method, variant), within.kernel(), shading if given is not None else "", trace
+        )
+    return rendering(found, port, camera, variant, trace)
+
+
+def rendering(
+    found: dict[str, Any],
+    port: Viewport,
+    camera: Camera | Screen,
+    variant: str,
+    trace: bool,
+) -> Rendering:
+    """The kernel's answer as a Rendering."""
+    larger = variant == "larger" or (isinstance(camera, Screen) and camera.nearer == "larger")
+    depth = found["depth"]
+    return Rendering(
+        ids=found["ids"],
+        depth=-depth if larger else depth,
+        statistics=Statistics(**found["statistics"]),
+        viewport=port,
+        values=found.get("values"),
+        trace=found["trace"] if trace else None,
+        areas=areas_of(found["areas"]),
+    )

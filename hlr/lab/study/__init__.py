@@ -1,0 +1,33 @@
+"""The price list: what accuracy costs, beside OpenCASCADE, a z-buffer, and predicates that round.
+
+Each point is measured in a process of its own (`child`), all draw the same view at the same scale, and all are judged
+by the same true lines (`judge`).
+
+>>> from hlr.lab.study import Wish, study
+>>> found = study("part.step", wish=Wish(accuracies=(0.5, 0.05), rivals=False))
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from hlr.lab.study.job import Point
+    from hlr.lab.study.sweep import Study, Wish, study
+
+__all__ = ["Point", "Study", "Wish", "study"]
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        # A child process measures its own memory: it loads no more than it uses.
+        if name in __all__:
+            from hlr.lab.study import sweep
+
+            return getattr(sweep, name)
+        raise AttributeError(f"module 'hlr.lab.study' has no attribute {name!r}")

@@ -1,0 +1,17 @@
+"""The points that nothing beats: for each, none is both quicker and truer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hlr.lab.study.job import Point
+
+
+def frontier(points: Sequence[Point], error: str) -> list[Point]:
+    """Points on the frontier of processor seconds against an error (a name in `Point.errors`), quickest first."""
+    known = [p for p in points if p.failure is None and error in p.errors and p.processor > 0.0]
+    out: list[Point] = []
+    for point in sorted(known, key=lambda p: (p.processor, p.errors[error])):
+        if not out or point.errors[error] < out[-1].errors[error]:
+            out.append(point)
+    return out

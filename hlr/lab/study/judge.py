@@ -1,0 +1,109 @@
+"""How far bare lines are from the true ones: the same measure for every contestant.
+
+::
+
+      true visible   ____________________
+      drawn visible  ___________     _________     what is missing is as wrong as what is too much: both ways
+
+Where a line stops too late, its end is as far from the true visible line as the change is displaced; so one distance
+holds misplaced lines, displaced changes, lost and false lines.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.common.types import Floats
+from hlr.lab.study.ink import KINDS, Ink
+
+SAMPLES = 200_000
+"""Points along all lines of a drawing, beside their ends."""
+
+NOTICED = 0.1
+"""Millimetres: ink farther off than a fifth of a wide line counts as wrong."""
+
+USUAL = 0.99
+"""Share of the ink that is nearer than `ink_usual`."""
+
+EXTRA = tuple(KINDS.index(kind) for kind in ("smooth", "seam"))
+"""Kinds that may be drawn and need not be."""
+
+
+def judged(true: Ink, drawn: Ink, threads: int = 0) -> dict[str, float]:
+    """Errors by name; lengths in millimetres on paper.
+
+    off_mean, off_usual, off_worst   of all drawn lines from the nearest true line, visible or not
+    ink_mean, ink_usual, ink_worst   between visible ink drawn and true, both ways
+    too_much, missing                visible ink farther off than `NOTICED`: drawn, and not drawn
+    mislabelled                      of these: drawn visible on a truly hidden line, or hidden on a truly visible one
+    wrong                            too_much and missing, as a share of the true visible length
+    """
+    required = ~np.isin(true.kind, EXTRA)
+    allowed_seen = true.segments(true.visible)
+    allowed_all = true.segments()
+    seen, weight = _samples(drawn, drawn.visible)
+    unseen, unseen_weight = _samples(drawn, ~drawn.visible)
+    truly, true_weight = _samples(true, true.visible & required)
+    shown = _distance(seen, allowed_seen, threads)
+    short = _distance(truly, drawn.segments(drawn.visible), threads)
+    placed = np.concatenate(
+        [np.minimum(shown, _distance(seen, allowed_all, threads)), _distance(unseen, allowed_all, threads)]
+    )
+    both, both_weight = np.concatenate([shown, short]), np.concatenate([weight, true_weight])
+    extra, lacking = shown > NOTICED, short > NOTICED
+    hidden_there = _distance(seen[extra], true.segments(~true.visible), threads) <= NOTICED
+    hidden_drawn = _distance(truly[lacking], drawn.segments(~drawn.visible), threads) <= NOTICED
+    total = float(true_weight.sum())
+    too_much, missing = float(weight[extra].sum()), float(true_weight[lacking].sum())
+    return {
+        **_summary("off", placed, np.concatenate([weight, unseen_weight])),
+        **_summary("ink", both, both_weight),
+        "too_much": too_much,
+        "missing": missing,
+        "mislabelled": float(weight[extra][hidden_there].sum() + true_weight[lacking][hidden_drawn].sum()),
+        "wrong": (too_much + missing) / total if total > 0.0 else 0.0,
+        "true_visible": total,
+    }
+
+
+def _summary(name: str, distance: Floats, weight: Floats) -> dict[str, float]:
+    if len(distance) == 0 or not weight.sum() > 0.0:
+        return {}
+    # Where one side has no lines at all, the other is as far away as the paper is wide; nothing is farther.
+    distance = np.minimum(distance, FARTHEST)
+    order = np.argsort(distance)
+    share = np.cumsum(weight[order]) / weight.sum()
+    usual = distance[order][min(int(np.searchsorted(share, USUAL)), len(order) - 1)]
+    mean = float((distance * weight).sum() / weight.sum())
+    return {f"{name}_mean": mean, f"{name}_usual": float(usual), f"{name}_worst": float(distance.max())}
+
+
+FARTHEST = 1000.0
+
+
+def _samples(ink: Ink, chosen: npt.NDArray[np.bool_]) -> tuple[Floats, Floats]:
+    """Points (n, 2) along the chosen lines, their ends among them, and the length (n,) for which each stands."""
+    pieces = ink.segments(chosen)
+    if len(pieces) == 0:
+        return np.empty((0, 2)), np.empty(0)
+    length = np.hypot(pieces[:, 2] - pieces[:, 0], pieces[:, 3] - pieces[:, 1])
+    step = max(float(length.sum()) / SAMPLES, 1e-9)
+    count = np.maximum(np.ceil(length / step), 1.0).astype(np.int64) + 1
+    which = np.repeat(np.arange(len(pieces)), count)
+    t = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
+    points = pieces[which, :2] + (pieces[which, 2:] - pieces[which, :2]) * t[:, None]
+    # By the rule of trapezoids: the ends of a piece stand for half a step.
+    weight = length[which] / (count[which] - 1) * np.where((t == 0.0) | (t == 1.0), 0.5, 1.0)
+    return points, weight
+
+
+def _distance(points: Floats, segments: Floats, threads: int) -> Floats:
+    if len(points) == 0 or len(segments) == 0:
+        return np.full(len(points), np.inf)
+    keys = np.zeros(len(points), np.int32), np.zeros(len(segments), np.int32)
+    found, _ = _kernel.nearest(
+        np.ascontiguousarray(points), keys[0], np.ascontiguousarray(segments), keys[1], np.inf, threads
+    )
+    return np.asarray(found)

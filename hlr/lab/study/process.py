@@ -1,0 +1,51 @@
+"""Jobs in processes of their own, with a time limit: what cannot be had there is a sentence here."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hlr.lab.study.job import Job
+
+WAIT = 20.0
+"""Limits by the clock, where others keep the processors busy; and where there is no limit but the clock's."""
+
+
+def answer(job: Job) -> dict[str, Any]:
+    """What the job's process answered, or {"failure": sentence}.
+
+    Whatever interrupts this ends the process first.
+    """
+    with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
+        path = Path(folder) / "answer.json"
+        # -P: the folder that hlr was started in must not provide modules.
+        command = [sys.executable, "-P", "-m", "hlr.lab.study.child", str(path)]
+        child = subprocess.Popen(
+            command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True
+        )
+        try:
+            child.communicate(json.dumps(job.as_dict()) + "\n", timeout=WAIT * job.limit)
+        except subprocess.TimeoutExpired:
+            return {"failure": f"not finished in {WAIT * job.limit:g} s by the clock"}
+        finally:
+            if child.poll() is None:
+                child.kill()
+                child.wait()
+        if child.returncode != 0 or not path.exists():
+            return {"failure": _end(child.returncode, job.limit)}
+        found: dict[str, Any] = json.loads(path.read_text("utf-8"))
+        return found
+
+
+def _end(code: int, limit: float) -> str:
+    if code < 0 and -code == getattr(signal, "SIGXCPU", 0):
+        return f"not finished in {limit:g} s of processor time"
+    if code < 0:
+        name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
+        return f"its process ended by {name}" + (" (out of memory?)" if name in ("SIGKILL", "SIGABRT") else "")
+    return f"its process ended with code {code}"

@@ -1,0 +1,208 @@
+"""The study itself: which points are measured, in which order, and what is left out and why."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from hlr.common.types import Progress
+from hlr.errors import OptionError, SourceError
+from hlr.lab.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Job, Point, point_of
+from hlr.lab.study.process import answer
+from hlr.request.options import View
+
+A4 = (277.0, 190.0)
+"""Millimetres: a landscape sheet with its margins."""
+
+FINER = 0.4
+"""Of the finest accuracy that could be drawn: the accuracy of the lines that all are judged by."""
+PATIENCE = 3.0
+"""Limits of time that the truth and the judge may take: they are nobody's cost."""
+
+
+@dataclass(slots=True)
+class Study:
+    """All that was measured of one model.
+
+    look    what is drawn: name, scale, width, height, parts, lines, triangles
+    truth   accuracy of the lines that all were judged by, millimetres; None: there are none, and no errors
+    arithmetic  per accuracy, the kernel's pass with each kind of numbers (`hlr.lab.study.arithmetic.Rounding`)
+    notes   what was left out, in sentences
+    finished  False where it was stopped
+    """
+
+    source: str
+    view: View
+    limit: float
+    runs: int
+    look: dict[str, Any] = field(default_factory=dict)
+    truth: float | None = None
+    points: list[Point] = field(default_factory=list)
+    arithmetic: list[dict[str, Any]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    finished: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    """What is to be measured.
+
+    accuracies  of ours and of PolyAlgo, millimetres; pixels: of depth buffers; predicates: accuracies at which kinds of
+    arithmetic are compared; rivals, reached: whether others are measured, and our own drawings class by class
+    """
+
+    accuracies: Sequence[float] = ACCURACIES
+    pixels: Sequence[int] = PIXELS
+    predicates: Sequence[float] = PREDICATES
+    rivals: bool = True
+    reached: bool = True
+
+
+def study(
+    source: str,
+    view: View = "iso",
+    *,
+    scale: float | None = None,
+    fit: tuple[float, float] | None = None,
+    wish: Wish | None = None,
+    limit: float = 30.0,
+    runs: int = 3,
+    only: Sequence[str] = (),
+    hide: Sequence[str] = (),
+    var: str | None = None,
+    annotations: bool = False,
+    into: Study | None = None,
+    progress: Progress | None = None,
+) -> Study:
+    """Measure all points, each `runs` times in a process of its own.
+
+    scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: processor seconds for each point.
+    only, hide, var, annotations: which parts, as of a drawing (`hlr.Options`).
+    into: is filled step by step, so that what is finished survives whatever stops this.
+
+    Raises OptionError, and SourceError where the model cannot be drawn at all.
+    """
+    wish = wish or Wish()
+    if not limit > 0.0 or runs < 1:
+        raise OptionError("a study needs a positive limit of seconds, and at least one run")
+    out = into if into is not None else Study(source, view, limit, runs)
+    tell = progress or (lambda _stage, _done: None)
+    with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
+        # Without a scale as large as fits; from then on the same for all.
+        chosen: dict[str, Any] = {"only": tuple(only), "hide": tuple(hide), "var": var, "annotations": annotations}
+        first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit, **chosen)
+        tell("look", 0.0)
+        out.look = answer(first)
+        if out.look.get("failure"):
+            raise SourceError(f"{source} cannot be studied: {out.look['failure']}")
+        common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder, "runs": runs, **chosen}
+        _Points(out, common, wish, limit, tell).run()
+    out.finished = True
+    return out
+
+
+class _Points:
+    """All points, one after another."""
+
+    def __init__(
+        self, out: Study, common: dict[str, Any], wish: Wish, limit: float, tell: Callable[[str, float], None]
+    ) -> None:
+        self._out, self._common, self._wish, self._limit, self._tell = out, common, wish, limit, tell
+        self._steps, self._done = 1, 0
+
+    def run(self) -> None:
+        wanted: list[tuple[str, Sequence[float]]] = [(HLR, sorted(self._wish.accuracies, reverse=True))]
+        if self._wish.rivals:
+            wanted += [
+                (POLY, sorted(self._wish.accuracies, reverse=True)),
+                (EXACT, [0.0]),
+                (ZBUFFER, sorted(self._wish.pixels)),
+            ]
+        count = sum(len(settings) for _, settings in wanted)
+        self._steps = 2 * count + len(self._wish.predicates) + len(self._wish.accuracies) + 1
+        for who, settings in wanted:
+            self._first(who, settings)
+        self._truth()
+        self._judge()
+        for accuracy in self._wish.predicates:
+            self._arithmetic(accuracy)
+        if self._wish.reached:
+            self._reached()
+
+    def _answer(self, work: str, setting: float, name: str = "", patience: float = 1.0) -> dict[str, Any]:
+        self._done += 1
+        self._tell(f"{work} {setting:g}" if setting else work, min(self._done / self._steps, 1.0))
+        return answer(Job(work, setting=setting, name=name, limit=self._limit * patience, **self._common))
+
+    def _first(self, who: str, settings: Sequence[float]) -> None:
+        """Coarse to fine, until one takes too long: then the finer ones would as well."""
+        late: float | None = None
+        for setting in settings:
+            number = len(self._out.points)
+            if late is not None:
+                found: dict[str, Any] = {"failure": f"not tried: {late:g} was not finished"}
+            else:
+                found = self._answer(who, setting, f"{number}")
+            if found.get("failure"):
+                if found["failure"].startswith("not finished"):
+                    late = setting
+                accuracy = setting if who in (HLR, POLY) else None
+                self._out.points.append(Point(who, setting, accuracy, failure=found["failure"]))
+                continue
+            self._out.points.append(point_of(found))
+
+    def _truth(self) -> None:
+        """A drawing finer than all, or as fine as the finest."""
+        drawn = [p.setting for p in self._out.points if p.who == HLR and p.failure is None]
+        if not drawn:
+            return
+        finest = min(drawn)
+        for accuracy in (FINER * finest, finest):
+            found = self._answer("truth", accuracy, "truth", PATIENCE)
+            if not found.get("failure"):
+                self._out.truth = accuracy
+                return
+        self._out.notes.append(
+            f"No errors were measured: the true lines could not be drawn ({found['failure'].rstrip('.')})."
+        )
+
+    def _judge(self) -> None:
+        if self._out.truth is None:
+            return
+        for number, point in enumerate(self._out.points):
+            if point.failure is None:
+                found = self._answer("judge", point.setting, f"{number}", PATIENCE)
+                if found.get("failure"):
+                    self._out.notes.append(
+                        f"{point.who} at {point.setting:g} was not judged: {found['failure'].rstrip('.')}."
+                    )
+                else:
+                    point.errors = found["errors"]
+
+    def _arithmetic(self, accuracy: float) -> None:
+        found = self._answer("arithmetic", accuracy, patience=PATIENCE)
+        if found.get("failure"):
+            self._out.notes.append(
+                f"Kinds of arithmetic were not compared at {accuracy:g} mm: {found['failure'].rstrip('.')}."
+            )
+        else:
+            self._out.arithmetic += found["kinds"]
+
+    def _reached(self) -> None:
+        """Coarse to fine, as long as it is finished in time."""
+        late: float | None = None
+        for point in self._out.points:
+            if point.who != HLR or point.failure is not None:
+                continue
+            if late is not None:
+                point.reached = {"why": f"not tried: {late:g} mm was not finished"}
+                continue
+            found = self._answer("reached", point.setting, patience=PATIENCE)
+            if not found.get("failure"):
+                point.reached = found["reached"]
+                continue
+            point.reached = {"why": found["failure"]}
+            if found["failure"].startswith("not finished"):
+                late = point.setting

@@ -1,0 +1,258 @@
+"""What is done in a measuring process: one job, its costs and its lines."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import asdict, replace
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+from hlr.drawing.drawing import Drawing, DrawnView
+from hlr.drawing.saving import render
+from hlr.errors import OptionError
+from hlr.image.camera import Camera, resolve
+from hlr.image.outlines import with_silhouettes
+from hlr.image.placement import Placed, place
+from hlr.lab.study.ink import Ink, drawing_of, ink_of, load
+from hlr.lab.study.job import EXACT, HLR, POLY, ZBUFFER, Cost, Job, Point
+from hlr.lab.study.watch import Watch
+from hlr.linework.curves import EdgeCurveLookup
+from hlr.pipeline.drawing import draw_views
+from hlr.pipeline.finish import drawn_view
+from hlr.pipeline.staging import meshed_scene
+from hlr.request.options import Options
+from hlr.scene.scene import Scene
+from hlr.source.chosen import open_chosen
+from hlr.source.model import Source
+from hlr.visibility.plan import decide
+
+CHORDS = 0.02
+"""Of the accuracy: how far chords are off the curves that they stand for when lines are judged."""
+
+
+def done(job: Job) -> dict[str, Any]:
+    """The answer to a job, for JSON: a `Point` of a contestant, or what the job's work says.
+
+    Raises HlrError where it cannot be done.
+    """
+    if job.work == "look":
+        return _look(job)
+    if job.work == "truth":
+        return _truth(job)
+    if job.work == "judge":
+        return _judge(job)
+    if job.work == "arithmetic":
+        return _arithmetic(job)
+    if job.work == "reached":
+        return _reached(job)
+    return _repeated(job, {HLR: _hlr, POLY: _occt, EXACT: _occt, ZBUFFER: _zbuffer}[job.work]).as_dict()
+
+
+def _repeated(job: Job, draw: Callable[[Job], Point]) -> Point:
+    """Medians over the job's runs; fewer where they would not end in time.
+
+    The first run also loads libraries; it counts as any other, unless there are more.
+    """
+    points = [draw(job)]
+    while len(points) < job.runs and time.process_time() * (1.0 + 1.0 / len(points)) < REPEAT * job.limit:
+        points.append(draw(replace(job, folder="")))
+    out = points[0]
+    out.runs = len(points)
+    out.stages = {
+        name: Cost(
+            median(p.stages[name].wall for p in points),
+            median(p.stages[name].cpu for p in points),
+            max(p.stages[name].memory for p in points),
+        )
+        for name in out.stages
+    }
+    return out
+
+
+REPEAT = 0.5
+"""Of the limit: what would take longer in all is not drawn again."""
+
+
+def _options(job: Job, **others: Any) -> Options:
+    return Options(
+        scale=job.scale or 1.0,
+        fit=None if job.scale else job.fit,
+        only=tuple(job.only),
+        hide=tuple(job.hide),
+        var=job.var,
+        annotations=job.annotations,
+        **others,
+    )
+
+
+def _opened(job: Job, options: Options) -> tuple[Source, Camera, Placed]:
+    opened = open_chosen(job.source, job)
+    bounds = opened.bounds()
+    camera = resolve(job.view, options, opened.frame, bounds)
+    return opened, camera, place(camera, options, opened, bounds)
+
+
+def _look(job: Job) -> dict[str, Any]:
+    """The scale at which all draw, and what is drawn."""
+    drawing = draw_views(job.source, [job.view], _options(job))[0]
+    x0, y0, x1, y1 = drawing.bounds
+    return {
+        "name": drawing.source,
+        "scale": drawing.scale,
+        "width": x1 - x0,
+        "height": y1 - y0,
+        "parts": len(drawing.parts),
+        "lines": len(drawing.lines),
+        "triangles": int(drawing.counters.get("triangles", 0)),
+        "accuracy": drawing.accuracy.used,
+        "notes": [str(note) for note in drawing.notes],
+    }
+
+
+def _drawn(job: Job, watch: Watch, **others: Any) -> Drawing:
+    return draw_views(job.source, [job.view], _options(job, accuracy=job.setting, **others), progress=watch)[0]
+
+
+def _hlr(job: Job) -> Point:
+    watch = Watch()
+    drawing = _drawn(job, watch)
+    watch("write")
+    size = len(render(drawing, "svg"))
+    watch.stop()
+    _keep(job, ink_of(drawing, CHORDS * job.setting))
+    stages = dict(watch.stages)
+    # The pipeline does not say when it passes from deciding to hiding and to lines: its own clock does.
+    whole = stages.pop("visibility")
+    clock = sum(drawing.timings[s] for s in ("plan", "visibility", "linework")) or 1.0
+    for name in ("plan", "visibility", "linework"):
+        wall = drawing.timings[name]
+        stages[name] = replace(whole, wall=wall, cpu=whole.cpu * wall / clock)
+    counts = {name: int(drawing.counters.get(name, 0)) for name in ("triangles", "failed_checks", "contradictions")}
+    pieces = sum(_pieces(line.curve, len(line.points)) for line in drawing.lines)
+    return Point(
+        HLR,
+        job.setting,
+        accuracy=job.setting,
+        stages=stages,
+        counts={"lines": len(drawing.lines), "segments": pieces, "bytes": size, **counts},
+    )
+
+
+def _pieces(curve: Any, points: int) -> int:
+    """Straight pieces, arcs and Bezier curves of a line."""
+    if curve is None:
+        return points - 1
+    return (len(curve.points) - 1) // curve.degree if hasattr(curve, "degree") else 1
+
+
+def _truth(job: Job) -> dict[str, Any]:
+    """The lines that all are judged by: those of the finest drawing, and what may be drawn beside them."""
+    drawing = _drawn(job, Watch(), smooth=True, seam=True)
+    _keep(job, ink_of(drawing, CHORDS * job.setting))
+    return {"accuracy": job.setting, "lines": len(drawing.lines)}
+
+
+def _occt(job: Job) -> Point:
+    from hlr.lab.study import occt
+
+    watch = Watch()
+    watch("source")
+    accuracy = job.setting if job.work == POLY else None
+    opened, camera, at = _opened(job, _options(job, accuracy=accuracy))
+    if not hasattr(opened, "shape"):
+        raise OptionError("OpenCASCADE hides lines of B-reps only, and this is a mesh")
+    shape = opened.shape()
+    watch.stop()
+    if job.work == EXACT:
+        ink = occt.exact(shape, camera, at.per_model, watch)
+    else:
+        ink = occt.poly(shape, camera, at.per_model, at.tolerances.deflection, at.tolerances.angle, watch)
+    return _rival(job, ink, opened, camera, accuracy, watch)
+
+
+def _zbuffer(job: Job) -> Point:
+    from hlr.lab.study.zbuffer import hidden_lines
+
+    watch = Watch()
+    watch("source")
+    opened, camera, at = _opened(job, _options(job))
+    low, high = _flat_box(opened, camera)
+    pixel = float((high - low).max()) * at.per_model / job.setting
+    options = _options(job, accuracy=pixel)
+    at = place(camera, options, opened, opened.bounds())
+    watch("tessellate")
+    scene, _, _ = _scene(opened, camera, at, options, watch)
+    watch("plan")
+    plan = decide(scene, camera, options, at.tolerances)
+    ink = hidden_lines(scene, plan.role, camera, at.per_model, int(job.setting), watch)
+    watch.stop()
+    return _rival(job, ink, opened, camera, pixel, watch)
+
+
+def _flat_box(opened: Source, camera: Camera) -> tuple[Any, Any]:
+    b = opened.bounds()
+    corners = np.array([[b[i][0], b[j][1], b[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    flat = camera.project(corners)[:, :2]
+    return flat.min(axis=0), flat.max(axis=0)
+
+
+def _scene(
+    opened: Source, camera: Camera, at: Placed, options: Options, watch: Watch
+) -> tuple[Scene, EdgeCurveLookup, list[Placed]]:
+    return meshed_scene(opened, [camera], [at], options, watch, {})
+
+
+def _rival(job: Job, ink: Ink, opened: Source, camera: Camera, accuracy: float | None, watch: Watch) -> Point:
+    """The figures of a contestant that yields bare lines."""
+    view: DrawnView = drawn_view(camera)
+    watch("write")
+    bare = drawing_of(ink, opened.name, view, job.scale or 1.0, accuracy or WRITTEN)
+    size = len(render(bare, "svg"))
+    watch.stop()
+    _keep(job, ink)
+    counts = {"lines": len(ink.visible)}
+    if accuracy is not None:  # else they are curves, and here only chords of them
+        counts |= {"segments": len(ink.points) - len(ink.visible), "bytes": size}
+    return Point(job.work, job.setting, accuracy=accuracy, stages=dict(watch.stages), counts=counts)
+
+
+WRITTEN = 0.001
+"""Accuracy in millimetres with which lines are written that have none of their own."""
+
+
+def _arithmetic(job: Job) -> dict[str, Any]:
+    from hlr.lab.study.arithmetic import compared
+
+    options = _options(job, accuracy=job.setting)
+    opened, camera, at = _opened(job, options)
+    scene, _, _ = _scene(opened, camera, at, options, Watch())
+    seen = with_silhouettes(scene, camera, at.tolerances, 0)
+    plan = decide(seen, camera, options, at.tolerances)
+    lift = 0.0 if seen.silhouettes is None else seen.silhouettes.lift
+    found = compared(seen, plan, camera.project(seen.points + lift), at.per_model, job.setting)
+    return {"kinds": [asdict(one) for one in found]}
+
+
+def _judge(job: Job) -> dict[str, Any]:
+    from hlr.lab.study.judge import judged
+
+    folder = Path(job.folder)
+    return {"errors": judged(load(folder / "truth.npz"), load(folder / f"{job.name}.npz"))}
+
+
+def _reached(job: Job) -> dict[str, Any]:
+    """What an independent measurement says of our own drawing: OpenCASCADE's curves, surfaces, rays."""
+    from hlr.lab.measure import measured
+
+    opened = open_chosen(job.source, job)
+    drawing = draw_views(opened, [job.view], _options(job, accuracy=job.setting))[0]
+    return {"reached": measured(opened, drawing).as_dict()}
+
+
+def _keep(job: Job, ink: Ink) -> None:
+    if job.folder:
+        ink.save(Path(job.folder) / f"{job.name}.npz")

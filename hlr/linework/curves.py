@@ -1,0 +1,96 @@
+"""The curves along which lines run: those of B-rep edges, outlines of true surfaces, circles of meshes.
+
+The visibility pass works on mesh edges. What it found stays what decides: the kernel makes of each polyline the
+interval of its curve between its two ends, on paper an arc, a chain of Bezier curves or a straight line
+(`kernel/linework/src/paper`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.common.types import Floats, Ints
+from hlr.image.camera import Camera
+from hlr.linework.circles import circles
+from hlr.request.accuracy import Tolerances
+from hlr.scene.scene import Scene
+from hlr.source.geometry import packed, together
+from hlr.source.model import Curves, EdgeCurves
+from hlr.visibility.plan import Plan
+
+EdgeCurveLookup = Callable[[Ints, Ints], EdgeCurves] | None
+"""The curves of edges, given their parts and indices; None where the source has none."""
+
+NO_CURVES = packed([])
+HERE = np.eye(3, 4)[None]
+"""The place of curves that lie where they are: no matrix moves them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Guides:
+    """Curves of chains. known: there may be some; curves, n records; places (p, 3, 4).
+
+    curve (c,) of each chain, -1 for none; place (c,); bulge (c,): the most that the curve rises above the chords that
+    it was found on, millimetres on paper; sought: for how many lines one was looked for
+    """
+
+    known: bool
+    curves: Curves
+    places: Floats
+    curve: Ints
+    place: Ints
+    bulge: Floats
+    sought: int
+
+
+def guides(
+    scene: Scene,
+    plan: Plan,
+    chains: _kernel.Chains,
+    lines: Ints,
+    edge_curves: EdgeCurveLookup,
+    camera: Camera,
+    per_model: float,
+    tolerances: Tolerances,
+) -> Guides:
+    """The curves of chains; looked up are those of `lines` (n,), which are the chains of lines."""
+    edge, part, straight = chains.edge, chains.part, chains.straight
+    # Of each chain the number of an outline or a circle, which lie where they are.
+    number, own, bulge = np.full(len(edge), -1, np.int32), NO_CURVES, np.zeros(0)
+    silhouettes = scene.silhouettes
+    if silhouettes is not None:
+        number = silhouettes.number[chains.first]
+        source = np.append(silhouettes.source, np.int32(-1))[number]
+        edge = np.where(source >= 0, source, edge).astype(np.int32)
+        own, bulge = silhouettes.curves, np.zeros(len(silhouettes.curves.kind))
+    if plan.every_curve and edge_curves is not None:
+        edge_curves(part[straight], edge[straight])
+    # Where two planes meet, the line between the vertices is all there is to know.
+    edge[straight] = -1
+    round_ = circles(scene, plan, chains, camera, per_model, tolerances)
+    if round_ is not None:
+        number = np.where(round_.number >= 0, round_.number + len(own.kind), number).astype(np.int32)
+        own, bulge = together(own, round_.curves), np.concatenate([bulge, round_.bulge])
+    known = edge_curves is not None or len(own.kind) > 0
+    sought = int(((edge >= 0) | (number >= 0))[lines].sum()) if known else 0
+
+    curve, place = np.full(len(edge), -1, np.int32), np.zeros(len(edge), np.int32)
+    curves, places = NO_CURVES, HERE
+    drawn = np.zeros(len(edge), bool)
+    drawn[lines] = True
+    tied = np.flatnonzero(drawn & (edge >= 0))
+    if len(tied) and edge_curves is not None:
+        found = edge_curves(part[tied], edge[tied])
+        curve[tied], place[tied] = found.which, found.place
+        curves, places = found.curves, np.concatenate([found.places, HERE])
+    rises = np.zeros(len(edge))
+    if len(own.kind):
+        loose = np.flatnonzero((edge < 0) & (number >= 0))
+        curve[loose], place[loose] = number[loose] + len(curves.kind), len(places) - 1
+        rises[loose] = bulge[number[loose]]
+        curves = together(curves, own)
+    return Guides(known, curves, places, curve, place, rises, sought)

@@ -1,0 +1,153 @@
+"""The finished drawing: lines, and all that is known about how they came to be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from time import perf_counter
+
+import numpy as np
+
+from hlr.common.clock import Clock, lap
+from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
+from hlr.drawing.fill import Fill
+from hlr.drawing.line import Bounds, Line
+from hlr.drawing.lines import held
+from hlr.drawing.notes import Note
+from hlr.image.camera import Camera
+from hlr.pipeline.staging import Staged
+from hlr.request.effect import Decisions
+from hlr.request.options import Options, Request
+from hlr.scene.scene import Scene
+from hlr.source.model import Source
+from hlr.tables.line_classes import EdgeClass
+from hlr.visibility.plan import Plan
+from hlr.visibility.segments import Segments
+from hlr.window.cut import cut
+from hlr.window.frame import Frame
+
+Drawn = tuple[Sequence[Line], tuple[float, float], int]
+"""Lines, their origin, and how many curves were sought: as `hlr.linework.lines.draw_lines` gives them."""
+
+
+def finished(
+    opened: Source,
+    scene: Scene,
+    seen: Scene,
+    view: Staged,
+    options: Options,
+    plan: Plan,
+    segments: Segments,
+    drawn: Drawn,
+    clock: Clock,
+    request: Request | None = None,
+    remarks: Sequence[Note] = (),
+) -> Drawing:
+    """The drawing of one view of a scene; seen: what of it is before the camera, with its outlines.
+
+    request: what was asked for; remarks: what else is to be said.
+    """
+    camera, at, planner = view.camera, view.at, view.planner
+    lines, origin, sought = drawn
+    started = perf_counter()
+    fill: Fill | None = None
+    if plan.fill:
+        from hlr.shading.fill import filled
+
+        fill = filled(
+            scene, opened.looks(), camera, seen.points, at.per_model, origin, at.tolerances.accuracy, options.threads
+        )
+        planner.spent("fill", perf_counter() - started)
+        planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
+    stated = drawn_view(camera)
+    window = None if options.window is None else Bounds(*map(float, options.window))
+    frame = None if window is None else Frame(window, stated, at.per_model)
+    lines, fill, empty = cut(lines, fill, frame, planner)
+    lap(clock, "linework", started)
+    clock["total"] = sum(clock.values())
+    counters = _counters(seen, segments, lines, fill, sought, plan)
+    if not plan.crossings and counters["seeds"]:
+        for name in ("crossing search", "piercing search"):
+            planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
+    for name, steps in STEPS.items():
+        planner.spent(name, sum(segments.seconds[s] for s in steps))
+    cuts = sum(sum(planner.cost(name).values()) for name in ("near clipping", "side clipping"))
+    rescued = planner.cost("rescue of faces")
+    return Drawing(
+        source=opened.name,
+        view=stated,
+        scale=at.scale,
+        origin=origin,
+        accuracy=Accuracy(
+            asked=options.accuracy,
+            used=at.tolerances.accuracy,
+            deflection=at.tolerances.deflection,
+            contact=at.tolerances.contact,
+        ),
+        unit=opened.frame.unit,
+        up_axis=opened.frame.up,
+        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),
+        lines=lines,
+        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *(empty or _empty(lines, fill)), *remarks))),
+        counters={**counters, **rescued, "clipping_planes": cuts},
+        timings=clock,
+        fill=fill,
+        request=request,
+        plan=Decisions(planner, counters),
+        window=window,
+        reading=getattr(opened, "reading", ""),
+    )
+
+
+STEPS = {
+    "back-face culling": ("tables",),
+    "crossing search": ("seeds", "crossings", "counting"),
+    "depth pyramid": ("pyramid",),
+    "piercing search": ("piercings",),
+}
+"""The kernel's steps that an effect is timed by."""
+
+
+def _counters(
+    seen: Scene, segments: Segments, lines: Sequence[Line], fill: Fill | None, sought: int, plan: Plan
+) -> dict[str, int]:
+    kept = held(lines)
+    kinds = np.bincount(kept.kinds(), minlength=len(EdgeClass)).tolist()
+    faces = 0 if fill is None else len(fill.faces) - 1
+    return {
+        **segments.counters,
+        "lines": len(lines),
+        "outlines": 0 if seen.silhouettes is None else len(seen.silhouettes.curves.kind),
+        "divided_points": len(seen.points) if plan.divide else 0,
+        "hidden_lines": len(lines) - int(np.count_nonzero(kept.visible())),
+        "smooth_lines": kinds[EdgeClass.SMOOTH],
+        "seam_lines": kinds[EdgeClass.SEAM],
+        "intersection_lines": kinds[EdgeClass.INTERSECTION],
+        "circles": kept.circles() if plan.step > 0.0 else 0,
+        "curves_sought": sought,
+        "filled_faces": faces,
+        "coloured_faces": faces,
+        "gradients": 0 if fill is None else len(fill.gradients),
+    }
+
+
+def _empty(lines: Sequence[Line], fill: Fill | None) -> tuple[Note, ...]:
+    painted = fill is not None and len(fill.part) > 0
+    return () if lines or painted else (Note("nothing-in-view", "nothing of the model lies in this view."),)
+
+
+def drawn_view(camera: Camera) -> DrawnView:
+    """The camera as a result states it."""
+    return DrawnView(
+        name=camera.name,
+        projection="orthographic" if camera.eye is None else "perspective",
+        direction=camera.direction,
+        right=camera.right,
+        up=camera.up,
+        eye=camera.eye,
+        target=camera.target,
+        fov=camera.fov,
+        distance=camera.distance,
+    )
+
+
+__all__ = ["drawn_view", "finished"]

@@ -1,0 +1,179 @@
+"""The finest drawing that fits into a time: coarse first, then finer while time lasts.
+
+1. The source is opened once. The first pass is COARSE times coarser than the accuracy that a drawing of its size has.
+2. What the passes took tells how time grows with fineness: as a power of it (time ~ accuracy^-p). The next accuracy is
+   the finest of the ladder that this lets finish; where not even the next rung would, the last drawing is the result.
+3. Growth is only foreseen: a pass that turns out to take longer is given up between two stages.
+
+::
+
+        seconds |                        x         given up, or not even started: it would end too late
+                |........................:........ budget
+                |            x
+                |     x
+                |  x  0.2   0.1         0.02 mm
+                | 0.5
+
+Each finished drawing is handed over at once: whoever writes it keeps it, whatever happens to those after it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import log
+from time import perf_counter
+from typing import Any
+
+from hlr.common.types import Progress
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.notes import Note
+from hlr.errors import HlrError
+from hlr.image.camera import resolve
+from hlr.image.placement import place
+from hlr.pipeline.drawing import draw_views
+from hlr.request.check import checked, checked_views
+from hlr.request.options import Options, View
+from hlr.source.chosen import open_chosen
+from hlr.source.model import Source
+
+COARSE = 10.0
+"""How much coarser than usual the first drawing is: 0.5 mm, the width of a line, where 0.05 is usual."""
+FINEST = 0.04
+"""Of the usual accuracy: where none is asked for, nothing finer is drawn. 0.002 mm, which no printer shows."""
+LADDER = (1.0, 0.4, 0.2, 0.1, 0.04, 0.02, 0.01, 0.004)
+"""Of the first accuracy: 0.5, 0.2, 0.1, ... Few rungs, so that chance seldom decides between two drawings."""
+
+FIRST_GROWTH = 1.8
+"""Power of the growth before two passes have shown it: the steepest that was met, a screw with its thread, from 0.05 mm
+on. Where it is steeper still, the pass is given up after meshing, before the time is over."""
+MESH_GROWTH = 0.8
+"""The same for a mesh, which has its triangles: only lines become more."""
+LEAST_GROWTH, CAUTION = 0.4, 0.3
+"""To the growth that two passes have shown: the first loaded libraries, and meshing grows faster as it gets fine."""
+BOLDEST = 6.0
+"""How much finer one pass may be than the last."""
+TELLING = 0.2
+"""Share of a pass that must be over before it tells how long the rest takes: of a mesh, meshing is next to nothing."""
+SPARE = 0.9
+"""Share of the remaining time that a pass may be expected to take."""
+
+Finished = Callable[[list[Drawing]], None]
+
+
+class _TooLong(Exception):  # noqa: N818 - not an error, and nobody sees it
+    """A pass would end too late."""
+
+
+def draw_within(
+    source: Any,
+    views: Sequence[View],
+    options: Options,
+    progress: Progress | None = None,
+    finished: Finished | None = None,
+    started: float | None = None,
+) -> list[Drawing]:
+    """One drawing per view, as fine as `options.within` seconds allow, but not finer than `options.accuracy`.
+
+    finished: called with the drawings of each pass as soon as they are there; its time counts.
+    started: when the time began, by `perf_counter`; None: now.
+
+    Where reading and the first pass take longer than that, the first drawing is the result, and a note states the
+    excess. KeyboardInterrupt before the first drawing is raised; after it, the last finished drawing is the result.
+    Raises what `hlr.pipeline.drawing.draw_views` raises.
+    """
+    started = perf_counter() if started is None else started
+    options = checked(options)
+    assert options.within is not None
+    budget = options.within
+    views = checked_views(views, options)
+    if not views:
+        return []
+    opened = open_chosen(source, options)
+    first, goal = _range(opened, views, options)
+    guess = FIRST_GROWTH if hasattr(opened, "edge_shape") else MESH_GROWTH
+    request = replace(options, within=None, report=False)
+    best: list[Drawing] = []
+    passes: list[tuple[float, float, dict[str, float]]] = []
+    accuracy: float | None = first
+    while accuracy is not None:
+        begun = perf_counter()
+        watch = _Watch(progress, passes[-1], accuracy, begun, started + budget) if passes else progress
+        try:
+            best = draw_views(opened, views, replace(request, accuracy=accuracy), watch)
+        except (_TooLong, KeyboardInterrupt, HlrError, MemoryError):
+            if not best:
+                raise
+            break
+        best = [replace(x, accuracy=replace(x.accuracy, asked=options.accuracy, within=budget)) for x in best]
+        took = perf_counter() - started
+        if not passes and took > budget:
+            text = (
+                f"{took - budget:.1f} s over the {budget:g} s asked for: reading the model and the coarsest drawing, "
+                f"of {accuracy:g} mm, took {took:.1f} s"
+            )
+            best = [replace(x, notes=(*x.notes, Note("over-time", text))) for x in best]
+        if finished is not None:
+            finished(best)
+        now = perf_counter()
+        passes.append((accuracy, now - begun, dict(best[-1].timings)))
+        accuracy = _next(passes, first, goal, budget - (now - started), guess)
+    return best
+
+
+def _range(opened: Source, views: list[View], options: Options) -> tuple[float, float]:
+    """The first accuracy, and the one that is not exceeded, millimetres."""
+    usual_options, bounds = replace(options, accuracy=None), opened.bounds()
+    cameras = [resolve(view, options, opened.frame, bounds) for view in views]
+    usual = min(place(c, usual_options, opened, bounds).tolerances.accuracy for c in cameras)
+    goal = options.accuracy if options.accuracy is not None else FINEST * usual
+    return max(goal, COARSE * usual), goal
+
+
+def _growth(passes: Sequence[tuple[float, float, dict[str, float]]], guess: float) -> float:
+    """The power by which the time of a pass grows with its fineness; a guess before two have shown it."""
+    if len(passes) < 2:
+        return guess
+    (a, time_a, _), (b, time_b, _) = passes[-2:]
+    return max(LEAST_GROWTH, log(max(time_b / time_a, 1.0)) / log(a / b) + CAUTION)
+
+
+def _next(
+    passes: Sequence[tuple[float, float, dict[str, float]]], first: float, goal: float, left: float, guess: float
+) -> float | None:
+    """The finest accuracy that will be there in `left` seconds; None: none is."""
+    accuracy, took, _ = passes[-1]
+    if accuracy <= goal or left <= 0.0:
+        return None
+    finer = float((left * SPARE / took) ** (1.0 / _growth(passes, guess)))
+    rungs = sorted({goal, *(rung * first for rung in LADDER if goal < rung * first < accuracy)})
+    finest = accuracy / min(finer, BOLDEST)
+    return next((rung for rung in rungs if finest <= rung < accuracy), None)
+
+
+class _Watch:
+    """Progress of a pass; gives it up where the stages so far show that it will end too late."""
+
+    def __init__(
+        self,
+        show: Progress | None,
+        last: tuple[float, float, dict[str, float]],
+        accuracy: float,
+        begun: float,
+        deadline: float,
+    ) -> None:
+        self._show, self._begun, self._deadline = show, begun, deadline
+        _, took, timings = last
+        self._before = {"scene": timings["tessellate"], "visibility": timings["tessellate"] + timings["scene"]}
+        self._whole = max(took, 1e-9)
+
+    def __call__(self, stage: str, done: float) -> None:
+        """As `hlr.common.types.Progress`; raises _TooLong."""
+        if self._show is not None:
+            self._show(stage, done)
+        now = perf_counter()
+        share = min(self._before.get(stage, 0.0) / self._whole, 1.0) if done == 0.0 else 0.0
+        # The later stages grow no faster than meshing, which comes first.
+        ends = self._begun + (now - self._begun) / share if share > TELLING else now
+        if ends > self._deadline + 0.05 * (self._deadline - self._begun):
+            raise _TooLong

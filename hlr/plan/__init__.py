@@ -1,1 +1,0 @@
-"""The request, and what scene and request call for."""

@@ -1,0 +1,65 @@
+"""What `hlr.draw` is: one pass of the pipeline, or as many as fit into a time; and what was reached, if asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Unpack
+
+from hlr.common.keywords import record_of, shown
+from hlr.pipeline.drawing import draw_views as drawn_once
+from hlr.request.check import checked, checked_views
+from hlr.request.options import Options, View, Wishes
+from hlr.source.chosen import open_chosen
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
+    from hlr.drawing.drawing import Drawing
+
+
+def draw_views(
+    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+) -> list[Drawing]:
+    """One drawing per view; the source is read and meshed once.
+
+    source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
+    Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
+    """
+    options = options or Options()
+    if not options.report and options.within is None:
+        return drawn_once(source, views, options, progress)  # which checks what is asked for
+    options = checked(options)
+    views = checked_views(views, options)
+    opened = open_chosen(source, options)
+    if options.within is None:
+        drawings = drawn_once(opened, views, options, progress)
+    else:
+        from hlr.pipeline.within import draw_within
+
+        drawings = draw_within(opened, views, options, progress)
+    return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
+
+
+@shown(Options)
+def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Unpack[Wishes]) -> Drawing:
+    """One view of a source; the keywords are the fields of `Options`.
+
+    Raises SourceError, ViewError, OptionError; with strict=True StrictError for any warning.
+    """
+    return draw_views(source, [view], record_of(Options, options, "draw"), progress)[0]
+
+
+def with_report(source: Any, drawing: Drawing, progress: Progress | None = None) -> Drawing:
+    """The drawing with `reached`, measured; of a window, what the whole drawing reached."""
+    from hlr.lab.measure import measured
+
+    if progress is not None:
+        progress("measure", 0.0)
+    threads = drawing.request.options.threads if drawing.request is not None else 0
+    whole = drawing
+    if drawing.window is not None and drawing.request is not None:
+        # What lies outside the window is no loss: the drawing is measured before anything was cut off.
+        asked = replace(drawing.request.options, window=None, within=None, accuracy=drawing.accuracy.used)
+        whole = drawn_once(source, [drawing.request.view], asked)[0]
+    reached = measured(source, whole, threads=threads)
+    return replace(drawing, reached=reached)

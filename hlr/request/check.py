@@ -1,0 +1,147 @@
+"""A request is checked before any work is done for it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from numbers import Integral, Real
+from typing import Any, Protocol, cast
+
+import numpy as np
+
+from hlr.errors import OptionError, ViewError
+from hlr.request.directions import check_directions
+from hlr.request.options import Options, Perspective, Vector, View
+
+MOST_THREADS = 1024
+MOST_SCALE = 1e9
+SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e7
+"""Millimetres."""
+NARROWEST, WIDEST = 0.01, 170.0
+"""Degrees: fields of view that can be drawn."""
+
+
+def checked(options: Options) -> Options:
+    """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
+    for name in (
+        "hidden", "smooth", "seam", "intersections", "see_through", "fill", "circles", "strict", "report", "annotations"
+    ):  # fmt: skip
+        value = getattr(options, name)
+        if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
+            raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
+    if not _is_real(options.scale) or not 1.0 / MOST_SCALE <= options.scale <= MOST_SCALE:
+        raise OptionError(f"scale {_shown(options.scale)} cannot be drawn: give a positive number, such as 0.5 for 1:2")
+    accuracy = options.accuracy
+    if accuracy is not None and (not _is_real(accuracy) or not (math.isfinite(accuracy) and accuracy > 0.0)):
+        raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
+    within = options.within
+    if within is not None and (not _is_real(within) or not (math.isfinite(within) and within > 0.0)):
+        raise OptionError(f"{_shown(within)} s leave no time: give a positive number of seconds")
+    if options.fit is not None and (
+        not _is_vector(options.fit, 2) or min(options.fit) < SMALLEST_FIT or max(options.fit) > LARGEST_FIT
+    ):
+        raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
+    if options.fit is not None and options.scale != 1.0:
+        raise OptionError("scale and fit contradict one another: give one of them")
+    if options.see_through and options.report:
+        raise OptionError("report measures what all parts hide: leave it out, or see_through")
+    if options.window is not None:
+        _window(options.window)
+    for name in ("only", "hide"):
+        patterns = getattr(options, name)
+        if isinstance(patterns, str) or not _is_strings(patterns):
+            raise OptionError(f"{name} needs a list of names or patterns of parts, not {patterns!r}")
+    if options.var is not None and not isinstance(options.var, str):
+        raise OptionError(f"var needs the name of a variable, not {options.var!r}")
+    check_crease(options.crease)
+    if options.up is not None and not _is_vector(options.up, 3):
+        raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
+    threads = options.threads
+    if not isinstance(threads, Integral) or isinstance(threads, bool) or not 0 <= int(threads) <= MOST_THREADS:
+        raise OptionError(f"{threads!r} threads cannot work: give 0 for all cores, or a number up to {MOST_THREADS}")
+    if options.perspective is not None:
+        _perspective(options.perspective)
+    return options
+
+
+def check_crease(crease: float) -> None:
+    """Raises OptionError for what is no angle of a fold, in degrees."""
+    if not _is_real(crease) or not 0.0 <= crease <= 180.0:
+        raise OptionError(f"crease {_shown(crease)} is no fold: give 0 to 180 degrees")
+
+
+def checked_views(views: Sequence[View], options: Looking) -> list[View]:
+    """The views as a list, names in small letters; a single name or direction is understood as one view.
+
+    Raises ViewError where one is neither a name nor three numbers, or is no view together with the options, which are
+    checked already: whatever is wrong with it is known before the model is read.
+    """
+    if isinstance(views, str):
+        views = [cast(View, views)]
+    elif _is_vector(views, 3):
+        views = [cast(Sequence[float], views)]
+    try:
+        found = [cast(View, view.strip().lower()) if isinstance(view, str) else view for view in views]
+    except TypeError:
+        raise ViewError(f"{views!r} is no list of views: give names such as 'iso', or directions") from None
+    for view in found:
+        if not isinstance(view, str) and not _is_vector(view, 3, finite=False):
+            raise ViewError(f"{view!r} is no view: give a name such as 'iso', or a direction such as (1, -1, 1)")
+    check_directions(found, options.up, options.perspective)
+    return found
+
+
+class Looking(Protocol):
+    """The options that say how a view is seen."""
+
+    @property
+    def up(self) -> Vector | None:
+        """What points up on paper."""
+
+    @property
+    def perspective(self) -> Perspective | None:
+        """None: orthographic."""
+
+
+def _window(window: Any) -> None:
+    if not _is_vector(window, 4) or max(map(abs, window)) > LARGEST_FIT:
+        raise OptionError(
+            f"window needs x0,y0,x1,y1 in millimetres, four numbers of at most {LARGEST_FIT:g}, not {window!r}"
+        )
+    x0, y0, x1, y1 = window
+    if x1 - x0 < SMALLEST_FIT or y1 - y0 < SMALLEST_FIT:
+        shown = ",".join(f"{value:g}" for value in window)
+        raise OptionError(
+            f"the window {shown} holds nothing: give its lower left corner first, x0 < x1 and y0 < y1, "
+            f"at least {SMALLEST_FIT:g} mm apart"
+        )
+
+
+def _perspective(camera: Any) -> None:
+    if not isinstance(camera, Perspective):
+        raise OptionError(f"perspective needs an hlr.Perspective, not {camera!r}")
+    for name, point in (("eye", camera.eye), ("target", camera.target)):
+        if point is not None and not _is_vector(point, 3):
+            raise OptionError(f"{name} needs three finite numbers in millimetres, not {point!r}")
+    if camera.fov is not None and (not _is_real(camera.fov) or not NARROWEST <= camera.fov <= WIDEST):
+        raise OptionError(f"a field of view of {camera.fov!r} degrees cannot be drawn: give {NARROWEST} to {WIDEST:g}")
+
+
+def _shown(value: Any) -> str:
+    return f"{value:g}" if _is_real(value) else repr(value)
+
+
+def _is_real(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _is_strings(value: Any) -> bool:
+    return isinstance(value, Sequence) and all(isinstance(each, str) for each in value)
+
+
+def _is_vector(value: Any, length: int, finite: bool = True) -> bool:
+    try:
+        numbers = list(value)
+    except TypeError:
+        return False
+    return len(numbers) == length and all(_is_real(n) and (not finite or math.isfinite(n)) for n in numbers)

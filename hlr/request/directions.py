@@ -1,0 +1,109 @@
+"""Views before there is a model: their names, directions and what points up.
+
+A named view is the direction from the object toward the viewer and what points up on paper (z-up world).
+
+Front looks along +y with x to the right, as in FreeCAD and ISO 5456-2; the isometrics are named by the compass corner
+the viewer stands at, as in AutoCAD.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from hlr.errors import ViewError
+from hlr.request.options import Perspective, Vector, View, ViewName
+
+NAMED: dict[ViewName, tuple[Vector, Vector]] = {
+    "front": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+    "back": ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    "left": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "right": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "top": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    "bottom": ((0.0, 0.0, -1.0), (0.0, -1.0, 0.0)),
+    "iso": ((1.0, -1.0, 1.0), (0.0, 0.0, 1.0)),
+    "iso-se": ((1.0, -1.0, 1.0), (0.0, 0.0, 1.0)),
+    "iso-sw": ((-1.0, -1.0, 1.0), (0.0, 0.0, 1.0)),
+    "iso-ne": ((1.0, 1.0, 1.0), (0.0, 0.0, 1.0)),
+    "iso-nw": ((-1.0, 1.0, 1.0), (0.0, 0.0, 1.0)),
+}
+
+EYE = "eye"
+"""What a view is called whose eye was given: it looks from there, whatever other view was named."""
+
+CLOSEST = 1e-9
+"""Of their coordinates and the model's size: an eye nearer to its target looks nowhere."""
+
+
+def check_directions(views: Sequence[View], up: Vector | None, perspective: Perspective | None) -> None:
+    """What is known of cameras before there is a model.
+
+    Raises ViewError for an unknown name, a zero direction, up parallel to a direction, and several views from one eye.
+    """
+    if perspective is None or perspective.eye is None:
+        for view in views:
+            _, direction, named_up = directed(view)
+            axes(direction, up or named_up)
+        return
+    if len(views) > 1:
+        raise ViewError(f"{len(views)} views from one eye would be the same: give one view, or no eye")
+    if perspective.target is None:
+        if up is not None:
+            normalized(up, "up")
+        return
+    apart(perspective.eye, perspective.target, 0.0)
+    way = [e - t for e, t in zip(perspective.eye, perspective.target, strict=True)]
+    axes(normalized(way, "the way from target to eye"), up)
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """a x b."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def normalized(v: Sequence[float], what: str) -> Vector:
+    """v / |v|; raises ViewError where it has no direction."""
+    if len(v) != 3 or not all(map(math.isfinite, v)):
+        raise ViewError(f"{what} needs three finite numbers, not {', '.join(str(c) for c in v)}")
+    x, y, z = map(float, v)
+    # Scaled first, so that neither 1e-200 nor 1e200 is lost in the squares.
+    largest = max(abs(x), abs(y), abs(z))
+    if largest == 0.0:
+        raise ViewError(f"{what} is zero: give a direction such as 1,-1,1")
+    x, y, z = x / largest, y / largest, z / largest
+    length = math.sqrt(x * x + y * y + z * z)
+    return (x / length, y / length, z / length)
+
+
+def directed(view: View) -> tuple[str, Vector, Vector | None]:
+    """A view's name, its direction, and the up that its name stands for; world axes."""
+    if isinstance(view, str):
+        if view not in NAMED:
+            raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
+        direction, up = NAMED[view]
+        return view, normalized(direction, "the view direction"), up
+    if isinstance(view, bytes | bytearray):
+        raise ViewError("a view in bytes: give its name as text, or a direction such as (1, -1, 1)")
+    name = ",".join(f"{float(c):g}" for c in view)
+    return name, normalized(tuple(view), "the view direction"), None
+
+
+def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
+    """What points right and up on paper, world axes."""
+    if up_hint is None:
+        # Looking along z, y points up: the top view turned by nothing.
+        along_z = abs(direction[2]) > 1.0 - 1e-12
+        up_hint = (0.0, 1.0 if direction[2] > 0.0 else -1.0, 0.0) if along_z else (0.0, 0.0, 1.0)
+    side = cross(normalized(up_hint, "up"), direction)
+    if max(abs(c) for c in side) < 1e-9:
+        raise ViewError("up is parallel to the view direction: give an --up that crosses it")
+    right = normalized(side, "right")
+    # The cross product of unit vectors is a unit vector up to rounding.
+    return right, normalized(cross(direction, right), "up")
+
+
+def apart(eye: Vector, target: Vector, radius: float) -> None:
+    """Raises ViewError where eye and target are the same but for rounding; radius: half the model's diagonal."""
+    largest = max(radius, *(abs(c) for c in (*eye, *target)))
+    if max(abs(e - t) for e, t in zip(eye, target, strict=True)) <= CLOSEST * largest:
+        raise ViewError("eye and target are one point: move the eye away from what it looks at, or the target nearer")

@@ -1,0 +1,210 @@
+"""The effects of a drawing, in the order in which they are decided: the table that `hlr draw --explain` prints.
+
+It says nothing of how things are done, and imports no stage: any stage may ask it.
+"""
+
+from __future__ import annotations
+
+from hlr.request.effect import ASKED, SCENE, Effect, Facts
+from hlr.request.options import Options
+
+BREP_KINDS = ("step", "iges", "brep", "script", "object")
+
+DEEP_GROUPS, DEEP_EDGES = 400, 8000
+"""Below, the pyramid costs more than it saves: measured (`hlr/request/README.md`)."""
+
+Answer = tuple[bool, str]
+
+
+def _a(word: str) -> str:
+    """A word with its article."""
+    named = {"step": "a STEP file", "iges": "an IGES file", "brep": "a BREP file", "script": "a script"}
+    return named.get(word, f"{'an' if word[:1] in 'aeiou' else 'a'} {word}")
+
+
+def _count(number: int, what: str, plural: str = "") -> str:
+    return f"{number:,} {what if number == 1 else plural or what + 's'}"
+
+
+def _wish(name: str, on: str, off: str) -> Effect:
+    """An effect that is nothing but an option."""
+    counters = {"hidden": "hidden_lines", "smooth": "smooth_lines", "seam": "seam_lines"}
+    counters |= {"intersections": "intersection_lines", "circles": "circles", "fill": "filled_faces"}
+    titles = {"hidden": "hidden lines", "smooth": "smooth edges", "seam": "seams"}
+    titles |= {"intersections": "intersection lines", "circles": "circles of meshes", "fill": "fill"}
+
+    def needed(_facts: Facts, options: Options) -> Answer:
+        return (True, on) if getattr(options, name) else (False, off)
+
+    return Effect(titles[name], ASKED, needed, (counters[name],))
+
+
+def _brep(f: Facts, _o: Options) -> Answer:
+    on = f.kind in BREP_KINDS
+    return on, f"the source is {_a(f.kind)}" if on else f"the source is a mesh ({f.kind})"
+
+
+def _mesh(f: Facts, _o: Options) -> Answer:
+    on = f.kind not in BREP_KINDS
+    return on, f"the source is a mesh ({f.kind})" if on else f"the source is {_a(f.kind)}"
+
+
+def _curved(f: Facts, _o: Options) -> Answer:
+    if not f.faces:
+        return False, "a mesh is drawn as it is"
+    return f.curved > 0, _count(f.curved, "curved face") if f.curved else "all faces are planar"
+
+
+def _planar(f: Facts, _o: Options) -> Answer:
+    if not f.faces:
+        return False, "a mesh is drawn as it is"
+    return f.planar > 0, _count(f.planar, "planar face") if f.planar else "all faces are curved"
+
+
+def _rescue(f: Facts, _o: Options) -> Answer:
+    if not f.faces:
+        return False, "a mesh has no faces to be meshed"
+    if not f.failed:
+        return False, "the kernel has meshed every face"
+    return True, f"the kernel could not mesh {_count(f.failed, 'face')}: OpenCASCADE tries"
+
+
+def _repair(f: Facts, _o: Options) -> Answer:
+    return (
+        f.repeated,
+        "triangles or points are there twice" if f.repeated else "no triangle and no point is there twice",
+    )
+
+
+def _stitching(f: Facts, _o: Options) -> Answer:
+    return f.borders > 0, f"meshes have {_count(f.borders, 'border')}" if f.borders else "no mesh has a border"
+
+
+def _clash(f: Facts, _o: Options) -> Answer:
+    if f.meeting:
+        return True, f"the boxes of {_count(f.meeting, 'surface')} meet"
+    if f.folded:
+        return True, f"{_count(f.folded, 'surface')} may pass through itself" if f.folded == 1 else (
+            f"{_count(f.folded, 'surface')} may pass through themselves"
+        )
+    return False, "all surfaces are convex bodies, and their boxes lie apart"
+
+
+def _outlines(f: Facts, _o: Options) -> Answer:
+    if f.curved:
+        return True, f"{_count(f.curved, 'curved face')} may show one"
+    return False, "a planar face has none" if f.faces else "a mesh has no surfaces but its triangles"
+
+
+def _near(f: Facts, _o: Options) -> Answer:
+    if not f.perspective:
+        return False, "a parallel view has no near plane"
+    return f.crossed > 0, "something lies behind the near plane" if f.crossed else "all lies before the near plane"
+
+
+def _sides(f: Facts, _o: Options) -> Answer:
+    if not f.perspective:
+        return False, "a parallel view has no frame"
+    if f.crossed:
+        return True, f"something lies beyond {_count(f.crossed, 'side')} of the frame"
+    return False, "all lies within the frame"
+
+
+def _divide(f: Facts, _o: Options) -> Answer:
+    return f.perspective, "the camera has an eye" if f.perspective else "a parallel view: nothing is magnified"
+
+
+def _culling(f: Facts, _o: Options) -> Answer:
+    if f.culled:
+        return True, f"{_count(f.culled, 'surface')} of {f.groups:,} closed and turned outward"
+    return False, "no surface is closed and turned outward"
+
+
+def _crossings(f: Facts, _o: Options) -> Answer:
+    if f.convex:
+        return False, "one convex body: its faces lie side by side in the image, and culling alone decides"
+    return (
+        True,
+        f"{_count(f.groups, 'surface')} may hide one another" if f.groups > 1 else "the surface may hide itself",
+    )
+
+
+def _piercings(f: Facts, _o: Options) -> Answer:
+    if f.convex:
+        return False, "one convex body does not pass through itself"
+    if f.unsound:
+        return True, f"{_count(f.unsound, 'surface')} may pass through others or itself: not vouched for by a B-rep"
+    if f.meeting:
+        return True, f"the boxes of {_count(f.meeting, 'surface')} come near others"
+    return False, "every surface is sound, and their boxes lie apart"
+
+
+def _contact(f: Facts, _o: Options) -> Answer:
+    if f.unsound:
+        return True, f"{_count(f.unsound, 'surface')} may touch others or itself: neither closed nor vouched for"
+    if f.meeting:
+        return True, f"the boxes of {_count(f.meeting, 'surface')} come within the tolerance of others"
+    return False, "nothing is near enough to touch"
+
+
+def _pyramid(f: Facts, _o: Options) -> Answer:
+    deep = f.groups >= DEEP_GROUPS and f.edges >= DEEP_EDGES
+    what = f"{_count(f.groups, 'surface')} and {_count(f.edges, 'edge')}"
+    return deep, f"{what}: much may lie behind" if deep else f"{what}: looking would cost more than it saves"
+
+
+def _glass(f: Facts, options: Options) -> Answer:
+    if f.opacity >= 1.0:
+        return False, "all is opaque"
+    least = f"the least opacity is {f.opacity:g}"
+    return (
+        options.see_through,
+        f"asked for: {least}" if options.see_through else f"{least}, and still hides: not asked for",
+    )
+
+
+def _exact(f: Facts, _o: Options) -> Answer:
+    return f.bent > 0, f"{_count(f.bent, 'line')} may be curved" if f.bent else "every line is straight, or a mesh's"
+
+
+def _window(f: Facts, options: Options) -> Answer:
+    if options.window is None:
+        return False, "no window was asked for"
+    if f.crossed:
+        return True, f"something lies beyond {_count(f.crossed, 'side')} of the window"
+    return False, "all lies within the window"
+
+
+def _colours(_f: Facts, options: Options) -> Answer:
+    return (True, "faces are filled") if options.fill else (False, "lines are black")
+
+
+DRAWING: tuple[Effect, ...] = (
+    Effect("B-rep reader", ASKED, _brep, ("brep_parts",)),
+    Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
+    Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
+    Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),
+    Effect("rescue of faces", SCENE, _rescue, ("rescued_faces", "lost_faces")),
+    Effect("repair", SCENE, _repair, ("doubled_triangles",)),
+    Effect("stitching of borders", SCENE, _stitching, ("seams",)),
+    Effect("intersection search", SCENE, _clash, ("clash_tests",)),
+    Effect("outlines", SCENE, _outlines, ("outlines",)),
+    Effect("near clipping", SCENE, _near, ("near_cuts",)),
+    Effect("side clipping", SCENE, _sides, ("side_cuts",)),
+    Effect("perspective divide", SCENE, _divide, ("divided_points",)),
+    Effect("seeing through glass", ASKED, _glass, ("glass_triangles",)),
+    Effect("back-face culling", SCENE, _culling, ("culled",)),
+    Effect("crossing search", SCENE, _crossings, ("seeds", "crossing_tests")),
+    Effect("depth pyramid", SCENE, _pyramid, ("pyramid_parts", "hidden_by_pyramid")),
+    Effect("piercing search", SCENE, _piercings, ("piercing_tests",)),
+    Effect("contact tolerance", SCENE, _contact, ("contacts",)),
+    _wish("hidden", "asked for", "not asked for: what nothing shows of goes no further"),
+    _wish("smooth", "asked for", "not asked for"),
+    _wish("seam", "asked for", "not asked for"),
+    _wish("intersections", "asked for", "not asked for"),
+    _wish("circles", "asked for", "not asked for"),
+    Effect("exact curves", SCENE, _exact, ("curves_sought",)),
+    _wish("fill", "asked for", "not asked for"),
+    Effect("window", ASKED, _window, ("window_cuts",)),
+    Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),
+)

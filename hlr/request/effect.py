@@ -1,0 +1,256 @@
+"""Effects: what a drawing or a picture may or may not need, each decided from facts, with its reason and its cost.
+
+An effect is one row of a table (`hlr.request.drawing_effects`, `hlr.request.picture_effects`). A stage that is about to
+do something costly states what it has found out and asks the planner; what is off is not done at all, and its counters
+stay zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from time import perf_counter
+from typing import Any, NamedTuple
+
+from hlr.common.values import LateRecords
+
+ASKED, SCENE = "asked", "scene"
+"""Who calls for an effect: the request, or what is there to be drawn."""
+
+PLAN = "the plan itself"
+"""Name of the last decision, which says how long deciding took."""
+
+
+class Facts(NamedTuple):
+    """What stages find out; each effect looks at the few that its stage has filled in.
+
+    kind           of the source (`hlr.source.model.Source.kind`)
+    parts, groups  how many there are; groups: surfaces that the visibility pass treats as one
+    curved, planar faces of either kind
+    faces          planar and curved ones together are known at all: there is a B-rep
+    failed         faces that the kernel could not mesh
+    repeated       two triangles of a part have the same corners, or two of its points the same place
+    borders        of parts without B-rep: sides that only one triangle has
+    meeting        groups whose boxes meet those of others
+    folded         groups that are not one convex body, and may pass through themselves
+    culled         groups that are closed and turned outward
+    convex         all there is is one convex body
+    unsound        groups that may pass through themselves
+    perspective    the camera has an eye
+    crossed        planes of the view volume that something crosses
+    bent           edges and outlines that may be other than straight
+    edges          that may be drawn
+    opacity        the least of what is shown
+    depth, pixel   how far apart depths of a picture are to be told apart, and how wide a pixel is: millimetres
+    """
+
+    kind: str = ""
+    parts: int = 0
+    groups: int = 0
+    curved: int = 0
+    planar: int = 0
+    faces: bool = True
+    failed: int = 0
+    repeated: bool = False
+    borders: int = 0
+    meeting: int = 0
+    folded: int = 0
+    culled: int = 0
+    convex: bool = False
+    unsound: int = 0
+    perspective: bool = False
+    crossed: int = 0
+    bent: int = 0
+    edges: int = 0
+    opacity: float = 1.0
+    depth: float = 0.0
+    pixel: float = 1.0
+
+
+Needed = Callable[[Facts, Any], tuple[bool, str]]
+"""(facts, options) -> whether the effect is needed, and why or why not."""
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """A row of the table. counters: of the drawing, zero where the effect is off; they tell what it cost."""
+
+    name: str
+    origin: str
+    needed: Needed
+    counters: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What was decided of an effect, and, after the run, what it cost.
+
+    origin  "asked" (by the request) or "scene"
+    seconds None where the effect is no step of its own that could be timed
+    """
+
+    name: str
+    on: bool
+    origin: str
+    reason: str
+    seconds: float | None = field(default=None, compare=False)
+    counts: Mapping[str, int] = field(default_factory=dict, hash=False)
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON; without the seconds, which differ from run to run."""
+        return {
+            "effect": self.name,
+            "on": self.on,
+            "origin": self.origin,
+            "reason": self.reason,
+            "counts": {name: int(value) for name, value in self.counts.items()},
+        }
+
+
+_FORCED: ContextVar[bool] = ContextVar("hlr_everything_on", default=False)
+
+
+@contextmanager
+def everything_on() -> Iterator[None]:
+    """Within it nothing that the scene decides is left out: for tests and measurements of what leaving out saves."""
+    before = _FORCED.set(True)
+    try:
+        yield
+    finally:
+        _FORCED.reset(before)
+
+
+class _Made:
+    """A decision while stages still add to what it cost."""
+
+    __slots__ = ("counts", "on", "reason", "seconds")
+
+    def __init__(self, on: bool, reason: str, seconds: float | None, counts: Mapping[str, int]) -> None:
+        self.on, self.reason, self.seconds, self.counts = on, reason, seconds, counts
+
+
+_NOTHING = Facts()
+
+
+class Planner:
+    """Decides the effects of one table when it is asked, and remembers what was decided and what it cost."""
+
+    def __init__(self, table: Sequence[Effect], options: Any, force: bool | None = None) -> None:
+        """options: the request. force: every effect that the scene decides is on; None: as `everything_on` says."""
+        self._rows = {effect.name: effect for effect in table}
+        self._options = options
+        self._force = _FORCED.get() if force is None else force
+        self._decided: dict[str, _Made] = {}
+        self._took = 0.0
+
+    @property
+    def forced(self) -> bool:
+        """Whether everything that the scene decides is on."""
+        return self._force
+
+    def on(self, name: str, facts: Facts = _NOTHING) -> bool:
+        """Whether the effect is needed; decided anew each time."""
+        begin = perf_counter()
+        effect = self._rows[name]
+        on, reason = effect.needed(facts, self._options)
+        if not on and self._force and effect.origin == SCENE:
+            on, reason = True, f"forced; else off: {reason}"
+        made = self._decided.get(name)
+        if made is None:
+            self._decided[name] = _Made(on, reason, None, {})
+        else:
+            # What it has cost so far stays: a model may be meshed twice.
+            made.on, made.reason = on, reason
+        self._took += perf_counter() - begin
+        return on
+
+    @contextmanager
+    def deciding(self) -> Iterator[None]:
+        """Time what is done in order to decide."""
+        begin = perf_counter()
+        try:
+            yield
+        finally:
+            self._took += perf_counter() - begin
+
+    def spent(self, name: str, seconds: float | None = None, **counts: int) -> None:
+        """Add to what a decided effect has cost."""
+        known = self._decided[name]
+        if seconds is not None:
+            known.seconds = (known.seconds or 0.0) + seconds
+        if counts:
+            known.counts = {**known.counts, **{key: known.counts.get(key, 0) + value for key, value in counts.items()}}
+
+    @contextmanager
+    def timed(self, name: str) -> Iterator[None]:
+        """Time what is done for an effect."""
+        begin = perf_counter()
+        try:
+            yield
+        finally:
+            self.spent(name, perf_counter() - begin)
+
+    def revised(self, name: str, on: bool, reason: str) -> None:
+        """What turned out otherwise while it was done."""
+        made = self._decided[name]
+        made.on, made.reason = on, reason
+
+    def fork(self) -> Planner:
+        """A planner for one view, which knows what was decided for all."""
+        other = Planner((), self._options, self._force)
+        other._rows = self._rows
+        other._decided = {
+            name: _Made(made.on, made.reason, made.seconds, made.counts) for name, made in self._decided.items()
+        }
+        other._took = self._took
+        return other
+
+    def cost(self, name: str) -> Mapping[str, int]:
+        """What an effect has cost so far, by counter; nothing where it was not decided."""
+        made = self._decided.get(name)
+        return {} if made is None else made.counts
+
+    def decisions(self, counters: Mapping[str, int] | None = None) -> tuple[Decision, ...]:
+        """All that was decided, in the order of the table; counters: of the finished drawing."""
+        found = counters or {}
+        out = []
+        for name, effect in self._rows.items():
+            made = self._decided.get(name)
+            if made is not None:
+                counts = {c: int(found.get(c, made.counts.get(c, 0))) for c in effect.counters}
+                seconds = made.seconds if made.on else None
+                out.append(Decision(name, made.on, effect.origin, made.reason, seconds, counts))
+        out.append(Decision(PLAN, True, ASKED, "to know all this", self._took))
+        return tuple(out)
+
+
+class Decisions(LateRecords[Decision]):
+    """What a planner has decided that decides no more; counters: of the finished drawing."""
+
+    __slots__ = ("_counters", "_planner")
+
+    def __init__(self, planner: Planner, counters: Mapping[str, int]) -> None:
+        super().__init__()
+        self._planner, self._counters = planner, counters
+
+    def made(self) -> tuple[Decision, ...]:
+        """All of them as records."""
+        return self._planner.decisions(self._counters)
+
+
+def explained(decisions: Sequence[Decision]) -> str:
+    """A table for people."""
+    rows = [("effect", "", "by", "time", "counts", "why")]
+    for d in decisions:
+        time = "" if d.seconds is None else f"{1000.0 * d.seconds:.1f} ms"
+        counts = ", ".join(f"{value} {name.replace('_', ' ')}" for name, value in d.counts.items() if value)
+        rows.append((d.name, "on" if d.on else "off", d.origin, time, counts, d.reason))
+    used = [k for k in range(6) if any(row[k] for row in rows[1:])]
+    widths = {k: max(len(row[k]) for row in rows) for k in used}
+    lines = []
+    for row in rows:
+        cells = [row[k].rjust(widths[k]) if k == 3 else row[k].ljust(widths[k]) for k in used]
+        lines.append("  ".join(cells).rstrip())
+    return "\n".join(lines)

@@ -1,0 +1,119 @@
+"""The request: one frozen, typed record for everything a drawing can be asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypedDict
+
+Vector = tuple[float, float, float]
+
+ViewName = Literal[
+    "front", "back", "left", "right", "top", "bottom", "iso", "iso-se", "iso-sw", "iso-ne", "iso-nw"
+]  # fmt: skip
+"""Views with a name; `hlr.request.directions` says where each looks from."""
+
+View = ViewName | Sequence[float]
+"""A named view or a direction from the object toward the viewer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Perspective:
+    """A perspective camera. `eye` None: far enough along the view direction for the whole model to fit.
+
+    eye and target are millimetres in the world (z up), whatever units and axes the model's own file has.
+    fov is the vertical field of view in degrees; None: as wide as the model needs, at most 120.
+    """
+
+    eye: Vector | None = None
+    target: Vector | None = None
+    fov: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What is asked of a drawing. Lengths are millimetres on paper unless said otherwise.
+
+    hidden       draw hidden lines
+    smooth       draw tangent (G1) edges, thin
+    seam         draw the seams of closed surfaces
+    intersections  draw the lines in which surfaces pass through one another
+    scale        paper : model; 0.5 is 1:2
+    fit          (width, height) to fit the drawing into instead of a scale
+    window       (x0, y0, x1, y1): only this rectangle of the drawing, in the coordinates that it has without a window:
+                 its lower left corner is 0, 0; lines are cut at the sides, and what lies outside still hides
+    accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
+    crease       degrees: where a mesh without B-rep folds more than this, an edge is drawn
+    circles      creases and borders of a mesh become circles where every vertex lies on one within the accuracy, and
+                 neighbours are less than the crease angle (and 45 degrees) apart
+    up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
+    perspective  None: orthographic
+    see_through  parts that their file says are transparent hide nothing; else they hide like all others
+    fill         paint what is seen of the faces, shaded, under the lines (SVG and PDF)
+    threads      0: all cores
+    strict       warnings are errors
+    only, hide   patterns of parts: only those are drawn, or all but those; letters of any case, * and ? as in file
+                 names; a name without its number means all of that name, that of an assembly all that is in it
+    var          the variable of a script to draw, instead of what it shows
+    annotations  draw the faces of annotation in STEP files: those that the file hides, or calls supplemental geometry
+    report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
+    within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
+    """
+
+    hidden: bool = True
+    smooth: bool = False
+    seam: bool = False
+    intersections: bool = True
+    scale: float = 1.0
+    fit: tuple[float, float] | None = None
+    window: tuple[float, float, float, float] | None = None
+    accuracy: float | None = None
+    crease: float = 30.0
+    circles: bool = False
+    up: Vector | None = None
+    perspective: Perspective | None = None
+    see_through: bool = False
+    fill: bool = False
+    threads: int = 0
+    strict: bool = False
+    report: bool = False
+    within: float | None = None
+    only: tuple[str, ...] = ()
+    hide: tuple[str, ...] = ()
+    var: str | None = None
+    annotations: bool = False
+
+
+class Wishes(TypedDict, total=False):
+    """The fields of `Options` as the keywords of `hlr.draw`: none has to be given."""
+
+    hidden: bool
+    smooth: bool
+    seam: bool
+    intersections: bool
+    scale: float
+    fit: tuple[float, float] | None
+    window: tuple[float, float, float, float] | None
+    accuracy: float | None
+    crease: float
+    circles: bool
+    up: Vector | None
+    perspective: Perspective | None
+    see_through: bool
+    fill: bool
+    threads: int
+    only: tuple[str, ...]
+    hide: tuple[str, ...]
+    var: str | None
+    annotations: bool
+    strict: bool
+    report: bool
+    within: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What was asked for: one view with its options. Asked again, it gives the same drawing."""
+
+    view: View
+    options: Options

@@ -1,0 +1,62 @@
+"""The colour at each corner of each triangle, in linear light."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.types import Floats, Ints, Rgba
+from hlr.scene.scene import Scene
+from hlr.scene.stitch import weights
+from hlr.source.model import PLAIN, Look
+
+Colours = npt.NDArray[np.float32]
+
+
+def corner_paint(scene: Scene, looks: Mapping[str, Look]) -> tuple[Colours, Ints]:
+    """Colours (k, 4), linear light and opacity, and (t, 3) which of them each corner has."""
+    table: dict[Rgba, int] = {}
+    painted: list[npt.NDArray[np.float32]] = []
+    paint = np.zeros((len(scene.triangles), 3), np.int32)
+    # Triangles are sorted by part.
+    bounds = np.searchsorted(scene.triangle_part, np.arange(len(scene.parts) + 1)).tolist()
+    for i, part in enumerate(scene.parts):
+        a, b = bounds[i : i + 2]
+        look = looks.get(part.name, Look())
+        whole = look.whole or ((*part.color, 1.0) if part.color is not None else PLAIN)
+        paint[a:b] = table.setdefault(whole, len(table))
+        for face, color in look.faces.items():
+            paint[a:b][scene.triangle_face[a:b] == face] = table.setdefault(color, len(table))
+        if look.corners is not None and look.points is not None and look.triangles is not None:
+            # Numbers from the end on, until it is known how many others there are.
+            first = sum(map(len, painted))
+            corners = scene.triangles[a:b].copy()
+            turned = scene.turned[a:b]
+            corners[turned] = corners[turned][:, [0, 2, 1]]
+            origin = scene.triangle_origin[a:b]
+            own = _at(scene.points[corners], look.points[look.triangles[origin]], _linear(look.corners[origin]))
+            own[turned] = own[turned][:, [0, 2, 1]]
+            painted.append(own.reshape(-1, 4))
+            paint[a:b] = -1 - first - np.arange(3 * (b - a), dtype=np.int32).reshape(-1, 3)
+    plain = np.array(list(table), np.float32).reshape(-1, 4)
+    paint = np.where(paint < 0, len(plain) - 1 - paint, paint).astype(np.int32)
+    return np.concatenate([_linear(plain), *painted]), np.ascontiguousarray(paint)
+
+
+def _at(now: Floats, before: Floats, colours: Colours) -> Colours:
+    """(m, 3, 4) the colours at the corners (m, 3, 3) of triangles that are, or are pieces of, those that had them."""
+    out = colours.copy()
+    cut = ~(now == before).all(axis=(1, 2))
+    share = weights(now[cut], before[cut])
+    out[cut] = (share[..., None] * colours[cut][:, None]).sum(axis=2)
+    return out
+
+
+def _linear(srgb: Colours) -> Colours:
+    """Colours as numbers of a screen -> linear light; opacity stays."""
+    out = srgb.copy()
+    c = np.clip(srgb[..., :3], 0.0, 1.0)
+    out[..., :3] = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    return np.ascontiguousarray(out)

@@ -1,0 +1,187 @@
+"""CAD scripts: a Python file is run, and what it shows is drawn.
+
+The file is executed with the caller's rights, because the caller asked to draw it. As in CQ-editor and cq-cli the
+script finds `show_object(obj, name=None, options=None)` and `debug(obj)`, and its `__name__` is "__cq_main__";
+`show(...)` is there for scripts written for viewers. What is drawn, in this order:
+
+1. the variable that the caller names;
+2. everything shown;
+3. the variable `result`;
+4. the solid that was assigned last. A sketch, a face or a wire is drawn only where there is no solid.
+
+A remark says which it was.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from pathlib import Path
+from typing import Any
+
+from hlr.drawing.notes import Note
+from hlr.errors import OptionError, SourceError
+from hlr.source.cad.brep import BrepSource
+from hlr.source.cad.leaves import source_of
+from hlr.source.cad.objects import is_shape_like, to_leaves
+from hlr.source.cad.occt import explain, ready
+from hlr.source.cad.paint import Paint, paint_of
+from hlr.source.cad.parts import Leaf
+
+_RESULT = "result"
+
+Shown = tuple[Any, str, Paint]
+"""An object, the name it is shown under or "", and its colour."""
+
+_PLAIN: Paint = (None, 1.0)
+
+
+def open_script(path: Path, var: str | None = None) -> BrepSource:
+    """Run a script and take what it shows, or the variable of this name.
+
+    Raises:
+        SourceError: the script fails (line and exception are named), or shows nothing.
+        OptionError: it has no such variable, or that is no shape.
+    """
+    shown: list[Shown] = []
+    values = _run(path, shown)
+    ready()
+    chosen, why = _chosen(path, shown, values, var)
+    leaves: list[Leaf] = []
+    for thing, name, (color, opacity) in chosen:
+        try:
+            leaves.extend(to_leaves(thing, name or path.stem, color, opacity))
+        except SourceError as error:
+            raise SourceError(f"{path.name} shows something that is no shape: {error}") from None
+    if not leaves:
+        raise SourceError(
+            f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
+        )
+    return source_of(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
+
+
+def _chosen(path: Path, shown: list[Shown], values: dict[str, Any], var: str | None) -> tuple[list[Shown], str]:
+    """What is drawn, and why it is that."""
+    if var is not None:
+        return [(_named(path, values, var), "", _PLAIN)], f'the variable "{var}" is drawn'
+    if shown:
+        return shown, "all that it shows is drawn" + (f", {len(shown)} objects" if len(shown) > 1 else "")
+    found = _shapes(values)
+    if _RESULT in found:
+        return [(found[_RESULT], "", _PLAIN)], f'the variable "{_RESULT}" is drawn'
+    for rank, what in enumerate(("the last solid", "the last face, for there is no solid", "the last shape")):
+        names = [name for name, thing in found.items() if _rank(thing) <= rank]
+        if names:
+            why = f'the variable "{names[-1]}" is drawn, {what}'
+            choice = "show_object(shape), or a variable result, in the script, or --var NAME, chooses another"
+            return [(found[names[-1]], "", _PLAIN)], f"{why}; {choice}"
+    return [], ""
+
+
+def _named(path: Path, values: dict[str, Any], var: str) -> Any:
+    if var in values and _is_shape(values[var]):
+        return values[var]
+    names = ", ".join(_shapes(values)) or "none"
+    what = "is no shape" if var in values else "is not there"
+    raise OptionError(f'The variable "{var}" of {path.name} {what}: its shapes are {names}.')
+
+
+def _shapes(values: dict[str, Any]) -> dict[str, Any]:
+    """Variables that are shapes, in the order in which they were assigned last."""
+    return {name: thing for name, thing in values.items() if not name.startswith("_") and _is_shape(thing)}
+
+
+def _is_shape(value: Any) -> bool:
+    try:
+        return is_shape_like(value)
+    except Exception:  # a variable with strange attributes is no shape
+        return False
+
+
+def _rank(thing: Any) -> int:
+    """0: has a solid; 1: has a face; 2: has something; 3: is empty."""
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+    from OCP.TopExp import TopExp_Explorer
+
+    try:
+        shapes = [leaf.shape for leaf in to_leaves(thing, "part") if leaf.shape is not None]
+    except Exception:  # whatever a half-made object raises
+        return 3
+    for rank, kind in enumerate((Kind.TopAbs_SOLID, Kind.TopAbs_FACE)):
+        if any(TopExp_Explorer(shape, kind).More() for shape in shapes):
+            return rank
+    return 2 if shapes else 3
+
+
+class _Variables(dict[str, Any]):
+    """Those of a script, in the order in which each was assigned last."""
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        self.pop(name, None)
+        super().__setitem__(name, value)
+
+
+def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
+    def show_object(obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
+        shown.append((obj, str(name or ""), paint_of(options if isinstance(options, dict) else more)))
+
+    def show(*objects: Any, names: Any = (), **_: Any) -> None:
+        given = list(names or ())
+        for i, obj in enumerate(objects):
+            shown.append((obj, str(given[i]) if i < len(given) else "", _PLAIN))
+
+    def nothing(*_: Any, **__: Any) -> None: ...
+
+    values = _Variables(
+        {
+            "__name__": "__cq_main__",
+            "__file__": str(path.resolve()),
+            "__builtins__": __builtins__,
+            "show_object": show_object,
+            "show": show,
+            "show_all": nothing,
+            "debug": nothing,
+            "log": nothing,
+        }
+    )
+    folder, here = path.resolve().parent, _here()
+    before, arguments = list(sys.path), sys.argv
+    sys.path.insert(0, str(folder))
+    sys.argv = [str(path)]
+    try:
+        os.chdir(folder)
+        code = compile(path.read_bytes(), str(path), "exec")
+        exec(code, values)
+    except SyntaxError as error:
+        raise SourceError(f"{path.name}, line {error.lineno}: SyntaxError: {error.msg}.") from None
+    except SystemExit as error:
+        if error.code not in (None, 0) and not shown:
+            raise SourceError(f"{path.name} left with exit code {error.code} before it showed anything.") from None
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # whatever a script raises, the caller gets one sentence
+        raise SourceError(_sentence(path, error)) from None
+    finally:
+        sys.argv = arguments
+        sys.path[:] = before
+        if here is not None:
+            os.chdir(here)
+    return values
+
+
+def _here() -> str | None:
+    try:
+        return os.getcwd()
+    except OSError:
+        return None
+
+
+def _sentence(path: Path, error: BaseException) -> str:
+    """The script's own line, and what was raised."""
+    if isinstance(error, ImportError) and "libGL" in str(error):
+        return f"{path.name}: {explain(error)}"
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
+    text = " ".join(str(error).split())
+    where = f", line {lines[-1]}" if lines else ""
+    return f"{path.name}{where}: {type(error).__name__}" + (f": {text}" if text else "")

@@ -1,0 +1,48 @@
+"""Writers: a row for each format that a drawing or a picture is written as."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Writer:
+    """A file format.
+
+    name     of the format, which is also the ending of its files
+    entry    "module:function": called with the drawing or picture, gives the content of the file as bytes. The module
+             is imported when it is used: PDF needs a library that the others do not
+    """
+
+    name: str
+    entry: str
+
+    def render(self, shown: Any) -> bytes:
+        """The content of a file."""
+        return bytes(called(self.entry)(shown))
+
+
+WRITERS = {
+    writer.name: writer
+    for writer in (
+        Writer("svg", "hlr.writers.svg:svg"),
+        Writer("pdf", "hlr.writers.pdf:pdf"),
+        Writer("json", "hlr.writers.json:document"),
+    )
+}
+"""Formats of drawings, by name."""
+
+PICTURE = Writer("png", "hlr.writers.png:picture_png")
+DEPTH = Writer("png", "hlr.writers.png:depth_png")
+FACES = Writer("png", "hlr.writers.png:ids_png")
+"""Files of a shaded picture: itself, its depth map, its map of faces."""
+
+
+def called(entry: str) -> Callable[..., Any]:
+    """The function that "module:function" names."""
+    module, _, name = entry.partition(":")
+    found: Callable[..., Any] = getattr(import_module(module), name)
+    return found

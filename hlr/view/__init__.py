@@ -1,1 +1,0 @@
-"""Cameras, named views, clipping and scale."""

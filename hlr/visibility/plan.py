@@ -1,0 +1,189 @@
+"""What this scene and this request call for: which edges are drawn, where culling is safe, what needs tolerance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr import _kernel
+from hlr.common.types import Floats
+from hlr.image.camera import NEAR, Camera
+from hlr.request.accuracy import Tolerances
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Facts, Planner
+from hlr.request.options import Options
+from hlr.scene.groups import touching
+from hlr.scene.scene import INTERIOR, Scene
+from hlr.tables.line_classes import EdgeClass
+
+DRAWN = 1
+OUTLINE = 2
+
+FOLDING = np.zeros((2, 256), np.uint8)
+FOLDING[1, [INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM]] = OUTLINE
+"""Roles by whether an edge is curved and by its kind: where a curved surface may fold over."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """The kernel's instructions.
+
+    role    (e,) uint8: DRAWN, OUTLINE (drawn where it is a contour), both, or 0
+    cull    (g,) bool: faces turned away are not looked at
+    sound   (g,) bool: no piercing search of a group against itself
+    delta   (g,) float64: contact tolerance in view depth
+    cap     (g,) float64: the most that is allowed against this group: half its thickness, in view depth
+    drawn_kind (6,) bool: per EdgeClass, whether source edges of that class are drawn as such
+    step    radians: creases of meshes are circles where neighbouring vertices are less than this apart; 0: never
+    fill    visible faces are painted
+    contact what is hidden by less than delta and cap is told apart
+    divide  points are divided by their distance from the eye
+    crossings, piercings, pyramid: which steps of the visibility pass are gone through
+    straight (c,) bool: per chain of the scene, between two planes: no curve has to be looked for
+    every_curve  but all are read: for measuring what that would cost
+    """
+
+    role: npt.NDArray[np.uint8]
+    cull: npt.NDArray[np.bool_]
+    sound: npt.NDArray[np.bool_]
+    delta: Floats
+    cap: Floats
+    drawn_kind: npt.NDArray[np.bool_]
+    step: float
+    fill: bool
+    contact: bool
+    divide: bool
+    crossings: bool
+    piercings: bool
+    pyramid: bool
+    straight: npt.NDArray[np.bool_]
+    every_curve: bool
+
+
+LIFT = 3.0
+"""In deflections: outlines are moved away from their surface by somewhat less before visibility is decided."""
+
+SPARE = 1.01
+"""Times the contact tolerance: what the visibility pass rounds is far less than the rest."""
+
+MOST_STEP = 45.0
+"""Degrees between neighbouring vertices of a circle: an octagon is never one."""
+
+
+def decide(
+    scene: Scene,
+    camera: Camera,
+    options: Options,
+    tolerances: Tolerances,
+    planner: Planner | None = None,
+    force: bool | None = None,
+) -> Plan:
+    """Instructions for one view of a scene.
+
+    planner: knows what was decided before. force: everything that the scene would leave out is on, see `everything_on`.
+    """
+    planner = planner or Planner(DRAWING, options, force)
+    roles = FOLDING.copy()
+    drawn_kind = np.ones(len(EdgeClass), bool)
+    drawn_kind[EdgeClass.SMOOTH] = options.smooth
+    drawn_kind[EdgeClass.SEAM] = options.seam
+    drawn_kind[EdgeClass.INTERSECTION] = options.intersections
+    roles[:, : len(drawn_kind)] |= np.where(drawn_kind, np.uint8(DRAWN), np.uint8(0))
+    role = roles[scene.edge_curved.view(np.uint8), scene.edge_kind]
+    if scene.silhouettes is not None:
+        role[scene.silhouettes.hidden] = 0
+    delta, cap = _contact(scene, camera, tolerances)
+    groups, used = scene.groups, np.isfinite(scene.groups.low[:, 0])
+    faced = np.zeros(len(used), bool)
+    faced[scene.triangle_group] = True
+    with planner.deciding():
+        near = _coming_near(scene, camera, delta, LIFT * tolerances.deflection)
+    facts = Facts(
+        groups=int(np.count_nonzero(faced)),
+        culled=int(np.count_nonzero(groups.cull)),
+        convex=scene.convex,
+        perspective=camera.eye is not None,
+        meeting=near,
+        unsound=int(np.count_nonzero(used & ~groups.sound)),
+        edges=int(np.count_nonzero(role)),
+    )
+    loose = Facts(meeting=near, unsound=int(np.count_nonzero(used & ~groups.sound & ~groups.cull)))
+    straight = scene.chains.straight
+    for name in ("hidden lines", "smooth edges", "seams", "intersection lines", "circles of meshes", "colours"):
+        planner.on(name)
+    planner.on("back-face culling", facts)
+    touch = planner.on("contact tolerance", loose)
+    sought = int(np.count_nonzero(~straight & (scene.chains.index >= 0)))
+    sought += 0 if scene.silhouettes is None else len(scene.silhouettes.curves.kind)
+    every = planner.on("exact curves", Facts(bent=sought))
+    return Plan(
+        role=role,
+        cull=scene.groups.cull,
+        sound=scene.groups.sound,
+        delta=delta,
+        cap=cap,
+        contact=touch,
+        drawn_kind=drawn_kind,
+        # Where the surface folds by more than the crease angle, an edge is drawn, and the figure has corners.
+        step=math.radians(min(options.crease, MOST_STEP)) if options.circles else 0.0,
+        fill=planner.on("fill"),
+        divide=planner.on("perspective divide", facts),
+        crossings=planner.on("crossing search", facts),
+        piercings=planner.on("piercing search", facts),
+        pyramid=planner.on("depth pyramid", facts),
+        straight=straight,
+        every_curve=every and planner.forced,
+    )
+
+
+def _coming_near(scene: Scene, camera: Camera, delta: Floats, lift: float) -> int:
+    """How many groups come within the contact tolerance of another: their boxes, grown by it, meet.
+
+    Along the model's axes in parallel views, whose depth is a distance; around the images of their corners in
+    perspective, where it is not. lift: how far lines may be off their surfaces.
+    """
+    groups = scene.groups
+    used = np.flatnonzero(np.isfinite(groups.low[:, 0]))
+    if len(used) < 2:
+        return 0
+    low, high = groups.low[used] - lift, groups.high[used] + lift
+    most = SPARE * float(delta[used].max(initial=0.0))
+    if camera.eye is None or camera.distance is None:
+        return int(np.count_nonzero(_kernel.boxes_meet(low - 0.5 * most, high + 0.5 * most)))
+    box = (low, high)
+    corners = [
+        np.stack([box[i][:, 0], box[j][:, 1], box[k][:, 2]], axis=1) for i in (0, 1) for j in (0, 1) for k in (0, 1)
+    ]
+    if min(float(camera.ahead(c).min(initial=np.inf)) for c in corners) <= NEAR * camera.distance:
+        return len(used)
+    seen = np.stack([camera.project(c) for c in corners])
+    step = np.array([0.0, 0.0, 0.5 * most])
+    return int(np.count_nonzero(_kernel.boxes_meet(seen.min(axis=0) - step, seen.max(axis=0) + step)))
+
+
+def _contact(scene: Scene, camera: Camera, tolerances: Tolerances) -> tuple[Floats, Floats]:
+    groups = scene.groups
+    delta = touching(groups, tolerances.contact, tolerances.contact_planar)
+    delta = np.where(groups.tight, tolerances.rounding, delta)
+    used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])
+    # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet has none: only
+    # what a file rounds is forgiven there.
+    cap = np.where(groups.closed, 0.5 * groups.extent, np.maximum(0.5 * groups.extent, tolerances.rounding))
+    if camera.eye is None or camera.distance is None:
+        return delta, cap
+    # Depth in perspective is -distance^2 / z. Its slope at the group's centre, or, where the group surrounds the eye,
+    # halfway to its far end: a slope taken near the eye would let everything beyond show through.
+    corners = [groups.low, groups.high]
+    reach = [
+        np.where(used.reshape(-1, 1), np.stack([corners[i][:, 0], corners[j][:, 1], corners[k][:, 2]], axis=1), 0.0)
+        for i in (0, 1)
+        for j in (0, 1)
+        for k in (0, 1)
+    ]
+    ahead = np.stack([camera.ahead(c) for c in reach])
+    z = np.maximum(np.maximum(ahead.mean(axis=0), 0.5 * ahead.max(axis=0)), camera.distance * 1e-3)
+    slope = camera.distance / z
+    return np.asarray(delta * slope * slope), np.asarray(cap * slope * slope)

@@ -1,0 +1,152 @@
+"""What `hlr.load` is: a drawing out of its own exchange format, `hlr/writers/JSON.md`."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from hlr.drawing.curve import Arc, Bezier, Curve
+from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
+from hlr.drawing.fill import Fill
+from hlr.drawing.line import Bounds, Kind, Line
+from hlr.drawing.notes import Note
+from hlr.errors import SourceError
+from hlr.request.effect import Decision
+from hlr.writers.json import FORMAT, VERSION
+from hlr.writers.revive import array, revived
+
+if TYPE_CHECKING:
+    from hlr.drawing.reached import Reached
+
+
+Box = tuple[float, float, float, float]
+
+
+def load(file: str | os.PathLike[str] | IO[Any]) -> Drawing:
+    """The drawing that a JSON file of hlr holds: equal to the one that was saved, but for what was asked for.
+
+    file: a path, or a file object, open for bytes or for text. `request` is None, for the file does not hold it.
+    Raises SourceError, in one sentence, for a file that cannot be read or is none of hlr's.
+    """
+    if hasattr(file, "read"):
+        name = str(getattr(file, "name", "") or f"the {type(file).__name__}")
+        try:
+            return loads(file.read(), name)
+        except (OSError, ValueError) as error:
+            raise SourceError(f"{name} cannot be read: {error}") from None
+    from hlr.source.files import check_readable
+
+    try:
+        path = Path(file)
+    except TypeError:
+        raise SourceError(f"{file!r} cannot be read: give a path or a file object") from None
+    check_readable(path)
+    try:
+        return loads(path.read_bytes(), path.name)
+    except OSError as error:
+        raise SourceError(f"{path} cannot be read: {error.strerror}") from None
+
+
+def loads(text: str | bytes, name: str = "the text") -> Drawing:
+    """The drawing that the text of a JSON file holds; name: what errors call it. Raises SourceError."""
+    try:
+        document = json.loads(text)
+    except (ValueError, RecursionError):
+        raise SourceError(f"{name} is no JSON: save a drawing as .json and load that") from None
+    except TypeError:
+        raise SourceError(f"{name} is neither text nor bytes, but {type(text).__name__}") from None
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise SourceError(f"{name} is no drawing of hlr: save a drawing as .json and load that")
+    if document.get("version") != VERSION:
+        raise SourceError(
+            f"{name} has version {document.get('version')!r} of the format, not {VERSION}: draw the model again"
+        )
+    try:
+        return _drawing(document)
+    except KeyError as error:
+        raise SourceError(f"{name} is damaged: {error} is missing") from None
+    except (TypeError, ValueError) as error:
+        raise SourceError(f"{name} is damaged: {error}") from None
+
+
+def _drawing(document: dict[str, Any]) -> Drawing:
+    accuracy: Accuracy = revived(Accuracy, document["accuracy"], "accuracy")
+    parts: tuple[DrawnPart, ...] = revived(tuple[DrawnPart, ...], document["parts"], "parts")
+    timings = dict(document["timings"])
+    seconds = timings.pop("effects", {})
+    return Drawing(
+        source=revived(str, document["source"], "source"),
+        view=revived(DrawnView, document["view"], "view"),
+        scale=revived(float, document["scale"], "scale"),
+        origin=revived(tuple[float, float], document["origin"], "origin"),
+        accuracy=accuracy,
+        unit=revived(float, document["model"]["unit"], "model.unit"),
+        up_axis=revived(tuple[tuple[float, float, float], ...], document["model"]["up_axis"], "model.up_axis"),
+        parts=parts,
+        lines=tuple(_lines(document["lines"], len(parts))),
+        # A later program may know more codes.
+        notes=tuple(Note(note["code"], revived(str, note["text"], "notes")) for note in document["notes"]),
+        counters=revived(Mapping[str, int], document["counters"], "counters"),
+        timings=revived(Mapping[str, float], timings, "timings"),
+        fill=revived(Fill | None, document.get("fill"), "fill"),
+        reached=_reached(document["accuracy"].get("reached"), accuracy),
+        window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
+        plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(document["plan"])),
+    )
+
+
+def _lines(entries: list[dict[str, Any]], parts: int) -> Iterator[Line]:
+    for i, entry in enumerate(entries):
+        what = f"lines[{i}]"
+        part = revived(int, entry["part"], f"{what}.part")
+        other = revived(int | None, entry.get("other"), f"{what}.other")
+        for number in (part, *(() if other is None else (other,))):
+            if not 0 <= number < parts:
+                raise ValueError(f"{what} is of part {number}, and there are {parts}")
+        points = array(entry["points"], np.float64, f"{what}.points", 2)
+        points3 = array(entry["points3"], np.float64, f"{what}.points3", 3)
+        if len(points) != len(points3) or len(points) < 2:
+            raise ValueError(f"{what} should have as many points as points3, two or more")
+        yield Line(
+            kind=revived(Kind, entry["class"], f"{what}.class"),
+            visible=revived(bool, entry["visible"], f"{what}.visible"),
+            part=part,
+            edge=revived(int | None, entry["edge"], f"{what}.edge"),
+            face=revived(int | None, entry["face"], f"{what}.face"),
+            points=points,
+            points3=points3,
+            other=other,
+            curve=None if "curve" not in entry else _curve(entry["curve"], f"{what}.curve"),
+        )
+
+
+def _curve(entry: dict[str, Any], what: str) -> Curve:
+    if entry["type"] == "arc":
+        arc: Arc = revived(Arc, entry, what)
+        if (arc.centre.shape, arc.axes.shape, arc.angles.shape) != ((2,), (2, 2), (2,)):
+            raise ValueError(f"{what} should have a centre, two axes and two angles")
+        return arc
+    degree, points = entry["degree"], array(entry["points"], np.float64, f"{what}.points", 2)
+    if entry["type"] != "bezier" or degree not in (2, 3) or len(points) <= degree or len(points) % degree != 1:
+        raise ValueError(f"{what} should be an arc, or a chain of Bezier curves of degree 2 or 3")
+    return Bezier(degree, points)
+
+
+def _reached(entry: dict[str, Any] | None, accuracy: Accuracy) -> Reached | None:
+    if entry is None:
+        return None
+    from hlr.drawing.reached import Reached
+
+    found: Reached = revived(Reached, {**entry, "accuracy": accuracy.used}, "accuracy.reached")
+    return found
+
+
+def _decision(entry: dict[str, Any], seconds: dict[str, float], what: str) -> Decision:
+    name = revived(str, entry["effect"], f"{what}.effect")
+    found: Decision = revived(Decision, {**entry, "name": name, "seconds": seconds.get(name)}, what)
+    return found

@@ -1,0 +1,162 @@
+"""Scale, fit and accuracy on paper: what was asked is what comes out, or one sentence says why not."""
+
+import math
+
+import numpy as np
+import pytest
+from linework.models import box, parts
+
+import hlr
+from hlr import OptionError, Perspective
+from hlr.drawing.notes import Note
+
+
+@pytest.mark.parametrize("view", ["front", "iso", (3, 1, -2)])
+@pytest.mark.parametrize("fit", [(100.0, 100.0), (200.0, 50.0), (10.0, 300.0)])
+@pytest.mark.parametrize("kind", ["box", "ball", "perspective"])
+def test_fit_fits_and_touches(view, fit, kind):
+    import cadquery as cq
+
+    model = box((10, 20, 30), (100, 0, 0)) if kind == "box" else cq.Workplane().sphere(7).translate((100, 0, 0))
+    camera = Perspective(fov=60.0) if kind == "perspective" else None
+    drawing = hlr.draw(model, view, fit=fit, perspective=camera)
+    width, height = drawing.bounds[2:]
+    assert width <= fit[0] + 1e-9
+    assert height <= fit[1] + 1e-9
+    slack = 2 * drawing.accuracy.used
+    assert width >= fit[0] - slack or height >= fit[1] - slack
+
+
+def test_fit_wins_over_scale_and_says_its_own():
+    drawing = hlr.draw(box((10, 20, 30)), "front", fit=(100.0, 60.0))
+    assert drawing.scale == pytest.approx(2)
+    assert drawing.notes == ()
+
+
+@pytest.mark.parametrize(("fit", "fov"), [((80.0, 60.0), 5.0), ((60.0, 80.0), 60.0)])
+def test_a_view_from_a_given_eye_fills_what_it_is_fitted_into(fit, fov):
+    wall = box((500, 1, 500))
+    drawing = hlr.draw(
+        parts(
+            wall, box((5, 5, 2), (0, -9, 0)), *(box((1, 1, 1), (x, -9, z)) for x in range(-90, 91, 3) for z in (-3, 3))
+        ),
+        "front",
+        fit=fit,
+        perspective=Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=fov),
+    )
+    # The frame that the field of view spans is what is fitted, whether or not lines reach its border.
+    assert drawing.scale == pytest.approx(fit[1] / (2 * 100 * math.tan(math.radians(fov / 2))))
+    assert drawing.bounds[2] <= fit[0] and drawing.bounds[3] <= fit[1]
+
+
+@pytest.mark.parametrize("scale", [0.01, 0.5, 1.0, 3.0, 100.0])
+def test_scale_is_paper_to_model(scale):
+    drawing = hlr.draw(box((10, 20, 30)), "front", scale=scale)
+    assert drawing.scale == scale
+    assert drawing.bounds == pytest.approx((0, 0, 10 * scale, 30 * scale))
+
+
+def test_scaling_by_powers_of_two_changes_nothing_else():
+    import trimesh
+
+    mesh = trimesh.creation.icosphere(2, 10)
+    mesh = trimesh.util.concatenate([mesh, box((30, 4, 4))])
+    one = hlr.draw(mesh, "iso", accuracy=0.25)
+    for factor in (0.25, 8.0):
+        larger = trimesh.Trimesh(mesh.vertices * factor, mesh.faces, process=False)
+        drawings = (
+            hlr.draw(larger, "iso", accuracy=0.25 * factor),
+            hlr.draw(mesh, "iso", scale=factor, accuracy=0.25 * factor),
+            hlr.draw(larger, "iso", scale=1 / factor, accuracy=0.25),
+        )
+        for drawing, paper in zip(drawings, (factor, factor, 1.0), strict=True):
+            assert len(drawing.lines) == len(one.lines) > 10
+            for a, b in zip(one.lines, drawing.lines, strict=True):
+                assert (a.kind, a.visible) == (b.kind, b.visible)
+                assert (a.points * paper == b.points).all()
+
+
+@pytest.mark.parametrize("unit", ["millimeters", "meters", "inches"])
+def test_units_of_a_mesh_count(unit):
+    millimetres = {"millimeters": 1.0, "meters": 1000.0, "inches": 25.4}[unit]
+    mesh = box((1, 2, 3))
+    mesh.units = unit
+    drawing = hlr.draw(mesh, "front", scale=0.1)
+    assert drawing.unit == millimetres
+    assert drawing.bounds[2:] == pytest.approx((0.1 * millimetres, 0.3 * millimetres))
+
+
+def test_a_tiny_and_a_huge_drawing_say_so():
+    assert hlr.draw(box((1, 1, 1)), "front").notes == (
+        Note("paper-size", "the drawing is only 1.4 mm large at 1:1: give a scale, or a size to fit it into"),
+    )
+    assert hlr.draw(box((3e3, 4e3, 3e3)), "front").notes == (
+        Note("paper-size", "the drawing is 4.24 m large at 1:1: give a scale, or a size to fit it into"),
+    )
+    for options in ({"scale": 2.0}, {"fit": (1.0, 1.0)}):
+        assert hlr.draw(box((1, 1, 1)), "front", **options).notes == ()
+    assert hlr.draw(box((30, 30, 30)), "front").notes == ()
+
+
+def test_the_accuracy_follows_the_size_unless_given():
+    assert hlr.draw(box((300, 300, 400)), "right").accuracy.used == 0.05
+    small = hlr.draw(box((3, 3, 4)), "right").accuracy
+    assert (small.asked, small.used) == (None, pytest.approx(5 / 2000))
+    given = hlr.draw(box((3, 3, 4)), "right", accuracy=0.01).accuracy
+    assert (given.asked, given.used) == (0.01, 0.01)
+
+
+@pytest.mark.parametrize("accuracy", [1.0, 0.1, 0.01])
+@pytest.mark.parametrize("scale", [0.2, 5.0])
+def test_the_accuracy_is_kept(accuracy, scale):
+    import cadquery as cq
+    from linework.measures import placed, samples
+
+    drawing = hlr.draw(cq.Workplane().cylinder(40, 30), "top", accuracy=accuracy, scale=scale)
+    (line,) = drawing.lines
+    points = placed(drawing, line)
+    off = np.abs(np.hypot(*samples(np.stack([points[:-1], points[1:]], axis=1), 0.1).T) - 30 * scale)
+    assert off.max() < accuracy
+    # And it means something: a coarser wish gives fewer vertices.
+    assert len(points) < 40 / math.sqrt(accuracy / (30 * scale))
+
+
+def test_the_accuracy_is_kept_before_the_image_plane():
+    import cadquery as cq
+    from linework.measures import placed, samples
+
+    camera = Perspective(eye=(0, 0, 30), target=(0, 0, -1000), fov=120.0)
+    drawing = hlr.draw(cq.Workplane().cylinder(4, 10), "top", perspective=camera)
+    (rim,) = [line for line in drawing.lines if np.allclose(line.points3[:, 2], 2)]
+    points = placed(drawing, rim)
+    off = np.abs(np.hypot(*samples(np.stack([points[:-1], points[1:]], axis=1), 0.5).T) - 10 * 1030 / 28)
+    assert off.max() < drawing.accuracy.used
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "words"),
+    [
+        (0.0, "give a positive length"),
+        (-1.0, "give a positive length"),
+        (math.nan, "give a positive length"),
+        (math.inf, "give a positive length"),
+        (1e-12, "too fine for a drawing of 42.4 mm: give at least"),
+        (1e-300, "too fine"),
+        (20.0, "too coarse for a drawing of 42.4 mm: give at most 10.6"),
+        (1e300, "too coarse"),
+    ],
+)
+def test_an_accuracy_that_cannot_be_kept(accuracy, words):
+    with pytest.raises(OptionError, match=words) as caught:
+        hlr.draw(box((30, 30, 30)), "front", accuracy=accuracy)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_model_without_extent_is_refused():
+    with pytest.raises(hlr.SourceError):
+        hlr.draw(([[1, 1, 1]], [[0, 0, 0]]), "front")
+    # Flat is not without extent: edge-on it is a line.
+    flat = ([[0, 0, 0], [10, 0, 0], [0, 10, 0]], [[0, 1, 2]])
+    assert hlr.draw(flat, "front").bounds == pytest.approx((0, 0, 10, 0))
+    fitted = hlr.draw(flat, "front", fit=(50.0, 50.0))
+    assert fitted.bounds == pytest.approx((0, 0, 50, 0))
