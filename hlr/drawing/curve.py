@@ -25,6 +25,11 @@ class Arc(ByValue):
     centre   (2,) millimetres on paper, y up
     axes     (2, 2) two perpendicular half axes, the longer one first
     angles   (2,) t at the start and at the end, radians; it runs backward where the second is less
+
+    >>> import hlr
+    >>> (hole,) = [line.curve for line in hlr.draw("part.step", view="top").visible if line.curve]
+    >>> hole, hole.whole
+    (<Arc about (15, 10), radius 4, 360 degrees>, True)
     """
 
     centre: Points
@@ -65,6 +70,11 @@ class Bezier(ByValue):
 
     degree   2 or 3
     points   (degree * k + 1, 2) millimetres on paper, y up
+
+    >>> import hlr, numpy
+    >>> curve = hlr.Bezier(2, numpy.array([(0.0, 0.0), (1.0, 2.0), (2.0, 0.0)]))
+    >>> curve, curve.at(0.5).tolist()
+    (<Bezier of degree 2, 1 pieces>, [1.0, 1.0])
     """
 
     degree: int

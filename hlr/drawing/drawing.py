@@ -34,6 +34,11 @@ class Accuracy:
     deflection  chord error of the triangulation, model units
     contact     depth within which two curved things count as touching, model units
     within      seconds, where a time was given; else None
+
+    >>> import hlr
+    >>> accuracy = hlr.draw("part.step", accuracy=0.1).accuracy
+    >>> accuracy.asked, accuracy.used
+    (0.1, 0.1)
     """
 
     asked: float | None
@@ -91,6 +96,15 @@ class Drawing(ByValue):
     plan      what was decided of each effect, why, and what it cost
     window    the rectangle on paper that lines and fill were cut by; None: nothing was cut off
     reading   how a CAD file was come by, read or out of the cache, for people; in no file
+
+    >>> import hlr
+    >>> drawing = hlr.draw("part.step", view="front")
+    >>> len(drawing.lines), len(drawing.visible), len(drawing.hidden)
+    (6, 4, 2)
+    >>> drawing.bounds
+    Bounds(x0=0.0, y0=0.0, x1=30.0, y1=10.0)
+    >>> drawing.to_svg()[:5]
+    '<?xml'
     """
 
     source: str

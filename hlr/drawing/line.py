@@ -18,7 +18,13 @@ Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection"]
 
 
 class Bounds(NamedTuple):
-    """A rectangle on paper, millimetres, y up."""
+    """A rectangle on paper, millimetres, y up.
+
+    >>> import hlr
+    >>> bounds = hlr.draw("part.step", view="top").bounds
+    >>> bounds.width, bounds.height
+    (30.0, 20.0)
+    """
 
     x0: float
     y0: float
@@ -48,6 +54,13 @@ class Line(ByValue):
     points3  (n, 3) model coordinates, same count
     curve    what the line is on paper, in millimetres; None: its points
     other    of an intersection line: index of the second part (the same one where a part meets itself); else None
+
+    >>> import hlr
+    >>> line = hlr.draw("part.step", view="top").visible[0]
+    >>> line
+    <Line sharp, visible, part 0, edge 3, 2 points>
+    >>> line.points.shape, line.points3.shape
+    ((2, 2), (2, 3))
     """
 
     kind: Kind

@@ -66,7 +66,13 @@ REMARKS: frozenset[NoteCode] = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A warning or a remark: its code, one of `CODES`, and one sentence that says what happened, `str(note)`."""
+    """A warning or a remark: its code, one of `CODES`, and one sentence that says what happened, `str(note)`.
+
+    >>> import hlr
+    >>> (note,) = hlr.draw(([(0, 0, 0), (30, 0, 0), (0, 20, 0)], [(0, 1, 2)])).notes
+    >>> note.code, note.is_warning, str(note)
+    ('defects', True, 'Part "part" is drawn as it is: open: 3 border edges.')
+    """
 
     code: NoteCode
     text: str

@@ -37,6 +37,11 @@ class Picture(ByValue):
     first_face  (p + 1,) int32
     timings     seconds: source, tessellate, scene, prepare, picture, edges, total
     plan        what was decided of each effect, and why
+
+    >>> import hlr
+    >>> picture = hlr.preview("part.step", size=(320, 240), depth=True)
+    >>> picture.pixels.shape, picture.depth.shape
+    ((240, 320, 4), (240, 320))
     """
 
     source: str

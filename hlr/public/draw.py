@@ -22,8 +22,17 @@ def draw_views(
 ) -> list[Drawing]:
     """One drawing per view; the source is read and meshed once.
 
-    source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
+    source    as of `draw`
+    views     names or directions, as of `draw`
+    options   what is asked for; None: the defaults
+    progress  as of `draw`
+
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
+
+    >>> import hlr
+    >>> front, top = hlr.draw_views("part.step", ["front", "top"], hlr.Options(scale=0.5))
+    >>> top
+    <Drawing part.step, top, 1:2, 5 visible and 0 hidden lines>
     """
     options = options or Options()
     if not options.report and options.within is None:
@@ -44,7 +53,32 @@ def draw_views(
 def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, **options: Unpack[Wishes]) -> Drawing:
     """One view of a source; the keywords are the fields of `Options`.
 
-    Raises SourceError, ViewError, OptionError; with strict=True StrictError for any warning.
+    source    the path of a file or a script; a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object; a list
+              of CAD objects; or a pair of arrays: vertices (n, 3) and faces (m, 3) that index them
+    view      a name such as "iso" or "front", or a direction (x, y, z) from the object toward the viewer
+    progress  called with the name of each stage and the fraction done, 0 to 1
+
+    Raises SourceError for what cannot be read, ViewError for a view that does not exist, OptionError for an option out
+    of its range; with strict=True StrictError for any warning.
+
+    >>> import hlr
+    >>> drawing = hlr.draw("part.step", view="front", scale=0.5)
+    >>> drawing
+    <Drawing part.step, front, 1:2, 4 visible and 2 hidden lines>
+    >>> drawing.save("part.svg").name
+    'part.svg'
+
+    A bare triangle, as arrays, seen from above:
+
+    >>> triangle = ([(0, 0, 0), (30, 0, 0), (0, 20, 0)], [(0, 1, 2)])
+    >>> hlr.draw(triangle, view=(0, 0, 1)).bounds
+    Bounds(x0=0.0, y0=0.0, x1=30.0, y1=20.0)
+
+    Every error says what is wrong, in one sentence:
+
+    >>> hlr.draw("part.step", scale=-1)
+    Traceback (most recent call last):
+    hlr.errors.OptionError: scale -1 cannot be drawn: give a positive number, such as 0.5 for 1:2.
     """
     return draw_views(source, [view], record_of(Options, options, "draw"), progress)[0]
 

@@ -22,7 +22,19 @@ def info(
 ) -> ModelInfo:
     """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size.
 
-    var: the variable of a script, instead of what it shows; annotations: with faces of annotation in STEP files.
+    source       as of `hlr.draw`
+    crease       degrees: where a mesh without B-rep folds more than this, an edge is counted
+    progress     as of `hlr.draw`
+    var          the variable of a script, instead of what it shows
+    annotations  count the faces of annotation in STEP files as well
+
+    Raises SourceError, OptionError.
+
+    >>> import hlr
+    >>> model = hlr.info("part.step")
+    >>> part = model.parts[0]
+    >>> part.name, part.solids, part.faces, part.edges, part.closed, part.defects
+    ('part', 1, 7, 15, True, ())
     """
     check_crease(crease)
     tell = progress or (lambda _stage, _done: None)

@@ -24,7 +24,10 @@ from hlr.window.cut import foreseen
 
 @dataclass(frozen=True, slots=True)
 class ViewPlan:
-    """What was decided for one view; costs are those of what had to be done in order to decide."""
+    """What was decided for one view: one `Decision` per effect, in the order of the table.
+
+    Times and counts are those of what had to be done in order to decide.
+    """
 
     view: str
     decisions: tuple[Decision, ...]
@@ -36,6 +39,12 @@ def plan_views(
     """One plan per view, of the drawing that `hlr.draw_views` would make of the same arguments.
 
     Raises SourceError, ViewError, OptionError.
+
+    >>> import hlr
+    >>> (plan,) = hlr.plan_views("part.step", ["iso"])
+    >>> reasons = {decision.name: decision.reason for decision in plan.decisions}
+    >>> reasons["outlines"]
+    '1 curved face may show one'
     """
     options = checked(options or Options())
     views = checked_views(views, options)

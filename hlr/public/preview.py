@@ -65,7 +65,18 @@ def preview(
 ) -> Picture:
     """A shaded picture of one view of a source; the keywords are the fields of `PreviewOptions`.
 
+    source, view and progress are as of `hlr.draw`.
+
     Raises SourceError, ViewError, OptionError; with strict=True StrictError for any warning.
+
+    >>> import hlr
+    >>> picture = hlr.preview("part.step", size=(320, 240), ids=True)
+    >>> picture.pixels.shape, picture.pixels.dtype
+    ((240, 320, 4), dtype('uint8'))
+    >>> picture.parts[picture.part_ids[120, 160]].name
+    'part'
+    >>> picture.save("part.png").name
+    'part.png'
     """
     return preview_views(source, [view], record_of(PreviewOptions, options, "preview"), progress)[0]
 
@@ -73,7 +84,14 @@ def preview(
 def preview_views(
     source: Any, views: Sequence[View], options: PreviewOptions | None = None, progress: Progress | None = None
 ) -> list[Picture]:
-    """One picture per view; the source is read and meshed once."""
+    """One picture per view; the source is read and meshed once.
+
+    Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
+
+    >>> import hlr
+    >>> hlr.preview_views("part.step", ["front", "top"], hlr.PreviewOptions(size=(320, 240)))
+    [<Picture part.step, front, 320x240 pixels>, <Picture part.step, top, 320x240 pixels>]
+    """
     options = checked_preview(options or PreviewOptions())
     views = checked_views(views, options)
     background = parse_color(options.background)

@@ -87,8 +87,17 @@ class Effect:
 class Decision:
     """What was decided of an effect, and, after the run, what it cost.
 
-    origin  "asked" (by the request) or "scene"
-    seconds None where the effect is no step of its own that could be timed
+    name     the effect, such as "outlines"
+    on       whether it was needed
+    origin   "asked" (by the request) or "scene"
+    reason   why or why not, in words
+    seconds  None where the effect is no step of its own that could be timed
+    counts   what was found or done, by the names of the drawing's counters
+
+    >>> import hlr
+    >>> plan = hlr.draw("part.step").plan
+    >>> next(decision.reason for decision in plan if decision.name == "perspective divide")
+    'a parallel view: nothing is magnified'
     """
 
     name: str

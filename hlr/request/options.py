@@ -23,6 +23,11 @@ class Perspective:
 
     eye and target are millimetres in the world (z up), whatever units and axes the model's own file has.
     fov is the vertical field of view in degrees; None: as wide as the model needs, at most 120.
+
+    >>> import hlr
+    >>> drawing = hlr.draw("part.step", perspective=hlr.Perspective(fov=50))
+    >>> drawing.view.projection, drawing.view.fov
+    ('perspective', 50)
     """
 
     eye: Vector | None = None
@@ -58,6 +63,11 @@ class Options:
     annotations  draw the faces of annotation in STEP files: those that the file hides, or calls supplemental geometry
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
     within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
+
+    >>> import hlr
+    >>> options = hlr.Options(scale=2.0, hidden=False)
+    >>> hlr.draw_views("part.step", ["iso"], options)
+    [<Drawing part.step, iso, 2:1, 10 visible and 0 hidden lines>]
     """
 
     hidden: bool = True

@@ -61,6 +61,11 @@ class PreviewOptions:
     crease       degrees: a mesh without B-rep is smooth where it folds less than this
     accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
     up, perspective, threads, strict, only, hide, var, annotations   as of a drawing (`Options`)
+
+    >>> import hlr
+    >>> options = hlr.PreviewOptions(size=(320, 240), background="transparent", shadows=True)
+    >>> hlr.preview_views("part.step", ["iso"], options)
+    [<Picture part.step, iso, 320x240 pixels>]
     """
 
     size: tuple[int, int] = (1920, 1080)

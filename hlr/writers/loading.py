@@ -32,6 +32,12 @@ def load(file: str | os.PathLike[str] | IO[Any]) -> Drawing:
 
     file: a path, or a file object, open for bytes or for text. `request` is None, for the file does not hold it.
     Raises SourceError, in one sentence, for a file that cannot be read or is none of hlr's.
+
+    >>> import hlr
+    >>> drawing = hlr.draw("part.step")
+    >>> path = drawing.save("part.json")
+    >>> hlr.load(path) == drawing
+    True
     """
     if hasattr(file, "read"):
         name = str(getattr(file, "name", "") or f"the {type(file).__name__}")
