@@ -1,4 +1,6 @@
-"""Make helper modules beside the tests importable as `peers.x`, `bench.x`, `visibility.x`; how Hypothesis searches.
+"""How the tests run: what they start from, and how Hypothesis searches.
+
+Helpers of more than one folder live in `support`; tests/support/__init__.py says how they are imported.
 
 There is no `tests/__init__.py` on purpose: with one, pytest would import the source tree instead of the installed
 package, which has no compiled kernel.
@@ -17,7 +19,6 @@ it are left out.
 import ast
 import os
 import signal
-import sys
 from importlib.util import find_spec
 from itertools import count
 from pathlib import Path
@@ -27,8 +28,8 @@ import pytest
 from hypothesis import Phase, settings
 
 HERE = str(Path(__file__).resolve().parent)
-if HERE not in sys.path:
-    sys.path.append(HERE)
+# Failed assertions of helpers show their values, as those of tests do.
+pytest.register_assert_rewrite("support")
 
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)

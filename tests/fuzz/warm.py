@@ -96,7 +96,6 @@ class Warm:
 def _serve() -> None:
     import hlr.cli.app
     import hlr.cli.exits
-
     import hlr.pipeline.drawing
     import hlr.source.cad.brepfile
     import hlr.source.cad.step

@@ -97,7 +97,6 @@ LOOK = {"name": "box", "scale": 1.0, "width": 9.0, "height": 9.0, "parts": 1, "n
 def test_a_stopped_study_keeps_what_is_finished(box, tmp_path, monkeypatch):
     from hlr.cli.commands.study import study as verb
     from hlr.cli.signals import Stopped
-
     from hlr.lab.study import sweep
 
     def fake(job):
