@@ -19,6 +19,7 @@ from bench.pairs import times
 from bench.table import Table, geometric_mean
 
 from hlr import _kernel
+from hlr.lab.rivals.opencascade import face_meshes, forget_mesh, mesh, triangle_count
 from hlr.source import open_source
 from hlr.source.cad.parts import compound, explored
 from hlr.source.cad.roots import dumped
@@ -77,43 +78,35 @@ def _open(found):
 
 
 def theirs(roots, deflection, runs):
-    from OCP.BRep import BRep_Tool
-    from OCP.BRepMesh import BRepMesh_IncrementalMesh
-    from OCP.BRepTools import BRepTools
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-    from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS
 
     everything = compound(roots)
     times = []
     for _ in range(runs):
-        BRepTools.Clean_s(everything)
+        forget_mesh(everything)
         begin = time.perf_counter()
-        BRepMesh_IncrementalMesh(everything, deflection, False, ANGLE, True)
+        mesh(everything, deflection, ANGLE)
         times.append(time.perf_counter() - begin)
     model = _kernel.BrepModel(dumped(roots))
-    seen, number, count, empty = set(), 0, 0, 0
+    seen, number, empty = set(), 0, 0
     faces, points, uv = [], [], []
     for root in roots:
         for shape in explored(root, Kind.TopAbs_FACE):
-            new = shape.TShape() not in seen
-            mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(shape), TopLoc_Location())
-            count += 0 if mesh is None else mesh.NbTriangles()
-            if not new:
+            if shape.TShape() in seen:
                 continue
             seen.add(shape.TShape())
-            if mesh is None:
+            found = next(face_meshes(shape), None)
+            if found is None:
                 empty += 1
-            elif mesh.HasUVNodes():
-                nodes = range(1, mesh.NbNodes() + 1)
-                xyz = np.array([mesh.Node(i).Coord() for i in nodes])
-                par = np.array([mesh.UVNode(i).Coord() for i in nodes])
-                corners = np.array([mesh.Triangle(i).Get() for i in range(1, mesh.NbTriangles() + 1)]) - 1
-                points.append(xyz[corners])
-                uv.append(par[corners])
-                faces.append(np.full(len(corners), number))
+            elif found.triangulation.HasUVNodes():
+                nodes = range(1, len(found.nodes) + 1)
+                par = np.array([found.triangulation.UVNode(i).Coord() for i in nodes])
+                points.append(found.nodes[found.triangles])
+                uv.append(par[found.triangles])
+                faces.append(np.full(len(found.triangles), number))
             number += 1
-    BRepTools.Clean_s(everything)
+    count = sum(triangle_count(face) for root in roots for face in explored(root, Kind.TopAbs_FACE))
+    forget_mesh(everything)
     errors = off(model, *(np.concatenate(x) for x in (faces, points, uv))) if faces else np.empty(0)
     return statistics.median(times), count, errors, empty
 

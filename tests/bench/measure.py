@@ -20,6 +20,8 @@ sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from bench import occt, ours, scenes
 
+from hlr.lab.rivals.opencascade import ExactAlgo, HiddenLines, PolyAlgo, forget_mesh, triangle_count
+
 WHO = {
     "kernel": "our kernel on OpenCASCADE's triangulation",
     "draw": "the visibility stage of hlr.draw, which tessellates for itself",
@@ -31,6 +33,7 @@ WHO = {
     "build123d": "the same by build123d's own project_to_viewport",
     "memory": "nothing: what the scene itself takes",
 }
+HIDERS: dict[str, type[HiddenLines]] = {"poly": PolyAlgo, "exact": ExactAlgo}
 SVG = {
     "hlr-svg": ours.svg,
     "cadquery-svg": occt.cadquery_svg,
@@ -47,9 +50,7 @@ def _megabytes() -> float:
 
 def _fresh(shape: Any) -> Any:
     """The shape without triangulation: whoever comes next has to tessellate."""
-    from OCP.BRepTools import BRepTools
-
-    BRepTools.Clean_s(shape)
+    forget_mesh(shape)
     return shape
 
 
@@ -101,11 +102,9 @@ def _runner(shape: Any, deflection: float, who: str, out: Path, result: dict[str
 
         return run_draw
     result["mesh"] = occt.mesh(shape, deflection, scenes.ANGLE)
-    result["triangles"] = occt.triangle_count(shape)
-    if who == "poly":
-        return lambda: occt.poly(shape)
-    if who == "exact":
-        return lambda: occt.exact(shape)
+    result["triangles"] = triangle_count(shape)
+    if who in HIDERS:
+        return lambda: occt.hide(shape, HIDERS[who])
     kernel = ours.Kernel(shape, contact=deflection)
 
     def run() -> float:

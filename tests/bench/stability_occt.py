@@ -20,8 +20,12 @@ from peers import occt
 from peers.exchange import Camera
 from peers.reference import BREP, read_shape
 
+from hlr.lab.rivals.opencascade import FaceMesh, PolyAlgo, face_meshes, mesh, subshapes
+
 Floats = npt.NDArray[np.float64]
 
+ANGLE = 0.5
+"""Radians: of the polygonal algorithm's mesh."""
 WELD = 1e-9
 """Of the model's size: nodes of neighbouring faces this near are one, and move together."""
 
@@ -87,72 +91,51 @@ class Poly:
 
     def __init__(self, model: Model, path: Path) -> None:
         from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
-        from OCP.BRepMesh import BRepMesh_IncrementalMesh
 
         self._model, self._camera = model, camera_of(model)
         pieces = [BRepBuilderAPI_Copy(piece, True, False).Shape() for piece in _pieces(shape_of(model, path))]
         self._shape = compound(pieces)
-        BRepMesh_IncrementalMesh(self._shape, model.deflection, False, 0.5, True)
-        self._faces: list[tuple[Any, Floats, Floats, npt.NDArray[np.int64]]] = []
+        mesh(self._shape, model.deflection, ANGLE)
+        self._faces: list[tuple[FaceMesh, npt.NDArray[np.int64]]] = []
         self._parts: list[Floats] = []
         for number, piece in enumerate(pieces):
             self._take(piece, number)
 
     def _take(self, piece: Any, number: int) -> None:
         """Nodes that coincide within one piece are one."""
-        found = list(_triangulations(piece))
+        found = list(face_meshes(piece))
         if not found:
             self._parts.append(np.zeros((0, 3)))
             return
-        places = np.concatenate([local @ move[:, :3].T + move[:, 3] for _, local, move in found])
+        places = np.concatenate([face.points for face in found])
         key = np.round(places / (WELD * self._model.size)).astype(np.int64)
         _, kept, label = np.unique(key, axis=0, return_index=True, return_inverse=True)
         self._parts.append(places[kept])
         label = label.ravel()
         start = 0
-        for triangulation, local, move in found:
-            own = label[start : start + len(local)]
-            start += len(local)
-            self._faces.append((triangulation, local, move, own + (number << 32)))
+        for face in found:
+            own = label[start : start + len(face.nodes)]
+            start += len(face.nodes)
+            self._faces.append((face, own + (number << 32)))
 
     def __call__(self, amount: float, seed: int) -> list[Stroke]:
         from OCP.gp import gp_Pnt
 
         moved = nodes(self._parts, amount * self._model.size, seed)
-        for triangulation, local, move, label in self._faces:
+        for face, label in self._faces:
             part = label[0] >> 32
             which = label & 0xFFFFFFFF
-            way = (moved[part] - self._parts[part])[which] @ move[:, :3]
-            for i, p in enumerate((local + way).tolist(), start=1):
-                triangulation.SetNode(i, gp_Pnt(*p))
+            way = (moved[part] - self._parts[part])[which] @ face.placement[:, :3]
+            for i, p in enumerate((face.nodes + way).tolist(), start=1):
+                face.triangulation.SetNode(i, gp_Pnt(*p))
         return self._draw()
 
     def _draw(self) -> list[Stroke]:
-        from OCP.BRep import BRep_Tool
-        from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
-        from OCP.HLRAlgo import HLRAlgo_Projector
-        from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
-        from OCP.TopExp import TopExp
-
-        camera = self._camera
-        axes = gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(*map(float, camera.direction)), gp_Dir(*map(float, camera.right)))
-        algorithm = HLRBRep_PolyAlgo()
-        algorithm.Load(self._shape)
-        algorithm.Projector(HLRAlgo_Projector(axes))
-        algorithm.Update()
-        result = HLRBRep_PolyHLRToShape()
-        result.Update(algorithm)
-        lines: list[Stroke] = []
-        for visible, found in (
-            (True, result.VCompound()),
-            (True, result.OutLineVCompound()),
-            (False, result.HCompound()),
-            (False, result.OutLineHCompound()),
-        ):
-            for edge in occt.edges_of(found):
-                ends = [BRep_Tool.Pnt_s(end(edge)).Coord()[:2] for end in (TopExp.FirstVertex_s, TopExp.LastVertex_s)]
-                lines.append((visible, np.array(ends) * self._model.per_model))
-        return lines
+        rival = PolyAlgo(self._shape, self._camera.direction, self._camera.right)
+        rival.hide()
+        rival.extract()
+        found = rival.lines(rival.compounds())
+        return [(visible, points * self._model.per_model) for _, visible, points in found]
 
 
 class Exact:
@@ -179,33 +162,10 @@ class Exact:
         ]
 
 
-def _triangulations(piece: Any) -> Iterator[tuple[Any, Floats, Floats]]:
-    """Each face's triangulation, its nodes in its own frame, and the (3, 4) move from there."""
-    from OCP.BRep import BRep_Tool
-    from OCP.TopAbs import TopAbs_FACE
-    from OCP.TopExp import TopExp_Explorer
-    from OCP.TopLoc import TopLoc_Location
-    from OCP.TopoDS import TopoDS
-
-    explorer = TopExp_Explorer(piece, TopAbs_FACE)
-    while explorer.More():
-        place = TopLoc_Location()
-        mesh = BRep_Tool.Triangulation_s(TopoDS.Face_s(explorer.Current()), place)
-        explorer.Next()
-        if mesh is None:
-            continue
-        move = place.Transformation()
-        matrix = np.array([[move.Value(row, column) for column in range(1, 5)] for row in range(1, 4)])
-        yield mesh, np.array([mesh.Node(i).Coord() for i in range(1, mesh.NbNodes() + 1)]), matrix
-
-
 def _pieces(shape: Any) -> Iterator[Any]:
     """Solids, and together what is in none."""
-    from OCP.TopAbs import TopAbs_FACE, TopAbs_SHELL, TopAbs_SOLID
-    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-    for kind, outside in ((TopAbs_SOLID, None), (TopAbs_SHELL, TopAbs_SOLID), (TopAbs_FACE, TopAbs_SHELL)):
-        explorer = TopExp_Explorer(shape, kind) if outside is None else TopExp_Explorer(shape, kind, outside)
-        while explorer.More():
-            yield explorer.Current()
-            explorer.Next()
+    yield from subshapes(shape, Kind.TopAbs_SOLID)
+    yield from subshapes(shape, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
+    yield from subshapes(shape, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)

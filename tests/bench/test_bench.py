@@ -11,6 +11,8 @@ import pytest
 from bench import loads, measure, occt, ours, pairs, run, scenes
 from cadquery import Shape
 
+from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, triangle_count
+
 
 def test_scenes_have_the_parts_they_promise() -> None:
     plate = Shape.cast(scenes.plate(4))
@@ -37,10 +39,10 @@ def test_kernel_gets_the_triangles_that_the_peer_has() -> None:
     shape = scenes.assembly(30)
     occt.mesh(shape, 0.1, 0.5)
     kernel = ours.Kernel(shape, contact=0.1)
-    assert kernel.triangles == occt.triangle_count(shape)
+    assert kernel.triangles == triangle_count(shape)
     assert kernel.run() > 0
     assert kernel.counters["failed_checks"] == 0 and kernel.counters["pieces"] > 100
-    assert occt.poly(shape) > 0 and occt.exact(shape) > 0
+    assert occt.hide(shape, PolyAlgo) > 0 and occt.hide(shape, ExactAlgo) > 0
 
 
 def test_measure_reports_a_median_and_memory() -> None:

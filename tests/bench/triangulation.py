@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from hlr.lab.rivals.opencascade import FaceMesh, face_meshes, subshapes
+
 WELD = 1e-7
 """Nodes of neighbouring faces this near are one; OpenCASCADE copies them from the edge they share."""
 
@@ -25,11 +27,13 @@ class Triangulation:
         self._segments: list[np.ndarray] = []
         self._parts: list[np.ndarray] = []
         self._count = 0
-        solids = list(_inside(shape, "SOLID")) or [shape]
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+        solids = list(subshapes(shape, Kind.TopAbs_SOLID)) or [shape]
         self.parts = len(solids)
         for part, solid in enumerate(solids):
-            for face in _inside(solid, "FACE"):
-                self._take(face, part)
+            for mesh in face_meshes(solid):
+                self._take(mesh, part)
         points = np.concatenate(self._points)
         _, first, number = np.unique(
             np.round(points / WELD).astype(np.int64), axis=0, return_index=True, return_inverse=True
@@ -44,42 +48,20 @@ class Triangulation:
         segments = np.sort(number.ravel()[ends], axis=1).astype(np.int64)
         self.drawn = np.unique(segments[:, 0] * len(self.points) + segments[:, 1])
 
-    def _take(self, face: Any, part: int) -> None:
+    def _take(self, mesh: FaceMesh, part: int) -> None:
         from OCP.BRep import BRep_Tool
-        from OCP.TopAbs import TopAbs_REVERSED
-        from OCP.TopLoc import TopLoc_Location
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopoDS import TopoDS
 
-        face = TopoDS.Face_s(face)
-        place = TopLoc_Location()
-        mesh = BRep_Tool.Triangulation_s(face, place)
-        if mesh is None:
-            return
-        move = place.Transformation()
-        matrix = np.array([[move.Value(row, column) for column in range(1, 5)] for row in range(1, 4)])
-        nodes = np.array([mesh.Node(i).Coord() for i in range(1, mesh.NbNodes() + 1)])
-        corners = np.array([mesh.Triangle(i).Get() for i in range(1, mesh.NbTriangles() + 1)]) - 1
-        if face.Orientation() == TopAbs_REVERSED:
-            corners = corners[:, ::-1]
-        self._points.append(nodes @ matrix[:, :3].T + matrix[:, 3])
-        self._triangles.append(corners + self._count)
-        self._parts.append(np.full(len(corners), part, dtype=np.int32))
-        for each in _inside(face, "EDGE"):
-            edge = TopoDS.Edge_s(each)
-            if BRep_Tool.IsClosed_s(edge, face) or BRep_Tool.Degenerated_s(edge):
+        self._points.append(mesh.points)
+        self._triangles.append(mesh.triangles + self._count)
+        self._parts.append(np.full(len(mesh.triangles), part, dtype=np.int32))
+        for each in subshapes(mesh.face, Kind.TopAbs_EDGE):
+            edge = TopoDS.Edge(each)
+            if BRep_Tool.IsClosed_s(edge, mesh.face) or BRep_Tool.Degenerated_s(edge):
                 continue
-            line = BRep_Tool.PolygonOnTriangulation_s(edge, mesh, place)
+            line = BRep_Tool.PolygonOnTriangulation_s(edge, mesh.triangulation, mesh.location)
             if line is not None:
                 along = np.array([line.Node(i) for i in range(1, line.NbNodes() + 1)]) - 1 + self._count
                 self._segments.append(np.stack([along[:-1], along[1:]], axis=1))
-        self._count += len(nodes)
-
-
-def _inside(shape: Any, kind: str) -> Any:
-    from OCP import TopAbs
-    from OCP.TopExp import TopExp_Explorer
-
-    explorer = TopExp_Explorer(shape, getattr(TopAbs, f"TopAbs_{kind}"))
-    while explorer.More():
-        yield explorer.Current()
-        explorer.Next()
+        self._count += len(mesh.nodes)

@@ -2,6 +2,7 @@
 
 from itertools import pairwise
 
+from hlr.lab.rivals.opencascade import ExactAlgo
 from hlr.source.cad.occt import ready
 
 NAMES = ("V", "Rg1LineV", "RgNLineV", "OutLineV", "IsoLineV", "H", "Rg1LineH", "RgNLineH", "OutLineH", "IsoLineH")
@@ -11,19 +12,13 @@ def project_ex(shape, direction):
     """The ten compounds of FreeCAD's TechDraw.projectEx; None where there are no lines."""
     ready()
     from OCP.BRepLib import BRepLib
-    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
-    from OCP.HLRAlgo import HLRAlgo_Projector
-    from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape
 
-    algorithm = HLRBRep_Algo()
-    algorithm.Add(shape)
-    algorithm.Projector(HLRAlgo_Projector(gp_Ax2(gp_Pnt(), gp_Dir(*direction))))
-    algorithm.Update()
-    algorithm.Hide()
-    found = HLRBRep_HLRToShape(algorithm)
+    found = ExactAlgo(shape, direction)
+    found.hide()
+    found.extract()
     compounds = []
     for name in NAMES:
-        lines = getattr(found, f"{name}Compound")()
+        lines = getattr(found.result, f"{name}Compound")()
         if lines.IsNull():
             lines = None
         else:

@@ -10,7 +10,7 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,10 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from peers.exchange import Camera
-from peers.reference import FINENESS, Floats, read_shape, shape_diagonal
+from peers.lift import Lifter
+from peers.reference import FINENESS, Floats, from_shape, read_shape, shape_diagonal
+
+from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, mark_tangent_edges
 
 DIRECTIONS: dict[str, tuple[float, float, float]] = {
     "front": (0, -1, 0),
@@ -44,105 +47,34 @@ def camera_of(view: str | Sequence[float]) -> Camera:
     return Camera(name, direction, right, np.cross(direction, right))
 
 
-def _projector(camera: Camera) -> Any:
-    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
-    from OCP.HLRAlgo import HLRAlgo_Projector
-
-    return HLRAlgo_Projector(
-        gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(*map(float, camera.direction)), gp_Dir(*map(float, camera.right)))
-    )
-
-
-def edges_of(compound: Any) -> Iterator[Any]:
-    from OCP.TopAbs import TopAbs_EDGE
-    from OCP.TopExp import TopExp_Explorer
-    from OCP.TopoDS import TopoDS
-
-    if compound is None or compound.IsNull():
-        return
-    explorer = TopExp_Explorer(compound, TopAbs_EDGE)
-    while explorer.More():
-        yield TopoDS.Edge_s(explorer.Current())
-        explorer.Next()
-
-
-def _polyline(edge: Any, deflection: float) -> Floats | None:
-    from OCP.BRepAdaptor import BRepAdaptor_Curve
-    from OCP.GCPnts import GCPnts_QuasiUniformDeflection
-
-    curve = BRepAdaptor_Curve(edge)
-    points = GCPnts_QuasiUniformDeflection(curve, deflection)
-    if not points.IsDone() or points.NbPoints() < 2:
-        return None
-    return np.array([points.Value(i).Coord() for i in range(1, points.NbPoints() + 1)])
-
-
 Lines = list[tuple[str, bool, Floats]]
 """Class, visibility, and points in the model (n, 3); flat ones (n, 2) where they have not been lifted."""
 
 
 def _exact(shape: Any, camera: Camera, deflection: float) -> tuple[Lines, float]:
     """The lines, and the algorithm's seconds."""
-    from OCP.BRepLib import BRepLib
-    from OCP.HLRBRep import HLRBRep_Algo, HLRBRep_HLRToShape, HLRBRep_TypeOfResultingEdge
-
     start = time.perf_counter()
-    algorithm = HLRBRep_Algo()
-    algorithm.Add(shape)
-    algorithm.Projector(_projector(camera))
-    algorithm.Update()
-    algorithm.Hide()
-    result = HLRBRep_HLRToShape(algorithm)
+    rival = ExactAlgo(shape, camera.direction, camera.right)
+    rival.hide()
+    rival.extract()
     seconds = time.perf_counter() - start
-    kinds = {
-        "sharp": HLRBRep_TypeOfResultingEdge.HLRBRep_Sharp,
-        "outline": HLRBRep_TypeOfResultingEdge.HLRBRep_OutLine,
-    }
-    lines = []
-    for kind, selector in kinds.items():
-        for visible in (True, False):
-            compound = result.CompoundOfEdges(selector, visible, True)
-            if compound is None or compound.IsNull():
-                continue
-            BRepLib.BuildCurves3d_s(compound)
-            for edge in edges_of(compound):
-                points = _polyline(edge, deflection)
-                if points is not None:
-                    lines.append((kind, visible, points))
-    return lines, seconds
+    return rival.lines(rival.compounds(), deflection), seconds
 
 
 def _poly(shape: Any, camera: Camera, fineness: float, flat: bool) -> tuple[Lines, float]:
     """The same; meshing is not counted."""
-    from OCP.BRep import BRep_Tool
-    from OCP.HLRBRep import HLRBRep_PolyAlgo, HLRBRep_PolyHLRToShape
-    from OCP.TopExp import TopExp
-    from peers.lift import Lifter
-    from peers.reference import from_shape
-
     reference = from_shape(shape, fineness)
     start = time.perf_counter()
-    algorithm = HLRBRep_PolyAlgo()
-    algorithm.Load(shape)
-    algorithm.Projector(_projector(camera))
-    algorithm.Update()
-    result = HLRBRep_PolyHLRToShape()
-    result.Update(algorithm)
+    rival = PolyAlgo(shape, camera.direction, camera.right)
+    rival.hide()
+    rival.extract()
     seconds = time.perf_counter() - start
-    lifter = None if flat else Lifter(reference, camera)
-    lines: Lines = []
-    for kind, visible, compound in (
-        ("sharp", True, result.VCompound()),
-        ("sharp", False, result.HCompound()),
-        ("outline", True, result.OutLineVCompound()),
-        ("outline", False, result.OutLineHCompound()),
-    ):
-        for edge in edges_of(compound):
-            ends = [BRep_Tool.Pnt_s(vertex(edge)).Coord()[:2] for vertex in (TopExp.FirstVertex_s, TopExp.LastVertex_s)]
-            lifted = np.array(ends) if lifter is None else lifter.lift(np.array(ends), nearest=visible)
-            if lifted is not None:
-                lines.append((kind, visible, lifted))
-    return lines, seconds
+    found = rival.lines(rival.compounds())
+    if flat:
+        return found, seconds
+    lifter = Lifter(reference, camera)
+    lifted = ((name, visible, lifter.lift(points, nearest=visible)) for name, visible, points in found)
+    return [(name, visible, points) for name, visible, points in lifted if points is not None], seconds
 
 
 def draw(
@@ -213,10 +145,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     view = given.view if given.view in DIRECTIONS else [float(value) for value in given.view.split(",")]
     shape = read_shape(given.file)
     if given.flat:
-        # Files do not say which edges are tangent; without this all of them would be drawn.
-        from OCP.BRepLib import BRepLib
-
-        BRepLib.EncodeRegularity_s(shape)
+        mark_tangent_edges(shape)
     document = draw(shape, given.method, camera_of(view), given.file.name, given.deflection, given.flat)
     given.out.write_text(json.dumps(document))
     return 0
