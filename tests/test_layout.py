@@ -1,6 +1,7 @@
 """The shape of the project: what is packaged, what imports what, and what stays unloaded."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
@@ -234,6 +235,11 @@ def test_every_room_stands_on_a_floor():
     rooms = {path.name for path in (ROOT / "hlr").iterdir() if (path / "__init__.py").exists()}
     assert rooms | {"errors", "cli"} == set(FLOORS)
     assert {path.stem for path in (ROOT / "hlr").glob("*.py")} == {"__init__", "__main__", "errors"}
+
+
+def test_the_architecture_page_lists_the_rooms_in_their_order():
+    page = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
+    assert tuple(re.findall(r"^\| \[`(\w+)`\]\(\S+\) \| \S", page, re.MULTILINE)) == FLOORS
 
 
 def test_no_import_leads_upward():

@@ -1,4 +1,4 @@
-"""The README's Python examples run, one after another, as a reader would run them."""
+"""The Python examples of the README and of the pages that it leads to run, one after another, as a reader runs them."""
 
 import re
 import shutil
@@ -7,7 +7,12 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-EXAMPLES = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text("utf-8"), re.MULTILINE | re.DOTALL)
+PAGES = ("README.md", "docs/python.md", "docs/previews.md", "docs/drop_ins.md")
+EXAMPLES = [
+    (page, text)
+    for page in PAGES
+    for text in re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text("utf-8"), re.MULTILINE | re.DOTALL)
+]
 
 
 def test_the_python_examples_run(tmp_path, monkeypatch):
@@ -16,12 +21,12 @@ def test_the_python_examples_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     solid = cq.Workplane().box(30, 20, 10).faces(">Z").workplane().hole(8).val()
     names = {}
-    assert len(EXAMPLES) >= 4
-    for text in EXAMPLES:
+    assert {page for page, _ in EXAMPLES} == set(PAGES)
+    for page, text in EXAMPLES:
         for piece in re.split(r"(?=^from )", text, flags=re.MULTILINE):
             names["part"] = solid
             if "build123d" in piece:
                 names["part"] = pytest.importorskip("build123d").Box(30, 20, 10)
-            exec(compile(piece, "README.md", "exec"), names)
+            exec(compile(piece, page, "exec"), names)
     for name in ("part.pdf", "part.json", "part-front.svg", "part-iso.svg", "part.png", "part-depth.png"):
         assert (tmp_path / name).stat().st_size > 1000

@@ -1,0 +1,52 @@
+"""The pages for people: their links lead somewhere, and a newcomer finds the pages that explain the rest."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = ("docs", "examples", "hlr", "tests")
+PAGES = sorted({*ROOT.glob("*.md"), *(p for f in FOLDERS for p in (ROOT / f).rglob("*.md") if "target" not in p.parts)})
+LINK = re.compile(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"")
+CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
+
+
+def anchors(page):
+    """What a heading of a page is called in a link."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text("utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def broken(page):
+    """Links of a page within the repository that lead nowhere."""
+    for found in LINK.finditer(CODE.sub("", page.read_text("utf-8"))):
+        link = found[1] or found[2]
+        if re.match(r"\w+:", link):
+            continue
+        name, _, heading = link.partition("#")
+        target = page.parent / name if name else page
+        if not target.exists() or (heading and heading not in anchors(target)):
+            yield link
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_link_leads_somewhere(page):
+    assert not list(broken(page))
+
+
+def test_a_broken_link_is_found(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("# One, two\n[a](none.md) [b](#three) [c](#one-two) [d](page.md) `[e](none.md)`\n")
+    assert list(broken(page)) == ["none.md", "#three"]
+
+
+def test_the_readme_leads_to_every_page_of_docs():
+    pages = [path for path in (ROOT / "docs").glob("*.md")]
+    linked = set(LINK.findall((ROOT / "README.md").read_text("utf-8")))
+    assert {f"docs/{path.name}" for path in pages} == {link for link, _ in linked if link.startswith("docs/")}
+
+
+def test_a_newcomer_finds_architecture_and_glossary_at_the_top_of_the_readme():
+    top = (ROOT / "README.md").read_text("utf-8").partition("\n## ")[0]
+    assert "](ARCHITECTURE.md)" in top and "](GLOSSARY.md)" in top
