@@ -17,8 +17,7 @@ from linework.models import box, parts, rotation, solids
 import hlr
 from hlr import Options, Perspective, StrictError
 from hlr.drawing.saving import render
-from hlr.pipeline import drawing as pipeline
-from hlr.pipeline import staging as fitting
+from hlr.pipeline import session
 
 FORMATS = ("json", "svg", "pdf")
 
@@ -127,7 +126,7 @@ def test_a_file_in_metres_with_y_up(tmp_path):
 
 def test_several_views_read_and_mesh_once(monkeypatch):
     seen = {"open": 0, "mesh": 0, "build": 0}
-    real_open, real_build = pipeline.open_chosen, fitting.build
+    real_open, real_build = session.open_chosen, session.build
 
     def opening(thing, options):
         seen["open"] += 1
@@ -145,8 +144,8 @@ def test_several_views_read_and_mesh_once(monkeypatch):
         seen["build"] += 1
         return real_build(*arguments)
 
-    monkeypatch.setattr(pipeline, "open_chosen", opening)
-    monkeypatch.setattr(fitting, "build", building)
+    monkeypatch.setattr(session, "open_chosen", opening)
+    monkeypatch.setattr(session, "build", building)
     drawings = hlr.draw_views(bracket(), ["front", "top", "right", "iso"])
     assert [d.view.name for d in drawings] == ["front", "top", "right", "iso"]
     assert seen == {"open": 1, "mesh": 1, "build": 1}

@@ -20,7 +20,7 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line, Points
 from hlr.errors import OptionError
-from hlr.pipeline.drawing import draw_views
+from hlr.pipeline.draw import draw_views
 from hlr.request.accuracy import DEFAULT_ACCURACY
 from hlr.request.check import WIDEST
 from hlr.request.directions import normalized

@@ -24,6 +24,8 @@ NEAR = 1e-3
 """Of the eye's distance to its target: nothing nearer to the eye plane is drawn."""
 WIDEST = 120.0
 """Degrees: the field of view where none is given, at most."""
+ASPECT = 4.0 / 3.0
+"""Width to height of the frame that a field of view spans."""
 MARGIN = 1.05
 """How much wider than the model's bounding sphere a field of view is chosen."""
 

@@ -1,4 +1,4 @@
-"""Cut the scene by planes before a perspective view: the near plane, and the frame where the eye is given.
+"""Cut an image by planes before a perspective view: the near plane, and the frame where the eye is given.
 
 Done only where something crosses a plane. A cut surface is open, so culling is switched off for it: through the cut one
 may see a face from behind.
@@ -16,13 +16,11 @@ import numpy as np
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import NEAR, Camera, dot
+from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
-from hlr.scene.scene import INTERIOR, Chains, Groups, OwnFaces, Scene, Silhouettes
+from hlr.scene.scene import INTERIOR, Chains, Groups
 from hlr.scene.topology import keys
-
-ASPECT = 4.0 / 3.0
-"""Width to height of the frame that a field of view spans."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,80 +63,82 @@ def _volume(camera: Camera, aspect: float) -> tuple[list[Plane], list[Plane]]:
     return near, sides
 
 
-def clipped(scene: Scene, camera: Camera, aspect: float, planner: Planner) -> Scene:
-    """What the camera may see of the scene, cut only where something crosses the near plane or the frame.
+def clipped(image: Image, planner: Planner) -> Image:
+    """What the camera may see, cut only where something crosses the near plane or the frame.
 
-    A plane that nothing crosses would leave the scene as it is: where clipping is forced, all are gone through.
+    A plane that nothing crosses would leave the image as it is: where clipping is forced, all are gone through.
     """
-    for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, aspect), strict=True):
+    camera = image.camera
+    for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, image.placement.aspect), strict=True):
         with planner.deciding():
-            facts = Facts(perspective=camera.eye is not None, crossed=sum(_crossed(scene, p) for p in cuts))
+            facts = Facts(perspective=camera.eye is not None, crossed=sum(_crossed(image, p) for p in cuts))
         begin = perf_counter()
         used = 0
         if planner.on(name, facts):
-            scene, used = clip(scene, cuts or _around(scene, camera, name), every=facts.crossed == 0)
+            image, used = clip(image, cuts or _around(image, name), every=facts.crossed == 0)
         planner.spent(name, perf_counter() - begin, **{name.replace(" clipping", "_cuts"): used})
-    return scene
+    return image
 
 
-def _around(scene: Scene, camera: Camera, name: str) -> list[Plane]:
-    """A near plane, or four sides, that have all of the scene on the side that is kept."""
-    reach = 2.0 * float(np.abs(scene.points).max(initial=0.0)) + 1.0
+def _around(image: Image, name: str) -> list[Plane]:
+    """A near plane, or four sides, that have all of the image on the side that is kept."""
+    reach = 2.0 * float(np.abs(image.points).max(initial=0.0)) + 1.0
+    camera = image.camera
     d = camera.direction
     near = [(-d[0], -d[1], -d[2])]
     sides = [(s * a[0], s * a[1], s * a[2]) for a in (camera.right, camera.up) for s in (1.0, -1.0)]
     return [Plane(normal, -2.0 * reach) for normal in (near if name == "near clipping" else sides)]
 
 
-def _crossed(scene: Scene, plane: Plane) -> bool:
+def _crossed(image: Image, plane: Plane) -> bool:
     """Whether anything lies beyond; only points that something uses count: earlier cuts leave unused ones behind."""
-    beyond = plane.height(scene.points) < 0.0
-    return bool(beyond.any()) and bool(beyond[scene.edges].any())
+    beyond = plane.height(image.points) < 0.0
+    return bool(beyond.any()) and bool(beyond[image.edges].any())
 
 
-def clip(scene: Scene, cuts: list[Plane], every: bool = False) -> tuple[Scene, int]:
-    """The part of the scene that all planes keep, and how many of them cut anything. every: go through all the same."""
+def clip(image: Image, cuts: list[Plane], every: bool = False) -> tuple[Image, int]:
+    """The part of the image that all planes keep, and how many of them cut anything. every: go through all the same."""
     used = 0
     for plane in cuts:
-        crossed = _crossed(scene, plane)
+        crossed = _crossed(image, plane)
         used += crossed
         if crossed or every:
-            scene = _cut(scene, plane.height(scene.points))
-    return (_compact(scene) if used else scene), used
+            image = _cut(image, plane.height(image.points))
+    return (_compact(image) if used else image), used
 
 
-def _compact(scene: Scene) -> Scene:
+def _compact(image: Image) -> Image:
     """Without the points that nothing uses any more: behind the eye they have no place on paper."""
-    used = np.zeros(len(scene.points), bool)
-    used[scene.edges.ravel()] = True
-    used[scene.triangles.ravel()] = True
+    used = np.zeros(len(image.points), bool)
+    used[image.edges.ravel()] = True
+    used[image.triangles.ravel()] = True
     number = (np.cumsum(used) - 1).astype(np.int32)
     return replace(
-        scene,
-        points=scene.points[used],
-        silhouettes=replace(scene.silhouettes, lift=scene.silhouettes.lift[used]) if scene.silhouettes else None,
-        triangles=np.ascontiguousarray(number[scene.triangles]),
-        edges=np.ascontiguousarray(number[scene.edges]),
+        image,
+        points=image.points[used],
+        silhouettes=replace(image.silhouettes, lift=image.silhouettes.lift[used]) if image.silhouettes else None,
+        triangles=np.ascontiguousarray(number[image.triangles]),
+        edges=np.ascontiguousarray(number[image.edges]),
     )
 
 
-def _cut(scene: Scene, height: Floats) -> Scene:
+def _cut(image: Image, height: Floats) -> Image:
     inside = height >= 0.0
-    a, b = scene.edges[:, 0], scene.edges[:, 1]
+    a, b = image.edges[:, 0], image.edges[:, 1]
     crossing = inside[a] != inside[b]
-    n = len(scene.points)
-    new_vertex = np.full(len(scene.edges), -1, np.int32)
+    n = len(image.points)
+    new_vertex = np.full(len(image.edges), -1, np.int32)
     new_vertex[crossing] = n + np.arange(np.count_nonzero(crossing), dtype=np.int32)
     # From the lower to the higher vertex always: both triangles at an edge get the same point.
     t = (height[a[crossing]] / (height[a[crossing]] - height[b[crossing]]))[:, None]
-    pa, pb = scene.points[a[crossing]], scene.points[b[crossing]]
-    points = np.concatenate([scene.points, pa + (pb - pa) * t])
+    pa, pb = image.points[a[crossing]], image.points[b[crossing]]
+    points = np.concatenate([image.points, pa + (pb - pa) * t])
 
-    triangles, parent = _cut_triangles(scene, inside, new_vertex, n)
+    triangles, parent = _cut_triangles(image, inside, new_vertex, n)
     edges, offsets, incident = _kernel.edge_table(triangles, len(points))
     # Where each old edge went: kept whole, shortened to its new vertex, or gone.
     keep = inside[a] | inside[b]
-    ends = scene.edges.copy()
+    ends = image.edges.copy()
     ends[crossing & ~inside[a], 0] = new_vertex[crossing & ~inside[a]]
     ends[crossing & ~inside[b], 1] = new_vertex[crossing & ~inside[b]]
     low_first = np.stack([ends.min(axis=1), ends.max(axis=1)], axis=1).astype(np.int32)
@@ -149,7 +149,7 @@ def _cut(scene: Scene, height: Floats) -> Scene:
     there[there] = known[at[there]] == key[there]
     # Edges without triangles (free wires) live on behind the others.
     loose = keep & ~there
-    target = np.full(len(scene.edges), -1, np.int32)
+    target = np.full(len(image.edges), -1, np.int32)
     target[there] = at[there]
     target[loose] = len(edges) + np.arange(np.count_nonzero(loose), dtype=np.int32)
     edges = np.concatenate([edges, low_first[loose]])
@@ -162,43 +162,43 @@ def _cut(scene: Scene, height: Floats) -> Scene:
 
     tied = np.diff(offsets) > 0
     first = incident[offsets[:-1][tied]]
-    edge_part, edge_group = moved(scene.edge_part, 0), moved(scene.edge_group, 0)
-    edge_part[tied] = scene.triangle_part[parent][first]
-    edge_group[tied] = scene.triangle_group[parent][first]
-    open_now = np.zeros(len(scene.groups.cull), bool)
-    open_now[scene.edge_group[crossing]] = True
+    edge_part, edge_group = moved(image.edge_part, 0), moved(image.edge_group, 0)
+    edge_part[tied] = image.triangle_part[parent][first]
+    edge_group[tied] = image.triangle_group[parent][first]
+    open_now = np.zeros(len(image.groups.cull), bool)
+    open_now[image.edge_group[crossing]] = True
     return replace(
-        scene,
+        image,
         points=points,
         true_surfaces=None,
-        convex=scene.convex and not crossing.any(),
-        silhouettes=_cut_silhouettes(scene, crossing, t, target, moved),
+        convex=image.convex and not crossing.any(),
+        silhouettes=_cut_silhouettes(image, crossing, t, target, moved),
         triangles=triangles,
-        triangle_part=scene.triangle_part[parent],
-        triangle_group=scene.triangle_group[parent],
-        triangle_face=scene.triangle_face[parent],
-        triangle_origin=scene.triangle_origin[parent],
-        turned=scene.turned[parent],
+        triangle_part=image.triangle_part[parent],
+        triangle_group=image.triangle_group[parent],
+        triangle_face=image.triangle_face[parent],
+        triangle_origin=image.triangle_origin[parent],
+        turned=image.turned[parent],
         edges=np.ascontiguousarray(edges),
         offsets=offsets,
         incident=incident,
         edge_part=edge_part,
         edge_group=edge_group,
-        edge_kind=moved(scene.edge_kind, INTERIOR),
-        edge_curved=moved(scene.edge_curved, 0),
-        groups=_opened(scene.groups, open_now),
-        chains=_moved_chains(scene.chains, target, swapped),
+        edge_kind=moved(image.edge_kind, INTERIOR),
+        edge_curved=moved(image.edge_curved, 0),
+        groups=_opened(image.groups, open_now),
+        chains=_moved_chains(image.chains, target, swapped),
     )
 
 
 def _cut_silhouettes(
-    scene: Scene, crossing: np.ndarray, t: Floats, target: Ints, moved: Callable[[np.ndarray, int], np.ndarray]
+    image: Image, crossing: np.ndarray, t: Floats, target: Ints, moved: Callable[[np.ndarray, int], np.ndarray]
 ) -> Silhouettes | None:
     """With new points at (k, 1) parameters t of crossing edges; what was shortened is compared with all alike."""
-    old = scene.silhouettes
+    old = image.silhouettes
     if old is None:
         return None
-    a, b = old.lift[scene.edges[crossing, 0]], old.lift[scene.edges[crossing, 1]]
+    a, b = old.lift[image.edges[crossing, 0]], old.lift[image.edges[crossing, 1]]
     return Silhouettes(
         lift=np.concatenate([old.lift, a + (b - a) * t]),
         hidden=moved(old.hidden, 0),
@@ -239,7 +239,7 @@ def _opened(groups: Groups, opened: np.ndarray) -> Groups:
 
 
 def _cut_triangles(
-    scene: Scene,
+    image: Image,
     inside: np.ndarray,
     new_vertex: Ints,
     n: int,
@@ -253,11 +253,11 @@ def _cut_triangles(
            \\  / |              / \\
           .r-------- plane --- x---y --
     """
-    tri = scene.triangles
+    tri = image.triangles
     side = inside[tri]
     count = side.sum(axis=1)
     whole = np.flatnonzero(count == 3).astype(np.int32)
-    known = keys(scene.edges[: np.count_nonzero(np.diff(scene.offsets) > 0)], n)
+    known = keys(image.edges[: np.count_nonzero(np.diff(image.offsets) > 0)], n)
 
     def between(u: Ints, v: Ints) -> Ints:
         key = np.minimum(u, v).astype(np.int64) * n + np.maximum(u, v)

@@ -1,4 +1,4 @@
-"""Outlines of the true surfaces, added to the scene as lines of their own before the visibility pass.
+"""Outlines of the true surfaces, added to an image as lines of their own before the visibility pass.
 
 The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets,
 by up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
@@ -26,13 +26,11 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.image.camera import Camera
+from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.image.own_faces import Grazing, with_own_faces
-from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT, Tolerances
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT
 from hlr.request.effect import Facts, Planner
-from hlr.request.options import Options
-from hlr.scene.scene import INTERIOR, Chains, OwnFaces, Scene, Silhouettes, TrueSurfaces
+from hlr.scene.scene import INTERIOR, Chains, TrueSurfaces
 from hlr.scene.topology import joined
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
@@ -45,74 +43,75 @@ BARE[[EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.SMOOTH]] = True
 """By the kind of an edge: two faces meet there, or one ends."""
 
 
-def with_silhouettes(
-    scene: Scene, camera: Camera, tolerances: Tolerances, threads: int, planner: Planner | None = None
-) -> Scene:
-    """The scene with the outlines of its true surfaces; those faces' mesh contours are outlines no longer."""
-    plan = planner or Planner(DRAWING, Options())
-    on = scene.true_surfaces
-    wanted = plan.on(
-        "outlines", Facts(curved=0 if on is None else int(np.count_nonzero(on.curved)), faces=on is not None)
-    )
-    if not wanted or on is None:
-        return scene
-    with plan.timed("outlines"):
-        seen = _with_outlines(scene, on, camera, tolerances, threads)
-    plan.spent("outlines", outlines=len(seen.chains.kind) - len(scene.chains.kind))
-    return seen
+def outlined(image: Image, threads: int, planner: Planner) -> Image:
+    """The image with the outlines of its true surfaces; those faces' mesh contours are outlines no longer.
+
+    An image that has its outlines already, and one that needs none, stays as it is.
+    """
+    surfaces = image.true_surfaces
+    if image.silhouettes is not None:
+        return image
+    curved = 0 if surfaces is None else int(np.count_nonzero(surfaces.curved))
+    wanted = planner.on("outlines", Facts(curved=curved, faces=surfaces is not None))
+    if not wanted or surfaces is None:
+        return image
+    with planner.timed("outlines"):
+        found = _with_outlines(image, surfaces, threads)
+    planner.spent("outlines", outlines=len(found.chains.kind) - len(image.chains.kind))
+    return found
 
 
-def _with_outlines(scene: Scene, on: TrueSurfaces, camera: Camera, tolerances: Tolerances, threads: int) -> Scene:
-    face = scene.all_faces()
-    smooth = SMOOTH[scene.edge_kind]
-    found = _traced(scene, on, face, smooth, camera, OUTLINE_CHORD * tolerances.deflection, threads)
-    scene = replace(scene, edge_curved=_untraced(scene, face, found.traced & on.curved))
-    return _with_lines(scene, on, found, camera, tolerances.deflection)
+def _with_outlines(image: Image, on: TrueSurfaces, threads: int) -> Image:
+    face = image.all_faces()
+    smooth = SMOOTH[image.edge_kind]
+    deflection = image.placement.tolerances.deflection
+    found = _traced(image, on, face, smooth, OUTLINE_CHORD * deflection, threads)
+    image = replace(image, edge_curved=_untraced(image, face, found.traced & on.curved))
+    return _with_lines(image, on, found, deflection)
 
 
 def _traced(
-    scene: Scene,
+    image: Image,
     on: TrueSurfaces,
     face: Ints,
     smooth: npt.NDArray[np.bool_],
-    camera: Camera,
     chord: float,
     threads: int,
 ) -> _kernel.Outlines:
     """The kernel's answer."""
     wanted = on.curved.copy()
     # Planes as well, where a curved face runs into them: they may be what the fold is against.
-    bent = scene.edge_kind == EdgeClass.SMOOTH
-    bent[: len(bent)] &= np.diff(scene.offsets) == 2
-    first = scene.offsets[:-1][bent]
-    one, two = face[scene.incident[first]], face[scene.incident[first + 1]]
+    bent = image.edge_kind == EdgeClass.SMOOTH
+    bent[: len(bent)] &= np.diff(image.offsets) == 2
+    first = image.offsets[:-1][bent]
+    one, two = face[image.incident[first]], face[image.incident[first + 1]]
     wanted[one[on.curved[two]]] = True
     wanted[two[on.curved[one]]] = True
     # Where several run along one chord, any of them tells the fold's curve.
-    source = np.full(len(scene.edges), -1, np.int32)
-    tied = np.flatnonzero(scene.chains.index >= 0)
-    count = np.diff(scene.chains.offsets)
+    source = np.full(len(image.edges), -1, np.int32)
+    tied = np.flatnonzero(image.chains.index >= 0)
+    count = np.diff(image.chains.offsets)
     of_chain = np.full(len(count), -1, np.int32)
     of_chain[tied] = tied
-    source[scene.chains.edges] = np.repeat(of_chain, count)
+    source[image.chains.edges] = np.repeat(of_chain, count)
     return _kernel.silhouettes(
-        scene.mesh(), on.of(wanted, face), smooth, source, camera.scaled(1.0), chord, threads=threads
+        image.mesh(), on.of(wanted, face), smooth, source, image.camera.scaled(1.0), chord, threads=threads
     )
 
 
-def _untraced(scene: Scene, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+def _untraced(image: Image, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
     """Edges at which a mesh contour is still an outline: no face there has been traced."""
-    known = np.zeros(len(scene.edges), bool)
-    faced = np.diff(scene.offsets) > 0
-    if len(scene.incident):
-        known[faced] = np.logical_or.reduceat(traced[face][scene.incident], scene.offsets[:-1][faced])
+    known = np.zeros(len(image.edges), bool)
+    faced = np.diff(image.offsets) > 0
+    if len(image.incident):
+        known[faced] = np.logical_or.reduceat(traced[face][image.incident], image.offsets[:-1][faced])
     # A plane that a curved face runs into was taken for that face's outline.
-    return scene.edge_curved & ~known
+    return image.edge_curved & ~known
 
 
-def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera: Camera, deflection: float) -> Scene:
+def _with_lines(image: Image, on: TrueSurfaces, found: _kernel.Outlines, deflection: float) -> Image:
     offsets, face, source = found.offsets, found.face, found.source
-    n, m = len(scene.points), len(offsets) - 1
+    n, m = len(image.points), len(offsets) - 1
     count = np.diff(offsets)
     # Every two neighbours of one line are an edge.
     inner = np.ones(len(found.points), bool)
@@ -123,15 +122,15 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera:
     part = (np.searchsorted(on.first, face, side="right") - 1).astype(np.int32)
     # Groups follow faces: a face's triangles hang together.
     group_of_face = np.zeros(len(on.number), np.int32)
-    group_of_face[on.first[scene.triangle_part] + scene.triangle_face] = scene.triangle_group
+    group_of_face[on.first[image.triangle_part] + image.triangle_face] = image.triangle_group
     group = group_of_face[face]
-    inside_out = np.repeat(found.concave & ~scene.groups.cull[group], count)
+    inside_out = np.repeat(found.concave & ~image.groups.cull[group], count)
     outward = np.where(inside_out, -1.0, 1.0)[:, None] * found.normals
     distance = _lift(found.rise, deflection)
     lift = outward * distance[:, None]
     walks = Chains(
         offsets=(offsets - np.arange(m + 1)).astype(np.int32),
-        edges=np.arange(len(lines), dtype=np.int32) + np.int32(len(scene.edges)),
+        edges=np.arange(len(lines), dtype=np.int32) + np.int32(len(image.edges)),
         reversed=np.zeros(len(lines), bool),
         kind=np.full(m, EdgeClass.OUTLINE, np.uint8),
         part=part,
@@ -140,33 +139,33 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera:
         face=(face - on.first[part]).astype(np.int32),
         straight=np.zeros(m, bool),
     )
-    hidden = np.asarray(found.concave & scene.groups.cull[group])
-    outlined = replace(
-        scene,
-        points=np.concatenate([scene.points, found.points]),
-        edges=np.ascontiguousarray(np.concatenate([scene.edges, lines])),
-        offsets=np.concatenate([scene.offsets, np.full(len(lines), scene.offsets[-1], np.int32)]),
-        edge_part=np.concatenate([scene.edge_part, part[line]]),
-        edge_group=np.ascontiguousarray(np.concatenate([scene.edge_group, group[line]])),
-        edge_kind=np.concatenate([scene.edge_kind, np.full(len(lines), EdgeClass.OUTLINE, np.uint8)]),
-        edge_curved=np.concatenate([scene.edge_curved, np.zeros(len(lines), bool)]),
+    hidden = np.asarray(found.concave & image.groups.cull[group])
+    shown = replace(
+        image,
+        points=np.concatenate([image.points, found.points]),
+        edges=np.ascontiguousarray(np.concatenate([image.edges, lines])),
+        offsets=np.concatenate([image.offsets, np.full(len(lines), image.offsets[-1], np.int32)]),
+        edge_part=np.concatenate([image.edge_part, part[line]]),
+        edge_group=np.ascontiguousarray(np.concatenate([image.edge_group, group[line]])),
+        edge_kind=np.concatenate([image.edge_kind, np.full(len(lines), EdgeClass.OUTLINE, np.uint8)]),
+        edge_curved=np.concatenate([image.edge_curved, np.zeros(len(lines), bool)]),
         silhouettes=Silhouettes(
             lift=np.concatenate([np.zeros((n, 3)), lift]),
-            hidden=np.concatenate([np.zeros(len(scene.edges), bool), hidden[line]]),
+            hidden=np.concatenate([np.zeros(len(image.edges), bool), hidden[line]]),
             own=OwnFaces.none(),
-            number=np.concatenate([np.full(len(scene.edges), -1, np.int32), line]),
+            number=np.concatenate([np.full(len(image.edges), -1, np.int32), line]),
             curves=Curves(found.curve_kind, found.curve_range, found.curve_offsets, found.curve_values),
-            source=np.where(source >= 0, scene.chains.index[source], -1).astype(np.int32),
+            source=np.where(source >= 0, image.chains.index[source], -1).astype(np.int32),
         ),
-        chains=joined(scene.chains, walks),
+        chains=joined(image.chains, walks),
     )
     grazing = found.grazing
     # Edges and outlines, those that their own body does not hide anyway.
-    bare = BARE[scene.edge_kind[grazing.edge]]
-    if scene.convex and not bare.any():
+    bare = BARE[image.edge_kind[grazing.edge]]
+    if image.convex and not bare.any():
         # Of one convex body culling alone decides: nothing has to be told apart from its own faces.
-        return outlined
-    closed = scene.groups.cull[scene.edge_group[grazing.edge[bare]]]
+        return shown
+    closed = image.groups.cull[image.edge_group[grazing.edge[bare]]]
     # Of a closed body the outer side alone is seen, and whatever lies on it is within reach of the sight.
     side = np.where(closed | grazing.front[bare], 1.0, -1.0)[:, None, None]
     beside = np.where(closed, grazing.beside[bare], np.uint8(0))
@@ -174,13 +173,13 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera:
     # toward the viewer: moved off its curved face it may lie in the plane of the other one.
     rise = grazing.rise[bare]
     turns = ((beside == 1) & (rise >= 0.0).all(axis=1))[:, None, None]
-    ends = scene.points[scene.edges[grazing.edge[bare]]]
-    toward = camera.toward(ends.reshape(-1, 3)).reshape(ends.shape)
+    ends = image.points[image.edges[grazing.edge[bare]]]
+    toward = image.camera.toward(ends.reshape(-1, 3)).reshape(ends.shape)
     off = grazing.normals[bare] * _lift(rise, deflection)[:, :, None] + OUTLINE_SPARE * deflection * toward
     lift_there = np.where(turns, off, 0.0)
     free = np.flatnonzero(~hidden[line]).astype(np.int32)
     stretches = Grazing(
-        edge=np.concatenate([grazing.edge[bare], free + np.int32(len(scene.edges))]),
+        edge=np.concatenate([grazing.edge[bare], free + np.int32(len(image.edges))]),
         range=np.concatenate([grazing.range[bare], np.tile([0.0, 1.0], (len(free), 1))]),
         face=np.concatenate([grazing.face[bare], face[line[free]]]),
         off=np.concatenate(
@@ -194,7 +193,7 @@ def _with_lines(scene: Scene, on: TrueSurfaces, found: _kernel.Outlines, camera:
         beside=np.concatenate([beside, np.zeros(len(free), np.uint8)]),
         dented=np.concatenate([grazing.dented[bare], np.zeros(len(free), bool)]),
     )
-    return with_own_faces(outlined, on, stretches, camera)
+    return with_own_faces(shown, on, stretches)
 
 
 def _lift(rise: Floats, deflection: float) -> Floats:

@@ -1,7 +1,7 @@
 """Edges and outlines beside their own faces: where they lie when they are compared with these faces' triangles.
 
 The kernel compares them polygon by polygon (`kernel/visibility/src/scan/own_faces.rs`). It is told where by edges that
-are added to the scene without triangles, and are never drawn.
+are added to the image without triangles, and are never drawn.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
-from hlr.image.camera import Camera
-from hlr.scene.scene import INTERIOR, OwnFaces, Scene, TrueSurfaces
+from hlr.image.image import Image, OwnFaces
+from hlr.scene.scene import INTERIOR, TrueSurfaces
 from hlr.tables.line_classes import EdgeClass
 
 
@@ -38,32 +38,32 @@ class Grazing:
     dented: npt.NDArray[np.bool_]
 
 
-def with_own_faces(scene: Scene, on: TrueSurfaces, grazing: Grazing, camera: Camera) -> Scene:
-    """A scene that has silhouettes, with these faces."""
-    if scene.silhouettes is None or len(grazing.edge) == 0:
-        return scene
+def with_own_faces(image: Image, on: TrueSurfaces, grazing: Grazing) -> Image:
+    """An image that has silhouettes, with these faces."""
+    if image.silhouettes is None or len(grazing.edge) == 0:
+        return image
     head = np.ones(len(grazing.edge), bool)
     head[1:] = (np.diff(grazing.edge) != 0) | (np.diff(grazing.range, axis=0) != 0.0).any(axis=1)
     first = np.flatnonzero(head)
     edge, span = grazing.edge[first], grazing.range[first]
-    ends = scene.edges[edge]
+    ends = image.edges[edge]
     # Stretches that are not the whole edge get points of their own.
     share = span[:, :, None]
-    points = scene.points[ends[:, :1]] * (1.0 - share) + scene.points[ends[:, 1:]] * share
+    points = image.points[ends[:, :1]] * (1.0 - share) + image.points[ends[:, 1:]] * share
     lifts = np.add.reduceat(grazing.lift, first)
     parted = np.flatnonzero((span != (0.0, 1.0)).any(axis=1))
     of = np.cumsum(head) - 1
-    n, m = len(scene.points), len(scene.edges)
+    n, m = len(image.points), len(image.edges)
     line = edge.copy()
     line[parted] = m + np.arange(len(parted), dtype=np.int32)
     more = len(parted) + len(of)
     place = np.concatenate([points[parted], points[of]]).reshape(-1, 3)
     moved = np.concatenate([lifts[parted], grazing.off]).reshape(-1, 3)
     which = np.concatenate([edge[parted], edge[of]])
-    sheet = _sheets(scene, on)
+    sheet = _sheets(image, on)
     own = OwnFaces(
         edge=edge,
-        range=_on_paper(scene, camera, edge, span),
+        range=_on_paper(image, edge, span),
         line=line,
         beside=np.ascontiguousarray(grazing.beside[first]),
         dented=np.logical_or.reduceat(grazing.dented, first),
@@ -73,16 +73,16 @@ def with_own_faces(scene: Scene, on: TrueSurfaces, grazing: Grazing, camera: Cam
         first=on.first,
         sheet=sheet,
     )
-    old = scene.silhouettes
+    old = image.silhouettes
     return replace(
-        scene,
-        points=np.concatenate([scene.points, place]),
-        edges=np.concatenate([scene.edges, n + np.arange(2 * more, dtype=np.int32).reshape(-1, 2)]),
-        offsets=np.concatenate([scene.offsets, np.full(more, scene.offsets[-1], np.int32)]),
-        edge_part=np.concatenate([scene.edge_part, scene.edge_part[which]]),
-        edge_group=np.concatenate([scene.edge_group, scene.edge_group[which]]),
-        edge_kind=np.concatenate([scene.edge_kind, np.full(more, INTERIOR, np.uint8)]),
-        edge_curved=np.concatenate([scene.edge_curved, np.zeros(more, bool)]),
+        image,
+        points=np.concatenate([image.points, place]),
+        edges=np.concatenate([image.edges, n + np.arange(2 * more, dtype=np.int32).reshape(-1, 2)]),
+        offsets=np.concatenate([image.offsets, np.full(more, image.offsets[-1], np.int32)]),
+        edge_part=np.concatenate([image.edge_part, image.edge_part[which]]),
+        edge_group=np.concatenate([image.edge_group, image.edge_group[which]]),
+        edge_kind=np.concatenate([image.edge_kind, np.full(more, INTERIOR, np.uint8)]),
+        edge_curved=np.concatenate([image.edge_curved, np.zeros(more, bool)]),
         silhouettes=replace(
             old,
             lift=np.concatenate([old.lift, moved]),
@@ -93,14 +93,14 @@ def with_own_faces(scene: Scene, on: TrueSurfaces, grazing: Grazing, camera: Cam
     )
 
 
-def _sheets(scene: Scene, on: TrueSurfaces) -> Ints:
+def _sheets(image: Image, on: TrueSurfaces) -> Ints:
     """(f,) one number for all faces that go on smoothly into one another."""
-    face = on.first[scene.triangle_part] + scene.triangle_face
-    count = np.diff(scene.offsets)
+    face = on.first[image.triangle_part] + image.triangle_face
+    count = np.diff(image.offsets)
     tangent = np.flatnonzero(
-        ((scene.edge_kind == EdgeClass.SMOOTH) | (scene.edge_kind == EdgeClass.SEAM)) & (count == 2)
+        ((image.edge_kind == EdgeClass.SMOOTH) | (image.edge_kind == EdgeClass.SEAM)) & (count == 2)
     )
-    pair = np.stack([face[scene.incident[scene.offsets[tangent] + k]] for k in (0, 1)], axis=1)
+    pair = np.stack([face[image.incident[image.offsets[tangent] + k]] for k in (0, 1)], axis=1)
     key = distinct(pair[:, 0].astype(np.int64) << 32 | pair[:, 1])
     pair = np.stack([key >> 32, key & 0xFFFFFFFF], axis=1).astype(np.int32)
     sheet = np.arange(len(on.number), dtype=np.int32)
@@ -110,9 +110,9 @@ def _sheets(scene: Scene, on: TrueSurfaces) -> Ints:
     return np.unique(sheet, return_inverse=True)[1].astype(np.int32)
 
 
-def _on_paper(scene: Scene, camera: Camera, edges: Ints, t: Floats) -> Floats:
+def _on_paper(image: Image, edges: Ints, t: Floats) -> Floats:
     """Parameters (k, 2) along edges in space, as parameters of their images."""
-    if camera.eye is None:
+    if image.camera.eye is None:
         return np.ascontiguousarray(t)
-    a, b = (camera.ahead(scene.points[scene.edges[edges, k]])[:, None] for k in (0, 1))
+    a, b = (image.camera.ahead(image.points[image.edges[edges, k]])[:, None] for k in (0, 1))
     return np.asarray(t * b / (t * b + (1.0 - t) * a))

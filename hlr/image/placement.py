@@ -10,8 +10,7 @@ import numpy as np
 from hlr.common.types import Floats
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
-from hlr.image.camera import NEAR, Camera
-from hlr.image.clip import ASPECT
+from hlr.image.camera import ASPECT, NEAR, Camera
 from hlr.image.strays import stray_note
 from hlr.request.accuracy import CURVE_BULGE, Tolerances, choose, derive
 from hlr.request.options import Options
@@ -32,10 +31,11 @@ would not end."""
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class Placement:
     """A view's scale (paper : millimetres of the model), per_model (paper millimetres per model unit), tolerances.
 
     aspect: width to height of the frame; magnified: how much larger than at the target the nearest point is drawn.
+    fit: the millimetres of paper within which the view is to fit; None: its scale is given
     """
 
     scale: float
@@ -46,13 +46,14 @@ class Placed:
     aspect: float
     magnified: float
     notes: tuple[Note, ...] = ()
+    fit: tuple[float, float] | None = None
 
-    def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placed:
+    def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placement:
         """The same with the size taken from the mesh itself; (n, 3) model coordinates.
 
         Curves bulge over their chords, and are drawn within a share of the accuracy.
         """
-        if options.fit is None:
+        if self.fit is None:
             return self
         width, height = _extent(camera, points, self.aspect)
         if curved and not camera.framed:
@@ -64,7 +65,7 @@ class Placed:
         return replace(sized, notes=self.notes)
 
 
-def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> Placed:
+def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> Placement:
     """Scale and tolerances from the bounding box (2, 3).
 
     Raises OptionError for an accuracy that cannot be kept, SourceError for a model without size.
@@ -111,7 +112,7 @@ def _magnified(camera: Camera, points: Floats) -> float:
 
 def _sized(
     width: float, height: float, options: Options, unit: float, brep: bool, aspect: float, magnified: float
-) -> Placed:
+) -> Placement:
     """width, height: on the image plane, model units."""
     scale = options.scale
     if options.fit is not None:
@@ -127,4 +128,4 @@ def _sized(
             notes = (Note("paper-size", f"the drawing is only {diagonal:.2g} mm large at 1:1: {_CURE}"),)
         elif diagonal > LARGEST_PAPER:
             notes = (Note("paper-size", f"the drawing is {diagonal / 1000.0:.3g} m large at 1:1: {_CURE}"),)
-    return Placed(scale, per_model, tolerances, unit, brep, aspect, magnified, notes)
+    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, options.fit)

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.drawing.notes import Note
+from hlr.image.image import Image
 from hlr.scene.colors import corner_paint
 from hlr.scene.scene import Scene
 from hlr.source.model import Look
@@ -39,32 +40,32 @@ def hiding(scene: Scene, looks: Mapping[str, Look]) -> list[Note]:
     return [Note("glass-hides", f"{which} what is behind, as in other CAD drawings: see_through shows it.")]
 
 
-def without_glass(scene: Scene, glass: npt.NDArray[np.bool_]) -> Scene:
-    """The scene in which the triangles of glass (t,) hide nothing; edges stay, those of glass alone as wires."""
+def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
+    """The image in which the triangles of glass (t,) hide nothing; edges stay, those of glass alone as wires."""
     kept = ~glass
     number = np.cumsum(kept, dtype=np.int32) - 1
-    held = kept[scene.incident]
-    per_edge = np.add.reduceat(np.append(held, False), scene.offsets[:-1]) if len(scene.edges) else np.zeros(0, int)
+    held = kept[image.incident]
+    per_edge = np.add.reduceat(np.append(held, False), image.offsets[:-1]) if len(image.edges) else np.zeros(0, int)
     # Of an edge without triangles reduceat gives what comes next.
-    per_edge = np.where(np.diff(scene.offsets) > 0, per_edge, 0)
-    opened = np.zeros(len(scene.groups.cull), bool)
-    opened[scene.triangle_group[glass]] = True
-    silhouettes = scene.silhouettes
+    per_edge = np.where(np.diff(image.offsets) > 0, per_edge, 0)
+    opened = np.zeros(len(image.groups.cull), bool)
+    opened[image.triangle_group[glass]] = True
+    silhouettes = image.silhouettes
     if silhouettes is not None:
-        silhouettes = replace(silhouettes, hidden=silhouettes.hidden & ~opened[scene.edge_group])
-    on = scene.true_surfaces
+        silhouettes = replace(silhouettes, hidden=silhouettes.hidden & ~opened[image.edge_group])
+    on = image.true_surfaces
     return replace(
-        scene,
-        triangles=np.ascontiguousarray(scene.triangles[kept]),
-        triangle_part=scene.triangle_part[kept],
-        triangle_group=np.ascontiguousarray(scene.triangle_group[kept]),
-        triangle_face=scene.triangle_face[kept],
-        triangle_origin=scene.triangle_origin[kept],
-        turned=scene.turned[kept],
-        facets=None if scene.facets is None else scene.facets[kept],
+        image,
+        triangles=np.ascontiguousarray(image.triangles[kept]),
+        triangle_part=image.triangle_part[kept],
+        triangle_group=np.ascontiguousarray(image.triangle_group[kept]),
+        triangle_face=image.triangle_face[kept],
+        triangle_origin=image.triangle_origin[kept],
+        turned=image.turned[kept],
+        facets=None if image.facets is None else image.facets[kept],
         offsets=np.concatenate([[0], np.cumsum(per_edge)]).astype(np.int32),
-        incident=np.ascontiguousarray(number[scene.incident[held]], np.int32),
-        groups=replace(scene.groups, closed=scene.groups.closed & ~opened, cull=scene.groups.cull & ~opened),
+        incident=np.ascontiguousarray(number[image.incident[held]], np.int32),
+        groups=replace(image.groups, closed=image.groups.closed & ~opened, cull=image.groups.cull & ~opened),
         true_surfaces=None if on is None else replace(on, corner=on.corner[kept]),
         silhouettes=silhouettes,
         convex=False,

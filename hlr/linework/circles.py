@@ -24,8 +24,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import Camera
-from hlr.request.accuracy import Tolerances
-from hlr.scene.scene import Scene
+from hlr.image.image import Image
 from hlr.source.geometry import ELLIPSE, Record, packed
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
@@ -58,26 +57,25 @@ class Circles:
     bulge: Floats
 
 
-def circles(
-    scene: Scene, plan: Plan, chains: _kernel.Chains, camera: Camera, per_model: float, tolerances: Tolerances
-) -> Circles | None:
+def circles(image: Image, plan: Plan, chains: _kernel.Chains) -> Circles | None:
     """The circles along creases and borders of meshes; None where there are none, or none were asked for."""
     if plan.step <= 0.0:
         return None
-    bare = np.array([p.faces == 0 for p in scene.parts], bool)[chains.part]
+    bare = np.array([p.faces == 0 for p in image.parts], bool)[chains.part]
     wanted = bare & np.isin(chains.kind, (EdgeClass.SHARP, EdgeClass.BOUNDARY))
     offsets, walked, backward = chains.offsets, chains.edges, chains.reversed
     wanted &= np.diff(offsets) >= FEWEST - 1
     number = np.full(len(wanted), -1, np.int32)
+    allowed = SHARE * image.placement.tolerances.accuracy
     records: list[Record] = []
     bulges: list[float] = []
     for chain in np.flatnonzero(wanted).tolist():
         span = slice(offsets[chain], offsets[chain + 1])
-        points = _vertices(scene, scene.edges[walked[span]], backward[span])
+        points = _vertices(image, image.edges[walked[span]], backward[span])
         if points is None or _bent(points, 2.0 * plan.step):
             continue
-        on_paper = per_model * _magnified(camera, points)
-        found = _circle([tuple(p) for p in points.tolist()], SHARE * tolerances.accuracy / on_paper, plan.step)
+        on_paper = image.placement.per_model * _magnified(image.camera, points)
+        found = _circle([tuple(p) for p in points.tolist()], allowed / on_paper, plan.step)
         if found is not None:
             record, bulge = found
             number[chain] = len(records)
@@ -86,14 +84,14 @@ def circles(
     return Circles(packed(records), number, np.array(bulges)) if records else None
 
 
-def _vertices(scene: Scene, edges: Ints, backward: npt.NDArray[np.bool_]) -> Floats | None:
+def _vertices(image: Image, edges: Ints, backward: npt.NDArray[np.bool_]) -> Floats | None:
     """(n, 3) along a walk over edges (k, 2), the first one again at the end of a loop; None where something was clipped
     away."""
     start = np.where(backward, edges[:, 1], edges[:, 0])
     end = np.where(backward, edges[:, 0], edges[:, 1])
     if (start[1:] != end[:-1]).any():
         return None
-    points: Floats = scene.points[np.append(start, end[-1])]
+    points: Floats = image.points[np.append(start, end[-1])]
     return points
 
 

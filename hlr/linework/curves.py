@@ -14,10 +14,8 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.image.camera import Camera
+from hlr.image.image import Image
 from hlr.linework.circles import circles
-from hlr.request.accuracy import Tolerances
-from hlr.scene.scene import Scene
 from hlr.source.geometry import packed, together
 from hlr.source.model import Curves, EdgeCurves
 from hlr.visibility.plan import Plan
@@ -47,21 +45,12 @@ class Guides:
     sought: int
 
 
-def guides(
-    scene: Scene,
-    plan: Plan,
-    chains: _kernel.Chains,
-    lines: Ints,
-    edge_curves: EdgeCurveLookup,
-    camera: Camera,
-    per_model: float,
-    tolerances: Tolerances,
-) -> Guides:
+def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_curves: EdgeCurveLookup) -> Guides:
     """The curves of chains; looked up are those of `lines` (n,), which are the chains of lines."""
     edge, part, straight = chains.edge, chains.part, chains.straight
     # Of each chain the number of an outline or a circle, which lie where they are.
     number, own, bulge = np.full(len(edge), -1, np.int32), NO_CURVES, np.zeros(0)
-    silhouettes = scene.silhouettes
+    silhouettes = image.silhouettes
     if silhouettes is not None:
         number = silhouettes.number[chains.first]
         source = np.append(silhouettes.source, np.int32(-1))[number]
@@ -71,7 +60,7 @@ def guides(
         edge_curves(part[straight], edge[straight])
     # Where two planes meet, the line between the vertices is all there is to know.
     edge[straight] = -1
-    round_ = circles(scene, plan, chains, camera, per_model, tolerances)
+    round_ = circles(image, plan, chains)
     if round_ is not None:
         number = np.where(round_.number >= 0, round_.number + len(own.kind), number).astype(np.int32)
         own, bulge = together(own, round_.curves), np.concatenate([bulge, round_.bulge])

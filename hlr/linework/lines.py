@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,10 +11,9 @@ from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.drawing.line import Line
 from hlr.drawing.lines import Lines
-from hlr.image.camera import Camera
+from hlr.image.image import Image
 from hlr.linework.curves import EdgeCurveLookup, guides
-from hlr.request.accuracy import CLOSED, CURVE_CHORD, Tolerances
-from hlr.scene.scene import Scene
+from hlr.request.accuracy import CLOSED, CURVE_CHORD
 from hlr.tables.line_classes import EdgeClass
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
@@ -32,38 +32,44 @@ ones the nearer: what one would see. Only at the same depth does the kind decide
 _RANKS = np.array([KIND_RANK[kind] for kind in EdgeClass], np.uint8)
 
 
+@dataclass(frozen=True, slots=True)
+class Linework:
+    """lines; origin: the lower left corner of them all; curves_sought: of how many lines a curve was looked for."""
+
+    lines: Sequence[Line]
+    origin: tuple[float, float]
+    curves_sought: int
+
+
 def draw_lines(
-    scene: Scene,
+    image: Image,
     edge_curves: EdgeCurveLookup,
     plan: Plan,
     segments: Segments,
-    camera: Camera,
     projected: Floats,
-    per_model: float,
-    tolerances: Tolerances,
     hidden: bool,
     threads: int,
-) -> tuple[Sequence[Line], tuple[float, float], int]:
-    """All lines, sorted by part, kind, edge and face; the origin: the lower left corner of them all; and of how many a
-    curve was looked for.
+) -> Linework:
+    """All lines, sorted by part, kind, edge and face.
 
-    projected (n, 3) as Camera.project gives it; per_model millimetres on paper per model unit.
+    projected (n, 3) as `Image.projected` gives it; hidden: hidden lines are drawn as well
     """
-    chains = _chains(scene, plan, segments)
+    per_model, tolerances = image.placement.per_model, image.placement.tolerances
+    chains = _chains(image, plan, segments)
     rank = _RANKS[chains.kind]
-    if scene.silhouettes is not None:
+    if image.silhouettes is not None:
         # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
-        rank += scene.silhouettes.hidden[chains.first]
+        rank += image.silhouettes.hidden[chains.first]
     t = tolerances
     cut = _kernel.Cut(
-        camera.scaled(per_model),
+        image.camera.scaled(per_model),
         projected,
         segments.mesh,
         (segments.edge, segments.t0, segments.t1, segments.state),
         chains,
         rank,
         # The contours of meshes are smoothed; those of a B-rep's tessellation have no accuracy left for it.
-        np.array([p.faces == 0 for p in scene.parts], bool)[chains.part],
+        np.array([p.faces == 0 for p in image.parts], bool)[chains.part],
         _kernel.LineTolerances(
             accuracy=t.accuracy,
             short=t.short,
@@ -81,8 +87,8 @@ def draw_lines(
         threads,
     )
     if len(cut) == 0:
-        return (), (0.0, 0.0), 0
-    along = guides(scene, plan, chains, cut.chain, edge_curves, camera, per_model, tolerances)
+        return Linework((), (0.0, 0.0), 0)
+    along = guides(image, plan, chains, cut.chain, edge_curves)
     curves = along.curves
     lines, origin = cut.finished(
         _kernel.Curves(curves.kind, np.ascontiguousarray(curves.range), curves.offsets, curves.values)
@@ -94,12 +100,12 @@ def draw_lines(
         along.bulge,
         threads,
     )
-    return Lines(lines), origin, along.sought
+    return Linework(Lines(lines), origin, along.sought)
 
 
-def _chains(scene: Scene, plan: Plan, segments: Segments) -> _kernel.Chains:
+def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
     """Source edges, then contours of the mesh among the segments' edges."""
-    chains = scene.chains
+    chains = image.chains
     walks = _kernel.Walks(
         chains.offsets,
         chains.edges,
@@ -116,9 +122,9 @@ def _chains(scene: Scene, plan: Plan, segments: Segments) -> _kernel.Chains:
         plan.drawn_kind.tolist(),
         segments.mesh,
         segments.groups,
-        scene.triangle_part,
-        scene.triangle_face,
-        np.array([p.faces > 0 for p in scene.parts], bool),
+        image.triangle_part,
+        image.triangle_face,
+        np.array([p.faces > 0 for p in image.parts], bool),
         segments.facing,
         plan.role,
         segments.edge,

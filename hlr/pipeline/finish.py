@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
@@ -14,8 +15,9 @@ from hlr.drawing.line import Bounds, Line
 from hlr.drawing.lines import held
 from hlr.drawing.notes import Note
 from hlr.image.camera import Camera
-from hlr.pipeline.staging import Staged
-from hlr.request.effect import Decisions
+from hlr.image.image import Image
+from hlr.linework.lines import Linework
+from hlr.request.effect import Decisions, Planner
 from hlr.request.options import Options, Request
 from hlr.scene.scene import Scene
 from hlr.source.model import Source
@@ -25,46 +27,59 @@ from hlr.visibility.segments import Segments
 from hlr.window.cut import cut
 from hlr.window.frame import Frame
 
-Drawn = tuple[Sequence[Line], tuple[float, float], int]
-"""Lines, their origin, and how many curves were sought: as `hlr.linework.lines.draw_lines` gives them."""
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """What became of one view: its image, what was decided, the segments, and the lines made of them."""
+
+    image: Image
+    plan: Plan
+    segments: Segments
+    linework: Linework
 
 
 def finished(
-    opened: Source,
+    source: Source,
     scene: Scene,
-    seen: Scene,
-    view: Staged,
+    solved: Solved,
+    planner: Planner,
     options: Options,
-    plan: Plan,
-    segments: Segments,
-    drawn: Drawn,
     clock: Clock,
     request: Request | None = None,
     remarks: Sequence[Note] = (),
 ) -> Drawing:
-    """The drawing of one view of a scene; seen: what of it is before the camera, with its outlines.
+    """The drawing of one view of a scene.
 
     request: what was asked for; remarks: what else is to be said.
     """
-    camera, at, planner = view.camera, view.at, view.planner
-    lines, origin, sought = drawn
+    image, plan, segments = solved.image, solved.plan, solved.segments
+    camera, placement = image.camera, image.placement
+    lines, origin = solved.linework.lines, solved.linework.origin
     started = perf_counter()
     fill: Fill | None = None
     if plan.fill:
         from hlr.shading.fill import filled
 
         fill = filled(
-            scene, opened.looks(), camera, seen.points, at.per_model, origin, at.tolerances.accuracy, options.threads
+            scene,
+            source.looks(),
+            camera,
+            image.points,
+            placement.per_model,
+            origin,
+            placement.tolerances.accuracy,
+            options.threads,
         )
         planner.spent("fill", perf_counter() - started)
         planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
     stated = drawn_view(camera)
     window = None if options.window is None else Bounds(*map(float, options.window))
-    frame = None if window is None else Frame(window, stated, at.per_model)
+    frame = None if window is None else Frame(window, stated, placement.per_model)
     lines, fill, empty = cut(lines, fill, frame, planner)
+    empty = empty or _empty(lines, fill)
     lap(clock, "linework", started)
     clock["total"] = sum(clock.values())
-    counters = _counters(seen, segments, lines, fill, sought, plan)
+    counters = _counters(solved, lines, fill)
     if not plan.crossings and counters["seeds"]:
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
@@ -73,28 +88,28 @@ def finished(
     cuts = sum(sum(planner.cost(name).values()) for name in ("near clipping", "side clipping"))
     rescued = planner.cost("rescue of faces")
     return Drawing(
-        source=opened.name,
+        source=source.name,
         view=stated,
-        scale=at.scale,
+        scale=placement.scale,
         origin=origin,
         accuracy=Accuracy(
             asked=options.accuracy,
-            used=at.tolerances.accuracy,
-            deflection=at.tolerances.deflection,
-            contact=at.tolerances.contact,
+            used=placement.tolerances.accuracy,
+            deflection=placement.tolerances.deflection,
+            contact=placement.tolerances.contact,
         ),
-        unit=opened.frame.unit,
-        up_axis=opened.frame.up,
-        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in seen.parts),
+        unit=source.frame.unit,
+        up_axis=source.frame.up,
+        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in image.parts),
         lines=lines,
-        notes=tuple(dict.fromkeys((*opened.notes, *seen.notes, *at.notes, *(empty or _empty(lines, fill)), *remarks))),
+        notes=tuple(dict.fromkeys((*source.notes, *scene.notes, *placement.notes, *empty, *remarks))),
         counters={**counters, **rescued, "clipping_planes": cuts},
         timings=clock,
         fill=fill,
         request=request,
         plan=Decisions(planner, counters),
         window=window,
-        reading=getattr(opened, "reading", ""),
+        reading=getattr(source, "reading", ""),
     )
 
 
@@ -107,23 +122,22 @@ STEPS = {
 """The kernel's steps that an effect is timed by."""
 
 
-def _counters(
-    seen: Scene, segments: Segments, lines: Sequence[Line], fill: Fill | None, sought: int, plan: Plan
-) -> dict[str, int]:
+def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[str, int]:
+    image, plan, segments = solved.image, solved.plan, solved.segments
     kept = held(lines)
     kinds = np.bincount(kept.kinds(), minlength=len(EdgeClass)).tolist()
     faces = 0 if fill is None else len(fill.faces) - 1
     return {
         **segments.counters,
         "lines": len(lines),
-        "outlines": 0 if seen.silhouettes is None else len(seen.silhouettes.curves.kind),
-        "divided_points": len(seen.points) if plan.divide else 0,
+        "outlines": 0 if image.silhouettes is None else len(image.silhouettes.curves.kind),
+        "divided_points": len(image.points) if plan.divide else 0,
         "hidden_lines": len(lines) - int(np.count_nonzero(kept.visible())),
         "smooth_lines": kinds[EdgeClass.SMOOTH],
         "seam_lines": kinds[EdgeClass.SEAM],
         "intersection_lines": kinds[EdgeClass.INTERSECTION],
         "circles": kept.circles() if plan.step > 0.0 else 0,
-        "curves_sought": sought,
+        "curves_sought": solved.linework.curves_sought,
         "filled_faces": faces,
         "coloured_faces": faces,
         "gradients": 0 if fill is None else len(fill.gradients),

@@ -29,9 +29,8 @@ from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.notes import Note
 from hlr.errors import HlrError
-from hlr.image.camera import resolve
-from hlr.image.placement import place
-from hlr.pipeline.drawing import draw_views
+from hlr.pipeline.draw import draw_views
+from hlr.pipeline.session import Session
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View
 from hlr.source.chosen import open_chosen
@@ -123,9 +122,8 @@ def draw_within(
 
 def _range(opened: Source, views: list[View], options: Options) -> tuple[float, float]:
     """The first accuracy, and the one that is not exceeded, millimetres."""
-    usual_options, bounds = replace(options, accuracy=None), opened.bounds()
-    cameras = [resolve(view, options, opened.frame, bounds) for view in views]
-    usual = min(place(c, usual_options, opened, bounds).tolerances.accuracy for c in cameras)
+    placements = Session(opened, views, replace(options, accuracy=None)).placements
+    usual = min(placement.tolerances.accuracy for placement in placements)
     goal = options.accuracy if options.accuracy is not None else FINEST * usual
     return max(goal, COARSE * usual), goal
 

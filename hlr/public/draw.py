@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 from hlr.common.keywords import record_of, shown
-from hlr.pipeline.drawing import draw_views as drawn_once
+from hlr.pipeline.draw import draw_views as drawn_once
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View, Wishes
 from hlr.source.chosen import open_chosen

@@ -6,10 +6,9 @@ from typing import Any
 
 from hlr.common.types import Progress
 from hlr.drawing.model_info import ModelInfo, PartReport
-from hlr.request.accuracy import ANGLE, SMALL_DRAWING
+from hlr.pipeline.session import Session
 from hlr.request.check import check_crease
-from hlr.scene.build import build
-from hlr.source import open_source
+from hlr.request.options import Options
 
 
 def info(
@@ -37,15 +36,9 @@ def info(
     ('part', 1, 7, 15, True, ())
     """
     check_crease(crease)
-    tell = progress or (lambda _stage, _done: None)
-    tell("source", 0.0)
-    opened = open_source(source, var, annotations)
-    bounds = opened.bounds()
-    size = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5)
-    tell("tessellate", 0.0)
-    deflection = size / SMALL_DRAWING
-    scene = build(opened.mesh(deflection, ANGLE, progress), crease, deflection)
-    solids = {i.name: i.solids for i in opened.infos()}
+    session = Session(source, [], Options(crease=crease, var=var, annotations=annotations), progress)
+    source, scene = session.source, session.scene_by_size()
+    solids = {i.name: i.solids for i in source.infos()}
     parts = tuple(
         PartReport(
             name=p.name,
@@ -60,6 +53,6 @@ def info(
         )
         for p in scene.parts
     )
-    low, high = ((float(c[0]), float(c[1]), float(c[2])) for c in bounds)
-    notes = (*opened.notes, *scene.notes)
-    return ModelInfo(opened.name, opened.kind, opened.frame.unit, (low, high), parts, notes)
+    low, high = ((float(c[0]), float(c[1]), float(c[2])) for c in session.bounds)
+    notes = (*source.notes, *scene.notes)
+    return ModelInfo(source.name, source.kind, source.frame.unit, (low, high), parts, notes)

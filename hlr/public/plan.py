@@ -8,17 +8,10 @@ from typing import Any
 
 from hlr.common.types import Progress
 from hlr.drawing.line import Bounds
-from hlr.image.camera import resolve
-from hlr.image.clip import clipped
-from hlr.image.outlines import with_silhouettes
-from hlr.image.placement import place
-from hlr.pipeline.staging import seen_through, staged
+from hlr.pipeline.session import Session
 from hlr.request.check import checked, checked_views
-from hlr.request.drawing_effects import DRAWING
-from hlr.request.effect import Decision, Planner
+from hlr.request.effect import Decision
 from hlr.request.options import Options, View
-from hlr.source.chosen import open_chosen
-from hlr.visibility.plan import decide
 from hlr.window.cut import foreseen
 
 
@@ -50,29 +43,17 @@ def plan_views(
     views = checked_views(views, options)
     if not views:
         return []
-    tell = progress or (lambda _stage, _done: None)
-    tell("source", 0.0)
-    opened = open_chosen(source, options)
-    bounds = opened.bounds()
-    cameras = [resolve(view, options, opened.frame, bounds) for view in views]
-    tell("tessellate", 0.0)
-    placed = [place(c, options, opened, bounds) for c in cameras]
-    scene, _, seen = staged(opened, cameras, placed, options, tell, {}, Planner(DRAWING, options))
+    session = Session(source, views, options, progress)
     out = []
-    looks = opened.looks() if opened.transparent() else {}
-    for at in seen:
-        view = seen_through(scene, looks, at, options)
-        outlined = view.outlined or with_silhouettes(
-            scene, view.camera, view.at.tolerances, options.threads, view.planner
-        )
-        seen_of = clipped(outlined, view.camera, view.at.aspect, view.planner)
-        view.planner.on("window")
+    for draft in session.drafts():
+        image = session.shown(draft)
+        draft.planner.on("window")
         if options.window is not None:
-            with view.planner.deciding():
-                flat = view.camera.project(seen_of.points)[:, :2] * view.at.per_model
-            foreseen(flat, Bounds(*options.window), view.planner)
-        decide(seen_of, view.camera, options, view.at.tolerances, view.planner)
-        out.append(ViewPlan(view.camera.name, view.planner.decisions()))
+            with draft.planner.deciding():
+                flat = image.projected()[:, :2] * image.placement.per_model
+            foreseen(flat, Bounds(*options.window), draft.planner)
+        session.plan(draft, image)
+        out.append(ViewPlan(image.camera.name, draft.planner.decisions()))
     return out
 
 

@@ -8,14 +8,14 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints, Rgba
-from hlr.scene.scene import Scene
+from hlr.scene.scene import Geometry
 from hlr.scene.stitch import weights
 from hlr.source.model import PLAIN, Look
 
 Colours = npt.NDArray[np.float32]
 
 
-def corner_paint(scene: Scene, looks: Mapping[str, Look]) -> tuple[Colours, Ints]:
+def corner_paint(scene: Geometry, looks: Mapping[str, Look]) -> tuple[Colours, Ints]:
     """Colours (k, 4), linear light and opacity, and (t, 3) which of them each corner has."""
     table: dict[Rgba, int] = {}
     painted: list[npt.NDArray[np.float32]] = []

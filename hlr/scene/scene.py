@@ -10,7 +10,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.common.types import Color, Floats, Ints
 from hlr.drawing.notes import Note
-from hlr.source.model import Curves, Surfaces
+from hlr.source.model import Surfaces
 
 INTERIOR = 255
 """Kind of a mesh edge that no source edge runs along."""
@@ -83,56 +83,6 @@ class TrueSurfaces:
 
 
 @dataclass(frozen=True, slots=True)
-class OwnFaces:
-    """Edges whose own faces are seen nearly edge-on, or stretches of them between places where a face turns over.
-
-    edge (s,) ascending, range (s, 2): parameters of the stretch on the edge's image; line (s,): the edge that is the
-    stretch, beside (s,) uint8: its faces, those of a closed body, show it (1), hide it (2), or it is not known (0),
-    dented (s,) bool: its own triangles fold over there, though the faces do not
-    offsets (s + 1,): its faces are face (k,) of all parts' faces, off (k,): the edge that is the stretch off that face.
-    Of line and off none has triangles or is ever drawn, but where the stretch is all of the edge.
-    first (p,) the number of each part's first face; sheet (f,) one number for faces that go on smoothly into others
-    """
-
-    edge: Ints
-    range: Floats
-    line: Ints
-    beside: npt.NDArray[np.uint8]
-    dented: npt.NDArray[np.bool_]
-    offsets: Ints
-    face: Ints
-    off: Ints
-    first: Ints
-    sheet: Ints
-
-    @staticmethod
-    def none() -> OwnFaces:
-        """Of a scene without curved faces."""
-        no = np.zeros(0, np.int32)
-        few, never = no.astype(np.uint8), no.astype(bool)
-        return OwnFaces(no, np.zeros((0, 2)), no, few, never, np.zeros(1, np.int32), no, no, no, no)
-
-
-@dataclass(frozen=True, slots=True)
-class Silhouettes:
-    """What the scene knows of the outlines of its true surfaces, which are lines without triangles among its edges.
-
-    lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
-    facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
-    number (e,): of the outline to which an edge belongs, -1 for none
-    curves of the outlines; NONE where one is straight, or runs along an edge of the model: source (o,) int32, else -1
-    own: the faces that edges and outlines bound, where these are seen nearly edge-on
-    """
-
-    lift: Floats
-    hidden: npt.NDArray[np.bool_]
-    own: OwnFaces
-    number: Ints
-    curves: Curves
-    source: Ints
-
-
-@dataclass(frozen=True, slots=True)
 class Chains:
     """Source edges as walks over mesh edges, sorted by part, then source edge.
 
@@ -170,16 +120,19 @@ class ScenePart:
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
-    """points (n, 3) model coordinates; triangles (t, 3); edges (e, 2), lower vertex first.
+class Geometry:
+    """All parts in one set of arrays: what a scene is made of, and an image of it.
 
-    incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. edge_kind is an EdgeClass or INTERIOR;
-    edge_curved tells the edges at which a curved surface may show its outline; convex: all there is is one convex body,
-    as far as floating point tells. Edges without triangles are wires, or
-    intersection lines; those belong to a group of their own; or outlines of true surfaces, of their part's group.
-    facets (t, 3): normals of bare meshes as far as their coordinates support any, zero where none; None: all is B-rep.
-    turned (t,) bool: listed the other way round by the source, which had the surface inside out.
+    points (n, 3) model coordinates; triangles (t, 3); edges (e, 2), lower vertex first.
+    triangle_part, triangle_group, triangle_face (t,): whose each triangle is.
     triangle_origin (t,): which triangle of its part each is, or is a piece of, of those that the source handed over.
+    turned (t,) bool: listed the other way round by the source, which had the surface inside out.
+    incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. Edges without triangles are wires, or intersection
+    lines, which belong to a group of their own, or outlines of true surfaces, which belong to their part's group.
+    edge_kind (e,): an EdgeClass or INTERIOR; edge_curved (e,) bool: a curved surface may show its outline there.
+    true_surfaces: None where no part has a B-rep.
+    convex: all there is is one convex body, as far as floating point tells.
+    facets (t, 3): normals of bare meshes as far as their coordinates support any, zero where none; None: all is B-rep.
     """
 
     points: Floats
@@ -199,9 +152,7 @@ class Scene:
     groups: Groups
     chains: Chains
     parts: tuple[ScenePart, ...]
-    notes: tuple[Note, ...]
     true_surfaces: TrueSurfaces | None = None
-    silhouettes: Silhouettes | None = None
     convex: bool = False
     facets: Floats | None = None
 
@@ -214,3 +165,10 @@ class Scene:
         if self.true_surfaces is None:
             raise ValueError("no face of this scene has a surface")
         return (self.true_surfaces.first[self.triangle_part] + self.triangle_face).astype(np.int32)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene(Geometry):
+    """All parts of a source, meshed; the same from wherever they are looked at. notes: what is wrong with them."""
+
+    notes: tuple[Note, ...] = ()

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.scene.scene import INTERIOR, Scene
+from hlr.scene.scene import INTERIOR, Geometry
 from hlr.tables.line_classes import EdgeClass
 
 Normals = npt.NDArray[np.float32]
@@ -19,7 +19,7 @@ LEVEL = 1e-3
 """Radians between the triangles of a face up to which it is a plane, and shaded as one."""
 
 
-def corner_normals(scene: Scene, threads: int = 0) -> tuple[Normals, Ints]:
+def corner_normals(scene: Geometry, threads: int = 0) -> tuple[Normals, Ints]:
     """Unit normals (k, 3), and (t, 3) which of them each corner has; FLAT where the triangle has its own."""
     true, of_true = _of_surfaces(scene, threads)
     bare = scene.groups.bare[scene.triangle_group]
@@ -30,7 +30,7 @@ def corner_normals(scene: Scene, threads: int = 0) -> tuple[Normals, Ints]:
     return np.concatenate([true, averaged]), np.ascontiguousarray(corner)
 
 
-def _of_surfaces(scene: Scene, threads: int) -> tuple[Normals, Ints]:
+def _of_surfaces(scene: Geometry, threads: int) -> tuple[Normals, Ints]:
     on = scene.true_surfaces
     none = np.full((len(scene.triangles), 3), FLAT, np.int32)
     if on is None:
@@ -43,7 +43,7 @@ def _of_surfaces(scene: Scene, threads: int) -> tuple[Normals, Ints]:
     return normals, np.where(sound[:, None], on.corner, none)
 
 
-def _up_to_creases(scene: Scene, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
+def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
     """Of the facets around a vertex, those that hang together without a crease share one normal.
 
     Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each counts with its
@@ -87,7 +87,7 @@ def _up_to_creases(scene: Scene, facets: Floats, bare: npt.NDArray[np.bool_]) ->
     return np.concatenate([_unit(sums), mean]).astype(np.float32), shared
 
 
-def _faces(scene: Scene, facets: Floats) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
+def _faces(scene: Geometry, facets: Floats) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.bool_]]:
     """(t,) number of the file's face that a triangle belongs to, and (f,) bool: all its triangles have one normal."""
     _, face = np.unique((scene.triangle_part.astype(np.int64) << 32) + scene.triangle_face, return_inverse=True)
     off = np.abs(facets - _mean(face, facets)[face]).max(axis=1) > LEVEL

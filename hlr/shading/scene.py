@@ -11,7 +11,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.scene.colors import corner_paint
-from hlr.scene.scene import Scene
+from hlr.scene.scene import Geometry
 from hlr.shading.normals import corner_normals
 from hlr.source.model import Look
 
@@ -26,7 +26,9 @@ class ShadedScene:
     glass: npt.NDArray[np.bool_]
 
 
-def shaded_scene(scene: Scene, looks: Mapping[str, Look], near: Floats | None = None, threads: int = 0) -> ShadedScene:
+def shaded_scene(
+    scene: Geometry, looks: Mapping[str, Look], near: Floats | None = None, threads: int = 0
+) -> ShadedScene:
     """The triangles of a scene, ready for any number of pictures.
 
     near: (n,) what of the scene's points lies behind the near plane is not positive; None: nothing does. Bodies that

@@ -1,4 +1,4 @@
-"""What this scene and this request call for: which edges are drawn, where culling is safe, what needs tolerance."""
+"""What an image and a request call for: which edges are drawn, where culling is safe, what needs tolerance."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats
-from hlr.image.camera import NEAR, Camera
+from hlr.image.camera import NEAR
+from hlr.image.image import Image
 from hlr.request.accuracy import Tolerances
-from hlr.request.drawing_effects import DRAWING
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.groups import touching
-from hlr.scene.scene import INTERIOR, Scene
+from hlr.scene.scene import INTERIOR
 from hlr.tables.line_classes import EdgeClass
 
 DRAWN = 1
@@ -73,56 +73,46 @@ MOST_STEP = 45.0
 """Degrees between neighbouring vertices of a circle: an octagon is never one."""
 
 
-def decide(
-    scene: Scene,
-    camera: Camera,
-    options: Options,
-    tolerances: Tolerances,
-    planner: Planner | None = None,
-    force: bool | None = None,
-) -> Plan:
-    """Instructions for one view of a scene.
-
-    planner: knows what was decided before. force: everything that the scene would leave out is on, see `everything_on`.
-    """
-    planner = planner or Planner(DRAWING, options, force)
+def decide(image: Image, options: Options, planner: Planner) -> Plan:
+    """Instructions for one view of a scene; planner: knows what was decided before."""
+    tolerances = image.placement.tolerances
     roles = FOLDING.copy()
     drawn_kind = np.ones(len(EdgeClass), bool)
     drawn_kind[EdgeClass.SMOOTH] = options.smooth
     drawn_kind[EdgeClass.SEAM] = options.seam
     drawn_kind[EdgeClass.INTERSECTION] = options.intersections
     roles[:, : len(drawn_kind)] |= np.where(drawn_kind, np.uint8(DRAWN), np.uint8(0))
-    role = roles[scene.edge_curved.view(np.uint8), scene.edge_kind]
-    if scene.silhouettes is not None:
-        role[scene.silhouettes.hidden] = 0
-    delta, cap = _contact(scene, camera, tolerances)
-    groups, used = scene.groups, np.isfinite(scene.groups.low[:, 0])
+    role = roles[image.edge_curved.view(np.uint8), image.edge_kind]
+    if image.silhouettes is not None:
+        role[image.silhouettes.hidden] = 0
+    delta, cap = _contact(image, tolerances)
+    groups, used = image.groups, np.isfinite(image.groups.low[:, 0])
     faced = np.zeros(len(used), bool)
-    faced[scene.triangle_group] = True
+    faced[image.triangle_group] = True
     with planner.deciding():
-        near = _coming_near(scene, camera, delta, LIFT * tolerances.deflection)
+        near = _coming_near(image, delta, LIFT * tolerances.deflection)
     facts = Facts(
         groups=int(np.count_nonzero(faced)),
         culled=int(np.count_nonzero(groups.cull)),
-        convex=scene.convex,
-        perspective=camera.eye is not None,
+        convex=image.convex,
+        perspective=image.camera.eye is not None,
         meeting=near,
         unsound=int(np.count_nonzero(used & ~groups.sound)),
         edges=int(np.count_nonzero(role)),
     )
     loose = Facts(meeting=near, unsound=int(np.count_nonzero(used & ~groups.sound & ~groups.cull)))
-    straight = scene.chains.straight
+    straight = image.chains.straight
     for name in ("hidden lines", "smooth edges", "seams", "intersection lines", "circles of meshes", "colours"):
         planner.on(name)
     planner.on("back-face culling", facts)
     touch = planner.on("contact tolerance", loose)
-    sought = int(np.count_nonzero(~straight & (scene.chains.index >= 0)))
-    sought += 0 if scene.silhouettes is None else len(scene.silhouettes.curves.kind)
+    sought = int(np.count_nonzero(~straight & (image.chains.index >= 0)))
+    sought += 0 if image.silhouettes is None else len(image.silhouettes.curves.kind)
     every = planner.on("exact curves", Facts(bent=sought))
     return Plan(
         role=role,
-        cull=scene.groups.cull,
-        sound=scene.groups.sound,
+        cull=image.groups.cull,
+        sound=image.groups.sound,
         delta=delta,
         cap=cap,
         contact=touch,
@@ -139,13 +129,13 @@ def decide(
     )
 
 
-def _coming_near(scene: Scene, camera: Camera, delta: Floats, lift: float) -> int:
+def _coming_near(image: Image, delta: Floats, lift: float) -> int:
     """How many groups come within the contact tolerance of another: their boxes, grown by it, meet.
 
     Along the model's axes in parallel views, whose depth is a distance; around the images of their corners in
     perspective, where it is not. lift: how far lines may be off their surfaces.
     """
-    groups = scene.groups
+    groups, camera = image.groups, image.camera
     used = np.flatnonzero(np.isfinite(groups.low[:, 0]))
     if len(used) < 2:
         return 0
@@ -164,8 +154,8 @@ def _coming_near(scene: Scene, camera: Camera, delta: Floats, lift: float) -> in
     return int(np.count_nonzero(_kernel.boxes_meet(seen.min(axis=0) - step, seen.max(axis=0) + step)))
 
 
-def _contact(scene: Scene, camera: Camera, tolerances: Tolerances) -> tuple[Floats, Floats]:
-    groups = scene.groups
+def _contact(image: Image, tolerances: Tolerances) -> tuple[Floats, Floats]:
+    groups, camera = image.groups, image.camera
     delta = touching(groups, tolerances.contact, tolerances.contact_planar)
     delta = np.where(groups.tight, tolerances.rounding, delta)
     used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])

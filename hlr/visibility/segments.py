@@ -1,4 +1,4 @@
-"""The kernel call: scene, view and plan in, visible and hidden segments of mesh edges out."""
+"""The kernel call: an image and a plan in, visible and hidden segments of mesh edges out."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.scene.scene import Scene
+from hlr.image.image import Image
 from hlr.visibility.plan import Plan
 
 VISIBLE, HIDDEN, WITHIN, DIVING = 0, 1, 2, 3
@@ -35,30 +35,30 @@ class Segments:
     groups: _kernel.Groups
 
 
-def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic: str = "exact") -> Segments:
-    """Visibility of all edges that the plan draws; projected (n, 3) as Camera.project gives it.
+def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: str = "exact") -> Segments:
+    """Visibility of all edges that the plan draws; lifted (n, 3) as `Image.lifted` gives it.
 
     arithmetic: of the predicates, "exact"; "f64" and "f32" show what that is worth, and are for nothing else.
 
     Raises KeyboardInterrupt within milliseconds of Ctrl-C.
     """
-    mesh = scene.mesh()
+    mesh = image.mesh()
     groups = _kernel.Groups(
-        scene.triangle_group,
-        scene.edge_group,
+        image.triangle_group,
+        image.edge_group,
         cull=plan.cull,
         sound=plan.sound,
         delta=np.ascontiguousarray(plan.delta),
         # Of tolerance and cap the less counts: so the grid, which leaves room for the tolerance, stays the same.
         cap=np.ascontiguousarray(plan.cap if plan.contact else np.zeros_like(plan.cap)),
-        tight=scene.groups.tight,
+        tight=image.groups.tight,
     )
     found = _kernel.visibility(
         mesh,
-        np.ascontiguousarray(projected),
+        np.ascontiguousarray(lifted),
         groups,
         plan.role,
-        _own_faces(scene),
+        _own_faces(image),
         crossings=plan.crossings,
         piercings=plan.piercings,
         pyramid=plan.pyramid,
@@ -69,10 +69,10 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
     contacts = int(np.count_nonzero(state >= WITHIN))
     if contacts:
         # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
-        on_surface = (state >= WITHIN) & scene.groups.tight[scene.edge_group[edge]]
+        on_surface = (state >= WITHIN) & image.groups.tight[image.edge_group[edge]]
         state = np.where(on_surface, np.uint8(VISIBLE), state)
-    if scene.silhouettes is not None and scene.silhouettes.hidden.any():
-        own = np.flatnonzero(scene.silhouettes.hidden).astype(np.int32)
+    if image.silhouettes is not None and image.silhouettes.hidden.any():
+        own = np.flatnonzero(image.silhouettes.hidden).astype(np.int32)
         order = np.argsort(np.concatenate([edge, own]), kind="stable")
         edge = np.concatenate([edge, own])[order]
         t0 = np.concatenate([t0, np.zeros(len(own))])[order]
@@ -91,11 +91,11 @@ def solve(scene: Scene, plan: Plan, projected: Floats, threads: int, arithmetic:
     )
 
 
-def _own_faces(scene: Scene) -> _kernel.OwnFaces | None:
+def _own_faces(image: Image) -> _kernel.OwnFaces | None:
     """The faces that edges and outlines bound, as the kernel takes them; None where there are none to think of."""
-    if scene.silhouettes is None or len(scene.silhouettes.own.edge) == 0:
+    if image.silhouettes is None or len(image.silhouettes.own.edge) == 0:
         return None
-    own = scene.silhouettes.own
-    face = (own.first[scene.triangle_part] + scene.triangle_face).astype(np.int32)
+    own = image.silhouettes.own
+    face = (own.first[image.triangle_part] + image.triangle_face).astype(np.int32)
     stretches = own.edge, own.range, own.line, own.beside, own.dented
     return _kernel.OwnFaces(*stretches, own.offsets, own.face, own.off, face, own.sheet)

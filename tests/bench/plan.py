@@ -28,15 +28,14 @@ from peers.report import markdown
 
 import hlr
 import hlr.common.clock
-import hlr.pipeline.drawing
 import hlr.pipeline.finish
-import hlr.pipeline.staging
+import hlr.pipeline.session
 import hlr.request.effect
 from hlr.drawing.saving import render
 from hlr.request.effect import PLAN, SCENE, everything_on
 from hlr.source import ENDINGS, open_source
 
-for module in (hlr.common.clock, hlr.pipeline.finish, hlr.pipeline.staging, hlr.pipeline.drawing, hlr.request.effect):
+for module in (hlr.common.clock, hlr.pipeline.finish, hlr.pipeline.session, hlr.request.effect):
     vars(module)["perf_counter"] = time.process_time  # the stages' stopwatch
 
 STAGES = ("tessellate", "scene", "plan", "visibility", "linework")

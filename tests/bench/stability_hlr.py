@@ -14,7 +14,8 @@ from bench.stability_measure import Stroke
 
 from hlr import Options
 from hlr.drawing.drawing import Drawing
-from hlr.pipeline import drawing as pipeline
+from hlr.pipeline import session
+from hlr.pipeline.draw import draw_views
 from hlr.source import open_source
 from hlr.source.model import Meshed, PartMesh, Source
 
@@ -72,8 +73,8 @@ class Disturbed:
 
 def draw(source: Source, view: Any, options: Options) -> Drawing:
     """`hlr.draw_views` on a source that is open already: all stages but reading."""
-    with mock.patch.object(pipeline, "open_chosen", lambda opened, _: opened):
-        return pipeline.draw_views(source, [view], options)[0]
+    with mock.patch.object(session, "open_chosen", lambda opened, _: opened):
+        return draw_views(source, [view], options)[0]
 
 
 class Model:

@@ -96,7 +96,7 @@ class Warm:
 def _serve() -> None:
     import hlr.cli.app
     import hlr.cli.exits
-    import hlr.pipeline.drawing
+    import hlr.pipeline.draw
     import hlr.source.cad.brepfile
     import hlr.source.cad.step
     import hlr.source.mesh.meshfile

@@ -16,13 +16,15 @@ from hlr import Options, Perspective
 from hlr.drawing.notes import Note
 from hlr.image.camera import resolve
 from hlr.image.clip import Plane, clip, planes
+from hlr.image.image import image_of
 from hlr.scene.build import build
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
 
 
-def scene_of(thing):
-    return build(open_source(thing).mesh(0.05, 0.5), 30.0, 0.05)
+def image_of_model(thing):
+    """An image of all of a model; what cuts it looks at no camera and no scale."""
+    return image_of(build(open_source(thing).mesh(0.05, 0.5), 30.0, 0.05), None, None)
 
 
 def area(scene):
@@ -51,14 +53,14 @@ def test_planes_only_for_perspective_and_a_frame_only_for_a_given_eye():
 
 
 def test_what_no_plane_crosses_stays_as_it_is():
-    scene = scene_of(box((2, 2, 2)))
+    scene = image_of_model(box((2, 2, 2)))
     same, cuts = clip(scene, [Plane((0, 0, 1), -1.0), Plane((1, 0, 0), -5.0)])
     assert cuts == 0
     assert same is scene
 
 
 def test_a_box_cut_in_half():
-    scene = scene_of(parts(box((2, 2, 2)), box((2, 2, 2), (10, 0, 5))))
+    scene = image_of_model(parts(box((2, 2, 2)), box((2, 2, 2), (10, 0, 5))))
     cut, cuts = clip(scene, [Plane((0, 0, 1), 0.0)])
     check(cut)
     assert cuts == 1
@@ -75,7 +77,7 @@ def test_a_box_cut_in_half():
 
 
 def test_all_of_it_cut_away():
-    scene = scene_of(box((2, 2, 2)))
+    scene = image_of_model(box((2, 2, 2)))
     cut, cuts = clip(scene, [Plane((0, 0, 1), 5.0)])
     assert (cuts, len(cut.triangles), len(cut.edges)) == (1, 0, 0)
     check(cut)
@@ -124,7 +126,7 @@ def test_no_line_runs_across_what_the_frame_cut_away():
 
 @pytest.mark.parametrize("normal", [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (2, 1, 0), (-1, 2, 0)])
 def test_what_is_left_of_a_border_is_walked_as_before(normal):
-    scene = scene_of(sheet(10, 0.0))
+    scene = image_of_model(sheet(10, 0.0))
     (kept,) = np.unique(scene.chains.kind)
     cut, _ = clip(scene, [Plane(tuple(map(float, normal)), 0.0)])
     chains = cut.chains
@@ -159,9 +161,9 @@ def torus():
 
 
 SCENES = {
-    "mesh": lazily(lambda: scene_of(parts(box((4, 4, 4)), box((6, 2, 2), (1, 0, 1))))),
-    "wires": lazily(lambda: scene_of(wires())),
-    "torus": lazily(lambda: scene_of(torus())),
+    "mesh": lazily(lambda: image_of_model(parts(box((4, 4, 4)), box((6, 2, 2), (1, 0, 1))))),
+    "wires": lazily(lambda: image_of_model(wires())),
+    "torus": lazily(lambda: image_of_model(torus())),
 }
 
 

@@ -14,8 +14,12 @@ import hlr
 from hlr import Perspective
 from hlr.drawing.curve import Arc
 from hlr.image.camera import Camera, resolve
-from hlr.image.outlines import with_silhouettes
+from hlr.image.image import image_of
+from hlr.image.outlines import outlined
+from hlr.image.placement import Placement
 from hlr.request.accuracy import derive
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Planner
 from hlr.scene.build import build
 from hlr.source import open_source
 from hlr.source.geometry import evaluated
@@ -63,7 +67,9 @@ def traced(shape, view, perspective, finer=1.0):
     camera = resolve(view, options, source.frame, bounds)
     tolerances = derive(0.02, 1.0, 0.0, brep=True)
     scene = build(source.mesh(tolerances.deflection / finer, tolerances.angle / finer), 30.0, tolerances.deflection)
-    return with_silhouettes(scene, camera, tolerances, 1), camera, tolerances
+    placement = Placement(1.0, 1.0, tolerances, 1.0, True, 1.0, 1.0)
+    image = outlined(image_of(scene, camera, placement), 1, Planner(DRAWING, options))
+    return image, camera, tolerances
 
 
 def outlines(scene) -> Iterator[tuple[int, np.ndarray]]:

@@ -16,9 +16,12 @@ import numpy as np
 
 import hlr
 from hlr.image.camera import Camera, resolve
-from hlr.image.outlines import with_silhouettes
+from hlr.image.image import image_of
+from hlr.image.outlines import outlined
 from hlr.image.placement import place
 from hlr.request.accuracy import Tolerances
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Planner
 from hlr.request.options import Options
 from hlr.scene.build import build
 from hlr.source import open_source
@@ -76,7 +79,8 @@ def measured(path: Path, view: Any, options: Options) -> tuple[int, int, int, fl
     at = place(camera, options, source, bounds)
     tolerances: Tolerances = at.tolerances
     meshed = source.mesh(tolerances.deflection, tolerances.angle)
-    scene = with_silhouettes(build(meshed, options.crease, tolerances.deflection), camera, tolerances, 0)
+    bare = image_of(build(meshed, options.crease, tolerances.deflection), camera, at)
+    scene = outlined(bare, 0, Planner(DRAWING, options))
     faces = [explored(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.roots.shapes]
     parts, values, count = source.parts, [np.zeros((0, 2))], 0
     for part, face, points in outlines(scene):

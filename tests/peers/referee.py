@@ -159,20 +159,21 @@ def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference)
 @contextmanager
 def own_triangles(found: list[reference.Reference]) -> Iterator[None]:
     """While this lasts, the triangles that drawings are made from are put into `found`."""
-    from hlr.pipeline import drawing as pipeline
+    from hlr.pipeline.session import Session
 
-    former = pipeline.drawing_of
+    former = Session.drawing
 
-    def noted(opened: Any, scene: Any, *rest: Any) -> Any:
+    def noted(session: Any, *rest: Any) -> Any:
+        scene = session.scene
         if not found and len(scene.triangles):
             found.append(reference.from_arrays(scene.points, scene.triangles))
-        return former(opened, scene, *rest)
+        return former(session, *rest)
 
-    pipeline.drawing_of = noted
+    Session.drawing = noted  # type: ignore[method-assign]
     try:
         yield
     finally:
-        pipeline.drawing_of = former
+        Session.drawing = former  # type: ignore[method-assign]
 
 
 def draw_with_occt(path: Path, views: Sequence[View], method: str, timeout: float) -> Iterator[Drawn]:

@@ -14,7 +14,8 @@ from unittest.mock import patch
 import numpy as np
 
 from hlr import Drawing, Options
-from hlr.pipeline import drawing as pipeline
+from hlr.pipeline import session
+from hlr.pipeline.draw import draw_views
 from hlr.source import open_source
 from hlr.source.model import Frame, Meshed, PartInfo, PartMesh
 
@@ -77,5 +78,5 @@ def freeze(thing: Any, fineness: float) -> Frozen:
 
 def draw(model: Frozen, view: str | Sequence[float], accuracy: float, **options: Any) -> Drawing:
     """The accuracy is always given: by default it follows from the model's upright box, which turning changes."""
-    with patch.object(pipeline, "open_chosen", lambda thing, _: thing):
-        return pipeline.draw_views(model, [view], Options(accuracy=accuracy, **options))[0]
+    with patch.object(session, "open_chosen", lambda thing, _: thing):
+        return draw_views(model, [view], Options(accuracy=accuracy, **options))[0]

@@ -17,7 +17,8 @@ from linework.models import box, parts, rotation, sheet, solids
 import hlr
 from hlr import Options, Perspective
 from hlr.drawing.saving import render
-from hlr.pipeline import drawing as pipeline
+from hlr.pipeline import session
+from hlr.pipeline.draw import draw_views
 from hlr.request.drawing_effects import DRAWING
 from hlr.request.effect import PLAN, SCENE, Decision, Decisions, Effect, Facts, Planner, everything_on, explained
 from hlr.visibility.segments import solve
@@ -253,8 +254,8 @@ def both(model, view, name):
         return out[0]
 
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(pipeline, "solve", solving)
-        pipeline.draw_views(model, [view])
+        patched.setattr(session, "solve", solving)
+        draw_views(model, [view])
     return out
 
 

@@ -13,8 +13,12 @@ from linework.models import box, parts
 
 from hlr.errors import OptionError, ViewError
 from hlr.image.camera import resolve
+from hlr.image.image import image_of
+from hlr.image.placement import Placement
 from hlr.request.accuracy import DEFAULT_ACCURACY, FINEST_BREP, FINEST_MESH, choose, derive, under
 from hlr.request.check import checked, checked_views
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Planner
 from hlr.request.options import Options, Perspective
 from hlr.scene.build import build
 from hlr.scene.scene import INTERIOR
@@ -123,7 +127,8 @@ def planned(thing, view="iso", **options):
     asked = Options(**options)
     camera = resolve(view, asked, source.frame, source.bounds())
     tolerances = derive(0.05, 1.0, 100.0, brep=True)
-    return scene, decide(scene, camera, asked, tolerances), tolerances
+    placement = Placement(1.0, 1.0, tolerances, 1.0, True, 1.0, 1.0)
+    return scene, decide(image_of(scene, camera, placement), asked, Planner(DRAWING, asked)), tolerances
 
 
 @pytest.mark.parametrize("smooth", [False, True])

@@ -3,14 +3,10 @@
 import numpy as np
 import pytest
 
-from hlr.image.camera import resolve
-from hlr.image.placement import place
 from hlr.lab.study.watch import Watch
 from hlr.lab.study.zbuffer import hidden_lines
-from hlr.pipeline.staging import meshed_scene
+from hlr.pipeline.session import Session
 from hlr.request.options import Options
-from hlr.source import open_source
-from hlr.visibility.plan import decide
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -27,12 +23,9 @@ def boxes(*places):
 
 def drawn(model, view, pixels):
     options = Options(accuracy=0.01)
-    source = open_source(model)
-    bounds = source.bounds()
-    camera = resolve(view, options, source.frame, bounds)
-    at = place(camera, options, source, bounds)
-    scene, _, _ = meshed_scene(source, [camera], [at], options, lambda *_: None, {})
-    return hidden_lines(scene, decide(scene, camera, options, at.tolerances).role, camera, 1.0, pixels, Watch())
+    session = Session(model, [view], options)
+    draft = session.drafts()[0]
+    return hidden_lines(draft.image, session.plan(draft, draft.image).role, pixels, Watch())
 
 
 def length(ink, visible):

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hlr.scene.scene import OwnFaces
+from hlr.image.image import OwnFaces
 from hlr.visibility import segments
 from hlr.visibility.segments import DIVING, HIDDEN, VISIBLE, WITHIN
 

@@ -57,7 +57,7 @@ def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | s
     """The same request at a finer accuracy, or the reason why there is none."""
     request = drawing.request
     assert request is not None
-    from hlr.pipeline.drawing import draw_views
+    from hlr.pipeline.draw import draw_views
 
     accuracy = drawing.accuracy.used / fineness
     options = replace(request.options, accuracy=accuracy, fill=False, strict=False, report=False)

@@ -11,8 +11,8 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written
-from hlr.request.accuracy import ANGLE
-from hlr.scene.build import build
+from hlr.pipeline.session import Session
+from hlr.request.options import Options
 from hlr.scene.scene import INTERIOR
 
 EDGE_ON = 0.01
@@ -23,7 +23,8 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, thr
     """(n,) the largest distance of each line of a mesh without B-rep, but for intersections; and names for them."""
     assert drawing.request is not None
     deflection = drawing.accuracy.deflection
-    scene = build(opened.mesh(deflection, ANGLE), drawing.request.options.crease, deflection)
+    options = Options(crease=drawing.request.options.crease)
+    scene, _ = Session(opened, [], options).scene_at(deflection)
     bare = np.array([p.faces == 0 for p in scene.parts], bool)
     wanted = np.array([bare[x.part] and x.kind != "intersection" for x in drawing.lines], bool)
     mine = np.flatnonzero(wanted[drawn.line]) if len(wanted) else np.zeros(0, np.int64)

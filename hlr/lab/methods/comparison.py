@@ -88,19 +88,10 @@ def _scenery(name: str, own: Polygons, camera: Camera | Screen, size: tuple[int,
 
 
 def _of_model(source: Any, view: View, size: tuple[int, int], options: Options, progress: Progress | None) -> Scenery:
-    from hlr.image.camera import resolve
-    from hlr.request.accuracy import ANGLE, SMALL_DRAWING
-    from hlr.scene.build import build
-    from hlr.source.chosen import open_chosen
+
+    from hlr.pipeline.session import Session
 
     view = checked_views([view], options)[0]
-    tell = progress or (lambda _stage, _done: None)
-    tell("source", 0.0)
-    opened = open_chosen(source, options)
-    bounds = opened.bounds()
-    camera = resolve(view, options, opened.frame, bounds)
-    tell("tessellate", 0.0)
-    deflection = float(((bounds[1] - bounds[0]) ** 2).sum() ** 0.5) / SMALL_DRAWING
-    scene = build(opened.mesh(deflection, ANGLE, progress), 30.0, deflection)
-    model = polygons_of(scene)
-    return _scenery(model_name(opened.name, len(model)), model, camera, size)
+    session = Session(source, [view], options, progress)
+    model = polygons_of(session.scene_by_size())
+    return _scenery(model_name(session.source.name, len(model)), model, session.cameras[0], size)

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
-from hlr.scene.scene import Scene
+from hlr.image.image import Image
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import HIDDEN, Segments, solve
 
@@ -46,9 +46,9 @@ class Rounding:
     wrong_edges: int
 
 
-def compared(scene: Scene, plan: Plan, projected: Floats, per_model: float, accuracy: float) -> list[Rounding]:
-    """All kinds on one scene, the exact one first; projected (n, 3) as the visibility pass takes it."""
-    length = np.hypot(*(projected[scene.edges[:, 1], :2] - projected[scene.edges[:, 0], :2]).T) * per_model
+def compared(image: Image, plan: Plan, projected: Floats, per_model: float, accuracy: float) -> list[Rounding]:
+    """All kinds on one image, the exact one first; projected (n, 3) as the visibility pass takes it."""
+    length = np.hypot(*(projected[image.edges[:, 1], :2] - projected[image.edges[:, 0], :2]).T) * per_model
     out: list[Rounding] = []
     truth: Segments | None = None
     clocks: dict[str, list[tuple[float, float]]] = {kind: [] for kind in KINDS}
@@ -56,7 +56,7 @@ def compared(scene: Scene, plan: Plan, projected: Floats, per_model: float, accu
     for _ in range(REPEATS):  # in turns: what else the machine does hits all kinds alike
         for kind in KINDS:
             wall, cpu = time.perf_counter(), time.process_time()
-            found[kind] = solve(scene, plan, projected, 0, kind)
+            found[kind] = solve(image, plan, projected, 0, kind)
             clocks[kind].append((time.perf_counter() - wall, time.process_time() - cpu))
     for kind in KINDS:
         segments = found[kind]

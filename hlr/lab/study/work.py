@@ -14,21 +14,18 @@ import numpy as np
 from hlr.drawing.drawing import Drawing, DrawnView
 from hlr.drawing.saving import render
 from hlr.errors import OptionError
-from hlr.image.camera import Camera, resolve
-from hlr.image.outlines import with_silhouettes
-from hlr.image.placement import Placed, place
+from hlr.image.camera import Camera
+from hlr.image.image import image_of
+from hlr.image.outlines import outlined
 from hlr.lab.study.ink import Ink, drawing_of, ink_of, load
 from hlr.lab.study.job import EXACT, HLR, POLY, ZBUFFER, Cost, Job, Point
 from hlr.lab.study.watch import Watch
-from hlr.linework.curves import EdgeCurveLookup
-from hlr.pipeline.drawing import draw_views
+from hlr.pipeline.draw import draw_views
 from hlr.pipeline.finish import drawn_view
-from hlr.pipeline.staging import meshed_scene
+from hlr.pipeline.session import Session
 from hlr.request.options import Options
-from hlr.scene.scene import Scene
 from hlr.source.chosen import open_chosen
 from hlr.source.model import Source
-from hlr.visibility.plan import decide
 
 CHORDS = 0.02
 """Of the accuracy: how far chords are off the curves that they stand for when lines are judged."""
@@ -89,11 +86,8 @@ def _options(job: Job, **others: Any) -> Options:
     )
 
 
-def _opened(job: Job, options: Options) -> tuple[Source, Camera, Placed]:
-    opened = open_chosen(job.source, job)
-    bounds = opened.bounds()
-    camera = resolve(job.view, options, opened.frame, bounds)
-    return opened, camera, place(camera, options, opened, bounds)
+def _session(job: Job, options: Options, watch: Watch | None = None) -> Session:
+    return Session(job.source, [job.view], options, watch)
 
 
 def _look(job: Job) -> dict[str, Any]:
@@ -162,7 +156,8 @@ def _occt(job: Job) -> Point:
     watch = Watch()
     watch("source")
     accuracy = job.setting if job.work == POLY else None
-    opened, camera, at = _opened(job, _options(job, accuracy=accuracy))
+    session = _session(job, _options(job, accuracy=accuracy))
+    opened, camera, at = session.source, session.cameras[0], session.placements[0]
     if not hasattr(opened, "shape"):
         raise OptionError("OpenCASCADE hides lines of B-reps only, and this is a mesh")
     shape = opened.shape()
@@ -178,19 +173,18 @@ def _zbuffer(job: Job) -> Point:
     from hlr.lab.study.zbuffer import hidden_lines
 
     watch = Watch()
-    watch("source")
-    opened, camera, at = _opened(job, _options(job))
-    low, high = _flat_box(opened, camera)
-    pixel = float((high - low).max()) * at.per_model / job.setting
-    options = _options(job, accuracy=pixel)
-    at = place(camera, options, opened, opened.bounds())
-    watch("tessellate")
-    scene, _, _ = _scene(opened, camera, at, options, watch)
+    first = _session(job, _options(job), watch)
+    camera, per_model = first.cameras[0], first.placements[0].per_model
+    low, high = _flat_box(first.source, camera)
+    pixel = float((high - low).max()) * per_model / job.setting
+    session = Session(first.source, [job.view], _options(job, accuracy=pixel), watch)
+    draft = session.drafts()[0]
     watch("plan")
-    plan = decide(scene, camera, options, at.tolerances)
-    ink = hidden_lines(scene, plan.role, camera, at.per_model, int(job.setting), watch)
+    image = image_of(session.scene, camera, draft.image.placement)
+    plan = session.plan(draft, image)
+    ink = hidden_lines(image, plan.role, int(job.setting), watch)
     watch.stop()
-    return _rival(job, ink, opened, camera, pixel, watch)
+    return _rival(job, ink, session.source, camera, pixel, watch)
 
 
 def _flat_box(opened: Source, camera: Camera) -> tuple[Any, Any]:
@@ -198,12 +192,6 @@ def _flat_box(opened: Source, camera: Camera) -> tuple[Any, Any]:
     corners = np.array([[b[i][0], b[j][1], b[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
     flat = camera.project(corners)[:, :2]
     return flat.min(axis=0), flat.max(axis=0)
-
-
-def _scene(
-    opened: Source, camera: Camera, at: Placed, options: Options, watch: Watch
-) -> tuple[Scene, EdgeCurveLookup, list[Placed]]:
-    return meshed_scene(opened, [camera], [at], options, watch, {})
 
 
 def _rival(job: Job, ink: Ink, opened: Source, camera: Camera, accuracy: float | None, watch: Watch) -> Point:
@@ -228,12 +216,11 @@ def _arithmetic(job: Job) -> dict[str, Any]:
     from hlr.lab.study.arithmetic import compared
 
     options = _options(job, accuracy=job.setting)
-    opened, camera, at = _opened(job, options)
-    scene, _, _ = _scene(opened, camera, at, options, Watch())
-    seen = with_silhouettes(scene, camera, at.tolerances, 0)
-    plan = decide(seen, camera, options, at.tolerances)
-    lift = 0.0 if seen.silhouettes is None else seen.silhouettes.lift
-    found = compared(seen, plan, camera.project(seen.points + lift), at.per_model, job.setting)
+    session = _session(job, options)
+    draft = session.drafts()[0]
+    image = outlined(draft.image, 0, draft.planner)
+    plan = session.plan(draft, image)
+    found = compared(image, plan, image.lifted(), image.placement.per_model, job.setting)
     return {"kinds": [asdict(one) for one in found]}
 
 

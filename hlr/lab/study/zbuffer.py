@@ -16,10 +16,10 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
-from hlr.image.camera import Camera
+from hlr.image.image import Image
 from hlr.lab.study.ink import KINDS, Ink
 from hlr.lab.study.watch import Watch
-from hlr.scene.scene import INTERIOR, Scene
+from hlr.scene.scene import INTERIOR
 from hlr.shading.lens import lens
 from hlr.shading.scene import shaded_scene
 from hlr.tables.line_classes import EdgeClass
@@ -44,24 +44,23 @@ _NAMES = {
 }
 
 
-def hidden_lines(
-    scene: Scene, role: npt.NDArray[np.uint8], camera: Camera, per_model: float, pixels: int, watch: Watch
-) -> Ink:
-    """The scene's edges whose role says that they are drawn, and the contours of its curved faces, cut where they hide.
+def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: Watch) -> Ink:
+    """The image's edges whose role says that they are drawn, and the contours of its curved faces, cut where they hide.
 
     role (e,) as in `hlr.visibility.plan.Plan`; pixels along the longer side of the buffer; parallel views only.
     """
     watch("visibility")
-    flat = camera.project(scene.points)
+    camera, per_model = image.camera, image.placement.per_model
+    flat = image.projected()
     size = np.ptp(flat[:, :2], axis=0)
     scale = (pixels - 2.0 * MARGIN) / float(size.max())
     wide, high = (max(int(np.ceil(side * scale + 2.0 * MARGIN)), 1) for side in size)
-    eye = lens(camera, scene.points, scale, (wide, high))
-    depth, triangle = shaded_scene(scene, {}).model.maps(eye)
-    normals = _normals(flat, scene.triangles)
+    eye = lens(camera, image.points, scale, (wide, high))
+    depth, triangle = shaded_scene(image, {}).model.maps(eye)
+    normals = _normals(flat, image.triangles)
     allowed = depth + _bias(normals, scale, float(np.ptp(flat[:, 2])))[triangle]
     watch("linework")
-    chains, offsets, kinds = _edges(scene, role, normals)
+    chains, offsets, kinds = _edges(image, role, normals)
     # Pixels, y down.
     picture = np.stack([flat[:, 0] * scale + eye[5][0], eye[5][1] - flat[:, 1] * scale, flat[:, 2]], axis=1)
     return _cut(picture[chains], flat[chains, :2] * per_model, offsets, kinds, allowed)
@@ -81,33 +80,33 @@ def _bias(normals: Floats, scale: float, deep: float) -> Floats:
     return np.append(FACTOR * slope + UNITS * deep / 2**DEPTH_BITS, 0.0)
 
 
-def _edges(scene: Scene, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[Index, Index, npt.NDArray[np.uint8]]:
+def _edges(image: Image, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[Index, Index, npt.NDArray[np.uint8]]:
     """Vertices of all polylines one after another, offsets (k + 1,) into them, and their kinds into `KINDS`."""
     walks, kinds = [], []
-    chains = scene.chains
+    chains = image.chains
     drawn = (role & DRAWN) != 0
     for i in range(len(chains.kind)):
         edges = chains.edges[chains.offsets[i] : chains.offsets[i + 1]]
         if len(edges) and drawn[edges].all():
-            ends = scene.edges[edges]
+            ends = image.edges[edges]
             back = chains.reversed[chains.offsets[i] : chains.offsets[i + 1]]
             walks.append(np.append(np.where(back, ends[:, 1], ends[:, 0]), ends[-1, 0 if back[-1] else 1]))
             kinds.append(KINDS.index(_NAMES.get(EdgeClass(int(chains.kind[i])), "smooth")))
-    smooth = np.isin(scene.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM)) & scene.edge_curved
-    for e in np.flatnonzero(smooth & _folds(scene, normals[:, 2])):
-        walks.append(scene.edges[e])
+    smooth = np.isin(image.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM)) & image.edge_curved
+    for e in np.flatnonzero(smooth & _folds(image, normals[:, 2])):
+        walks.append(image.edges[e])
         kinds.append(KINDS.index("outline"))
     offsets = np.concatenate([[0], np.cumsum([len(walk) for walk in walks])]).astype(np.int64)
     joined = np.concatenate(walks) if walks else np.empty(0, np.int64)
     return joined.astype(np.int64), offsets, np.array(kinds, np.uint8)
 
 
-def _folds(scene: Scene, facing: Floats) -> npt.NDArray[np.bool_]:
+def _folds(image: Image, facing: Floats) -> npt.NDArray[np.bool_]:
     """(e,) whether triangles on both sides of the viewing plane, or one alone, meet there."""
-    edge = np.repeat(np.arange(len(scene.edges)), np.diff(scene.offsets))
-    toward = facing[scene.incident] < 0.0
-    ahead = np.bincount(edge, toward, len(scene.edges))
-    behind = np.bincount(edge, ~toward, len(scene.edges))
+    edge = np.repeat(np.arange(len(image.edges)), np.diff(image.offsets))
+    toward = facing[image.incident] < 0.0
+    ahead = np.bincount(edge, toward, len(image.edges))
+    behind = np.bincount(edge, ~toward, len(image.edges))
     return (ahead > 0) & (behind > 0)
 
 

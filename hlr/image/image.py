@@ -1,0 +1,96 @@
+"""The image: a scene before one camera, with its outlines, at its place on paper."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.types import Floats, Ints
+from hlr.image.camera import Camera
+from hlr.image.placement import Placement
+from hlr.scene.scene import Geometry, Scene
+from hlr.source.model import Curves
+
+
+@dataclass(frozen=True, slots=True)
+class OwnFaces:
+    """Edges whose own faces are seen nearly edge-on, or stretches of them between places where a face turns over.
+
+    edge (s,) ascending, range (s, 2): parameters of the stretch on the edge's image; line (s,): the edge that is the
+    stretch, beside (s,) uint8: its faces, those of a closed body, show it (1), hide it (2), or it is not known (0),
+    dented (s,) bool: its own triangles fold over there, though the faces do not
+    offsets (s + 1,): its faces are face (k,) of all parts' faces, off (k,): the edge that is the stretch off that face.
+    Of line and off none has triangles or is ever drawn, but where the stretch is all of the edge.
+    first (p,) the number of each part's first face; sheet (f,) one number for faces that go on smoothly into others
+    """
+
+    edge: Ints
+    range: Floats
+    line: Ints
+    beside: npt.NDArray[np.uint8]
+    dented: npt.NDArray[np.bool_]
+    offsets: Ints
+    face: Ints
+    off: Ints
+    first: Ints
+    sheet: Ints
+
+    @staticmethod
+    def none() -> OwnFaces:
+        """Of a scene without curved faces."""
+        no = np.zeros(0, np.int32)
+        few, never = no.astype(np.uint8), no.astype(bool)
+        return OwnFaces(no, np.zeros((0, 2)), no, few, never, np.zeros(1, np.int32), no, no, no, no)
+
+
+@dataclass(frozen=True, slots=True)
+class Silhouettes:
+    """The outlines of true surfaces, which are lines without triangles among the image's edges.
+
+    lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
+    facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
+    number (e,): of the outline to which an edge belongs, -1 for none
+    curves of the outlines; NONE where one is straight, or runs along an edge of the model: source (o,) int32, else -1
+    own: the faces that edges and outlines bound, where these are seen nearly edge-on
+    """
+
+    lift: Floats
+    hidden: npt.NDArray[np.bool_]
+    own: OwnFaces
+    number: Ints
+    curves: Curves
+    source: Ints
+
+
+@dataclass(frozen=True, slots=True)
+class Image(Geometry):
+    """What one camera sees of a scene: the scene's geometry with its outlines, cut off where the camera sees nothing.
+
+    silhouettes: None where no outline was sought
+    """
+
+    camera: Camera = field(kw_only=True)
+    placement: Placement = field(kw_only=True)
+    silhouettes: Silhouettes | None = None
+
+    def placed(self, placement: Placement) -> Image:
+        """The same at another place on paper."""
+        return replace(self, placement=placement)
+
+    def projected(self, divide: bool = False) -> Floats:
+        """(n, 3) of all points, as `Camera.project` gives them."""
+        return self.camera.project(self.points, divide)
+
+    def lifted(self, divide: bool = False) -> Floats:
+        """The same, with the points of outlines moved off their own surface, as visibility is decided with."""
+        if self.silhouettes is None:
+            return self.projected(divide)
+        return self.camera.project(self.points + self.silhouettes.lift, divide)
+
+
+def image_of(scene: Scene, camera: Camera, placement: Placement) -> Image:
+    """The scene before a camera, all of it, without its outlines."""
+    geometry = {f.name: getattr(scene, f.name) for f in fields(Geometry)}
+    return Image(**geometry, camera=camera, placement=placement)

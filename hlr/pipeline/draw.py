@@ -1,0 +1,36 @@
+"""Drawings: one pass through all stages."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from hlr.common.types import Progress
+from hlr.drawing.drawing import Drawing
+from hlr.pipeline.session import Session, refuse_warnings
+from hlr.request.check import checked, checked_views
+from hlr.request.options import Options, Request, View
+
+
+def draw_views(
+    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+) -> list[Drawing]:
+    """One drawing per view; the source is read and meshed once.
+
+    source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
+    Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
+    """
+    options = checked(options or Options())
+    views = checked_views(views, options)
+    if not views:
+        return []
+    session = Session(source, views, options, progress)
+    drawings = []
+    for i, (view, draft) in enumerate(zip(views, session.drafts(), strict=True)):
+        session.progress("visibility", i / len(views))
+        drawings.append(session.drawing(draft, Request(view, options)))
+    session.progress("linework", 1.0)
+    for drawing in drawings:
+        if options.strict:
+            refuse_warnings(drawing.notes)
+    return drawings

@@ -1,0 +1,44 @@
+"""What the first stages tell the planner: how the source was read, meshed and, where need be, rescued."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hlr.request.drawing_effects import BREP_KINDS
+from hlr.request.effect import Facts, Planner
+from hlr.scene.scene import Scene
+from hlr.source.model import Meshed, Source
+
+
+def note_reading(planner: Planner, source: Source) -> None:
+    """Decide on the readers, and state what reading took."""
+    brep = source.kind in BREP_KINDS
+    facts, count = Facts(kind=source.kind), len(source.names())
+    planner.on("B-rep reader", facts)
+    planner.on("mesh reader", facts)
+    planner.spent("B-rep reader" if brep else "mesh reader", **{"brep_parts" if brep else "mesh_parts": count})
+
+
+def note_meshing(planner: Planner, scene: Scene) -> None:
+    """What meshing took. The mesher makes no difference between planar and curved faces: they are told apart here."""
+    surfaces = scene.true_surfaces
+    if surfaces is None:
+        curved = planar = triangles = bent = 0
+    else:
+        planar, triangles = int(np.count_nonzero(surfaces.planar)), len(scene.triangles)
+        curved, bent = len(surfaces.planar) - planar, 0 if planar else triangles
+        if curved and planar:
+            face = surfaces.first[scene.triangle_part] + scene.triangle_face
+            bent = triangles - int(np.count_nonzero(surfaces.planar[face]))
+    facts = Facts(curved=curved, planar=planar, faces=surfaces is not None)
+    planner.on("meshing of curved faces", facts)
+    planner.on("triangulation of planar faces", facts)
+    planner.spent("meshing of curved faces", curved_triangles=bent)
+    planner.spent("triangulation of planar faces", planar_triangles=triangles - bent)
+
+
+def note_rescue(planner: Planner, scene: Scene, meshed: Meshed) -> None:
+    """What became of the faces that the kernel could not mesh."""
+    failed = meshed.rescued + meshed.lost
+    planner.on("rescue of faces", Facts(failed=failed, faces=scene.true_surfaces is not None))
+    planner.spent("rescue of faces", rescued_faces=meshed.rescued, lost_faces=meshed.lost)

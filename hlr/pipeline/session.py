@@ -1,0 +1,188 @@
+"""A session: one source, opened once and meshed once, before as many cameras as are asked for.
+
+The stages in order. Whoever needs less than a drawing stops where it has what it needs::
+
+    Session          source -> cameras, placements               info, within
+      .scene_at      source meshed -> scene                      info, methods
+      .drafts        scene -> one image per camera               preview, study
+      .shown         image with outlines, clipped                plan, study
+      .plan          what to decide                              plan
+      .drawing       visibility -> lines -> drawing              draw
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from hlr.common.clock import Clock, lap
+from hlr.common.types import Floats, Progress
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.notes import Note
+from hlr.errors import StrictError
+from hlr.image.camera import Camera, resolve
+from hlr.image.clip import clipped
+from hlr.image.image import Image, image_of
+from hlr.image.outlines import outlined
+from hlr.image.placement import Placement, place
+from hlr.image.transparency import glass_of, hiding, opacity_of, without_glass
+from hlr.linework.curves import EdgeCurveLookup
+from hlr.linework.lines import draw_lines
+from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
+from hlr.pipeline.finish import Solved, finished
+from hlr.request.accuracy import ANGLE, SMALL_DRAWING
+from hlr.request.drawing_effects import DRAWING
+from hlr.request.effect import Facts, Planner
+from hlr.request.options import Options, Request, View
+from hlr.scene.build import build
+from hlr.scene.scene import Scene
+from hlr.source.chosen import open_chosen
+from hlr.source.model import Look, Meshed, Source
+from hlr.visibility.plan import Plan, decide
+from hlr.visibility.segments import solve
+
+Placing = Callable[[Camera, Options, Source, Floats], Placement]
+"""Chooses a view's place on paper: as `hlr.image.placement.place`."""
+
+FINE_ENOUGH = 0.8
+"""Of the deflection that was meshed with: where a view turns out to need less, all are meshed again."""
+
+
+@dataclass(slots=True)
+class Draft:
+    """One view on its way to a drawing: its image, what was asked for, and what was decided so far."""
+
+    image: Image
+    options: Options
+    planner: Planner
+
+
+class Session:
+    """A source before its cameras.
+
+    source, bounds (2, 3); cameras and placements, one per view; clock: seconds by stage. The scene, the curves of its
+    edges and the looks of its parts are there once `drafts` was called.
+    """
+
+    scene: Scene
+    edge_curves: EdgeCurveLookup
+    looks: Mapping[str, Look]
+    remarks: Sequence[Note]
+
+    def __init__(
+        self,
+        source: Any,
+        views: Sequence[View],
+        options: Options,
+        progress: Progress | None = None,
+        placing: Placing = place,
+    ) -> None:
+        """source: whatever `hlr.source.open_source` takes; views, options: checked.
+
+        Raises SourceError, ViewError, OptionError.
+        """
+        started = perf_counter()
+        self.options = options
+        self.clock: Clock = {}
+        self.progress = progress or (lambda _stage, _done: None)
+        self.progress("source", 0.0)
+        self.source = open_chosen(source, options)
+        self.views = views
+        self.bounds = self.source.bounds()
+        self.cameras = [resolve(view, options, self.source.frame, self.bounds) for view in views]
+        lap(self.clock, "source", started)
+        self.progress("tessellate", 0.0)
+        self.placements = [placing(camera, options, self.source, self.bounds) for camera in self.cameras]
+
+    def scene_at(self, deflection: float, angle: float = ANGLE, planner: Planner | None = None) -> tuple[Scene, Meshed]:
+        """The source meshed with this chord error (model units) and turning (radians), and the scene of the mesh."""
+        started = perf_counter()
+        meshed = self.source.mesh(deflection, angle, self.progress)
+        started = lap(self.clock, "tessellate", started)
+        self.progress("scene", 0.0)
+        scene = build(meshed, self.options.crease, deflection, planner)
+        lap(self.clock, "scene", started)
+        return scene, meshed
+
+    def scene_by_size(self) -> Scene:
+        """The scene for a purpose without a drawing: meshed at a two-thousandth of its size."""
+        size = float(((self.bounds[1] - self.bounds[0]) ** 2).sum() ** 0.5)
+        return self.scene_at(size / SMALL_DRAWING)[0]
+
+    def drafts(self) -> list[Draft]:
+        """One draft per view, of one scene, meshed finely enough for all.
+
+        With a size to fit into, the true scale is known only when the outlines are: then they are found here.
+        """
+        planner = Planner(DRAWING, self.options)
+        note_reading(planner, self.source)
+        for _ in range(2):
+            finest = min(at.tolerances.deflection for at in self.placements)
+            self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner)
+            note_meshing(planner, self.scene)
+            pairs = zip(self.cameras, self.placements, strict=True)
+            drafts = [self._fitted(camera, placement, planner.fork()) for camera, placement in pairs]
+            self.placements = [draft.image.placement for draft in drafts]
+            if min(at.tolerances.deflection for at in self.placements) > FINE_ENOUGH * finest:
+                break
+        for draft in drafts:
+            note_rescue(draft.planner, self.scene, meshed)
+        self.edge_curves = meshed.edge_curves
+        self.looks = self.source.looks() if self.source.transparent() else {}
+        self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
+        return drafts
+
+    def _fitted(self, camera: Camera, placement: Placement, planner: Planner) -> Draft:
+        """Outlines of curved faces reach beyond their mesh, by less than the accuracy: they are what has to fit."""
+        image = image_of(self.scene, camera, placement)
+        if placement.fit is None:
+            return Draft(image, self.options, planner)
+        surfaces = self.scene.true_surfaces
+        bends = surfaces is not None and bool(surfaces.curved.any() or (np.diff(self.scene.chains.offsets) > 1).any())
+        found = outlined(image, self.options.threads, planner)
+        fitted = placement.fitted(camera, self.options, found.points, bends)
+        if fitted.tolerances.deflection == placement.tolerances.deflection:
+            return Draft(found.placed(fitted), self.options, planner)
+        # At another scale the outlines are traced anew: finer, or less fine.
+        return Draft(image.placed(fitted), self.options, planner)
+
+    def shown(self, draft: Draft) -> Image:
+        """The image as it is drawn: with outlines, without what is seen through, cut off where nothing is seen."""
+        image, planner, threads = draft.image, draft.planner, draft.options.threads
+        least = min(map(opacity_of, self.looks.values()), default=1.0)
+        if planner.on("seeing through glass", Facts(opacity=least)):
+            glass = glass_of(self.scene, self.looks)
+            planner.spent("seeing through glass", glass_triangles=int(glass.sum()))
+            image = without_glass(outlined(image, threads, planner), glass)
+        return clipped(outlined(image, threads, planner), planner)
+
+    def plan(self, draft: Draft, image: Image) -> Plan:
+        """The kernel's instructions for an image that `shown` gave."""
+        return decide(image, draft.options, draft.planner)
+
+    def drawing(self, draft: Draft, request: Request | None = None) -> Drawing:
+        """The drawing of one view. request: what was asked for, which the drawing remembers."""
+        options, clock = draft.options, dict(self.clock)
+        started = perf_counter()
+        image = self.shown(draft)
+        plan = self.plan(draft, image)
+        projected = image.projected(plan.divide)
+        started = lap(clock, "plan", started)
+        lifted = projected if image.silhouettes is None else image.lifted(plan.divide)
+        segments = solve(image, plan, lifted, options.threads)
+        started = lap(clock, "visibility", started)
+        lines = draw_lines(image, self.edge_curves, plan, segments, projected, options.hidden, options.threads)
+        lap(clock, "linework", started)
+        solved = Solved(image, plan, segments, lines)
+        return finished(self.source, self.scene, solved, draft.planner, options, clock, request, self.remarks)
+
+
+def refuse_warnings(notes: Sequence[Note]) -> None:
+    """Raise StrictError for the first warning among the notes."""
+    for note in notes:
+        if note.is_warning:
+            raise StrictError(note.text)
