@@ -147,7 +147,7 @@ def visibility(
 class Curves:
     """n curves: kind (n,), range (n, 2), and the numbers of record i, values[offsets[i]:offsets[i + 1]].
 
-    As `hlr.source.geometry` describes them. ValueError where they do not fit.
+    As `hlr.source.curve_records` describes them. ValueError where they do not fit.
     """
 
     def __new__(cls, kind: Bytes, range: Floats, offsets: Ints, values: Floats) -> Curves: ...

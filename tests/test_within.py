@@ -136,7 +136,7 @@ def test_the_model_is_read_once(monkeypatch):
     from hlr.public import draw as drawings
 
     opened = []
-    monkeypatch.setattr(drawings, "open_chosen", lambda s, _: opened.append(s) or open_source(s))
+    monkeypatch.setattr(drawings, "open_selected", lambda s, _: opened.append(s) or open_source(s))
     hlr.draw(box(), within=30.0, accuracy=0.2)
     assert len(opened) == 1
 

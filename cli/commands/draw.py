@@ -156,7 +156,7 @@ def _within(
     from hlr.pipeline.within import draw_within
     from hlr.public.draw import with_report
     from hlr.request.check import checked, checked_views
-    from hlr.source.chosen import open_chosen
+    from hlr.source.selection import open_selected
 
     with ExitStack() as stack:
         # What is measured afterwards is written again, with what was reached; standard output takes only one.
@@ -174,7 +174,7 @@ def _within(
             done[:] = write(drawings, targets, put)
 
         asked = checked_views(views, checked(request))
-        opened = open_chosen(source, request)
+        opened = open_selected(source, request)
         drawings = draw_within(opened, asked, request, progress, finished, started)
         drawings = done or drawings
         if request.report:

@@ -93,7 +93,7 @@ def study(
     from hlr.lab.study.job import ACCURACIES, PIXELS, PREDICATES
     from hlr.lab.study.sweep import Study, Wish
     from hlr.lab.study.sweep import study as measure
-    from hlr.source.files import check_readable
+    from hlr.source.file_checks import check_readable
 
     check_readable(Path(source))
     plot.available()

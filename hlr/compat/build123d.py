@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from hlr.compat import viewport
-from hlr.compat.edges import edges
+from hlr.compat.occt_edges import occt_edges
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.errors import OptionError, SourceError, ViewError
@@ -50,12 +50,12 @@ def project_to_viewport(
     if max(abs(x), abs(y), abs(z)) <= CLOSEST * max(1.0, *map(abs, origin)):
         raise ViewError("viewport_origin is the point it looks at: move it away from look_at")
     up = _point(viewport_up, "viewport_up")
-    length = viewport.positive(focus, "focus") if focus else None
-    picture = viewport.draw(shape, viewport.Viewport(origin, (x, y, z), up, length))
+    length = viewport.check_positive(focus, "focus") if focus else None
+    picture = viewport.draw_viewport(shape, viewport.Viewport(origin, (x, y, z), up, length))
     found: dict[bool, list[Edge]] = {True: [], False: []}
     for line in picture.drawing.lines:
         label = _label(picture.drawing, line)
-        for made in edges(line, picture.shift):
+        for made in occt_edges(line, picture.shift):
             edge = EdgeOf(made)
             edge.label = label
             found[line.visible].append(edge)
@@ -82,7 +82,7 @@ def _point(value: Any, what: str) -> Vector:
         point = VectorOf(value)
     except (TypeError, ValueError, AttributeError):
         raise OptionError(f"{what} needs three finite numbers, such as (1, -1, 1), not {value!r}") from None
-    return viewport.vector((point.X, point.Y, point.Z), what)
+    return viewport.check_vector((point.X, point.Y, point.Z), what)
 
 
 def _label(drawing: Drawing, line: Line) -> str:

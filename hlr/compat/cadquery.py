@@ -8,17 +8,17 @@ from typing import Any
 
 from hlr.common.types import Floats
 from hlr.compat import viewport
-from hlr.compat.cadquery_options import checked
+from hlr.compat.cadquery_options import check_options
 from hlr.compat.cadquery_page import Page, lay_out, to_pdf, to_svg
 from hlr.drawing import files
 from hlr.errors import OptionError
 from hlr.request.accuracy import SMALL_DRAWING
 from hlr.source.cad.objects import is_shape_like
 
-PIXEL_SHARE = 0.1
+ACCURACY_PIXELS = 0.1
 """Of a pixel: the accuracy of lines."""
 
-DRAWN = {"SVG": to_svg, "PDF": to_pdf}
+WRITERS = {"SVG": to_svg, "PDF": to_pdf}
 
 
 def getSVG(shape: Any, opts: Mapping[str, Any] | None = None) -> str:
@@ -63,7 +63,7 @@ def export(
         HlrError: it cannot be drawn or written; the message says why.
     """
     kind = exportType or str(fname).rpartition(".")[2].upper()
-    if kind in DRAWN:
+    if kind in WRITERS:
         several = isinstance(w, Iterable) and not is_shape_like(w)
         _save(list(w) if several else w, Path(fname), kind, opt)
         return
@@ -75,20 +75,20 @@ def export(
 
 def _save(shape: Any, path: Path, kind: str, opts: Mapping[str, Any] | None) -> None:
     files.check(path)
-    files.place({path: DRAWN[kind](_page(shape, opts))})
+    files.place({path: WRITERS[kind](_page(shape, opts))})
 
 
 def _page(shape: Any, opts: Mapping[str, Any] | None) -> Page:
     if opts is not None and not isinstance(opts, Mapping):
         raise OptionError(f"opts needs a dictionary, not {opts!r}")
-    options = checked({} if opts is None else opts)
-    view = viewport.along(options.projectionDir, "projectionDir", options.focus)
+    options = check_options({} if opts is None else opts)
+    view = viewport.viewport_along(options.projectionDir, "projectionDir", options.focus)
 
     def accuracy(bounds: Floats) -> float:
         """A share of a pixel, and less for small pictures."""
         width, height = viewport.flat_extent(bounds, view)
         finest = (width**2 + height**2) ** 0.5 / SMALL_DRAWING
-        return min(PIXEL_SHARE / options.unit_scale(width, height), finest) if finest else 1.0
+        return min(ACCURACY_PIXELS / options.unit_scale(width, height), finest) if finest else 1.0
 
-    picture = viewport.draw(shape, view, hidden=options.showHidden, accuracy=accuracy)
+    picture = viewport.draw_viewport(shape, view, hidden=options.showHidden, accuracy=accuracy)
     return lay_out(picture, options)

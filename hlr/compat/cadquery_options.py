@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
-from hlr.compat.viewport import positive, real, vector
+from hlr.compat.viewport import check_number, check_positive, check_vector
 from hlr.errors import OptionError
 
 DEFAULT_DIRECTION = (-1.75, 1.1, 5.0)
 """The only direction that the picture of the axes belongs to."""
 
-FILLED = 0.75
+FILL_SHARE = 0.75
 """Of width and height, where both are given: the larger share the drawing takes."""
 
 Number = int | float
@@ -43,7 +43,7 @@ class PictureOptions:
         elif self.height is None:
             ratios = [(self.width - 2.0 * self.marginLeft, width)]
         else:
-            ratios = [(FILLED * self.width, width), (FILLED * self.height, height)]
+            ratios = [(FILL_SHARE * self.width, width), (FILL_SHARE * self.height, height)]
         return min((pixels / length for pixels, length in ratios if length > 0.0), default=1.0)
 
     def size(self, width: float, height: float) -> tuple[float, float]:
@@ -55,7 +55,7 @@ class PictureOptions:
         )
 
 
-def checked(given: Mapping[str, Any]) -> PictureOptions:
+def check_options(given: Mapping[str, Any]) -> PictureOptions:
     """Options by name; raises OptionError with what is allowed."""
     names = [field.name for field in fields(PictureOptions)]
     for key in given:
@@ -73,16 +73,16 @@ def checked(given: Mapping[str, Any]) -> PictureOptions:
 
 
 def _length(value: Any, what: str) -> float | None:
-    return None if value is None else positive(value, what)
+    return None if value is None else check_positive(value, what)
 
 
 def _focus(value: Any, what: str) -> float | None:
     # As in CadQuery: 0 is none.
-    return positive(value, what) if value else None
+    return check_positive(value, what) if value else None
 
 
 def _stroke(value: Any, what: str) -> float:
-    number = real(value, what)
+    number = check_number(value, what)
     if number < 0.0 and number != -1.0:
         raise OptionError(f"{what} needs a width in model units, or -1 for one pixel, not {value!r}")
     return number
@@ -91,7 +91,7 @@ def _stroke(value: Any, what: str) -> float:
 def _color(value: Any, what: str) -> Color:
     try:
         red, green, blue = value
-        if all(0.0 <= real(channel, what) <= 255.0 for channel in (red, green, blue)):
+        if all(0.0 <= check_number(channel, what) <= 255.0 for channel in (red, green, blue)):
             return (red, green, blue)
     except (TypeError, ValueError, OptionError):
         pass
@@ -108,9 +108,9 @@ def _yes_or_no(value: Any, what: str) -> bool:
 _CHECKS: dict[str, Callable[[Any, str], Any]] = {
     "width": _length,
     "height": _length,
-    "marginLeft": real,
-    "marginTop": real,
-    "projectionDir": vector,
+    "marginLeft": check_number,
+    "marginTop": check_number,
+    "projectionDir": check_vector,
     "showAxes": _yes_or_no,
     "strokeWidth": _stroke,
     "strokeColor": _color,

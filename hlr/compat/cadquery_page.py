@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.compat.cadquery_options import DEFAULT_DIRECTION, PictureOptions
-from hlr.compat.viewport import Picture
+from hlr.compat.viewport import ViewportDrawing
 from hlr.drawing.drawing import Drawing
 from hlr.writers.number import number
 from hlr.writers.strokes import strokes
@@ -29,7 +29,7 @@ AXES = (("X", (75, -33), (80, -30)), ("Y", (30, -75), (25, -85)), ("Z", (58, -15
 AXES_LEFT, AXES_UP = 20, 30
 """Where that picture stands: from the left, and from the bottom."""
 AXES_WIDTH = 3
-LETTERS = 16
+LETTER_HEIGHT = 16
 """Height of letters where nothing says otherwise."""
 
 
@@ -66,7 +66,7 @@ class Page:
         return [layer.moved(x, y) for layer in found.layers]
 
 
-def lay_out(picture: Picture, options: PictureOptions) -> Page:
+def lay_out(picture: ViewportDrawing, options: PictureOptions) -> Page:
     """Size, scale and place of a drawing as CadQuery chooses them."""
     drawing = picture.drawing
     lines = tuple(line for line in drawing.lines if line.visible or line.kind != "smooth")
@@ -171,7 +171,7 @@ def _axes_pdf() -> bytes:
     x0, y0 = AXES_FROM
     out = [f"q {k} 0 0 {k} {left} {up} cm {AXES_WIDTH} w 0 G 0 g [] 0 d\n"]
     for name, (x1, y1), (x, y) in AXES:
-        out.append(f"{x0} {-y0} m {x1} {-y1} l S BT /F {LETTERS} Tf {x} {-y} Td ({name}) Tj ET\n")
+        out.append(f"{x0} {-y0} m {x1} {-y1} l S BT /F {LETTER_HEIGHT} Tf {x} {-y} Td ({name}) Tj ET\n")
     return "".join((*out, "Q\n")).encode("ascii")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from hlr.compat import viewport
-from hlr.compat.edges import compound
+from hlr.compat.occt_edges import occt_compound
 
 KINDS = (("sharp", "boundary", "intersection"), ("smooth",), ("seam",), ("outline",), ())
 """The kinds of lines in each of five compounds: sharp, smooth, sewn, outline, isoparametric."""
@@ -27,5 +27,5 @@ def project_ex(shape: Any, direction: Any = (0.0, 0.0, 1.0)) -> list[Any]:
     Raises:
         HlrError: the shape or the direction cannot be drawn; the message says why.
     """
-    picture = viewport.draw(shape, viewport.along(direction, "direction"), seam=True)
-    return [compound(picture.lines(kinds, visible), picture.shift) for visible in (True, False) for kinds in KINDS]
+    picture = viewport.draw_viewport(shape, viewport.viewport_along(direction, "direction"), seam=True)
+    return [occt_compound(picture.lines(kinds, visible), picture.shift) for visible in (True, False) for kinds in KINDS]

@@ -28,7 +28,7 @@ from hlr.request.options import Options, Perspective, Vector
 from hlr.source import open_source
 from hlr.source.model import Source
 
-FINE = 2.5e-4
+ACCURACY_SHARE = 2.5e-4
 """Of the model's diagonal: the accuracy of lines that go on as geometry, where 0.05 mm are not finer."""
 
 
@@ -43,7 +43,7 @@ class Viewport:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class ViewportDrawing:
     """A drawing at the model's own scale, and what to add to its points to get coordinates in the viewport's plane."""
 
     drawing: Drawing
@@ -55,12 +55,12 @@ class Picture:
         return [line for line in self.drawing.lines if line.visible == visible and line.kind in wanted]
 
 
-def along(direction: Any, what: str, focus: float | None = None) -> Viewport:
+def viewport_along(direction: Any, what: str, focus: float | None = None) -> Viewport:
     """The projector that OpenCASCADE makes of a direction alone: at the world's origin, with an up of its own choice.
 
     Raises OptionError, or ViewError for a direction of no length.
     """
-    given = vector(direction, what)
+    given = check_vector(direction, what)
     normalized(given, what)
     from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
 
@@ -68,7 +68,7 @@ def along(direction: Any, what: str, focus: float | None = None) -> Viewport:
     return Viewport((0.0, 0.0, 0.0), given, (up.X(), up.Y(), up.Z()), focus)
 
 
-def draw(
+def draw_viewport(
     thing: Any,
     viewport: Viewport,
     *,
@@ -76,7 +76,7 @@ def draw(
     smooth: bool = True,
     seam: bool = False,
     accuracy: Callable[[Floats], float] | None = None,
-) -> Picture:
+) -> ViewportDrawing:
     """The lines of anything that can be drawn, as a viewport shows them.
 
     accuracy: model units, chosen from the model's bounds (2, 3). What a drawing notes becomes a Python warning.
@@ -101,7 +101,7 @@ def draw(
     if perspective is None:
         # In perspective the axis through the eye is the origin of the plane already.
         shift -= [_dot(viewport.origin, drawing.view.right), _dot(viewport.origin, drawing.view.up)]
-    return Picture(drawing, shift)
+    return ViewportDrawing(drawing, shift)
 
 
 def _sewn(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
@@ -110,7 +110,7 @@ def _sewn(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
     Such edges only divide a surface, as those between the halves of a cylinder do. Where no seams are drawn, they are
     not drawn either.
     """
-    from hlr.source.cad.brep import BrepSource
+    from hlr.source.cad.brep_source import BrepSource
 
     if not isinstance(opened, BrepSource) or all(line.kind != "smooth" for line in drawing.lines):
         return tuple(drawing.lines)
@@ -143,25 +143,25 @@ def flat_extent(bounds: Floats, viewport: Viewport) -> tuple[float, float]:
     return float(width), float(height)
 
 
-def vector(value: Any, what: str) -> Vector:
+def check_vector(value: Any, what: str) -> Vector:
     """Three finite numbers; raises OptionError."""
     try:
-        x, y, z = (real(number, what) for number in value)
+        x, y, z = (check_number(number, what) for number in value)
     except (TypeError, ValueError, OptionError):
         raise OptionError(f"{what} needs three finite numbers, such as (1, -1, 1), not {value!r}") from None
     return (x, y, z)
 
 
-def real(value: Any, what: str) -> float:
+def check_number(value: Any, what: str) -> float:
     """A finite number; raises OptionError."""
     if not isinstance(value, Real) or isinstance(value, bool) or not math.isfinite(value):
         raise OptionError(f"{what} needs a finite number, not {value!r}")
     return float(value)
 
 
-def positive(value: Any, what: str) -> float:
+def check_positive(value: Any, what: str) -> float:
     """A number above zero; raises OptionError."""
-    number = real(value, what)
+    number = check_number(value, what)
     if number <= 0.0:
         raise OptionError(f"{what} must be above zero, not {number:g}")
     return number
@@ -177,7 +177,7 @@ def _caller() -> int:
 
 def _fine(bounds: Floats) -> float:
     diagonal = math.sqrt(float(((bounds[1] - bounds[0]) ** 2).sum()))
-    return min(DEFAULT_ACCURACY, FINE * diagonal) or DEFAULT_ACCURACY
+    return min(DEFAULT_ACCURACY, ACCURACY_SHARE * diagonal) or DEFAULT_ACCURACY
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -19,8 +19,8 @@ from hlr.image.camera import NEAR, Camera, dot
 from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
+from hlr.scene.chains import edge_keys
 from hlr.scene.scene import INTERIOR, Chains, Groups
-from hlr.scene.topology import keys
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +143,7 @@ def _cut(image: Image, height: Floats) -> Image:
     ends[crossing & ~inside[b], 1] = new_vertex[crossing & ~inside[b]]
     low_first = np.stack([ends.min(axis=1), ends.max(axis=1)], axis=1).astype(np.int32)
     swapped = ends[:, 0] > ends[:, 1]
-    key, known = keys(low_first, len(points)), keys(edges, len(points))
+    key, known = edge_keys(low_first, len(points)), edge_keys(edges, len(points))
     at = np.searchsorted(known, key)
     there = keep & (at < len(known))
     there[there] = known[at[there]] == key[there]
@@ -257,7 +257,7 @@ def _cut_triangles(
     side = inside[tri]
     count = side.sum(axis=1)
     whole = np.flatnonzero(count == 3).astype(np.int32)
-    known = keys(image.edges[: np.count_nonzero(np.diff(image.offsets) > 0)], n)
+    known = edge_keys(image.edges[: np.count_nonzero(np.diff(image.offsets) > 0)], n)
 
     def between(u: Ints, v: Ints) -> Ints:
         key = np.minimum(u, v).astype(np.int64) * n + np.maximum(u, v)

@@ -30,8 +30,8 @@ from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.image.own_faces import Grazing, with_own_faces
 from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT
 from hlr.request.effect import Facts, Planner
+from hlr.scene.chains import merge_chains
 from hlr.scene.scene import INTERIOR, Chains, TrueSurfaces
-from hlr.scene.topology import joined
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
 
@@ -157,7 +157,7 @@ def _with_lines(image: Image, on: TrueSurfaces, found: _kernel.Outlines, deflect
             curves=Curves(found.curve_kind, found.curve_range, found.curve_offsets, found.curve_values),
             source=np.where(source >= 0, image.chains.index[source], -1).astype(np.int32),
         ),
-        chains=joined(image.chains, walks),
+        chains=merge_chains(image.chains, walks),
     )
     grazing = found.grazing
     # Edges and outlines, those that their own body does not hide anyway.

@@ -10,12 +10,12 @@ import numpy.typing as npt
 
 from hlr.drawing.notes import Note
 from hlr.image.image import Image
-from hlr.scene.colors import corner_paint
+from hlr.scene.colors import corner_colors
 from hlr.scene.scene import Scene
-from hlr.source.model import Look
+from hlr.source.model import Appearance
 
 
-def opacity_of(look: Look) -> float:
+def opacity_of(look: Appearance) -> float:
     """The least opacity of a part."""
     found = [1.0 if look.whole is None else look.whole[3], *(color[3] for color in look.faces.values())]
     if look.corners is not None:
@@ -23,17 +23,17 @@ def opacity_of(look: Look) -> float:
     return min(found)
 
 
-def glass_of(scene: Scene, looks: Mapping[str, Look]) -> npt.NDArray[np.bool_]:
+def glass_of(scene: Scene, looks: Mapping[str, Appearance]) -> npt.NDArray[np.bool_]:
     """(t,) bool: the triangle is transparent, somewhere at least."""
-    colours, paint = corner_paint(scene, looks)
+    colours, paint = corner_colors(scene, looks)
     return np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
 
 
-def hiding(scene: Scene, looks: Mapping[str, Look]) -> list[Note]:
+def hiding(scene: Scene, looks: Mapping[str, Appearance]) -> list[Note]:
     """The remark that transparent parts hide others, where they may."""
     if not looks or len(scene.parts) < 2:
         return []
-    clear = [p.name for p in scene.parts if opacity_of(looks.get(p.name, Look())) < 1.0]
+    clear = [p.name for p in scene.parts if opacity_of(looks.get(p.name, Appearance())) < 1.0]
     if not clear:
         return []
     which = f'Part "{clear[0]}" is transparent and hides' if len(clear) == 1 else f"{len(clear)} transparent parts hide"

@@ -25,7 +25,7 @@ from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import Camera
 from hlr.image.image import Image
-from hlr.source.geometry import ELLIPSE, Record, packed
+from hlr.source.curve_records import ELLIPSE, Record, pack_curves
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
 from hlr.visibility.plan import Plan
@@ -81,7 +81,7 @@ def circles(image: Image, plan: Plan, chains: _kernel.Chains) -> Circles | None:
             number[chain] = len(records)
             records.append(record)
             bulges.append(bulge * on_paper)
-    return Circles(packed(records), number, np.array(bulges)) if records else None
+    return Circles(pack_curves(records), number, np.array(bulges)) if records else None
 
 
 def _vertices(image: Image, edges: Ints, backward: npt.NDArray[np.bool_]) -> Floats | None:

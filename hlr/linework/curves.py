@@ -16,14 +16,14 @@ from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.image import Image
 from hlr.linework.circles import circles
-from hlr.source.geometry import packed, together
+from hlr.source.curve_records import concatenate_curves, pack_curves
 from hlr.source.model import Curves, EdgeCurves
 from hlr.visibility.plan import Plan
 
 EdgeCurveLookup = Callable[[Ints, Ints], EdgeCurves] | None
 """The curves of edges, given their parts and indices; None where the source has none."""
 
-NO_CURVES = packed([])
+NO_CURVES = pack_curves([])
 HERE = np.eye(3, 4)[None]
 """The place of curves that lie where they are: no matrix moves them."""
 
@@ -63,7 +63,7 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
     round_ = circles(image, plan, chains)
     if round_ is not None:
         number = np.where(round_.number >= 0, round_.number + len(own.kind), number).astype(np.int32)
-        own, bulge = together(own, round_.curves), np.concatenate([bulge, round_.bulge])
+        own, bulge = concatenate_curves(own, round_.curves), np.concatenate([bulge, round_.bulge])
     known = edge_curves is not None or len(own.kind) > 0
     sought = int(((edge >= 0) | (number >= 0))[lines].sum()) if known else 0
 
@@ -81,5 +81,5 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
         loose = np.flatnonzero((edge < 0) & (number >= 0))
         curve[loose], place[loose] = number[loose] + len(curves.kind), len(places) - 1
         rises[loose] = bulge[number[loose]]
-        curves = together(curves, own)
+        curves = concatenate_curves(curves, own)
     return Guides(known, curves, places, curve, place, rises, sought)

@@ -7,7 +7,7 @@ import numpy as np
 from hlr.request.drawing_effects import BREP_KINDS
 from hlr.request.effect import Facts, Planner
 from hlr.scene.scene import Scene
-from hlr.source.model import Meshed, Source
+from hlr.source.model import Source, Tessellation
 
 
 def note_reading(planner: Planner, source: Source) -> None:
@@ -37,7 +37,7 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
     planner.spent("triangulation of planar faces", planar_triangles=triangles - bent)
 
 
-def note_rescue(planner: Planner, scene: Scene, meshed: Meshed) -> None:
+def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
     """What became of the faces that the kernel could not mesh."""
     failed = meshed.rescued + meshed.lost
     planner.on("rescue of faces", Facts(failed=failed, faces=scene.true_surfaces is not None))

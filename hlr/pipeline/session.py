@@ -40,8 +40,8 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
-from hlr.source.chosen import open_chosen
-from hlr.source.model import Look, Meshed, Source
+from hlr.source.model import Appearance, Source, Tessellation
+from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
 from hlr.visibility.segments import solve
 
@@ -70,7 +70,7 @@ class Session:
 
     scene: Scene
     edge_curves: EdgeCurveLookup
-    looks: Mapping[str, Look]
+    looks: Mapping[str, Appearance]
     remarks: Sequence[Note]
 
     def __init__(
@@ -90,7 +90,7 @@ class Session:
         self.clock: Clock = {}
         self.progress = progress or (lambda _stage, _done: None)
         self.progress("source", 0.0)
-        self.source = open_chosen(source, options)
+        self.source = open_selected(source, options)
         self.views = views
         self.bounds = self.source.bounds()
         self.cameras = [resolve(view, options, self.source.frame, self.bounds) for view in views]
@@ -98,7 +98,9 @@ class Session:
         self.progress("tessellate", 0.0)
         self.placements = [placing(camera, options, self.source, self.bounds) for camera in self.cameras]
 
-    def scene_at(self, deflection: float, angle: float = ANGLE, planner: Planner | None = None) -> tuple[Scene, Meshed]:
+    def scene_at(
+        self, deflection: float, angle: float = ANGLE, planner: Planner | None = None
+    ) -> tuple[Scene, Tessellation]:
         """The source meshed with this chord error (model units) and turning (radians), and the scene of the mesh."""
         started = perf_counter()
         meshed = self.source.mesh(deflection, angle, self.progress)

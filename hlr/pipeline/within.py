@@ -33,8 +33,8 @@ from hlr.pipeline.draw import draw_views
 from hlr.pipeline.session import Session
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View
-from hlr.source.chosen import open_chosen
 from hlr.source.model import Source
+from hlr.source.selection import open_selected
 
 COARSE = 10.0
 """How much coarser than usual the first drawing is: 0.5 mm, the width of a line, where 0.05 is usual."""
@@ -88,7 +88,7 @@ def draw_within(
     views = checked_views(views, options)
     if not views:
         return []
-    opened = open_chosen(source, options)
+    opened = open_selected(source, options)
     first, goal = _range(opened, views, options)
     guess = FIRST_GROWTH if hasattr(opened, "edge_shape") else MESH_GROWTH
     request = replace(options, within=None, report=False)

@@ -10,7 +10,7 @@ from hlr.common.keywords import record_of, shown
 from hlr.pipeline.draw import draw_views as drawn_once
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View, Wishes
-from hlr.source.chosen import open_chosen
+from hlr.source.selection import open_selected
 
 if TYPE_CHECKING:
     from hlr.common.types import Progress
@@ -39,7 +39,7 @@ def draw_views(
         return drawn_once(source, views, options, progress)  # which checks what is asked for
     options = checked(options)
     views = checked_views(views, options)
-    opened = open_chosen(source, options)
+    opened = open_selected(source, options)
     if options.within is None:
         drawings = drawn_once(opened, views, options, progress)
     else:

@@ -13,29 +13,29 @@ from hlr.errors import SourceError
 from hlr.request.drawing_effects import DRAWING
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
-from hlr.scene.clash import clashes, crossed_parts, distrusted, intersection_walks, no_clashes
+from hlr.scene.chains import crease_chains, merge_chains
+from hlr.scene.clash import find_clashes, intersection_chains, mark_unsound, no_clashes, self_intersecting_parts
 from hlr.scene.creases import creases
-from hlr.scene.defects import notes, reports
-from hlr.scene.groups import groups_of, with_wires
-from hlr.scene.needles import supported
-from hlr.scene.repair import without_duplicates
+from hlr.scene.defects import defect_notes, part_reports
+from hlr.scene.duplicates import without_duplicates
+from hlr.scene.groups import add_wires, groups_of
+from hlr.scene.needles import reliable_normals
 from hlr.scene.scene import INTERIOR, Chains, Scene, TrueSurfaces
-from hlr.scene.spindle import through_their_axis
-from hlr.scene.stitch import stitched
-from hlr.scene.topology import crease_walks, joined
-from hlr.source.cad.together import Together, together
-from hlr.source.extent import LARGEST
-from hlr.source.model import Meshed
+from hlr.scene.spindle_tori import self_intersecting_tori
+from hlr.scene.stitching import stitch_borders
+from hlr.source.bounds import LARGEST_COORDINATE
+from hlr.source.model import Tessellation
+from hlr.source.part_meshes import PartMeshes, combine_parts
 from hlr.tables.line_classes import EdgeClass
 
 
-def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
+def build(meshed: Tessellation, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
     """The scene of all parts. crease: degrees, for parts without B-rep; deflection: what they were meshed with.
 
     planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
     """
     plan = planner or Planner(DRAWING, Options())
-    whole, mesh, doubled = _repaired(together(meshed.parts), plan)
+    whole, mesh, doubled = _repaired(combine_parts(meshed.parts), plan)
     whole, mesh = _stitched(whole, mesh, deflection, plan)
     found, tables = mesh.scene(), whole.tables
     points, triangles, brep = tables.points, found.triangles, tables.brep
@@ -43,11 +43,11 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
     edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
     walks, facets, drawn = _source_walks(found), None, None
     if not brep.all() and len(edges):
-        sure = supported(mesh, points, tables.triangles, found.triangle_part, tables.precision)
+        sure = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
         facets = sure.normals if turned is None else np.where(turned[:, None], -sure.normals, sure.normals)
         bare = creases(mesh, sure.fold, edge_part, ~brep, crease, points)
-        walks = joined(walks, crease_walks(points, edges, bare, edge_part))
+        walks = merge_chains(walks, crease_chains(points, edges, bare, edge_part))
         kind = kind.copy()
         np.copyto(kind[: len(bare)], bare, where=bare != INTERIOR)
         drawn = np.bincount(edge_part[bare != INTERIOR], minlength=len(brep)).tolist()
@@ -56,27 +56,27 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         meeting = int(np.count_nonzero(_kernel.boxes_meet(groups.low, groups.high)))
     begin = perf_counter()
     if plan.on("intersection search", Facts(meeting=meeting, folded=int(np.count_nonzero(found.folded)))):
-        met = clashes(found, groups, deflection)
-        met = replace(met, through=met.through | through_their_axis(whole, found))
+        met = find_clashes(found, groups, deflection)
+        met = replace(met, through=met.through | self_intersecting_tori(whole, found))
     else:
         met = no_clashes(len(groups.closed))
     plan.spent("intersection search", perf_counter() - begin, clash_tests=met.tests)
-    parts = reports(whole, doubled, found.reports, drawn, crossed_parts(met, group_part))
-    groups = distrusted(groups, met.through | found.welded)
+    parts = part_reports(whole, doubled, found.reports, drawn, self_intersecting_parts(met, group_part))
+    groups = mark_unsound(groups, met.through | found.welded)
 
     if len(found.loose):
         # Wires of no face: edges without triangles, in a group of their own part.
         vertex_part = np.repeat(np.arange(len(brep), dtype=np.int32), np.diff(tables.point_start))
         owner = vertex_part[found.loose[:, 0]]
-        groups, own_group = with_wires(groups, points, found.loose, owner, tight=False)
+        groups, own_group = add_wires(groups, points, found.loose, owner, tight=False)
         edges, edge_part = np.concatenate([edges, found.loose]), np.concatenate([edge_part, owner])
         edge_group = np.concatenate([edge_group, own_group])
     if len(met.edges):
         lines = met.edges + np.int32(len(points))
         points = np.concatenate([points, met.points])
-        walks = joined(walks, intersection_walks(met, group_part, len(edges)))
+        walks = merge_chains(walks, intersection_chains(met, group_part, len(edges)))
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
-        groups, own_group = with_wires(groups, points, lines, pair, tight=True)
+        groups, own_group = add_wires(groups, points, lines, pair, tight=True)
         edges, edge_part = (
             np.concatenate([edges, lines]),
             np.concatenate([edge_part, group_part[met.group].min(axis=1)]),
@@ -104,14 +104,14 @@ def build(meshed: Meshed, crease: float, deflection: float, planner: Planner | N
         groups=groups,
         chains=walks,
         parts=parts,
-        notes=(*meshed.notes, *notes(parts)),
+        notes=(*meshed.notes, *defect_notes(parts)),
         true_surfaces=_true_surfaces(whole, found),
         convex=len(found.folded) == 1 and not found.folded[0],
         facets=facets,
     )
 
 
-def _repaired(whole: Together, plan: Planner) -> tuple[Together, MeshFacts, list[int]]:
+def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, list[int]]:
     """The parts without what is there twice, their edges, and how many triangles that left out of each."""
     mesh, doubled = _facts(whole), [0] * len(whole)
     with plan.deciding():
@@ -122,30 +122,30 @@ def _repaired(whole: Together, plan: Planner) -> tuple[Together, MeshFacts, list
         found = [without_duplicates(part) for part in parts]
         doubled = [count for _, count in found]
         if any(one is not other for (one, _), other in zip(found, parts, strict=True)):
-            whole = together([part for part, _ in found])
+            whole = combine_parts([part for part, _ in found])
             mesh = _facts(whole)
     plan.spent("repair", perf_counter() - begin, doubled_triangles=sum(doubled))
     return whole, mesh, doubled
 
 
-def _stitched(whole: Together, mesh: MeshFacts, deflection: float, plan: Planner) -> tuple[Together, MeshFacts]:
+def _stitched(whole: PartMeshes, mesh: MeshFacts, deflection: float, plan: Planner) -> tuple[PartMeshes, MeshFacts]:
     """The parts with borders that run along one another joined."""
     with plan.deciding():
         borders = mesh.bare_borders()
     begin, seams = perf_counter(), 0
     if plan.on("stitching of borders", Facts(borders=sum(borders))):
-        parts, seams = stitched(list(whole), borders, deflection)
+        parts, seams = stitch_borders(list(whole), borders, deflection)
         if seams:
-            whole = together(parts)
+            whole = combine_parts(parts)
             mesh = _facts(whole)
     plan.spent("stitching of borders", perf_counter() - begin, seams=seams)
     return whole, mesh
 
 
-def _facts(whole: Together) -> MeshFacts:
-    if not whole.tables.within(LARGEST):
+def _facts(whole: PartMeshes) -> MeshFacts:
+    if not whole.tables.within(LARGEST_COORDINATE):
         raise SourceError(
-            f"the tessellation has coordinates that are not finite or beyond {LARGEST:g}: repair the model"
+            f"the tessellation has coordinates that are not finite or beyond {LARGEST_COORDINATE:g}: repair the model"
         )
     return whole.tables.facts()
 
@@ -165,7 +165,7 @@ def _source_walks(found: MeshScene) -> Chains:
     )
 
 
-def _true_surfaces(whole: Together, found: MeshScene) -> TrueSurfaces | None:
+def _true_surfaces(whole: PartMeshes, found: MeshScene) -> TrueSurfaces | None:
     """The parameters of all parts' triangles; None where no part has a B-rep."""
     if whole.surfaces is None:
         return None

@@ -24,12 +24,12 @@ from hlr._kernel import MeshScene
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
 from hlr.request.accuracy import CONTACT
-from hlr.scene.groups import touching
+from hlr.scene.chains import STRAIGHT_ON
+from hlr.scene.groups import contact_depths
 from hlr.scene.scene import Chains, Groups
-from hlr.scene.topology import STRAIGHT_ON
 from hlr.tables.line_classes import EdgeClass
 
-PLANAR = 2.0
+PLANAR_CONTACT = 2.0
 """In deflections: what counts as touching where planar parts meet at a small angle."""
 
 
@@ -55,14 +55,14 @@ def no_clashes(groups: int) -> Clashes:
     return Clashes(np.zeros((0, 3)), none, none, np.zeros(groups, bool))
 
 
-def clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
+def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
     """All real intersections of different groups, and of those with themselves that may not be one convex body."""
-    touch = touching(groups, CONTACT * deflection, PLANAR * deflection)
+    touch = contact_depths(groups, CONTACT * deflection, PLANAR_CONTACT * deflection)
     points, edges, group, through, tests = found.crossings(touch, deflection)
     return Clashes(points, edges, group, through, tests)
 
 
-def intersection_walks(met: Clashes, part_of_group: Ints, first: int) -> Chains:
+def intersection_chains(met: Clashes, part_of_group: Ints, first: int) -> Chains:
     """The segments chained per pair of groups, the scene's number of the first is `first`.
 
     Where two lines cross, as those of two cylinders of one radius do, each goes straight on.
@@ -84,7 +84,7 @@ def intersection_walks(met: Clashes, part_of_group: Ints, first: int) -> Chains:
     )
 
 
-def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
+def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
     """Parts of which one surface passes through another, or through itself."""
     if not len(met.group) and not met.through.any():
         return np.zeros(0, np.int32)
@@ -92,6 +92,6 @@ def crossed_parts(met: Clashes, part_of_group: Ints) -> Ints:
     return np.asarray(distinct(np.concatenate([a[a == b], part_of_group[np.flatnonzero(met.through)]])), np.int32)
 
 
-def distrusted(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
+def mark_unsound(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
     """Groups that pass through or touch themselves are looked at from both sides, and searched for where."""
     return replace(groups, sound=groups.sound & ~which, cull=groups.cull & ~which)

@@ -9,13 +9,12 @@ import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints, Rgba
 from hlr.scene.scene import Geometry
-from hlr.scene.stitch import weights
-from hlr.source.model import PLAIN, Look
+from hlr.source.model import DEFAULT_COLOR, Appearance
 
 Colours = npt.NDArray[np.float32]
 
 
-def corner_paint(scene: Geometry, looks: Mapping[str, Look]) -> tuple[Colours, Ints]:
+def corner_colors(scene: Geometry, looks: Mapping[str, Appearance]) -> tuple[Colours, Ints]:
     """Colours (k, 4), linear light and opacity, and (t, 3) which of them each corner has."""
     table: dict[Rgba, int] = {}
     painted: list[npt.NDArray[np.float32]] = []
@@ -24,8 +23,8 @@ def corner_paint(scene: Geometry, looks: Mapping[str, Look]) -> tuple[Colours, I
     bounds = np.searchsorted(scene.triangle_part, np.arange(len(scene.parts) + 1)).tolist()
     for i, part in enumerate(scene.parts):
         a, b = bounds[i : i + 2]
-        look = looks.get(part.name, Look())
-        whole = look.whole or ((*part.color, 1.0) if part.color is not None else PLAIN)
+        look = looks.get(part.name, Appearance())
+        whole = look.whole or ((*part.color, 1.0) if part.color is not None else DEFAULT_COLOR)
         paint[a:b] = table.setdefault(whole, len(table))
         for face, color in look.faces.items():
             paint[a:b][scene.triangle_face[a:b] == face] = table.setdefault(color, len(table))
@@ -49,7 +48,7 @@ def _at(now: Floats, before: Floats, colours: Colours) -> Colours:
     """(m, 3, 4) the colours at the corners (m, 3, 3) of triangles that are, or are pieces of, those that had them."""
     out = colours.copy()
     cut = ~(now == before).all(axis=(1, 2))
-    share = weights(now[cut], before[cut])
+    share = barycentric_weights(now[cut], before[cut])
     out[cut] = (share[..., None] * colours[cut][:, None]).sum(axis=2)
     return out
 
@@ -60,3 +59,18 @@ def _linear(srgb: Colours) -> Colours:
     c = np.clip(srgb[..., :3], 0.0, 1.0)
     out[..., :3] = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
     return np.ascontiguousarray(out)
+
+
+def barycentric_weights(corners: Floats, triangles: Floats) -> Floats:
+    """(m, 3, 3) of corners (m, 3, 3) their shares of the corners of `triangles` (m, 3, 3), on which they nearly lie."""
+    a = triangles[:, None, 0]
+    u, v, w = triangles[:, None, 1] - a, triangles[:, None, 2] - a, corners - a
+    uu, uv, vv = (u * u).sum(-1), (u * v).sum(-1), (v * v).sum(-1)
+    wu, wv = (w * u).sum(-1), (w * v).sum(-1)
+    area = uu * vv - uv * uv
+    flat = area <= 0.0
+    area = np.where(flat, 1.0, area)
+    second = np.where(flat, 0.0, (vv * wu - uv * wv) / area)
+    third = np.where(flat, 0.0, (uu * wv - uv * wu) / area)
+    shares: npt.NDArray[np.float64] = np.stack([1.0 - second - third, second, third], axis=-1).clip(0.0, 1.0)
+    return np.asarray(shares / shares.sum(axis=-1, keepdims=True))

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr._kernel import MeshFacts
 from hlr.common.types import Floats, Ints
-from hlr.scene.topology import STRAIGHT_ON
+from hlr.scene.chains import STRAIGHT_ON
 from hlr.tables.line_classes import EdgeClass
 
 Bools = npt.NDArray[np.bool_]

@@ -5,14 +5,14 @@ from __future__ import annotations
 from hlr.common.types import Ints
 from hlr.drawing.notes import Note
 from hlr.scene.scene import ScenePart
-from hlr.source.cad.together import Together
+from hlr.source.part_meshes import PartMeshes
 
-MOST_NOTES = 5
+MAX_NOTES = 5
 """Parts that are named in the notes; how many more there are is said in one sentence."""
 
 
-def reports(
-    whole: Together,
+def part_reports(
+    whole: PartMeshes,
     doubled: list[int],
     counts: list[list[int]],
     drawn: list[int] | None,
@@ -63,12 +63,12 @@ def reports(
     return tuple(out)
 
 
-def notes(parts: tuple[ScenePart, ...]) -> list[Note]:
+def defect_notes(parts: tuple[ScenePart, ...]) -> list[Note]:
     """One sentence per defective part, for the first few."""
     bad = [p for p in parts if p.defects]
-    out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MOST_NOTES]]
-    if len(bad) > MOST_NOTES:
-        more = len(bad) - MOST_NOTES
+    out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
+    if len(bad) > MAX_NOTES:
+        more = len(bad) - MAX_NOTES
         text = f"{more} more part{' has' if more == 1 else 's have'} defects: see hlr info."
         out.append(Note("more-defects", text))
     return out

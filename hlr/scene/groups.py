@@ -30,7 +30,7 @@ def groups_of(found: MeshScene, brep: npt.NDArray[np.bool_]) -> Groups:
     )
 
 
-def with_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: bool) -> tuple[Groups, Ints]:
+def add_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: bool) -> tuple[Groups, Ints]:
     """Open groups more for mesh edges that have no triangles: one per distinct owner; and the group of each wire.
 
     wires (m, 2), owner (m,). tight: they lie exactly on triangles of other groups.
@@ -58,7 +58,7 @@ def with_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: 
     return more, (n + which.ravel()).astype(np.int32)
 
 
-def touching(groups: Groups, curved: float, planar: float) -> Floats:
+def contact_depths(groups: Groups, curved: float, planar: float) -> Floats:
     """(g,) model units: nearer than this to another surface, a group touches it.
 
     curved, planar: for groups with a B-rep. A bare mesh does not tell what it was made with: a share of the model.

@@ -24,37 +24,39 @@ from hlr import _kernel
 from hlr._kernel import MeshFacts
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
-from hlr.scene.topology import keys
-from hlr.source.mesh.weld import LOW
+from hlr.scene.chains import edge_keys
+from hlr.source.mesh.cleaning import NEEDLE_HEIGHT
 
 Indices = npt.NDArray[np.intp]
 
-MOST_STEPS = 32
+MAX_STEPS = 32
 """Needles side by side, of each the longest side on the next one, before what lies beyond is taken as not known."""
 
 
 @dataclass(frozen=True, slots=True)
-class Supported:
+class ReliableNormals:
     """normals (t, 3), zero where there is none; fold (e,): cosines, NaN where there is none."""
 
     normals: Floats
     fold: Floats
 
 
-def supported(mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, precision: Floats) -> Supported:
+def reliable_normals(
+    mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, precision: Floats
+) -> ReliableNormals:
     """The normals and folds that the coordinates of a mesh support; a triangle without area is a needle, too.
 
     part_of (t,); precision (p,): how far coordinates of each part may be off, in model units; 0 where they are exact
     """
-    low, longest = _kernel.needles(points, triangles, mesh.normals, part_of, LOW * precision)
+    low, longest = _kernel.needles(points, triangles, mesh.normals, part_of, NEEDLE_HEIGHT * precision)
     if not len(low):
-        return Supported(mesh.normals, mesh.fold)
+        return ReliableNormals(mesh.normals, mesh.fold)
     # Chains from needle to needle, in terms of needles; what is none ends them.
     beyond, sense = _across(mesh, triangles, low, longest)
     place = np.minimum(np.searchsorted(low, beyond), len(low) - 1)
     follows = low[place] == beyond
     target, turn, going = beyond.copy(), sense.copy(), follows
-    for _ in range(MOST_STEPS - 1):
+    for _ in range(MAX_STEPS - 1):
         at = np.searchsorted(low, target[going])
         turn[going] = turn[going] * sense[at]
         target[going] = beyond[at]
@@ -66,14 +68,14 @@ def supported(mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, p
     is_low[low] = True
     normals = mesh.normals.copy()
     normals[low] = np.where(is_low[target], 0.0, turn)[:, None] * mesh.normals[target]
-    return Supported(normals, _folds(mesh, normals, is_low))
+    return ReliableNormals(normals, _folds(mesh, normals, is_low))
 
 
 def _across(mesh: MeshFacts, triangles: Ints, low: Indices, longest: Indices) -> tuple[Indices, Floats]:
     """The triangles beyond the longest sides, and -1 where they run the other way round; themselves at a border."""
     n = int(triangles.max(initial=-1)) + 1
     ends = np.stack([triangles[low, longest], triangles[low, (longest + 1) % 3]], axis=1)
-    edge = np.searchsorted(keys(mesh.edges, n), keys(np.sort(ends, axis=1), n))
+    edge = np.searchsorted(edge_keys(mesh.edges, n), edge_keys(np.sort(ends, axis=1), n))
     first = mesh.offsets[edge]
     two = mesh.offsets[edge + 1] - first == 2
     one, other = mesh.incident[first], mesh.incident[np.where(two, first + 1, first)]

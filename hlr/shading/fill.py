@@ -15,7 +15,7 @@ from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
 from hlr.scene.scene import INTERIOR, Scene
 from hlr.shading.lens import lens_at, toward_light
 from hlr.shading.scene import shaded_scene
-from hlr.source.model import Look
+from hlr.source.model import Appearance
 from hlr.tables.line_classes import EdgeClass
 
 MOST = 6_000_000
@@ -32,7 +32,7 @@ BAND = 0.3
 
 def filled(
     scene: Scene,
-    looks: Mapping[str, Look],
+    looks: Mapping[str, Appearance],
     camera: Camera,
     shown: Floats,
     per_model: float,

@@ -10,10 +10,10 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats
-from hlr.scene.colors import corner_paint
+from hlr.scene.colors import corner_colors
 from hlr.scene.scene import Geometry
 from hlr.shading.normals import corner_normals
-from hlr.source.model import Look
+from hlr.source.model import Appearance
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class ShadedScene:
 
 
 def shaded_scene(
-    scene: Geometry, looks: Mapping[str, Look], near: Floats | None = None, threads: int = 0
+    scene: Geometry, looks: Mapping[str, Appearance], near: Floats | None = None, threads: int = 0
 ) -> ShadedScene:
     """The triangles of a scene, ready for any number of pictures.
 
@@ -35,7 +35,7 @@ def shaded_scene(
     reach there are cut open, and seen from inside.
     """
     normals, corner = corner_normals(scene, threads)
-    colours, paint = corner_paint(scene, looks)
+    colours, paint = corner_colors(scene, looks)
     opened = np.zeros(len(scene.groups.cull), bool)
     glass = np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
     opened[scene.triangle_group[glass]] = True

@@ -11,7 +11,7 @@ from hlr.source.model import Source
 from hlr.tables.readers import ENDINGS
 
 if TYPE_CHECKING:
-    from hlr.source.cad.brep import BrepSource
+    from hlr.source.cad.brep_source import BrepSource
 
 __all__ = ["ENDINGS", "open_source"]
 
@@ -32,24 +32,24 @@ def open_source(thing: Any, var: str | None = None, annotations: bool = False) -
     """
     if isinstance(thing, str | os.PathLike):
         return _open_path(Path(os.fspath(thing)), var, annotations)
-    from hlr.source.cad.objects import family
+    from hlr.source.cad.objects import package_of
 
     if type(thing).__module__.startswith("hlr.source."):
         opened: Source = thing
         return opened
     if var is not None:
         raise OptionError("var names a variable of a script, and an object is no script: leave it out.")
-    root = family(thing)
+    root = package_of(thing)
     if root == "trimesh":
-        from hlr.source.mesh.arrays import open_trimesh
+        from hlr.source.mesh.objects import open_trimesh
 
         return open_trimesh(thing)
     if root == "manifold3d":
-        from hlr.source.mesh.arrays import open_manifold
+        from hlr.source.mesh.objects import open_manifold
 
         return open_manifold(thing)
     if _is_arrays(thing):
-        from hlr.source.mesh.arrays import open_arrays
+        from hlr.source.mesh.objects import open_arrays
 
         return open_arrays(*thing)
     from hlr.source.cad.objects import is_shape_like, open_object
@@ -74,7 +74,7 @@ def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
 
 
 def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
-    from hlr.source.files import check_readable
+    from hlr.source.file_checks import check_readable
 
     kind = ENDINGS.get(path.suffix.lower())
     check_readable(path)
@@ -89,14 +89,16 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
     if var is not None:
         raise OptionError(f"var names a variable of a script, and {path.name} is no script: leave it out.")
     if kind in ("step", "iges", "brep"):
-        from hlr.source.cad.stored import through_cache
+        from hlr.source.cad.cached_files import read_through_cache
 
-        return through_cache(path, kind, annotations and kind == "step", lambda: _read_cad(path, kind, annotations))
+        return read_through_cache(
+            path, kind, annotations and kind == "step", lambda: _read_cad(path, kind, annotations)
+        )
     if kind in ("3mf", "glb"):
-        from hlr.source.mesh.packed import open_packed
+        from hlr.source.mesh.glb_3mf import open_glb_or_3mf
 
-        return open_packed(path, kind)
-    from hlr.source.mesh.meshfile import open_mesh_file
+        return open_glb_or_3mf(path, kind)
+    from hlr.source.mesh.mesh_file import open_mesh_file
 
     return open_mesh_file(path, kind)
 
@@ -104,9 +106,10 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
 def _read_cad(path: Path, kind: str, annotations: bool) -> BrepSource:
     """A STEP, IGES or BREP file as OpenCASCADE reads it."""
     if kind == "brep":
-        from hlr.source.cad.brepfile import open_brep
+        from hlr.source.cad.brep_file import open_brep
 
         return open_brep(path)
-    from hlr.source.cad.step import open_iges, open_step
+    from hlr.source.cad.iges import open_iges
+    from hlr.source.cad.step import open_step
 
     return open_step(path, annotations) if kind == "step" else open_iges(path)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from hlr.common.types import Color, Floats, Ints, Progress, Rgba
 from hlr.drawing.notes import Note
 
-PLAIN: Rgba = (0.70, 0.74, 0.79, 1.0)
+DEFAULT_COLOR: Rgba = (0.70, 0.74, 0.79, 1.0)
 """What nobody gave a colour."""
 
 
@@ -37,7 +37,7 @@ class SurfaceRecords:
 
 
 @dataclass(frozen=True, slots=True)
-class OnSurfaces:
+class SurfaceParameters:
     """Where a part's mesh lies on the surfaces of its faces.
 
     corner    (m, 3)    int32 into uv: a node on an edge has different parameters on each of its faces
@@ -89,14 +89,14 @@ class PartMesh:
     edge_index: Ints
     edge_class: npt.NDArray[np.uint8]
     brep: bool
-    on_surfaces: OnSurfaces | None = None
+    on_surfaces: SurfaceParameters | None = None
     precision: float = 0.0
     joined: bool = False
     origin: Ints | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Appearance:
     """How one part looks.
 
     whole    the part's own colour; None where the source says nothing
@@ -141,7 +141,7 @@ class Curves:
 
     kind    (n,) uint8, 0 where the curve is not known
     range   (n, 2) first and last parameter; the curve is run through in rising order
-    offsets (n+1,) into values: the numbers of each record, as `hlr.source.geometry` describes them
+    offsets (n+1,) into values: the numbers of each record, as `hlr.source.curve_records` describes them
     """
 
     kind: npt.NDArray[np.uint8]
@@ -164,7 +164,7 @@ class EdgeCurves:
 
 
 @dataclass(slots=True)
-class Meshed:
+class Tessellation:
     """All parts of a source, tessellated.
 
     edge_curves: the curves of edges, given as (m,) parts and (m,) indices in their TopExp edge maps; None for meshes
@@ -216,11 +216,11 @@ class Source(Protocol):
     def of_parts(self, names: Collection[str], choice: Choice) -> Source:
         """The same source with these parts only; `choice` says how they were chosen."""
 
-    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Meshed:
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""
 
     def transparent(self) -> bool:
         """Some part may be transparent; cheap, and sure where it says no."""
 
-    def looks(self) -> Mapping[str, Look]:
+    def looks(self) -> Mapping[str, Appearance]:
         """How the parts look, by name; gathered when it is asked for, for a drawing has no use of it."""

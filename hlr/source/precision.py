@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats
-from hlr.source.extent import box
+from hlr.source.bounds import bounding_box
 
 FINEST_GRID = 2.0**-31
 """Of the size: a finer grid is no rounding."""
@@ -33,11 +33,11 @@ USED = 0.01
 """Of single numbers that were rounded, nearly all use their last bits; of short ones (0.5, 1000) none do."""
 
 
-def precision(points: Floats) -> float:
+def coordinate_precision(points: Floats) -> float:
     """How far coordinates (n, 3) may be off by what they were rounded to, in their own unit; 0 without points."""
     if not len(points):
         return 0.0
-    corners = box(points)
+    corners = bounding_box(points)
     size = float(np.abs(corners).max())
     # From half the largest number on differences overflow.
     if size == 0.0 or not np.isfinite(2.0 * size):

@@ -15,7 +15,7 @@ from hlr.image.image import Image
 from hlr.request.accuracy import Tolerances
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
-from hlr.scene.groups import touching
+from hlr.scene.groups import contact_depths
 from hlr.scene.scene import INTERIOR
 from hlr.tables.line_classes import EdgeClass
 
@@ -156,7 +156,7 @@ def _coming_near(image: Image, delta: Floats, lift: float) -> int:
 
 def _contact(image: Image, tolerances: Tolerances) -> tuple[Floats, Floats]:
     groups, camera = image.groups, image.camera
-    delta = touching(groups, tolerances.contact, tolerances.contact_planar)
+    delta = contact_depths(groups, tolerances.contact, tolerances.contact_planar)
     delta = np.where(groups.tight, tolerances.rounding, delta)
     used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])
     # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet has none: only

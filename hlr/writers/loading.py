@@ -45,7 +45,7 @@ def load(file: str | os.PathLike[str] | IO[Any]) -> Drawing:
             return loads(file.read(), name)
         except (OSError, ValueError) as error:
             raise SourceError(f"{name} cannot be read: {error}") from None
-    from hlr.source.files import check_readable
+    from hlr.source.file_checks import check_readable
 
     try:
         path = Path(file)

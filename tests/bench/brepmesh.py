@@ -21,8 +21,8 @@ from bench.table import Table, geometric_mean
 from hlr import _kernel
 from hlr.lab.rivals.opencascade import face_meshes, forget_mesh, mesh, triangle_count
 from hlr.source import open_source
-from hlr.source.cad.parts import compound, explored
-from hlr.source.cad.roots import dumped
+from hlr.source.cad.prototypes import binary_dump
+from hlr.source.cad.shapes import make_compound, sub_shapes
 
 ANGLE = 0.35
 """Radians."""
@@ -50,7 +50,7 @@ def ours(roots, deflection, runs):
     times = []
     for _ in range(runs):
         begin = time.perf_counter()
-        model = _kernel.BrepModel(dumped(roots))
+        model = _kernel.BrepModel(binary_dump(roots))
         meshed = model.mesh(deflection, ANGLE)
         times.append(time.perf_counter() - begin)
     found = meshed.parts(model.planar(1e-9))
@@ -80,18 +80,18 @@ def _open(found):
 def theirs(roots, deflection, runs):
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-    everything = compound(roots)
+    everything = make_compound(roots)
     times = []
     for _ in range(runs):
         forget_mesh(everything)
         begin = time.perf_counter()
         mesh(everything, deflection, ANGLE)
         times.append(time.perf_counter() - begin)
-    model = _kernel.BrepModel(dumped(roots))
+    model = _kernel.BrepModel(binary_dump(roots))
     seen, number, empty = set(), 0, 0
     faces, points, uv = [], [], []
     for root in roots:
-        for shape in explored(root, Kind.TopAbs_FACE):
+        for shape in sub_shapes(root, Kind.TopAbs_FACE):
             if shape.TShape() in seen:
                 continue
             seen.add(shape.TShape())
@@ -105,7 +105,7 @@ def theirs(roots, deflection, runs):
                 uv.append(par[found.triangles])
                 faces.append(np.full(len(found.triangles), number))
             number += 1
-    count = sum(triangle_count(face) for root in roots for face in explored(root, Kind.TopAbs_FACE))
+    count = sum(triangle_count(face) for root in roots for face in sub_shapes(root, Kind.TopAbs_FACE))
     forget_mesh(everything)
     errors = off(model, *(np.concatenate(x) for x in (faces, points, uv))) if faces else np.empty(0)
     return statistics.median(times), count, errors, empty

@@ -17,7 +17,7 @@ from hlr.drawing.drawing import Drawing
 from hlr.pipeline import session
 from hlr.pipeline.draw import draw_views
 from hlr.source import open_source
-from hlr.source.model import Meshed, PartMesh, Source
+from hlr.source.model import PartMesh, Source, Tessellation
 
 Floats = npt.NDArray[np.float64]
 
@@ -46,11 +46,11 @@ def turn(reach: float, size: float, seed: int) -> Floats:
 class Disturbed:
     """A source that hands over given points instead of its own: same triangles, edges, names and bounds."""
 
-    def __init__(self, source: Source, meshed: Meshed, points: Sequence[Floats]) -> None:
+    def __init__(self, source: Source, meshed: Tessellation, points: Sequence[Floats]) -> None:
         self.name, self.kind, self.frame, self.notes = source.name, source.kind, source.frame, source.notes
         self._source = source
         pairs = zip(meshed.parts, points, strict=True)
-        self._meshed = Meshed([replace(part, points=moved) for part, moved in pairs], list(meshed.notes))
+        self._meshed = Tessellation([replace(part, points=moved) for part, moved in pairs], list(meshed.notes))
 
     def bounds(self) -> Floats:
         return self._source.bounds()
@@ -67,7 +67,7 @@ class Disturbed:
     def transparent(self) -> bool:
         return False
 
-    def mesh(self, *_: Any) -> Meshed:
+    def mesh(self, *_: Any) -> Tessellation:
         return self._meshed
 
 
@@ -101,7 +101,7 @@ class Model:
         low, high = every.min(axis=0), every.max(axis=0)
         self.size, self.centre = float(np.linalg.norm(high - low)), (low + high) / 2.0
 
-    def _mesh(self) -> Meshed:
+    def _mesh(self) -> Tessellation:
         from hlr.request.accuracy import ANGLE
 
         return self.source.mesh(self.deflection, ANGLE)

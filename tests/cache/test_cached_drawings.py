@@ -13,8 +13,8 @@ import pytest
 import hlr
 from hlr.cache.entry import packed, unpacked
 from hlr.source import open_source
-from hlr.source.cad import key
-from hlr.source.cad.stored import recorded
+from hlr.source.cad import cache_key
+from hlr.source.cad.cached_files import to_entry
 
 DATA = Path(__file__).parents[1] / "data"
 ASSEMBLY, PART, SCREW = (
@@ -177,18 +177,18 @@ def test_what_was_read_from_something_else_or_by_something_else_is_not_used(chan
     elif change == "name":
         part = part.rename(tmp_path / "other.step")
     elif change == "code":
-        monkeypatch.setattr(key, "_own_code", lambda: "another")
+        monkeypatch.setattr(cache_key, "_own_code", lambda: "another")
     else:
-        monkeypatch.setattr(key, "_bindings", lambda: ["cadquery_ocp-9.dist-info"])
-    key._reader.cache_clear()
+        monkeypatch.setattr(cache_key, "_bindings", lambda: ["cadquery_ocp-9.dist-info"])
+    cache_key._reader.cache_clear()
     assert "is in the cache now" in open_source(part).reading
     assert len(list(own_cache.iterdir())) == 2
-    key._reader.cache_clear()
+    cache_key._reader.cache_clear()
 
 
 def test_the_code_that_counts_is_the_version_and_all_that_reads():
-    names = {"/".join(path.parts[-2:]) for path in key.code_files()}
-    read = {"cad/step.py", "cad/parts.py", "cad/stored.py", "mesh/meshfile.py", "source/files.py"}
+    names = {"/".join(path.parts[-2:]) for path in cache_key.code_files()}
+    read = {"cad/step.py", "cad/parts.py", "cad/cached_files.py", "mesh/mesh_file.py", "source/file_checks.py"}
     assert {"hlr/__init__.py", "tables/readers.py", "cache/entry.py", *read} <= names
 
 
@@ -356,6 +356,6 @@ def test_how_a_model_was_come_by_is_no_part_of_the_drawing():
 
 
 def test_what_is_recorded_holds_no_path_and_no_time(own_cache, tmp_path):
-    facts = [recorded(open_source(path)) for path in (ASSEMBLY, shutil.copy(ASSEMBLY, tmp_path))]
+    facts = [to_entry(open_source(path)) for path in (ASSEMBLY, shutil.copy(ASSEMBLY, tmp_path))]
     assert facts[0] == facts[1]
     assert os.fsencode(str(tmp_path)) not in entry_of(own_cache).read_bytes()

@@ -3,14 +3,14 @@
 from itertools import pairwise
 
 from hlr.lab.rivals.opencascade import ExactAlgo
-from hlr.source.cad.occt import ready
+from hlr.source.cad.occt_import import load_occt
 
 NAMES = ("V", "Rg1LineV", "RgNLineV", "OutLineV", "IsoLineV", "H", "Rg1LineH", "RgNLineH", "OutLineH", "IsoLineH")
 
 
 def project_ex(shape, direction):
     """The ten compounds of FreeCAD's TechDraw.projectEx; None where there are no lines."""
-    ready()
+    load_occt()
     from OCP.BRepLib import BRepLib
 
     found = ExactAlgo(shape, direction)

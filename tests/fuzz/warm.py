@@ -97,12 +97,12 @@ def _serve() -> None:
     import hlr.cli.app
     import hlr.cli.exits
     import hlr.pipeline.draw
-    import hlr.source.cad.brepfile
+    import hlr.source.cad.brep_file
     import hlr.source.cad.step
-    import hlr.source.mesh.meshfile
-    from hlr.source.cad.occt import ready
+    import hlr.source.mesh.mesh_file
+    from hlr.source.cad.occt_import import load_occt
 
-    ready()
+    load_occt()
     for name in ("OCP.IGESCAFControl", "OCP.STEPCAFControl", "trimesh"):
         importlib.import_module(name)
 

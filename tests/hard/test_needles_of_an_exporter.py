@@ -14,7 +14,7 @@ from hard.shapes import rotation
 import hlr
 from hlr import _kernel
 from hlr.scene import build
-from hlr.source.precision import precision
+from hlr.source.precision import coordinate_precision
 
 HEIGHT, RADIUS = 60.0, 20.0
 
@@ -82,7 +82,7 @@ def test_a_box_keeps_its_twelve_edges(size, off):
 
 
 def test_without_the_look_at_heights_there_are_stray_lines(monkeypatch, needles):
-    monkeypatch.setattr(build, "supported", lambda mesh, *_: mesh)
+    monkeypatch.setattr(build, "reliable_normals", lambda mesh, *_: mesh)
     rim = 36 * 2 * RADIUS * np.sin(np.pi / 36)
     found = length(creases(hlr.draw(prism(36), "iso", fit=(150, 150))))
     assert found > 2.5 * rim if needles == "left" else found <= 2.001 * rim
@@ -93,24 +93,24 @@ def test_precision_of_coordinates():
     points = rng.uniform(-50, 50, (40, 3))
     points[0, 0] = 64.0
     single = 2.0**-24 * 64.0
-    assert precision(points.astype(np.float32).astype(float)) == single
-    assert precision(np.round(points, 4)) == 0.5e-4
-    assert precision(np.round(points, 7)) == single
+    assert coordinate_precision(points.astype(np.float32).astype(float)) == single
+    assert coordinate_precision(np.round(points, 4)) == 0.5e-4
+    assert coordinate_precision(np.round(points, 7)) == single
     written = np.array([[float(f"{c:.7e}") for c in row] for row in points])
-    assert precision(written) == single
+    assert coordinate_precision(written) == single
     # Nine digits tell a single number, nine decimals are still rounded ones; what has more is exact.
     for digits, expected in [(9, single), (10, 2.0**-53 * 64.0)]:
         written = np.array([[float(f"{c:.{digits - 1}e}") for c in row] for row in points])
-        assert precision(written) == expected
+        assert coordinate_precision(written) == expected
     # Small numbers have more decimals, and no more digits.
     small = points * 10.0 ** rng.uniform(-6, 0, points.shape)
     written = np.array([[float(f"{c:.8e}") for c in row] for row in small])
-    assert precision(written) == 2.0**-24 * np.abs(written).max()
-    assert precision(np.round(points * 1e-4, 9)) == 0.5e-9
-    assert precision(np.round(points, 10)) < 1e-13
-    assert precision(points) < 1e-13
-    assert precision(np.zeros((0, 3))) == 0.0
+    assert coordinate_precision(written) == 2.0**-24 * np.abs(written).max()
+    assert coordinate_precision(np.round(points * 1e-4, 9)) == 0.5e-9
+    assert coordinate_precision(np.round(points, 10)) < 1e-13
+    assert coordinate_precision(points) < 1e-13
+    assert coordinate_precision(np.zeros((0, 3))) == 0.0
 
 
 def test_differences_that_overflow_tell_no_step() -> None:
-    assert precision(np.array([[0, 0, 1e300], [0, 0, 0], [0, 0, -1.79769312e308]])) == 0.0
+    assert coordinate_precision(np.array([[0, 0, 1e300], [0, 0, 0], [0, 0, -1.79769312e308]])) == 0.0

@@ -13,7 +13,7 @@ from OCP.Geom import Geom_BSplineSurface
 from OCP.gp import gp_Pnt
 
 import hlr
-from hlr.source.cad.bindings import collection
+from hlr.source.cad.occt_collections import new_collection
 
 LONG, WIDE = 100.0, 20.0
 FLAT = [0.0] * 9
@@ -29,7 +29,7 @@ def strip(heights, side, size):
     knots = np.linspace(0.0, 1.0, n - degree + 1)
     repeats = [degree + 1, *[1] * (len(knots) - 2), degree + 1]
     flat = np.repeat(knots, repeats)
-    poles = collection("point_net", 1, n, 1, 2)
+    poles = new_collection("point_net", 1, n, 1, 2)
     for i, height in enumerate(heights):
         x = LONG * flat[i + 1 : i + 1 + degree].mean()
         poles.SetValue(i + 1, 1, gp_Pnt(size * x, 0, 0))
@@ -41,7 +41,7 @@ def strip(heights, side, size):
 
 
 def _filled(kind, values):
-    result = collection(kind, 1, len(values))
+    result = new_collection(kind, 1, len(values))
     for i, value in enumerate(values):
         result.SetValue(i + 1, value)
     return result
@@ -111,7 +111,7 @@ def test_the_callers_shape_keeps_its_vertices():
     shape = sheet(HALF)
     counts = []
     for _ in range(2):
-        found = collection("shape_map")
+        found = new_collection("shape_map")
         TopExp.MapShapes_s(shape, TopAbs_ShapeEnum.TopAbs_VERTEX, found)
         counts.append(found.Extent())
         hlr.draw(shape, "iso")

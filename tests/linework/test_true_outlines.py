@@ -17,12 +17,12 @@ from hlr.image.camera import Camera, resolve
 from hlr.image.image import image_of
 from hlr.image.outlines import outlined
 from hlr.image.placement import Placement
+from hlr.lab.measure.occt_curves import evaluate_curves
 from hlr.request.accuracy import derive
 from hlr.request.drawing_effects import DRAWING
 from hlr.request.effect import Planner
 from hlr.scene.build import build
 from hlr.source import open_source
-from hlr.source.geometry import evaluated
 
 cq = pytest.importorskip("cadquery")
 
@@ -193,7 +193,7 @@ def test_between_its_points_too_a_curve_follows_the_surface(shape, view, camera)
     assert (silhouettes.curves.kind > 0).any()
     for k in np.flatnonzero(silhouettes.curves.kind > 0):
         t = np.linspace(*silhouettes.curves.range[k], 200)
-        points = evaluated(silhouettes.curves, np.full(len(t), k, np.int32), t)[:, 0]
+        points = evaluate_curves(silhouettes.curves, np.full(len(t), k, np.int32), t)[:, 0]
         slope, away = slopes(shape, faces[k], points, seen)
         assert away.max() <= 0.05 * tolerances.deflection
         assert slope.max() <= 0.01

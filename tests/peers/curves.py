@@ -21,8 +21,8 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.drawing.saving import render
 from hlr.source import open_source
-from hlr.source.cad.parts import explored
-from hlr.source.locations import moved
+from hlr.source.cad.shapes import sub_shapes
+from hlr.source.transforms import transform_points
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
 SHEET = (277, 190)
@@ -38,7 +38,7 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
-    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
     parts = {part.name: part for part in source.parts}
     known: dict[tuple[str, int], Any] = {}
 
@@ -51,7 +51,7 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
             count = 8 * DENSE if spline else DENSE
             places = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
             values = [curve.Value(float(t)) for t in places]
-            known[name, edge] = moved(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
+            known[name, edge] = transform_points(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
         return known[name, edge]
 
     return at

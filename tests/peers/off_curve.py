@@ -79,10 +79,10 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
     from OCP.TopoDS import TopoDS
     from peers.curves import true_curves
 
-    from hlr.source.cad.parts import explored
+    from hlr.source.cad.shapes import sub_shapes
 
     curves = true_curves(source)
-    edges = [explored(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
     parts = {part.name: part for part in source.parts}
 
     def true(name: str, edge: int) -> Floats | None:

@@ -25,7 +25,7 @@ from hlr.request.effect import Planner
 from hlr.request.options import Options
 from hlr.scene.build import build
 from hlr.source import open_source
-from hlr.source.cad.parts import explored
+from hlr.source.cad.shapes import sub_shapes
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
 SHEET = (277, 190)
@@ -81,7 +81,7 @@ def measured(path: Path, view: Any, options: Options) -> tuple[int, int, int, fl
     meshed = source.mesh(tolerances.deflection, tolerances.angle)
     bare = image_of(build(meshed, options.crease, tolerances.deflection), camera, at)
     scene = outlined(bare, 0, Planner(DRAWING, options))
-    faces = [explored(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.roots.shapes]
+    faces = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.roots.shapes]
     parts, values, count = source.parts, [np.zeros((0, 2))], 0
     for part, face, points in outlines(scene):
         own = parts[part]

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from hlr.source.cad.bindings import collection
+from hlr.source.cad.occt_collections import new_collection
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]
@@ -95,7 +95,7 @@ def edges(shape: Any, count: int) -> Iterator[tuple[Floats, Floats]]:
     from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
 
-    table = collection("ancestor_map")
+    table = new_collection("ancestor_map")
     TopExp.MapShapesAndAncestors_s(wrapped(shape), TopAbs_EDGE, TopAbs_FACE, table)
     for i in range(1, table.Extent() + 1):
         edge = TopoDS.Edge_s(table.FindKey(i))
@@ -147,7 +147,7 @@ def bezier(poles: npt.ArrayLike) -> Any:
     from OCP.gp import gp_Pnt
 
     p = np.asarray(poles, float)
-    array = collection("point_net", 1, p.shape[0], 1, p.shape[1])
+    array = new_collection("point_net", 1, p.shape[0], 1, p.shape[1])
     for i in range(p.shape[0]):
         for j in range(p.shape[1]):
             array.SetValue(i + 1, j + 1, gp_Pnt(*p[i, j].tolist()))
@@ -160,7 +160,7 @@ def spline(heights: Callable[[float, float], float], size: float, poles: int) ->
     from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
     from OCP.gp import gp_Pnt
 
-    array = collection("point_net", 1, poles, 1, poles)
+    array = new_collection("point_net", 1, poles, 1, poles)
     for i, x in enumerate(np.linspace(-size / 2, size / 2, poles)):
         for j, y in enumerate(np.linspace(-size / 2, size / 2, poles)):
             array.SetValue(i + 1, j + 1, gp_Pnt(float(x), float(y), float(heights(x, y))))

@@ -8,13 +8,13 @@ from preview.shapes import box, joined, linear, sheet
 
 import hlr
 from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
-from hlr.scene.colors import PLAIN
+from hlr.source.model import DEFAULT_COLOR
 
 LIGHT = np.array(SHOULDER) / np.linalg.norm(SHOULDER)
 """In the picture's axes: right, up, toward the viewer."""
 
 
-def lit(normal, color=PLAIN):
+def lit(normal, color=DEFAULT_COLOR):
     """Linear light of a surface with this unit normal, in the picture's axes."""
     return linear(np.array(color[:3]) * 255.0) * (AMBIENT + DIFFUSE * max(0.0, float(np.dot(normal, LIGHT))))
 
@@ -47,7 +47,7 @@ def test_a_sphere_is_shaded_by_its_true_normals(antialias, perspective):
         t = (-b - np.sqrt(np.where(inside, under, 0))) / (2 * a)
         nx, ny, nz = rx * t / 10, ry * t / 10, (d - d * t) / 10
     facing = np.maximum(0, nx * LIGHT[0] + ny * LIGHT[1] + nz * LIGHT[2])
-    expected = linear(np.array(PLAIN[:3]) * 255.0) * (AMBIENT + DIFFUSE * facing)[..., None]
+    expected = linear(np.array(DEFAULT_COLOR[:3]) * 255.0) * (AMBIENT + DIFFUSE * facing)[..., None]
     off = np.abs(linear(picture.pixels[:, :, :3]) - expected).max(axis=2)[inside]
     assert inside.sum() > 25000
     assert off.max() < 0.012

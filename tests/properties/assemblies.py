@@ -17,7 +17,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from properties.frozen import Frozen
 
-from hlr.source.mesh.arrays import open_manifold
+from hlr.source.mesh.objects import open_manifold
 from hlr.source.model import PartMesh
 from hlr.tables.line_classes import EdgeClass
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from properties.frozen import Frozen
 
-from hlr.source.model import OnSurfaces, PartMesh
+from hlr.source.model import PartMesh, SurfaceParameters
 
 Random = np.random.Generator
 
@@ -35,7 +35,7 @@ def moved(model: Frozen, matrix: np.ndarray, offset: Sequence[float] = (0.0, 0.0
     return replace(model, parts=tuple(each(part) for part in model.parts))
 
 
-def _corners(part: PartMesh, change: Callable[[np.ndarray], np.ndarray]) -> OnSurfaces | None:
+def _corners(part: PartMesh, change: Callable[[np.ndarray], np.ndarray]) -> SurfaceParameters | None:
     """Where triangles lie on their surfaces goes with them."""
     on = part.on_surfaces
     return replace(on, corner=np.ascontiguousarray(change(on.corner))) if on is not None else None
@@ -151,7 +151,7 @@ def _split(part: PartMesh, rng: Random) -> PartMesh:
     )
 
 
-def _split_surfaces(part: PartMesh, share: np.ndarray) -> OnSurfaces | None:
+def _split_surfaces(part: PartMesh, share: np.ndarray) -> SurfaceParameters | None:
     """The same in parameters; share (3 m,) of each side, from its node of the lower number."""
     on = part.on_surfaces
     if on is None:

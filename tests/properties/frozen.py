@@ -17,7 +17,7 @@ from hlr import Drawing, Options
 from hlr.pipeline import session
 from hlr.pipeline.draw import draw_views
 from hlr.source import open_source
-from hlr.source.model import Frame, Meshed, PartInfo, PartMesh
+from hlr.source.model import Frame, PartInfo, PartMesh, Tessellation
 
 BREP = ("step", "iges", "brep", "script", "object")
 ANGLE = 0.5
@@ -63,8 +63,8 @@ class Frozen:
     def boxes(self) -> list[np.ndarray]:
         return [part.points for part in self.parts]
 
-    def mesh(self, deflection: float, angle: float, progress: Any = None) -> Meshed:
-        return Meshed(parts=list(self.parts))
+    def mesh(self, deflection: float, angle: float, progress: Any = None) -> Tessellation:
+        return Tessellation(parts=list(self.parts))
 
 
 def freeze(thing: Any, fineness: float) -> Frozen:

@@ -13,11 +13,11 @@ from scene.invariants import check
 
 from hlr import SourceError
 from hlr.scene.build import build
-from hlr.scene.repair import without_duplicates
+from hlr.scene.duplicates import without_duplicates
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
-from hlr.source.cad.together import together
-from hlr.source.model import Meshed
+from hlr.source.model import Tessellation
+from hlr.source.part_meshes import combine_parts
 from hlr.tables.line_classes import EdgeClass
 
 
@@ -181,16 +181,18 @@ def test_a_repetition_is_noticed_wherever_it_is(again):
     mesh = box((10, 20, 30))
     plain, other = part_of((mesh.vertices, mesh.faces)), part_of((mesh.vertices + 50.0, mesh.faces))
     plain, other = replace(plain, joined=False), replace(other, joined=False)
-    assert not together([plain, other, plain]).tables.places_repeated(), "equal parts are no repetition in any of them"
-    assert not together([plain]).tables.facts().repeated
+    assert not combine_parts([plain, other, plain]).tables.places_repeated(), (
+        "equal parts are no repetition in any of them"
+    )
+    assert not combine_parts([plain]).tables.facts().repeated
     for corners in (mesh.faces[again], np.roll(mesh.faces[again], 1), mesh.faces[again][::-1]):
         triangles = np.concatenate([plain.triangles, corners[None].astype(np.int32)])
         twice = replace(plain, triangles=triangles, triangle_face=np.zeros(len(triangles), np.int32))
-        assert together([twice]).tables.facts().repeated
+        assert combine_parts([twice]).tables.facts().repeated
     where = again % len(plain.points)
     points = np.concatenate([plain.points, plain.points[where : where + 1]])
-    assert together([other, replace(plain, points=points)]).tables.places_repeated()
-    assert not together([other, replace(plain, points=points, joined=True)]).tables.places_repeated()
+    assert combine_parts([other, replace(plain, points=points)]).tables.places_repeated()
+    assert not combine_parts([other, replace(plain, points=points, joined=True)]).tables.places_repeated()
 
 
 @pytest.mark.parametrize("far", [(0, 0, 0), (30, -40, 50), (-12345678.9, 23456789.1, 9876543.2)])
@@ -228,7 +230,7 @@ def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():
     assert count == len(one.triangles)
     assert (kept.triangles == one.triangles).all()
     assert (kept.edge_nodes == np.concatenate([one.edge_nodes, one.edge_nodes])).all()
-    scene = build(Meshed([kept], []), 30.0, 0.05)
+    scene = build(Tessellation([kept], []), 30.0, 0.05)
     check(scene)
     assert scene.groups.closed.all()
     # Not the part of a face: where neighbours lap over each other, a triangle may be there twice and be needed.
@@ -276,7 +278,7 @@ def test_nothing_to_draw():
     part = part_of(box((1, 1, 1)))
     empty = replace(part, triangles=part.triangles[:0], triangle_face=part.triangle_face[:0])
     with pytest.raises(SourceError, match="nothing to draw"):
-        build(Meshed([empty]), 30.0, 0.05)
+        build(Tessellation([empty]), 30.0, 0.05)
 
 
 def test_a_part_that_is_not_finite_is_refused():
@@ -284,7 +286,7 @@ def test_a_part_that_is_not_finite_is_refused():
     broken = part.points.copy()
     broken[0, 0] = np.nan
     with pytest.raises(SourceError, match="not finite"):
-        build(Meshed([replace(part, points=broken)]), 30.0, 0.05)
+        build(Tessellation([replace(part, points=broken)]), 30.0, 0.05)
 
 
 def test_a_solid_turned_inside_out_is_turned_and_reported():

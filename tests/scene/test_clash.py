@@ -28,7 +28,7 @@ from scene.crossings import (
 )
 
 from hlr.scene.build import build
-from hlr.scene.defects import MOST_NOTES
+from hlr.scene.defects import MAX_NOTES
 from hlr.scene.scene import Scene
 from hlr.source import open_source
 from hlr.tables.line_classes import EdgeClass
@@ -339,11 +339,11 @@ def test_a_solid_turned_inside_out_is_called_so():
     assert defects(scene) == [("the solid is turned inside out",)]
 
 
-@pytest.mark.parametrize(("count", "more"), [(1, 0), (MOST_NOTES, 0), (MOST_NOTES + 1, 1), (MOST_NOTES + 3, 3)])
+@pytest.mark.parametrize(("count", "more"), [(1, 0), (MAX_NOTES, 0), (MAX_NOTES + 1, 1), (MAX_NOTES + 3, 3)])
 def test_no_more_than_a_few_parts_are_named(count, more):
     sheets = [sheet(5, 3 * k) for k in range(count)]
     scene = scene_of(parts(box((9, 9, 1), (50, 0, 0)), *sheets))
     assert [bool(d) for d in defects(scene)] == [False, *[True] * count]
-    named = [f'Part "part{k + 1}" is drawn as it is: open: 4 border edges.' for k in range(min(count, MOST_NOTES))]
+    named = [f'Part "part{k + 1}" is drawn as it is: open: 4 border edges.' for k in range(min(count, MAX_NOTES))]
     rest = {0: [], 1: ["1 more part has defects: see hlr info."], 3: ["3 more parts have defects: see hlr info."]}
     assert list(map(str, scene.notes)) == named + rest[more]

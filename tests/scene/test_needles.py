@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hlr.scene import needles
-from hlr.source.cad.together import together
 from hlr.source.model import PartMesh
+from hlr.source.part_meshes import combine_parts
 
 STEP = 1e-6
 
@@ -29,14 +29,14 @@ def facts(points, triangles):
         edge_class=none.astype(np.uint8),
         brep=False,
     )
-    return together([part]).tables.facts(), points, triangles
+    return combine_parts([part]).tables.facts(), points, triangles
 
 
 def supported(points, triangles, precision=0.0):
     mesh, points, triangles = facts(points, triangles)
     given = np.broadcast_to(np.asarray(precision, float), len(triangles)).copy()
     # Each triangle as a part of its own.
-    found = needles.supported(mesh, points, triangles, np.arange(len(triangles), dtype=np.int32), given)
+    found = needles.reliable_normals(mesh, points, triangles, np.arange(len(triangles), dtype=np.int32), given)
     return SimpleNamespace(edges=mesh.edges, normals=mesh.normals, fold=mesh.fold), SimpleNamespace(
         edges=mesh.edges, normals=found.normals, fold=found.fold
     )

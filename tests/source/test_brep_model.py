@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hlr import _kernel
-from hlr.source.cad.parts import compound
+from hlr.source.cad.shapes import make_compound
 
 
 def dumped(*shapes):
@@ -17,7 +17,7 @@ def dumped(*shapes):
 
     stream = io.BytesIO()
     version = BinTools_FormatVersion.BinTools_FormatVersion_VERSION_4
-    BinTools.Write_s(compound([shape.val().wrapped for shape in shapes]), stream, False, False, version)
+    BinTools.Write_s(make_compound([shape.val().wrapped for shape in shapes]), stream, False, False, version)
     return stream.getvalue()
 
 

@@ -124,7 +124,7 @@ def test_tessellated_shapes_are_meshes(tmp_path, gaps):
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS_Face
 
-    from hlr.source.cad.parts import compound
+    from hlr.source.cad.shapes import make_compound
 
     solid = cq.Workplane().box(1, 2, 3).val()
     BRepMesh_IncrementalMesh(solid.wrapped, 0.1)
@@ -133,7 +133,7 @@ def test_tessellated_shapes_are_meshes(tmp_path, gaps):
         bare.append(TopoDS_Face())
         BRep_Builder().MakeFace(bare[-1], BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()))
         bare[-1].Orientation(face.wrapped.Orientation())
-    (part,) = open_source(compound(bare)).mesh(0.1, 0.3).parts
+    (part,) = open_source(make_compound(bare)).mesh(0.1, 0.3).parts
     assert not part.brep
     assert len(part.points) == 8
     assert gaps(part) == 0
@@ -206,8 +206,8 @@ def test_nothing_is_printed(folder, tmp_path):
 
 
 def test_a_missing_system_library_is_named():
-    from hlr.source.cad.occt import explain
+    from hlr.source.cad.occt_import import import_failure_message
 
     cause = ImportError("libGL.so.1: cannot open shared object file: No such file or directory")
-    assert "apt-get install libgl1" in explain(cause)
-    assert "pip install cadquery" in explain(ModuleNotFoundError("No module named 'OCP'"))
+    assert "apt-get install libgl1" in import_failure_message(cause)
+    assert "pip install cadquery" in import_failure_message(ModuleNotFoundError("No module named 'OCP'"))

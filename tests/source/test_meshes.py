@@ -14,7 +14,7 @@ import pytest
 
 from hlr.errors import SourceError
 from hlr.source import open_source
-from hlr.source.mesh.weld import clean
+from hlr.source.mesh.cleaning import clean_mesh
 
 trimesh = pytest.importorskip("trimesh")
 
@@ -96,7 +96,7 @@ def test_corners_are_joined_by_equality_alone():
     tiny = np.nextafter(1.0, 2.0)
     points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (-0.0, 0, 0), (tiny, 0, 0), (0, 1, 0), (7, 7, 7), (np.nan, 0, 0)]
     triangles = [(0, 1, 2), (3, 4, 5), (0, 3, 1), (0, 1, 7), (0, 1, 99)]
-    mesh = clean(np.array(points), np.array(triangles))
+    mesh = clean_mesh(np.array(points), np.array(triangles))
     assert mesh.points.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [tiny, 0, 0]]
     assert mesh.triangles.tolist() == [[0, 1, 2], [0, 3, 2]]
     assert (mesh.degenerate, mesh.not_finite, mesh.out_of_range) == (1, 1, 1)

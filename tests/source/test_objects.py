@@ -9,7 +9,7 @@ import pytest
 
 from hlr.errors import SourceError
 from hlr.source import open_source
-from hlr.source.cad.together import Label, Together, together
+from hlr.source.part_meshes import PartLabel, PartMeshes, combine_parts
 
 cq = pytest.importorskip("cadquery")
 
@@ -100,7 +100,7 @@ def test_one_bad_part_does_not_stop_the_others():
 
 
 def test_a_mesher_that_fails_on_one_part(monkeypatch):
-    from hlr.source.cad import tessellate
+    from hlr.source.cad import tessellator
 
     class Failing:
         """A mesh of the kernel that has lost its last face."""
@@ -116,17 +116,17 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
 
         def parts(self, planar):
             found = self.meshed.parts(planar)
-            nameless = [Label("", None, np.eye(4))] * len(found)
-            *others, last = Together(nameless, found, object())
+            nameless = [PartLabel("", None, np.eye(4))] * len(found)
+            *others, last = PartMeshes(nameless, found, object())
             none = replace(last.on_surfaces, corner=last.on_surfaces.corner[:0])
             without = replace(
                 last, triangles=last.triangles[:0], triangle_face=last.triangle_face[:0], on_surfaces=none
             )
-            return together([*others, without]).tables
+            return combine_parts([*others, without]).tables
 
-    mesh = tessellate._kernel.BrepModel.mesh
-    monkeypatch.setattr(tessellate._kernel.BrepModel, "mesh", lambda model, *given: Failing(mesh(model, *given)))
-    monkeypatch.setattr(tessellate, "rescue", lambda *_: False)
+    mesh = tessellator._kernel.BrepModel.mesh
+    monkeypatch.setattr(tessellator._kernel.BrepModel, "mesh", lambda model, *given: Failing(mesh(model, *given)))
+    monkeypatch.setattr(tessellator, "rescue", lambda *_: False)
     meshed = open_source([cq.Workplane().box(1, 1, 1), cq.Workplane().sphere(1)]).mesh(0.1, 0.3)
     assert len(meshed.parts) == 1
     assert any('"part:2"' in note.text and "1 of 1 faces could not be meshed" in note.text for note in meshed.notes)

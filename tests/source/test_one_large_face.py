@@ -11,7 +11,7 @@ import pytest
 from hard.test_terrain import terrain
 
 from hlr import _kernel
-from hlr.source.cad.roots import dumped
+from hlr.source.cad.prototypes import binary_dump
 
 MINUTE = 1e-5
 """Chord error, millimetres, of tens of millions of triangles: many seconds of work on any machine."""
@@ -19,7 +19,7 @@ MINUTE = 1e-5
 
 @pytest.fixture(scope="module")
 def dump():
-    return dumped([terrain(40).wrapped])
+    return binary_dump([terrain(40).wrapped])
 
 
 @pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals as in POSIX")

@@ -15,11 +15,12 @@ import numpy as np
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.drawing.drawing import Drawing
+from hlr.lab.measure.occt_curves import edge_record, evaluate_curves, transform_record
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written
-from hlr.source.geometry import NONE, SPLINE, UNKNOWN, Record, edge_record, evaluated, moved_record, packed
-from hlr.source.locations import moved
+from hlr.source.curve_records import NONE, SPLINE, UNKNOWN, Record, pack_curves
 from hlr.source.model import Curves
+from hlr.source.transforms import transform_points
 
 Edge = tuple[int, int]
 """A part of the drawing, and the index of an edge in it."""
@@ -48,7 +49,7 @@ class TrueEdges:
         for i, (part, index) in enumerate(edges):
             of = drawing.parts[part]
             shape = opened.edge_shape(of.name, index)
-            record = moved_record(edge_record(shape), of.transform)
+            record = transform_record(edge_record(shape), of.transform)
             records.append(record)
             places = _places(record)
             truth = _evaluated(shape, of.transform, record)
@@ -56,14 +57,14 @@ class TrueEdges:
                 record = records[-1] = UNKNOWN
                 flat, ends = paper(truth), np.full((max(len(truth) - 1, 0), 2), np.nan)
             else:
-                curve = packed([record])
-                here = evaluated(curve, np.zeros(CHECKS, np.int32), np.linspace(*record[1:3], CHECKS))[:, 0]
+                curve = pack_curves([record])
+                here = evaluate_curves(curve, np.zeros(CHECKS, np.int32), np.linspace(*record[1:3], CHECKS))[:, 0]
                 self._off[i] = float((np.linalg.norm(here - truth, axis=1) * paper.magnified(here)).max(initial=0.0))
-                flat = paper(evaluated(curve, np.zeros(len(places), np.int32), places)[:, 0])
+                flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])
                 finer = _finer(flat, CLOSE * drawing.accuracy.used)
                 if finer > 1:
                     places = np.linspace(places[0], places[-1], (len(places) - 1) * finer + 1)
-                    flat = paper(evaluated(curve, np.zeros(len(places), np.int32), places)[:, 0])
+                    flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])
                 ends = np.stack([places[:-1], places[1:]], axis=1)
             segments = np.concatenate([flat[:-1], flat[1:]], axis=1)
             # What lies behind the eye has no place on paper.
@@ -71,7 +72,7 @@ class TrueEdges:
             chords.append(segments[good])
             spans.append(ends[good])
             owner.append(np.full(int(good.sum()), i, np.int32))
-        self._curves: Curves = packed(records)
+        self._curves: Curves = pack_curves(records)
         self.chords: Floats = np.concatenate(chords) if chords else np.zeros((0, 4))
         self.owner: Ints = np.concatenate(owner) if owner else np.zeros(0, np.int32)
         self._spans: Floats = np.concatenate(spans) if spans else np.zeros((0, 2))
@@ -102,7 +103,7 @@ class TrueEdges:
         low, high = np.minimum(low, high), np.maximum(low, high)
         t, best, at = start, np.full(len(points), np.inf), start
         for _ in range(ITERATIONS):
-            p = self._paper.derived(evaluated(self._curves, which, t))
+            p = self._paper.derived(evaluate_curves(self._curves, which, t))
             off = p[:, 0] - points
             found = np.hypot(off[:, 0], off[:, 1])
             better = found < best
@@ -140,7 +141,7 @@ def _evaluated(shape: Any, transform: Floats, record: Record) -> Floats:
         values = [adaptor.Value(float(t)) for t in np.linspace(first, last, count)]
     except Exception:  # OpenCASCADE's exceptions derive from Exception alone
         return np.zeros((0, 3))
-    return moved(np.array([(p.X(), p.Y(), p.Z()) for p in values]), transform)
+    return transform_points(np.array([(p.X(), p.Y(), p.Z()) for p in values]), transform)
 
 
 def edge_errors(true: TrueEdges, drawing: Drawing, drawn: Sequence[Written], threads: int) -> tuple[Floats, list[str]]:

@@ -24,8 +24,8 @@ from hlr.pipeline.draw import draw_views
 from hlr.pipeline.finish import drawn_view
 from hlr.pipeline.session import Session
 from hlr.request.options import Options
-from hlr.source.chosen import open_chosen
 from hlr.source.model import Source
+from hlr.source.selection import open_selected
 
 CHORDS = 0.02
 """Of the accuracy: how far chords are off the curves that they stand for when lines are judged."""
@@ -235,7 +235,7 @@ def _reached(job: Job) -> dict[str, Any]:
     """What an independent measurement says of our own drawing: OpenCASCADE's curves, surfaces, rays."""
     from hlr.lab.measure import measured
 
-    opened = open_chosen(job.source, job)
+    opened = open_selected(job.source, job)
     drawing = draw_views(opened, [job.view], _options(job, accuracy=job.setting))[0]
     return {"reached": measured(opened, drawing).as_dict()}
 

@@ -13,22 +13,22 @@ from typing import Any
 
 from hlr.drawing.notes import Note
 from hlr.errors import counted
-from hlr.source.cad.bindings import collection
-from hlr.source.cad.parts import compound, explored, located
+from hlr.source.cad.occt_collections import new_collection
+from hlr.source.cad.shapes import make_compound, sub_shapes, with_location
 
 _WORDS = (b"INVISIBILITY", b"CONSTRUCTIVE_GEOMETRY_REPRESENTATION")
 
-MOST_ASKED = 1000
+MAX_ENTITY_LOOKUPS = 1000
 """Shells and faces whose entity is looked up, each among all that the file has: the others are taken as drawn."""
 
 
-def may_hold(path: Path) -> bool:
+def may_contain_annotation(path: Path) -> bool:
     """Whether the file knows of anything hidden or supplemental; most files do not, and are not searched further."""
     with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
         return any(data.find(word) >= 0 for word in _WORDS)
 
 
-class Annotation:
+class AnnotationFilter:
     """Leaves out of a document's products the shells and faces that are hidden or supplemental, solids never."""
 
     def __init__(self, reader: Any, document: Any) -> None:
@@ -46,7 +46,7 @@ class Annotation:
 
         instances: labels under which it stands here, from the root on; one that is hidden hides the product.
         """
-        key = entry(product), any(self._is_hidden(label) for label in (product, *instances))
+        key = label_entry(product), any(self._is_hidden(label) for label in (product, *instances))
         if key not in self._known:
             self._known[key] = self._split(product, key[1])
         return self._known[key]
@@ -55,12 +55,12 @@ class Annotation:
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
         shape = self._shapes.GetShape_s(product)
-        bare = located(shape, None)
+        bare = with_location(shape, None)
         loose = [
-            *explored(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID),
-            *explored(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL),
+            *sub_shapes(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID),
+            *sub_shapes(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL),
         ]
-        children = collection("labels")
+        children = new_collection("labels")
         self._shapes.GetSubShapes_s(product, children)
         labels = [children.Value(i) for i in range(1, children.Length() + 1)] if loose and not whole else []
         hidden = {self._shapes.GetShape_s(label).TShape() for label in labels if self._is_hidden(label)}
@@ -68,19 +68,19 @@ class Annotation:
         def aside(piece: Any) -> bool:
             if whole or piece.TShape() in hidden:
                 return True
-            faces = explored(piece, Kind.TopAbs_FACE)
+            faces = sub_shapes(piece, Kind.TopAbs_FACE)
             return (bool(faces) and all(f.TShape() in hidden for f in faces)) or self._is_supplemental(piece)
 
         kept = [piece for piece in loose if not aside(piece)]
         if len(kept) == len(loose):
             return shape, 0
-        solids = explored(bare, Kind.TopAbs_SOLID)
-        count = sum(len(explored(piece, Kind.TopAbs_FACE)) for piece in loose)
-        count -= sum(len(explored(piece, Kind.TopAbs_FACE)) for piece in kept)
+        solids = sub_shapes(bare, Kind.TopAbs_SOLID)
+        count = sum(len(sub_shapes(piece, Kind.TopAbs_FACE)) for piece in loose)
+        count -= sum(len(sub_shapes(piece, Kind.TopAbs_FACE)) for piece in kept)
         if not (solids or kept):
             return None, count
-        edges = explored(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
-        return located(compound(solids + kept + edges), shape.Location()), count
+        edges = sub_shapes(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
+        return with_location(make_compound(solids + kept + edges), shape.Location()), count
 
     def _is_hidden(self, label: Any) -> bool:
         """Whether a label, or a layer that it is on, is invisible."""
@@ -88,18 +88,18 @@ class Annotation:
 
         if not XCAFDoc_ColorTool.IsVisible_s(label):
             return True
-        layers = collection("labels")
+        layers = new_collection("labels")
         self._layers.GetLayers(label, layers)
         return any(not self._layers.IsVisible(layers.Value(i)) for i in range(1, layers.Length() + 1))
 
     def _is_supplemental(self, piece: Any) -> bool:
-        if self._supplemental is None or self._asked >= MOST_ASKED:
+        if self._supplemental is None or self._asked >= MAX_ENTITY_LOOKUPS:
             return False
         self._asked += 1
         return self._supplemental(piece)
 
 
-def entry(label: Any) -> str:
+def label_entry(label: Any) -> str:
     """Where a label stands in its document, as "0:1:1:3"."""
     from OCP.TCollection import TCollection_AsciiString
     from OCP.TDF import TDF_Tool
@@ -109,7 +109,7 @@ def entry(label: Any) -> str:
     return str(text.ToCString())
 
 
-def note(faces: int) -> Note:
+def left_out_note(faces: int) -> Note:
     """Says that so many faces were left out."""
     what = f"{counted(faces, 'face')} of annotation, hidden or supplemental in the file, left out"
     return Note("annotation-left-out", f"{what}: --annotations draws them (in Python, annotations=True).")

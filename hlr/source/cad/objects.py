@@ -8,11 +8,11 @@ from typing import Any
 
 from hlr.common.types import Color
 from hlr.errors import SourceError
-from hlr.source.cad.brep import BrepSource
-from hlr.source.cad.leaves import source_of
-from hlr.source.cad.occt import ready
-from hlr.source.cad.paint import wrapped_paint
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.colors import color_of_wrapper
+from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.source_builder import build_source
 
 
 def open_object(thing: Any, name: str = "") -> BrepSource:
@@ -21,17 +21,17 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
     Raises:
         SourceError: it is none of them, or holds nothing to draw.
     """
-    ready()
+    load_occt()
     label = name or _label(thing)
     leaves = to_leaves(thing, "part")
     if not leaves:
         raise SourceError(f"{label} holds no shapes: there is nothing to draw.")
-    return source_of(label, "object", leaves)
+    return build_source(label, "object", leaves)
 
 
 def is_shape_like(thing: Any) -> bool:
     """Whether `to_leaves` would take it: judged by type and attributes, nothing is imported."""
-    root = family(thing)
+    root = package_of(thing)
     if root == "cadquery":
         return _is_kind(thing, "Workplane", "Shape", "Assembly", "Sketch")
     if root == "build123d":
@@ -41,7 +41,7 @@ def is_shape_like(thing: Any) -> bool:
     return isinstance(thing, list | tuple) and len(thing) > 0 and all(is_shape_like(item) for item in thing)
 
 
-def family(thing: Any) -> str:
+def package_of(thing: Any) -> str:
     """The top-level package that some class of the object's ancestry comes from, CAD packages first."""
     roots = [cls.__module__.split(".")[0] for cls in type(thing).__mro__]
     return next((root for root in roots if root in _FAMILIES), roots[0])
@@ -58,7 +58,7 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
     Raises:
         SourceError: not a supported object.
     """
-    root = family(thing)
+    root = package_of(thing)
     if root == "OCP" and _is_kind(thing, "TopoDS_Shape"):
         return [Leaf(thing, name, color, opacity=opacity)]
     if root == "cadquery":
@@ -90,7 +90,7 @@ def _assembly(node: Any, place: Any, color: Color | None, opacity: float, name: 
     """A cq.Assembly, children after the node's own shapes. path: what the names of its children begin with."""
     here = node.loc.wrapped if place is None else place.Multiplied(node.loc.wrapped)
     if node.color is not None:
-        color, opacity = wrapped_paint(node.color)
+        color, opacity = color_of_wrapper(node.color)
     leaves = []
     for shape in node.shapes:
         if shape is not None and shape.wrapped is not None:
@@ -112,7 +112,7 @@ def _build123d(thing: Any, name: str, color: Color | None, opacity: float, path:
     """A build123d object, whose own label is in the name already. path: what the names of its children begin with."""
     own = getattr(thing, "color", None)
     if own is not None and hasattr(own, "wrapped"):
-        color, opacity = wrapped_paint(own)
+        color, opacity = color_of_wrapper(own)
     for attribute in ("part", "sketch", "line"):
         if _is_kind(thing, "Builder") and (made := getattr(thing, attribute, None)) is not None:
             return _build123d(made, getattr(made, "label", "") or name, color, opacity)

@@ -9,9 +9,9 @@ from typing import Any
 
 from hlr.common.types import Color, Floats, Rgba
 from hlr.drawing.notes import Note
-from hlr.source.cad.bindings import collection
-from hlr.source.locations import HERE, Rows, chained, four
-from hlr.source.model import PLAIN, Look, rgba
+from hlr.source.cad.shapes import location_matrix, make_compound, sub_shapes
+from hlr.source.model import DEFAULT_COLOR, Appearance, rgba
+from hlr.source.transforms import MatrixRows, compose, matrix4
 
 
 @dataclass(slots=True)
@@ -44,18 +44,18 @@ class Part:
     root: int
     transform: Floats
     transparent: bool
-    look: Callable[[], Look]
+    look: Callable[[], Appearance]
 
 
 @dataclass(slots=True)
 class _Piece:
     root: int
-    place: Rows
+    place: MatrixRows
     solid: bool
     color: Color | None
 
 
-class Parts:
+class PartCollector:
     """Collects leaves into `parts` over distinct `roots`; `notes` says what was left out."""
 
     def __init__(self) -> None:
@@ -84,7 +84,7 @@ class Parts:
         pieces = self._pieces.get(key)
         if pieces is None:
             pieces = self._pieces[key] = self._split(leaf)
-        place = matrix(leaf.shape.Location())
+        place = location_matrix(leaf.shape.Location())
         several = sum(piece.solid for piece in pieces) > 1
         for piece in pieces:
             suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
@@ -94,7 +94,7 @@ class Parts:
                     product=leaf.name,
                     color=piece.color or leaf.color,
                     root=piece.root,
-                    transform=four(chained(place, piece.place)),
+                    transform=matrix4(compose(place, piece.place)),
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
                     look=partial(_look, leaf, self.roots[piece.root]),
                 )
@@ -114,16 +114,16 @@ class Parts:
         bare = leaf.shape.Located(self._origin, False)
         if bare.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE):
             return [self._piece(bare, leaf, bare.ShapeType() == Kind.TopAbs_SOLID)]
-        solids = explored(bare, Kind.TopAbs_SOLID)
-        shells = explored(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
-        faces = explored(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
-        edges = explored(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
+        solids = sub_shapes(bare, Kind.TopAbs_SOLID)
+        shells = sub_shapes(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
+        faces = sub_shapes(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
+        edges = sub_shapes(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
         self.has_edges |= bool(edges)
         pieces = [self._piece(solid, leaf, True) for solid in solids]
         loose = shells + faces
         if loose or edges:
             # What is not a solid stays together: the leaf itself where it holds nothing else.
-            pieces.append(self._piece(compound(loose + edges) if solids else bare, leaf))
+            pieces.append(self._piece(make_compound(loose + edges) if solids else bare, leaf))
         return pieces
 
     def _piece(self, shape: Any, leaf: Leaf, solid: bool = False) -> _Piece:
@@ -133,7 +133,7 @@ class Parts:
             number = self._numbers[key] = len(self.roots)
             self.roots.append(shape.Located(self._origin, False))
         color = _majority(shape, leaf) if leaf.colors else None
-        return _Piece(number, matrix(shape.Location()), solid, color)
+        return _Piece(number, location_matrix(shape.Location()), solid, color)
 
 
 def _majority(shape: Any, leaf: Leaf) -> Color | None:
@@ -144,74 +144,29 @@ def _majority(shape: Any, leaf: Leaf) -> Color | None:
     if own is not None:
         return own
     counts: dict[Color | None, int] = {}
-    for face in explored(shape, Kind.TopAbs_FACE):
+    for face in sub_shapes(shape, Kind.TopAbs_FACE):
         color = leaf.colors.get(face.TShape(), leaf.color)
         counts[color] = counts.get(color, 0) + 1
     return max(counts, key=lambda color: counts[color]) if counts else None
 
 
-def _look(leaf: Leaf, root: Any) -> Look:
+def _look(leaf: Leaf, root: Any) -> Appearance:
     """How a part of a leaf looks; root: its shape, without placement."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
     own = _painted(leaf, root)
     faces = {}
     if leaf.colors:
-        for i, face in enumerate(explored(root, Kind.TopAbs_FACE)):
+        for i, face in enumerate(sub_shapes(root, Kind.TopAbs_FACE)):
             color = _painted(leaf, face)
             if color is not None and color != own:
                 faces[i] = color
     whole = own or rgba(leaf.color, leaf.opacity)
     if whole is None and leaf.opacity < 1.0:
-        whole = (*PLAIN[:3], leaf.opacity)
-    return Look(whole, faces)
+        whole = (*DEFAULT_COLOR[:3], leaf.opacity)
+    return Appearance(whole, faces)
 
 
 def _painted(leaf: Leaf, shape: Any) -> Rgba | None:
     key = shape.TShape()
     return rgba(leaf.colors.get(key), leaf.opacities.get(key, 1.0))
-
-
-def explored(shape: Any, kind: Any, avoid: Any = None) -> list[Any]:
-    """Sub-shapes of a kind in TopExp order, each once, outside those of the kind `avoid`."""
-    from OCP.TopAbs import TopAbs_ShapeEnum
-    from OCP.TopExp import TopExp_Explorer
-
-    found = collection("shape_map")
-    explorer = TopExp_Explorer(shape, kind, TopAbs_ShapeEnum.TopAbs_SHAPE if avoid is None else avoid)
-    while explorer.More():
-        found.Add(explorer.Current())
-        explorer.Next()
-    return [found.FindKey(i) for i in range(1, found.Extent() + 1)]
-
-
-def compound(shapes: list[Any]) -> Any:
-    """A TopoDS_Compound of the shapes, in order."""
-    from OCP.BRep import BRep_Builder
-    from OCP.TopoDS import TopoDS_Compound
-
-    result = TopoDS_Compound()
-    builder = BRep_Builder()
-    builder.MakeCompound(result)
-    for shape in shapes:
-        builder.Add(result, shape)
-    return result
-
-
-def located(shape: Any, location: Any) -> Any:
-    """The shape at a location (None: at the origin)."""
-    from OCP.TopLoc import TopLoc_Location
-
-    return shape.Located(TopLoc_Location() if location is None else location, False)
-
-
-def matrix(location: Any) -> Rows:
-    """What a TopLoc_Location does."""
-    if location.IsIdentity():
-        return HERE
-    value = location.Transformation().Value
-    return tuple([value(i, j) for i, j in _PLACES])
-
-
-_PLACES = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3, 4)]
-"""Row and column of each number, as OpenCASCADE counts them."""

@@ -22,8 +22,8 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.source.cad.outlines import chained, projected_anew
-from hlr.source.cad.parts import explored
+from hlr.source.cad.pcurves import close_loops, project_pcurves
+from hlr.source.cad.shapes import sub_shapes
 
 Copied = tuple[Any, Callable[[Any], Any]]
 """A face, and which edge of it stands for an edge of the original."""
@@ -75,13 +75,13 @@ def _copies(face: Any) -> Iterator[Callable[[], Copied]]:
 
     def same_curves() -> Copied:
         copy, counterpart = as_it_is()
-        chained(copy)
+        close_loops(copy)
         return copy, counterpart
 
     def new_curves() -> Copied:
         copy, counterpart = as_it_is()
-        projected_anew(copy)
-        chained(copy)
+        project_pcurves(copy)
+        close_loops(copy)
         return copy, counterpart
 
     def repaired() -> Copied:
@@ -168,7 +168,7 @@ def faces_of(roots: list[Any], numbers: set[int]) -> dict[int, Any]:
     known: set[Any] = set()
     found = {}
     for root in roots if numbers else ():
-        for shape in explored(root, Kind.TopAbs_FACE):
+        for shape in sub_shapes(root, Kind.TopAbs_FACE):
             underlying = shape.TShape()
             if underlying not in known:
                 if len(known) in numbers:

@@ -22,19 +22,19 @@ from typing import Any
 
 from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
-from hlr.source.cad.brep import BrepSource
-from hlr.source.cad.leaves import source_of
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.colors import ColorOpacity, color_from_options
 from hlr.source.cad.objects import is_shape_like, to_leaves
-from hlr.source.cad.occt import explain, ready
-from hlr.source.cad.paint import Paint, paint_of
+from hlr.source.cad.occt_import import import_failure_message, load_occt
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.source_builder import build_source
 
 _RESULT = "result"
 
-Shown = tuple[Any, str, Paint]
+Shown = tuple[Any, str, ColorOpacity]
 """An object, the name it is shown under or "", and its colour."""
 
-_PLAIN: Paint = (None, 1.0)
+_PLAIN: ColorOpacity = (None, 1.0)
 
 
 def open_script(path: Path, var: str | None = None) -> BrepSource:
@@ -46,7 +46,7 @@ def open_script(path: Path, var: str | None = None) -> BrepSource:
     """
     shown: list[Shown] = []
     values = _run(path, shown)
-    ready()
+    load_occt()
     chosen, why = _chosen(path, shown, values, var)
     leaves: list[Leaf] = []
     for thing, name, (color, opacity) in chosen:
@@ -58,7 +58,7 @@ def open_script(path: Path, var: str | None = None) -> BrepSource:
         raise SourceError(
             f'{path.name} shows nothing: call show_object(shape) in it, or assign the shape to a variable "result".'
         )
-    return source_of(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
+    return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
 
 
 def _chosen(path: Path, shown: list[Shown], values: dict[str, Any], var: str | None) -> tuple[list[Shown], str]:
@@ -124,7 +124,7 @@ class _Variables(dict[str, Any]):
 
 def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
     def show_object(obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
-        shown.append((obj, str(name or ""), paint_of(options if isinstance(options, dict) else more)))
+        shown.append((obj, str(name or ""), color_from_options(options if isinstance(options, dict) else more)))
 
     def show(*objects: Any, names: Any = (), **_: Any) -> None:
         given = list(names or ())
@@ -180,7 +180,7 @@ def _here() -> str | None:
 def _sentence(path: Path, error: BaseException) -> str:
     """The script's own line, and what was raised."""
     if isinstance(error, ImportError) and "libGL" in str(error):
-        return f"{path.name}: {explain(error)}"
+        return f"{path.name}: {import_failure_message(error)}"
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
     text = " ".join(str(error).split())
     where = f", line {lines[-1]}" if lines else ""

@@ -21,7 +21,7 @@ pub enum Curve {
     Spline(Nurbs),
 }
 
-/// Kinds of records, as `hlr.source.geometry` writes them; 0 is a curve that is not known.
+/// Kinds of records, as `hlr.source.curve_records` writes them; 0 is a curve that is not known.
 pub const LINE: u8 = 1;
 pub const ELLIPSE: u8 = 2;
 pub const PARABOLA: u8 = 3;

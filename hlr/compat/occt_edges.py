@@ -1,0 +1,103 @@
+"""Lines of a drawing as OpenCASCADE edges in the XY plane."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from hlr.drawing.curve import Arc, Bezier
+from hlr.drawing.line import Line, Points
+from hlr.source.cad.occt_collections import new_collection
+
+CIRCLE_TOLERANCE = 1e-9
+"""Relative: an ellipse whose radii differ by no more is a circle."""
+
+SHORTEST_EDGE = 1e-7
+"""Model units: OpenCASCADE makes no edge between points closer than this."""
+
+
+def occt_edges(line: Line, shift: Points) -> list[Any]:
+    """The TopoDS_Edges of one line, moved by `shift` (2,): one for a curve, for a polyline one per segment.
+
+    A curve that is too short for OpenCASCADE gives none. Edges run with growing parameter, whichever way the line does.
+    """
+    curve = line.curve
+    if isinstance(curve, Arc):
+        made = _arc(curve, shift)
+    elif isinstance(curve, Bezier):
+        made = _bezier(curve, shift)
+    else:
+        return _polyline(line.points + shift)
+    return [] if made is None else [made]
+
+
+def occt_compound(lines: Iterable[Line], shift: Points) -> Any:
+    """A TopoDS_Compound of the edges of all lines; an empty one where there are none."""
+    from hlr.source.cad.shapes import make_compound as compound_of
+
+    return compound_of([edge for line in lines for edge in occt_edges(line, shift)])
+
+
+def _polyline(points: Points) -> list[Any]:
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.gp import gp_Pnt
+
+    made = []
+    x0, y0 = points[0].tolist()
+    for x, y in points[1:].tolist():
+        if math.hypot(x - x0, y - y0) <= SHORTEST_EDGE:
+            continue
+        made.append(BRepBuilderAPI_MakeEdge(gp_Pnt(x0, y0, 0.0), gp_Pnt(x, y, 0.0)).Edge())
+        x0, y0 = x, y
+    return made
+
+
+def _arc(arc: Arc, shift: Points) -> Any:
+    """A trimmed circle or ellipse about +z, the longer axis first, as exporters expect it."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Elips, gp_Pnt
+
+    major, minor = arc.radii
+    if minor <= SHORTEST_EDGE:
+        return None
+    x, y = (arc.centre + shift).tolist()
+    (ux, uy), (vx, vy) = arc.axes.tolist()
+    # Axes that turn clockwise: the same curve with t running backward.
+    sign = 1.0 if ux * vy - uy * vx > 0.0 else -1.0
+    start, end = sorted(sign * t for t in arc.angles.tolist())
+    turn = math.floor(start / math.tau) * math.tau
+    start, end = start - turn, end - turn
+    place = gp_Ax2(gp_Pnt(x, y, 0.0), gp_Dir(0.0, 0.0, 1.0), gp_Dir(ux, uy, 0.0))
+    conic = gp_Circ(place, major) if major - minor <= CIRCLE_TOLERANCE * major else gp_Elips(place, major, minor)
+    maker = BRepBuilderAPI_MakeEdge(conic) if arc.whole else BRepBuilderAPI_MakeEdge(conic, start, end)
+    return maker.Edge() if maker.IsDone() else None
+
+
+def _bezier(chain: Bezier, shift: Points) -> Any:
+    """One piece as a Bezier curve, several as a B-spline with the pieces' ends as knots."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.Geom import Geom_BezierCurve, Geom_BSplineCurve
+    from OCP.gp import gp_Pnt
+
+    moved = chain.points + shift
+    poles = new_collection("points", 1, len(moved))
+    for i, (x, y) in enumerate(moved.tolist(), 1):
+        poles.SetValue(i, gp_Pnt(x, y, 0.0))
+    if np.ptp(moved, axis=0).max() <= SHORTEST_EDGE:
+        return None
+    degree = chain.degree
+    count = (len(moved) - 1) // degree
+    if count == 1:
+        curve: Any = Geom_BezierCurve(poles)
+    else:
+        knots = new_collection("reals", 1, count + 1)
+        multiplicities = new_collection("integers", 1, count + 1)
+        for i in range(count + 1):
+            knots.SetValue(i + 1, float(i))
+            multiplicities.SetValue(i + 1, degree + 1 if i in (0, count) else degree)
+        curve = Geom_BSplineCurve(poles, knots, multiplicities, degree)
+    maker = BRepBuilderAPI_MakeEdge(curve)
+    return maker.Edge() if maker.IsDone() else None

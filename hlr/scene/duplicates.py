@@ -1,0 +1,111 @@
+"""Per part, before anything is built on it: drop what cannot be seen or is there twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.distinct import distinct
+from hlr.common.types import Floats, Ints
+from hlr.scene.duplicate_triangles import row_numbers, unique_triangles
+from hlr.source.model import PartMesh
+
+Indices = npt.NDArray[np.intp]
+
+
+def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
+    """The part without repeated triangles and faces, and how many triangles that left out.
+
+    Of several one is kept: duplicated faces neither hide more nor bound a volume, but they would make every edge
+    between them non-manifold, or follow one another as two surfaces in contact.
+    """
+    found = len(part.triangles)
+    part = _without_repeated_triangles(part)
+    part = _without_repeated_faces(part)
+    return part, found - len(part.triangles)
+
+
+def _without_repeated_triangles(part: PartMesh) -> PartMesh:
+    """Without triangles of the same corners as another one, in either orientation."""
+    kept = np.zeros(len(part.triangles), bool)
+    kept[unique_triangles(part.points, part.triangles, part.triangle_face)] = True
+    return _only(part, kept)
+
+
+def _without_repeated_faces(part: PartMesh) -> PartMesh:
+    """Without faces that lie triangle by triangle on others, the same way round, but have nodes of their own.
+
+    Such are two equal solids in one place. Only whole faces: slivers of neighbours may coincide where they lap over
+    each other, and without them there would be holes. And only the same way round: two bodies that touch with equal
+    faces are each closed by its own.
+    """
+    if not _may_coincide(part.points):
+        return part
+    _, place = equal_rows(part.points + 0.0)  # minus zero becomes zero: equal numbers, equal bits
+    turned = np.argmin(place[part.triangles], axis=1)[:, None]
+    nodes = np.take_along_axis(part.triangles, (turned + np.arange(3)) % 3, axis=1)
+    first = _first_equal(place[nodes], len(part.points))
+    own = first == np.arange(len(first))
+    # A face that holds the first of its kind keeps it, so nothing that is left out is lost.
+    kept = np.bincount(part.triangle_face, weights=own, minlength=len(part.face_planar))[part.triangle_face] > 0
+    if kept.all():
+        return part
+    # What runs along the lost nodes, such as the edges of the lost faces, now runs along those that they lay on.
+    node = np.arange(len(part.points), dtype=np.int32)
+    node[nodes[~kept]] = nodes[first[~kept]]
+    used = distinct(part.triangles[kept])
+    node[used] = used
+    return replace(_only(part, kept), edge_nodes=node[part.edge_nodes])
+
+
+def _may_coincide(points: Floats) -> bool:
+    """Whether two points may be equal; this costs little where none are, as in most parts."""
+    x, y, z = points.T
+    key = np.sort(x + 0.7548776662466927 * y + 0.5698402909980532 * z)
+    return bool((key[1:] == key[:-1]).any())
+
+
+def _first_equal(corners: Ints, n: int) -> Indices:
+    """(t,) for each row of three numbers below n the first equal row."""
+    number = row_numbers(corners, n)
+    _, first = np.unique(number, return_index=True)
+    return np.asarray(first[number], np.intp)
+
+
+def _only(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
+    if kept.all():
+        return part
+    on = part.on_surfaces
+    origin = np.flatnonzero(kept).astype(np.int32)
+    return replace(
+        part,
+        triangles=part.triangles[kept],
+        triangle_face=part.triangle_face[kept],
+        origin=origin if part.origin is None else part.origin[origin],
+        on_surfaces=replace(on, corner=on.corner[kept]) if on is not None else None,
+    )
+
+
+def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:
+    """(first occurrence of each distinct row, in order; for every row the rank of its first occurrence)."""
+    if not len(points):
+        return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.int32)
+    bits = np.ascontiguousarray(points).view(np.uint64)
+    # One 64-bit hash sorts several times faster than three columns; should two different rows ever share one, the
+    # columns are sorted after all.
+    mixed = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15)
+    mixed ^= mixed >> np.uint64(29)
+    mixed = (mixed + bits[:, 1]) * np.uint64(0xBF58476D1CE4E5B9)
+    mixed ^= mixed >> np.uint64(32)
+    mixed = (mixed + bits[:, 2]) * np.uint64(0x94D049BB133111EB)
+    mixed ^= mixed >> np.uint64(31)
+    _, first, inverse = np.unique(mixed, return_index=True, return_inverse=True)
+    if not np.array_equal(points[first[inverse]], points):
+        _, first, inverse = np.unique(points, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.ravel()
+    order = np.argsort(first)
+    rank = np.empty(len(first), dtype=np.int32)
+    rank[order] = np.arange(len(first), dtype=np.int32)
+    return first[order], rank[inverse]

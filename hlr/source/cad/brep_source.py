@@ -1,0 +1,229 @@
+"""A B-rep source: parts with names, colours and placements, tessellated as finely as asked."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from copy import copy
+from typing import Any
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.common.types import Floats, Ints, Progress
+from hlr.drawing.notes import Note
+from hlr.errors import SourceError
+from hlr.source.bounds import check_bounds
+from hlr.source.cad.occt_collections import new_collection
+from hlr.source.cad.parts import Part
+from hlr.source.cad.prototypes import Prototypes
+from hlr.source.cad.shapes import make_compound
+from hlr.source.cad.tessellator import Tessellator
+from hlr.source.model import Appearance, Choice, EdgeCurves, Frame, PartInfo, Tessellation
+from hlr.source.part_meshes import PartMeshes, check_triangle_count
+from hlr.source.precision import coordinate_precision
+
+
+class BrepSource:
+    """Parts on roots as a source: from leaves of an assembly (`hlr.source.cad.source_builder`), or out of the cache.
+
+    Lengths are millimetres, z is up. The caller's shapes are neither copied nor changed: triangles that they have stay.
+    reading: how the model was come by, for people; "" where there is nothing to say.
+    """
+
+    def __init__(
+        self, name: str, kind: str, parts: Sequence[Part], roots: Prototypes, notes: Sequence[Note] = ()
+    ) -> None:
+        """Parts, at least one, that stand on `roots` and have faces."""
+        self._name, self._kind, self._notes = name, kind, list(notes)
+        self._roots = roots
+        self.choice: Choice | None = None
+        self.reading = ""
+        self._hold(parts)
+
+    @property
+    def name(self) -> str:
+        """Base name."""
+        return self._name
+
+    @property
+    def kind(self) -> str:
+        """step, iges, brep, script or object."""
+        return self._kind
+
+    @property
+    def frame(self) -> Frame:
+        """Millimetres, z up."""
+        return Frame()
+
+    @property
+    def notes(self) -> list[Note]:
+        """Warnings met while reading."""
+        return list(self._notes)
+
+    def names(self) -> list[str]:
+        """Of every part."""
+        return [part.name for part in self._parts]
+
+    def infos(self) -> list[PartInfo]:
+        """Counts of every part's index maps."""
+        return [PartInfo(part.name, *self._roots.counts[part.root].tolist()) for part in self._parts]
+
+    def of_parts(self, names: Collection[str], choice: Choice) -> BrepSource:
+        """The same source with these parts only; nothing else of it is meshed."""
+        chosen = copy(self)
+        chosen.choice = choice
+        chosen._hold([part for part in self._parts if part.name in names])
+        return chosen
+
+    def _hold(self, parts: Sequence[Part]) -> None:
+        """The parts that are drawn, and what will be known of them."""
+        self._parts = list(parts)
+        self._used = sorted({part.root for part in parts})
+        self._corners: tuple[Floats, Floats] | None = None
+        self._bounds: Floats | None = None
+        self._tessellator: Tessellator | None = None
+        self._maps: dict[tuple[int, Any], Any] = {}
+        self._root_of = {part.name: part.root for part in self._parts}
+
+    @property
+    def parts(self) -> list[Part]:
+        """The parts that are drawn."""
+        return self._parts
+
+    @property
+    def roots(self) -> Prototypes:
+        """What they stand on, and parts that are left out as well."""
+        return self._roots
+
+    def transparent(self) -> bool:
+        """Some part has an opacity below one."""
+        return any(part.transparent for part in self._parts)
+
+    def looks(self) -> dict[str, Appearance]:
+        """Colours and opacities of parts and faces."""
+        return {part.name: part.look() for part in self._parts}
+
+    def boxes(self) -> list[Floats]:
+        """Corners of every part's box, (8, 3), or none where it has no extent."""
+        boxes = self._roots.boxes
+        void = (boxes[:, 0, 0] > boxes[:, 1, 0]).tolist()
+        corners, _ = self._placed
+        return [box[:0] if void[part.root] else box for part, box in zip(self._parts, corners, strict=True)]
+
+    def bounds(self) -> Floats:
+        """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
+        if self._bounds is None:
+            _, bounds = self._placed
+            if bounds[0, 0] > bounds[1, 0]:
+                raise SourceError(f"{self._name}: no part has any extent.")
+            self._bounds = check_bounds(self._name, bounds)
+        return self._bounds.copy()
+
+    @property
+    def _placed(self) -> tuple[Floats, Floats]:
+        """Corners (p, 8, 3) of the parts' boxes, and the box around those that are not void."""
+        if self._corners is None:
+            roots = np.array([part.root for part in self._parts], np.int32)
+            places = np.array([part.transform for part in self._parts])
+            self._corners = _kernel.placed_boxes(self._roots.boxes, roots, places)
+        return self._corners
+
+    def edge_shape(self, part: str, index: int) -> Any:
+        """The TopoDS_Edge with this number in the TopExp edge map of the part of that name, without its placement."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopoDS import TopoDS
+
+        return TopoDS.Edge(self._map(part, Kind.TopAbs_EDGE).FindKey(index + 1))
+
+    def face_shape(self, part: str, index: int) -> Any:
+        """The TopoDS_Face with this number in the TopExp face map of the part of that name, without its placement."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopoDS import TopoDS
+
+        return TopoDS.Face(self._map(part, Kind.TopAbs_FACE).FindKey(index + 1))
+
+    def face_edges(self, part: str, index: int) -> list[int]:
+        """Numbers of the edges of a face of a part, both counted as TopExp does."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopExp import TopExp
+
+        own = new_collection("shape_map")
+        TopExp.MapShapes_s(self.face_shape(part, index), Kind.TopAbs_EDGE, own)
+        every = self._map(part, Kind.TopAbs_EDGE)
+        return [every.FindIndex(own.FindKey(i)) - 1 for i in range(1, own.Extent() + 1)]
+
+    def _map(self, part: str, kind: Any) -> Any:
+        """The TopExp map of a part's edges or faces."""
+        from OCP.TopExp import TopExp
+
+        key = self._root_of[part], kind
+        if key not in self._maps:
+            self._maps[key] = new_collection("shape_map")
+            TopExp.MapShapes_s(self._roots.shapes[key[0]], kind, self._maps[key])
+        return self._maps[key]
+
+    def shape(self) -> Any:
+        """All parts that are drawn, each where it stands, as one TopoDS_Compound."""
+        from OCP.gp import gp_Trsf
+        from OCP.TopLoc import TopLoc_Location
+
+        placed = []
+        for part in self._parts:
+            move = gp_Trsf()
+            move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
+            placed.append(self._roots.shapes[part.root].Moved(TopLoc_Location(move), False))
+        return make_compound(placed)
+
+    @property
+    def _meshed_by(self) -> Tessellator:
+        if self._tessellator is None:
+            low, high = self.bounds()
+            self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
+        return self._tessellator
+
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
+        """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).
+
+        Raises:
+            SourceError: no part could be meshed.
+        """
+        surfaces = self._meshed_by
+        tables, faults = surfaces.mesh(deflection, angle, progress)
+        number = {root: i for i, root in enumerate(self._used)}
+        starts = tables.triangle_start
+        counts = (starts[1:] - starts[:-1]).tolist()
+        notes, kept = [], []
+        for part in self._parts:
+            root = number[part.root]
+            if faults:
+                a, b = tables.face_start[root : root + 2]
+                notes += faults.notes(part.name, tables.face_shape[a:b])
+            if counts[root]:
+                kept.append(part)
+            else:
+                text = f'Part "{part.name}" has no triangles and was left out.'
+                notes.append(Note("part-left-out", text))
+        if not kept:
+            raise SourceError(f"{self._name}: none of its faces could be meshed.")
+        check_triangle_count(sum(counts[number[part.root]] for part in kept))
+        roots = np.array([number[part.root] for part in kept], np.int32)
+        transforms = np.array([part.transform[:3] for part in kept])
+        placed = tables.placed(roots, transforms, _precisions(tables)[roots])
+
+        def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
+            keys = roots[part].astype(np.int64) << 32 | edge
+            distinct, which = np.unique(keys, return_inverse=True)
+            found = surfaces.edge_curves((distinct >> 32).astype(np.int32), distinct.astype(np.int32))
+            return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
+
+        parts = PartMeshes(kept, placed, surfaces if placed.brep.any() else None)
+        return Tessellation(parts, notes, len(faults.rescued), len(faults.lost), edge_curves)
+
+
+def _precisions(tables: _kernel.PartTables) -> Floats:
+    """(p,) how far the coordinates of parts without edges, which a file brought as triangles, may be off."""
+    out = np.zeros(len(tables))
+    for i in np.flatnonzero(~tables.brep).tolist():
+        a, b = tables.point_start[i : i + 2]
+        out[i] = coordinate_precision(tables.points[a:b])
+    return out

@@ -1,0 +1,178 @@
+"""B-rep files through the cache: what a file was read to once is kept, and the next time OpenCASCADE is not needed.
+
+An entry (`hlr.cache.entry`) has in its JSON the counts of parts, roots and coloured faces, what was noted, and of each
+part [name, product, colour or null, root, transparent, whole look or null]. Its data are, little-endian:
+
+    transforms   (parts, 4, 4)   f8   where each part stands
+    boxes        (roots, 2, 3)   f8   as of `hlr.source.cad.prototypes.Prototypes`
+    colours      (faces, 4)      f8   red, green, blue, opacity of faces that have their own
+    counts       (roots, 3)      i4   as of `Prototypes`
+    coloured     (parts + 1)     i4   where each part's coloured faces begin
+    faces        (faces)         i4   their numbers in the part's face map
+    dump                              the rest: OpenCASCADE's binary dump of all roots
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from hlr.cache.entry import DamagedError, packed, unpacked
+from hlr.cache.folder import folder, most_bytes
+from hlr.cache.store import NotKeptError, Store
+from hlr.common.types import Rgba
+from hlr.drawing.notes import CODES, Note
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.cache_key import cache_key
+from hlr.source.cad.parts import Part
+from hlr.source.cad.prototypes import EMPTY_BOX, Prototypes
+from hlr.source.cad.source_builder import with_appearance
+from hlr.source.model import Appearance
+
+
+def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[[], BrepSource]) -> BrepSource:
+    """The file as it was read before, else what `read` makes of it, which is kept where that is possible.
+
+    Raises:
+        SourceError: what `read` raises; that is not kept.
+    """
+    started = perf_counter()
+    where = folder()
+    if where is None:
+        source = read()
+        source.reading = f"{path.name} was read in {_since(started)}; the cache is off"
+        return source
+    store = Store(where, most_bytes())
+    key = cache_key(path, kind, annotations)
+    entry = store.read(key)
+    damage = ""
+    if entry is not None:
+        try:
+            source = from_entry(path.name, kind, *unpacked(key, entry))
+        except DamagedError as error:
+            damage = f"what the cache had of it was not used, for {error}; "
+        else:
+            store.touch(key)
+            source.reading = f"{path.name} was not read again, it is in the cache: {store.path(key)}"
+            return source
+    source = read()
+    source.reading = f"{damage}{path.name} was read in {_since(started)}"
+    try:
+        if key != cache_key(path, kind, annotations):
+            raise NotKeptError("the file has changed meanwhile")
+        store.write(key, packed(key, *to_entry(source)))
+        source.reading += f" and is in the cache now: {store.path(key)}"
+    except (NotKeptError, OSError) as error:
+        source.reading += f" and not kept in the cache ({error})"
+    return source
+
+
+def _since(started: float) -> str:
+    return f"{perf_counter() - started:.2g} s"
+
+
+def to_entry(source: BrepSource) -> tuple[dict[str, Any], list[bytes]]:
+    """JSON and data of an entry."""
+    roots, looks = source.roots, [part.look() for part in source.parts]
+    painted = [(number, rgba) for look in looks for number, rgba in look.faces.items()]
+    facts = {
+        "roots": len(roots.counts),
+        "faces": len(painted),
+        "notes": [[note.code, note.text] for note in source.notes],
+        "parts": [
+            [part.name, part.product, part.color, part.root, part.transparent, look.whole]
+            for part, look in zip(source.parts, looks, strict=True)
+        ],
+    }
+    arrays = [
+        np.array([part.transform for part in source.parts], "<f8"),
+        roots.boxes.astype("<f8"),
+        np.array([rgba for _, rgba in painted], "<f8"),
+        roots.counts.astype("<i4"),
+        np.cumsum([0, *(len(look.faces) for look in looks)]).astype("<i4"),
+        np.array([number for number, _ in painted], "<i4"),
+    ]
+    return facts, [*(array.tobytes() for array in arrays), roots.dump]
+
+
+def from_entry(name: str, kind: str, facts: dict[str, Any], data: memoryview) -> BrepSource:
+    """The source that was recorded; nothing of it is taken on trust.
+
+    Raises:
+        DamagedError: it cannot be what `to_entry` made.
+    """
+    try:
+        return _restored(name, kind, facts, data)
+    except (ValueError, TypeError, KeyError, IndexError, OverflowError, MemoryError):
+        raise DamagedError("its content does not fit together") from None
+
+
+def _restored(name: str, kind: str, facts: dict[str, Any], data: memoryview) -> BrepSource:
+    parts = facts["parts"]
+    n_parts, n_roots, n_faces = len(parts), _index(facts["roots"]), _index(facts["faces"])
+    at = 0
+
+    def table(kind: str, *shape: int) -> Any:
+        nonlocal at
+        dtype = np.dtype(kind)
+        count = math.prod(shape)
+        _must(count * dtype.itemsize <= len(data) - at)
+        found = np.frombuffer(data, dtype, count, at).astype(dtype.newbyteorder("="))
+        at += found.nbytes
+        return found.reshape(shape)
+
+    transforms, boxes, colors = (
+        table("<f8", n_parts, 4, 4),
+        table("<f8", n_roots, 2, 3),
+        table("<f8", n_faces, 4),
+    )
+    counts, start, faces = table("<i4", n_roots, 3), table("<i4", n_parts + 1), table("<i4", n_faces)
+    _must(n_parts > 0 and bool(np.isfinite(transforms).all()))
+    sound = np.isfinite(boxes).all(axis=(1, 2)) & (boxes[:, 0] <= boxes[:, 1]).all(axis=1)
+    _must(bool((sound | (boxes == EMPTY_BOX).all(axis=(1, 2))).all()))
+    _must(bool(((colors >= 0.0) & (colors <= 1.0)).all()))
+    _must(start[0] == 0 and start[-1] == n_faces and bool((np.diff(start) >= 0).all()))
+    roots = Prototypes(bytes(data[at:]), counts, boxes)
+    _must(roots.model.faces_of_parts == counts[:, 0].tolist() and bool((counts >= 0).all()))
+
+    def part(number: int) -> Part:
+        own, product, color, root, transparent, whole = parts[number]
+        _must(all(isinstance(text, str) for text in (own, product)) and isinstance(transparent, bool))
+        _must(0 <= _index(root) < n_roots)
+        _must(counts[root, 0] > 0)
+        mine = slice(start[number], start[number + 1])
+        numbers = faces[mine].tolist()
+        _must(all(0 <= face < counts[root, 0] for face in numbers))
+        rgba: list[Rgba] = [(r, g, b, a) for r, g, b, a in colors[mine].tolist()]
+        look = Appearance(_numbers(whole, 4), dict(zip(numbers, rgba, strict=True)))
+        found = Part(own, product, _numbers(color, 3), root, transforms[number], transparent, Appearance)
+        return with_appearance(found, look)
+
+    _must(all(code in CODES and isinstance(text, str) for code, text in facts["notes"]))
+    notes = [Note(code, text) for code, text in facts["notes"]]
+    source = BrepSource(name, kind, [part(number) for number in range(n_parts)], roots, notes)
+    _must(len({part.name for part in source.parts}) == n_parts)
+    return source
+
+
+def _must(true: bool) -> None:
+    if not true:
+        raise ValueError("an entry that was not made here")
+
+
+def _index(value: Any) -> int:
+    _must(isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31)
+    return int(value)
+
+
+def _numbers(values: Any, count: int) -> Any:
+    """So many numbers from 0 to 1 as a tuple, or None."""
+    if values is None:
+        return None
+    _must(len(values) == count and all(isinstance(v, int | float) and 0.0 <= v <= 1.0 for v in values))
+    return tuple(map(float, values))

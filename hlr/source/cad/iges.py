@@ -1,0 +1,84 @@
+"""IGES files: faces joined along their borders, for the format knows faces only."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from hlr.drawing.notes import Note
+from hlr.errors import SourceError
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.parts import Leaf
+from hlr.source.cad.shapes import sub_shapes, with_location
+from hlr.source.cad.xcaf import read_document
+
+SEWING_TOLERANCE_SHARE = 5e-6
+"""Share of a leaf's diagonal: borders of two faces that are no further apart than this are sewn into one edge."""
+
+SMALLEST_SEWING_TOLERANCE = 1e-7
+"""Model units."""
+
+
+def open_iges(path: Path) -> BrepSource:
+    """An IGES file.
+
+    Raises:
+        SourceError: not an IGES file, broken, empty, or holding nothing to draw.
+    """
+    head = path.open("rb").read(240)
+    if len(head) < 80 or head[72:73] not in b"SBC":
+        raise SourceError(f"{path.name} is not an IGES file (column 73 of its first line is not S): check the file.")
+    load_occt()
+    from OCP.IGESCAFControl import IGESCAFControl_Reader
+
+    notes = []
+    if head[72:73] != b"B" and not _has_last_record(path):
+        text = f"{path.name} is cut short (its last record, T, is missing): some of it may be missing; export it again."
+        notes.append(Note("cut-short", text))
+    return read_document(path, "iges", IGESCAFControl_Reader(), notes, repair_leaf=_sew_faces)
+
+
+def _has_last_record(path: Path) -> bool:
+    """Whether an IGES file in text ends with its terminate record, T."""
+    with path.open("rb") as file:
+        file.seek(max(0, path.stat().st_size - 400))
+        return _LAST_RECORD.search(file.read()) is not None
+
+
+_LAST_RECORD = re.compile(rb"T[ 0]*1[\s\x00\x1a]*$")
+
+
+def _sew_faces(leaf: Leaf) -> Leaf:
+    """The leaf with neighbouring faces joined, so that an edge has a face on either side.
+
+    A leaf that holds shells, or of which sewing would lose a face, stays as it is.
+    """
+    from OCP.Bnd import Bnd_Box
+    from OCP.BRepBndLib import BRepBndLib
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
+    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+    shape = with_location(leaf.shape, None)
+    faces = sub_shapes(shape, Kind.TopAbs_FACE)
+    if len(faces) < 2 or sub_shapes(shape, Kind.TopAbs_SHELL):
+        return leaf
+    box = Bnd_Box()
+    BRepBndLib.Add_s(shape, box)
+    tolerance = max(SMALLEST_SEWING_TOLERANCE, SEWING_TOLERANCE_SHARE * box.SquareExtent() ** 0.5)
+    sewing = BRepBuilderAPI_Sewing(tolerance)
+    sewing.Add(shape)
+    sewing.Perform()
+    sewn = sewing.SewedShape()
+    if sewn is None or sewn.IsNull() or len(sub_shapes(sewn, Kind.TopAbs_FACE)) != len(faces):
+        return leaf
+    colors, opacities = {}, {}
+    for face in faces:
+        key = face.TShape()
+        if key in leaf.colors:
+            sewn_face = sewing.ModifiedSubShape(face) if sewing.IsModifiedSubShape(face) else face
+            colors[sewn_face.TShape()] = leaf.colors[key]
+            if key in leaf.opacities:
+                opacities[sewn_face.TShape()] = leaf.opacities[key]
+    placed = sewn.Moved(leaf.shape.Location(), False)
+    return Leaf(placed, leaf.name, leaf.color, colors, leaf.opacity, opacities)

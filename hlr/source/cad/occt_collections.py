@@ -1,0 +1,39 @@
+"""What the Python bindings of OpenCASCADE 7 and 8 call differently.
+
+The bindings of OpenCASCADE 8 keep all collections in one module, those of 7 each beside what it collects.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+COLLECTION_CLASSES = {
+    "shape_map": ("IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher", "TopTools.TopTools_IndexedMapOfShape"),
+    "ancestor_map": (
+        "IndexedDataMap_TopoDS_Shape_List_TopoDS_Shape_TopTools_ShapeMapHasher",
+        "TopTools.TopTools_IndexedDataMapOfShapeListOfShape",
+    ),
+    "labels": ("Sequence_TDF_Label", "TDF.TDF_LabelSequence"),
+    "points": ("Array1_gp_Pnt", "TColgp.TColgp_Array1OfPnt"),
+    "point_net": ("Array2_gp_Pnt", "TColgp.TColgp_Array2OfPnt"),
+    "reals": ("Array1_double", "TColStd.TColStd_Array1OfReal"),
+    "integers": ("Array1_int", "TColStd.TColStd_Array1OfInteger"),
+}
+"""What is collected: the name in OCP.collections of 8, package and name in 7."""
+
+
+def new_collection(kind: str, *arguments: Any) -> Any:
+    """A new collection of this kind (see NAMES), made from these arguments."""
+    return _class(kind)(*arguments)
+
+
+@cache
+def _class(kind: str) -> Any:
+    new, old = COLLECTION_CLASSES[kind]
+    try:
+        return getattr(import_module("OCP.collections"), new)
+    except ModuleNotFoundError:
+        package, name = old.split(".")
+        return getattr(import_module(f"OCP.{package}"), name)

@@ -1,0 +1,180 @@
+"""STEP and IGES documents (OpenCASCADE's XCAF): the assembly tree with names, colours and placements, as leaves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from hlr.common.types import Color, Rgba
+from hlr.drawing.notes import Note
+from hlr.errors import SourceError
+from hlr.source.cad.annotation import AnnotationFilter, label_entry, left_out_note
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.colors import srgb
+from hlr.source.cad.occt_collections import new_collection
+from hlr.source.cad.occt_import import silence_stdout
+from hlr.source.cad.parts import Leaf
+from hlr.source.cad.shapes import sub_shapes
+from hlr.source.cad.source_builder import build_source
+
+MAX_DEPTH = 200
+"""Assemblies nest no deeper than this; a file that refers to itself would never end."""
+
+
+def read_document(
+    path: Path,
+    kind: str,
+    reader: Any,
+    notes: Sequence[Note] = (),
+    *,
+    filter_annotation: bool = False,
+    repair_leaf: Callable[[Leaf], Leaf] | None = None,
+) -> BrepSource:
+    """The source that a document reader of OpenCASCADE makes of a file.
+
+    Args:
+        path: the file.
+        kind: step or iges.
+        reader: a STEPCAFControl_Reader or IGESCAFControl_Reader.
+        notes: what has been noted already.
+        filter_annotation: leave out faces of annotation.
+        repair_leaf: applied to each leaf of the assembly.
+
+    Raises:
+        SourceError: the file is broken or empty, or holds nothing to draw.
+    """
+    from OCP.IFSelect import IFSelect_ReturnStatus
+    from OCP.TCollection import TCollection_ExtendedString
+    from OCP.TDocStd import TDocStd_Document
+    from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+    reader.SetNameMode(True)
+    reader.SetColorMode(True)
+    reader.SetLayerMode(filter_annotation)
+    document = TDocStd_Document(TCollection_ExtendedString("XmlOcaf"))
+    try:
+        with silence_stdout():
+            status = reader.ReadFile(str(path))
+            read = status == IFSelect_ReturnStatus.IFSelect_RetDone and reader.Transfer(document)
+    except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
+        raise SourceError(f"{path.name} cannot be read as {kind.upper()} ({type(error).__name__}).") from None
+    if not read:
+        raise SourceError(f"{path.name} cannot be read as {kind.upper()}: the file is broken or incomplete.")
+    tree = _AssemblyTree(
+        XCAFDoc_DocumentTool.ShapeTool_s(document.Main()), XCAFDoc_DocumentTool.ColorTool_s(document.Main())
+    )
+    tree.walk(path.stem, AnnotationFilter(reader, document) if filter_annotation else None)
+    if repair_leaf is not None:
+        tree.leaves = [repair_leaf(leaf) for leaf in tree.leaves]
+    if not tree.leaves:
+        raise SourceError(f"{path.name} holds no shapes: the assembly is empty, there is nothing to draw.")
+    return build_source(path.name, kind, tree.leaves, [*notes, *tree.notes])
+
+
+class _AssemblyTree:
+    """The document's assembly tree, flattened."""
+
+    def __init__(self, shapes: Any, colors: Any) -> None:
+        self.shapes, self.colors = shapes, colors
+        self.leaves: list[Leaf] = []
+        self.notes: list[Note] = []
+        self._annotation: AnnotationFilter | None = None
+        self._left_out = 0
+        self._details: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
+
+    def walk(self, fallback: str, annotation: AnnotationFilter | None = None) -> None:
+        """Collect the leaves; annotation: what is left out of them, unless nothing else would be left."""
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+        from OCP.TopLoc import TopLoc_Location
+
+        free = new_collection("labels")
+        self.shapes.GetFreeShapes(free)
+        self._annotation, self._left_out = annotation, 0
+        self.leaves, self.notes = [], []
+        for i in range(1, free.Length() + 1):
+            self._visit(free.Value(i), TopLoc_Location(), None, fallback, [])
+        if not self._left_out:
+            return
+        if any(sub_shapes(leaf.shape, Kind.TopAbs_FACE) for leaf in self.leaves):
+            self.notes.append(left_out_note(self._left_out))
+        else:
+            self.walk(fallback)
+
+    def _visit(self, label: Any, place: Any, inherited: Rgba | None, fallback: str, above: list[Any]) -> None:
+        from OCP.TDF import TDF_Label
+
+        product, color = label, self._color(label)
+        if self.shapes.IsReference_s(label):
+            product = TDF_Label()
+            self.shapes.GetReferredShape_s(label, product)
+            place = place.Multiplied(self.shapes.GetLocation_s(label))
+        # A colour set on the instance wins over the assembly's, which wins over the product's own.
+        color = color or inherited or (self._color(product) if product is not label else None)
+        under = [*above, label]
+        name = _name(product) or _name(label) or fallback
+        if self.shapes.IsAssembly_s(product) and len(above) < MAX_DEPTH:
+            children = new_collection("labels")
+            self.shapes.GetComponents_s(product, children)
+            for i in range(1, children.Length() + 1):
+                self._visit(children.Value(i), place, color, name, under)
+            return
+        shape = self.shapes.GetShape_s(product)
+        if shape is None or shape.IsNull():
+            self.notes.append(Note("part-left-out", f'Part "{name}" is empty and was left out.'))
+            return
+        if self._annotation is not None:
+            shape, faces = self._annotation.without(product, under)
+            self._left_out += faces
+            if shape is None:
+                return
+        # A free shape carries its own placement; a product's stands in the reference.
+        colors, opacities = self._detail(product)
+        leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities)
+        if color is not None:
+            leaf.color, leaf.opacity = color[:3], color[3]
+        self.leaves.append(leaf)
+
+    def _detail(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
+        """Colours, and opacities below one, of the solids and faces of a product, by underlying shape."""
+
+        key = label_entry(product)
+        known = self._details.get(key)
+        if known is None:
+            known = self._details[key] = ({}, {})
+            children = new_collection("labels")
+            self.shapes.GetSubShapes_s(product, children)
+            for i in range(1, children.Length() + 1):
+                color = self._color(children.Value(i))
+                if color is not None:
+                    shape = self.shapes.GetShape_s(children.Value(i)).TShape()
+                    known[0][shape] = color[:3]
+                    if color[3] < 1.0:
+                        known[1][shape] = color[3]
+        return known
+
+    def _color(self, label: Any) -> Rgba | None:
+        from OCP.Quantity import Quantity_ColorRGBA
+        from OCP.XCAFDoc import XCAFDoc_ColorType
+
+        color = Quantity_ColorRGBA()
+        for kind in (XCAFDoc_ColorType.XCAFDoc_ColorSurf, XCAFDoc_ColorType.XCAFDoc_ColorGen):
+            if self.colors.GetColor_s(label, kind, color):
+                return (*srgb(color.GetRGB()), round(color.Alpha(), 6))
+        return None
+
+
+def _name(label: Any) -> str:
+    from OCP.TDataStd import TDataStd_Name
+
+    # FindAttribute alone crashes the interpreter where there is no such attribute.
+    if not label.IsAttribute(TDataStd_Name.GetID_s()):
+        return ""
+    name = TDataStd_Name()
+    label.FindAttribute(TDataStd_Name.GetID_s(), name)
+    text = " ".join(str(name.Get().ToExtString()).split())
+    # What OpenCASCADE's own writers put where nobody gave a name says nothing.
+    return "" if text.startswith(("Open CASCADE", "=>[")) or text in _EMPTY_NAMES else text
+
+
+_EMPTY_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO"}

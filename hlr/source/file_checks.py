@@ -1,0 +1,92 @@
+"""What every reader of files checks first."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from hlr.errors import SourceError
+
+
+def check_readable(path: Path) -> None:
+    """One sentence for a path that cannot be a model.
+
+    Raises:
+        SourceError: missing, a folder, not readable, or empty.
+    """
+    try:
+        if path.is_dir():
+            raise SourceError(f"{path} is a folder: name a model file in it.")
+        if not path.exists():
+            raise SourceError(f"{path} does not exist: check the name and the folder.")
+        if not path.is_file():
+            raise SourceError(f"{path} is not a regular file: save the model to a file first.")
+        if path.stat().st_size == 0:
+            raise SourceError(f"{path.name} is empty (0 bytes): export it again.")
+        with path.open("rb"):
+            pass
+    except PermissionError:
+        raise SourceError(f"{path} cannot be read: permission denied.") from None
+    except (OSError, ValueError) as error:
+        raise SourceError(f"{_printable(path)} cannot be read: {_reason(error)}.") from None
+
+
+def check_signature(path: Path, mark: bytes, what: str) -> None:
+    """A file that must hold `mark` near its beginning.
+
+    Raises:
+        SourceError: it does not; the sentence says what the content looks like.
+    """
+    with path.open("rb") as file:
+        head = file.read(4096)
+    if mark not in head:
+        raise wrong_format(path, what, head)
+
+
+def wrong_format(path: Path, what: str, head: bytes) -> SourceError:
+    """That a file is not `what` it should be, by what its first bytes look like."""
+    return SourceError(f"{path.name} is not {what}: it looks like {describe_content(head)}.")
+
+
+def describe_content(head: bytes) -> str:
+    """What the first bytes of a file tell a reader."""
+    text = head.lstrip(b"\xef\xbb\xbf \t\r\n")
+    lower = text[:200].lower()
+    if lower.startswith((b"<!doctype html", b"<html")):
+        return "a web page (was the download a login or error page?)"
+    if text.startswith(b"version https://git-lfs"):
+        return "a Git LFS pointer (run: git lfs pull)"
+    for mark, name in _MARKS:
+        if text.startswith(mark):
+            return name
+    if b"\0" in head:
+        return "binary data of another kind"
+    return "text of another kind"
+
+
+_MARKS = (
+    (b"ISO-10303-21", "a STEP file"),
+    (b"solid", "a text STL file"),
+    (b"glTF", "a GLB file"),
+    (b"PK\x03\x04", "a ZIP archive"),
+    (b"\x1f\x8b", "a gzip archive"),
+    (b"ply", "a PLY file"),
+    (b"OFF", "an OFF file"),
+    (b"%PDF", "a PDF document"),
+    (b"DBRep_DrawableShape", "a BREP file"),
+    (b"CASCADE Topology", "a BREP file"),
+    (b"\x89PNG", "a picture"),
+    (b"\xff\xd8\xff", "a picture"),
+    (b"<?xml", "XML"),
+    (b"{", "JSON"),
+)
+
+
+def _reason(error: BaseException) -> str:
+    if isinstance(error, OSError) and error.errno is not None:
+        return os.strerror(error.errno).lower()
+    return str(error)
+
+
+def _printable(path: Path) -> str:
+    return str(path).replace("\0", "\\0")[:200]

@@ -1,0 +1,103 @@
+"""STL, OBJ, PLY and OFF files: looked at before they are read, so that what is something else is called by its name."""
+
+from __future__ import annotations
+
+import re
+import struct
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from hlr import _kernel
+from hlr.errors import SourceError, counted
+from hlr.source.file_checks import wrong_format
+from hlr.source.mesh.colors import FileColors
+from hlr.source.mesh.mesh_source import Instance, MeshSource
+from hlr.source.mesh.objects import node_name
+
+if TYPE_CHECKING:
+    from hlr.common.types import Floats, Ints
+
+
+def open_mesh_file(path: Path, kind: str) -> MeshSource:
+    """An STL, OBJ, PLY or OFF file.
+
+    Raises:
+        SourceError: the file is broken, is something else, or holds no triangles.
+    """
+    with path.open("rb") as file:
+        head = file.read(65536)
+    _CHECKS[kind](path, head, path.stat().st_size)
+    try:
+        points, pieces, vertex_colors, face_colors = _kernel.read_mesh(path.read_bytes(), kind)
+    except EOFError as error:
+        raise SourceError(f"{path.name} is cut short: {error}: export or download it again.") from None
+    except ValueError as error:
+        raise SourceError(
+            f"{path.name} cannot be read as {kind.upper()}: the file is broken ({error}); export it again."
+        ) from None
+    except MemoryError:
+        raise SourceError(f"{path.name} asks for more memory than there is.") from None
+    if not pieces:
+        pieces = [("", np.zeros((0, 3), np.int32))]
+    geometries: list[tuple[Floats, Ints]] = []
+    instances: list[Instance] = []
+    for name, triangles in pieces:
+        used, own = _own(triangles) if len(pieces) > 1 else (slice(None), triangles)
+        paint = None
+        if vertex_colors is not None:
+            paint = FileColors(vertex_colors[used], own)
+        elif face_colors is not None:
+            paint = FileColors(face_colors, None)
+        instances.append(Instance(node_name(name, name, path.stem), len(geometries), np.eye(4), None, paint))
+        geometries.append((points[used], own))
+    return MeshSource(path.name, kind, geometries, instances)
+
+
+def _own(triangles: Ints) -> tuple[Ints, Ints]:
+    """The numbers of the points that these triangles use, and the triangles in terms of them."""
+    used, own = np.unique(triangles, return_inverse=True)
+    return used, own.reshape(-1, 3).astype(np.int32)
+
+
+def _check_stl(path: Path, head: bytes, size: int) -> None:
+    count = struct.unpack_from("<I", head, 80)[0] if len(head) >= 84 else 0
+    if len(head) >= 84 and size >= 84 + 50 * count and (count or size == 84):
+        return
+    if head.lstrip()[:5].lower() == b"solid" and (b"facet" in head or b"endsolid" in head):
+        with path.open("rb") as file:
+            file.seek(max(0, size - 4096))
+            if b"endsolid" not in file.read().lower():
+                raise SourceError(f"{path.name} is cut short (endsolid is missing): export or download it again.")
+        return
+    if b"\0" in head[:84] and len(head) >= 84:
+        held = max(0, (size - 84) // 50)
+        raise SourceError(
+            f"{path.name} is cut short or no STL file: it announces {counted(count, 'triangle')} and has room for "
+            f"{held}: export or download it again."
+        )
+    raise wrong_format(path, "an STL file", head)
+
+
+_OBJ_LINE = re.compile(rb"^\s*(?:v\s+[-+.\d]|mtllib\s|o\s|g\s|f\s+-?\d|usemtl\s)", re.MULTILINE)
+
+
+def _check_obj(path: Path, head: bytes, size: int) -> None:
+    if b"\0" in head or (head.lstrip()[:1] == b"<") or (_OBJ_LINE.search(head) is None and size <= len(head)):
+        raise wrong_format(path, "an OBJ file", head)
+
+
+def _check_ply(path: Path, head: bytes, size: int) -> None:
+    if not head.startswith(b"ply") or b"end_header" not in head:
+        raise wrong_format(path, "a PLY file", head)
+
+
+def _check_off(path: Path, head: bytes, size: int) -> None:
+    lines = [line.split(b"#")[0].strip() for line in head.splitlines()]
+    words = b" ".join(line for line in lines if line).split()
+    if not words or not re.fullmatch(rb"(ST)?C?N?4?n?OFF", words[0]):
+        raise wrong_format(path, "an OFF file", head)
+
+
+_CHECKS = {"stl": _check_stl, "obj": _check_obj, "ply": _check_ply, "off": _check_off}

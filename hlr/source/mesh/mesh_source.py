@@ -1,0 +1,189 @@
+"""Triangle meshes as a source: from trimesh and manifold3d objects, and from plain arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from copy import copy
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hlr.common.types import Color, Floats, Progress
+from hlr.drawing.notes import Note
+from hlr.errors import SourceError, counted
+from hlr.source.bounds import bounding_box, check_bounds
+from hlr.source.mesh.cleaning import CleanMesh, clean_mesh
+from hlr.source.model import Appearance, Choice, Frame, PartInfo, PartMesh, Tessellation
+from hlr.source.transforms import determinant_sign, transform_points
+
+
+@dataclass(frozen=True, slots=True)
+class Instance:
+    """One mesh standing somewhere: the number of its geometry and a (4, 4) transform.
+
+    mesh: what knows its colours: the trimesh object that it comes from, or `Painted`; None for bare arrays.
+    """
+
+    name: str
+    geometry: int
+    transform: Floats
+    color: Color | None
+    mesh: Any = None
+
+
+class MeshSource:
+    """Parts that are triangles already: `mesh` hands them over whatever the deflection."""
+
+    def __init__(
+        self,
+        name: str,
+        kind: str,
+        geometries: Sequence[tuple[Any, Any]],
+        instances: Sequence[Instance],
+        frame: Frame | None = None,
+    ) -> None:
+        """Clean each geometry, given as (points, triangles), once.
+
+        Raises:
+            SourceError: no triangle is left, or the model is too large to calculate with.
+        """
+        self._name, self._kind = name, kind
+        self.choice: Choice | None = None
+        self._frame = frame if frame is not None else Frame()
+        self._notes: list[Note] = []
+        cleaned = [clean_mesh(points, triangles) for points, triangles in geometries]
+        self._report(cleaned)
+        self._parts: list[PartMesh] = []
+        self._drawn: list[tuple[PartMesh, Instance, CleanMesh]] = []
+        for instance, label in zip(instances, unique_names([i.name for i in instances]), strict=True):
+            mesh = cleaned[instance.geometry]
+            if len(mesh.triangles):
+                self._parts.append(_part(label, mesh, instance))
+                self._drawn.append((self._parts[-1], instance, mesh))
+            else:
+                self._notes.append(Note("part-left-out", f'Part "{label}" has no triangles and was left out.'))
+        if not self._parts:
+            raise SourceError(self._refusal(cleaned))
+        check_bounds(name, self.bounds())
+
+    def _report(self, cleaned: list[CleanMesh]) -> None:
+        for count, what, why in (
+            (sum(mesh.not_finite for mesh in cleaned), "triangle", " with coordinates that are no numbers"),
+            (sum(mesh.out_of_range for mesh in cleaned), "triangle", " with corners that do not exist"),
+            (sum(mesh.degenerate for mesh in cleaned), "degenerate triangle", " (two corners in one place)"),
+        ):
+            if count:
+                left = "was" if count == 1 else "were"
+                self._notes.append(Note("triangles-left-out", f"{counted(count, what)}{why} {left} left out."))
+
+    def _refusal(self, cleaned: list[CleanMesh]) -> str:
+        if any(mesh.not_finite for mesh in cleaned):
+            return f"{self._name} holds no triangle whose coordinates are all numbers: export it again."
+        if any(mesh.degenerate for mesh in cleaned):
+            return f"{self._name} holds only degenerate triangles: there is nothing to draw."
+        return f"{self._name} holds no triangles: there is nothing to draw."
+
+    @property
+    def name(self) -> str:
+        """Base name."""
+        return self._name
+
+    @property
+    def kind(self) -> str:
+        """stl, obj, ply, off, 3mf, glb or mesh."""
+        return self._kind
+
+    @property
+    def frame(self) -> Frame:
+        """Unit and up axis of the model's coordinates."""
+        return self._frame
+
+    @property
+    def notes(self) -> list[Note]:
+        """What was left out while reading."""
+        return list(self._notes)
+
+    def bounds(self) -> Floats:
+        """(2, 3) exact corners in model coordinates."""
+        return bounding_box(np.concatenate(self.boxes()))
+
+    def names(self) -> list[str]:
+        """Of every part."""
+        return [part.name for part in self._parts]
+
+    def infos(self) -> list[PartInfo]:
+        """Meshes have no faces or edges of their own; both counts are 0."""
+        return [PartInfo(part.name, 0, 0, 0) for part in self._parts]
+
+    def boxes(self) -> list[Floats]:
+        """(2, 3) corners of every part."""
+        return [bounding_box(part.points) for part in self._parts]
+
+    def of_parts(self, names: Collection[str], choice: Choice) -> MeshSource:
+        """The same source with these parts only."""
+        chosen = copy(self)
+        chosen.choice = choice
+        chosen._drawn = [drawn for drawn in self._drawn if drawn[0].name in names]
+        chosen._parts = [part for part, _, _ in chosen._drawn]
+        return chosen
+
+    def transparent(self) -> bool:
+        """The file says something of colours."""
+        return any(instance.mesh is not None for _, instance, _ in self._drawn)
+
+    def looks(self) -> dict[str, Appearance]:
+        """Materials, and colours of vertices and faces where there is no material."""
+        from hlr.source.mesh.colors import mesh_appearance
+
+        return {part.name: mesh_appearance(part, instance.mesh, mesh) for part, instance, mesh in self._drawn}
+
+    def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
+        """The triangles as they are; deflection and angle (radians) have no effect."""
+        if progress is not None:
+            progress("tessellate", 1.0)
+        return Tessellation(parts=list(self._parts))
+
+
+def unique_names(names: Sequence[str]) -> list[str]:
+    """Names in order, repeated ones numbered from 2: bolt, bolt:2, bolt:3."""
+    taken: set[str] = set()
+    counts: dict[str, int] = {}
+    result = []
+    for name in names:
+        unique = name
+        while unique in taken or not unique:
+            base = name or "part"
+            counts[base] = counts.get(base, 1) + 1 if base in taken else 1
+            unique = base if counts[base] == 1 else f"{base}:{counts[base]}"
+        taken.add(unique)
+        result.append(unique)
+    return result
+
+
+def _part(name: str, mesh: CleanMesh, instance: Instance) -> PartMesh:
+    points, triangles = mesh.points, mesh.triangles
+    moved_away = not (instance.transform == np.eye(4)).all()
+    if moved_away:
+        with np.errstate(over="ignore", invalid="ignore"):  # such a size is refused in a sentence
+            points = transform_points(points, instance.transform)
+            mirrored = determinant_sign(instance.transform) < 0
+        if mirrored:
+            triangles = np.ascontiguousarray(triangles[:, [0, 2, 1]])
+    none = np.empty(0, dtype=np.int32)
+    return PartMesh(
+        name=name,
+        color=instance.color,
+        transform=instance.transform,
+        points=points,
+        triangles=triangles,
+        triangle_face=np.zeros(len(triangles), dtype=np.int32),
+        face_planar=np.zeros(1, dtype=bool),
+        edge_nodes=none,
+        edge_offsets=np.zeros(1, dtype=np.int32),
+        edge_index=none,
+        edge_class=np.empty(0, dtype=np.uint8),
+        brep=False,
+        joined=not moved_away,
+        precision=mesh.precision * float(np.sqrt((instance.transform[:3, :3] ** 2).sum(axis=0).max())),
+    )

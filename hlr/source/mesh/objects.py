@@ -1,0 +1,182 @@
+"""Meshes in memory: trimesh and manifold3d objects, and plain arrays."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.types import Color, Floats, Ints
+from hlr.errors import SourceError
+from hlr.source.mesh.mesh_source import Instance, MeshSource
+from hlr.source.model import Frame
+
+MM_PER_UNIT = {
+    "micron": 1e-3,
+    "micrometer": 1e-3,
+    "micrometers": 1e-3,
+    "millimeter": 1.0,
+    "millimeters": 1.0,
+    "mm": 1.0,
+    "centimeter": 10.0,
+    "centimeters": 10.0,
+    "cm": 10.0,
+    "meter": 1000.0,
+    "meters": 1000.0,
+    "m": 1000.0,
+    "inch": 25.4,
+    "inches": 25.4,
+    "in": 25.4,
+    "foot": 304.8,
+    "feet": 304.8,
+    "ft": 304.8,
+}
+"""Millimetres per unit, by the names that files and trimesh use."""
+
+
+Y_UP = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
+"""glTF: y points up and z toward the viewer; world = unit * up * model."""
+
+
+def open_trimesh(thing: Any) -> MeshSource:
+    """A trimesh.Trimesh or trimesh.Scene.
+
+    Raises:
+        SourceError: it holds no triangles.
+    """
+    source = getattr(thing, "source", None)
+    kind = str(getattr(source, "file_type", "") or "").lower()
+    up = Y_UP if kind in ("glb", "gltf") else Frame().up
+    frame = Frame(MM_PER_UNIT.get(str(getattr(thing, "units", None) or "mm").lower(), 1.0), up)
+    return from_trimesh(type(thing).__name__, "mesh", thing, frame, "part")
+
+
+def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> MeshSource:
+    """Meshes of a trimesh object under its own names; `part` names a single nameless one.
+
+    Raises:
+        SourceError: it holds no triangles.
+    """
+    if not hasattr(thing, "graph"):
+        if not hasattr(thing, "faces"):
+            raise SourceError(f"{name} holds no triangles (only points or curves): there is nothing to draw.")
+        whole = Instance(part, 0, np.eye(4), _color(thing), thing)
+        return MeshSource(name, kind, [_arrays(name, thing)], [whole], frame)
+    geometries: list[tuple[Any, Any]] = []
+    numbers: dict[str, int] = {}
+    instances: list[Instance] = []
+    for node in thing.graph.nodes_geometry:
+        matrix, key = _placement(thing.graph, node)
+        geometry = thing.geometry.get(key)
+        if geometry is None or not hasattr(geometry, "faces"):
+            continue
+        if key not in numbers:
+            numbers[key] = len(geometries)
+            geometries.append(_arrays(name, geometry))
+        named = node_name(node, key, part)
+        instances.append(Instance(named, numbers[key], matrix, _color(geometry), geometry))
+    if len(instances) == 1 and not instances[0].name:
+        instances = [replace(instances[0], name=part)]
+    return MeshSource(name, kind, geometries, instances, frame)
+
+
+def _arrays(name: str, mesh: Any) -> tuple[Any, Any]:
+    """Vertices and faces; some readers of trimesh hand on whatever number of columns a file has."""
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    if any(table.size and table.shape[1:] != (3,) for table in (vertices, faces)):
+        raise SourceError(f"{name} holds vertices or faces that are not three numbers each: export it again.")
+    return vertices, faces
+
+
+def _placement(graph: Any, node: str) -> tuple[Floats, str]:
+    """(4, 4) transform of a node, multiplied up to the base without BLAS: the same bits on every machine."""
+    from hlr.source.transforms import IDENTITY, compose, matrix4
+
+    transforms = graph.transforms
+    key = transforms.node_data[node]["geometry"]
+    result, here = IDENTITY, node
+    for _ in range(10_000):
+        parent = transforms.parents.get(here)
+        if parent is None or here == graph.base_frame:
+            break
+        edge = transforms.edge_data[(parent, here)]
+        step = edge.get("matrix")
+        if step is not None:
+            result = compose(tuple(np.asarray(step, dtype=np.float64)[:3].ravel().tolist()), result)
+        here = parent
+    return matrix4(result), key
+
+
+def node_name(node: str, key: str, part: str) -> str:
+    """A readable name: trimesh invents some for nameless geometry."""
+    for text in (key, node):
+        plain = str(text)
+        if plain and not plain.startswith(("geometry_", "GLTF", "world")) and "." not in plain[-5:]:
+            return plain
+    return part
+
+
+def _color(mesh: Any) -> Color | None:
+    """The one colour of a mesh's material; vertex and face colours are no colour of the part."""
+    material = getattr(getattr(mesh, "visual", None), "material", None)
+    factor = getattr(material, "baseColorFactor", None)
+    linear = factor is not None
+    if factor is None:
+        factor = getattr(material, "diffuse", None)
+    if factor is None:
+        return None
+    values = np.asarray(factor)
+    if values.shape not in ((3,), (4,)):
+        return None
+    scaled = values.astype(np.float64) / (255.0 if values.dtype.kind in "ui" else 1.0)
+    red, green, blue = (_srgb(float(v)) if linear else round(float(v), 6) for v in scaled[:3])
+    return red, green, blue
+
+
+def _srgb(value: float) -> float:
+    value = min(max(value, 0.0), 1.0)
+    return round(12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055, 6)
+
+
+def open_manifold(thing: Any) -> MeshSource:
+    """A manifold3d.Manifold.
+
+    Raises:
+        SourceError: it is empty, or in an error state.
+    """
+    status = getattr(thing, "status", None)
+    if status is not None and getattr(status(), "name", "NoError") != "NoError":
+        raise SourceError(f"The Manifold is in the error state {status().name}: there is nothing to draw.")
+    mesh = thing.to_mesh64() if hasattr(thing, "to_mesh64") else thing.to_mesh()
+    points = np.asarray(mesh.vert_properties)[:, :3]
+    whole = Instance("part", 0, np.eye(4), None)
+    return MeshSource("Manifold", "mesh", [(points, np.asarray(mesh.tri_verts))], [whole])
+
+
+def open_arrays(vertices: Any, faces: Any) -> MeshSource:
+    """Plain arrays: vertices (n, 3), faces (m, 3) or (m, 4) of vertex numbers.
+
+    Raises:
+        SourceError: other shapes, or no triangles.
+    """
+    try:
+        given: npt.NDArray[Any] = np.asarray(vertices)
+        if given.dtype.kind not in "iufbO":  # an imaginary part would be lost, and text is no coordinate
+            raise TypeError
+        points = given.astype(np.float64, copy=False)
+        corners: npt.NDArray[Any] = np.asarray(faces)
+    except (TypeError, ValueError):
+        raise SourceError("(vertices, faces) must be arrays of numbers: (n, 3) and (m, 3).") from None
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise SourceError(f"vertices must have the shape (n, 3), not {points.shape}.")
+    if corners.ndim != 2 or corners.shape[1] not in (3, 4) or corners.dtype.kind not in "iu":
+        raise SourceError(f"faces must be whole numbers of the shape (m, 3) or (m, 4), not {corners.shape}.")
+    if corners.shape[1] == 4:
+        corners = np.concatenate((corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]))
+    if corners.size and not (corners.min() >= 0 and corners.max() < len(points)):
+        outside = (corners < 0) | (corners >= len(points))
+        raise SourceError(f"faces name {int(outside.sum())} vertices that do not exist (there are {len(points)}).")
+    triangles: Ints = corners.astype(np.int32, copy=False)
+    return MeshSource("mesh", "mesh", [(points, triangles)], [Instance("part", 0, np.eye(4), None)])

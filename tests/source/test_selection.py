@@ -1,0 +1,105 @@
+"""Only some parts of a source: by name, by pattern, by assembly; in every kind of source and every kind of picture."""
+
+import numpy as np
+import pytest
+import trimesh
+
+import hlr
+from hlr import OptionError, Options
+from hlr.source import open_source
+from hlr.source.selection import matches, open_selected
+
+
+def mesh_scene():
+    scene = trimesh.Scene()
+    for i, name in enumerate(("bolt", "nut", "plate")):
+        box = trimesh.creation.box((4, 4, 4))
+        box.apply_translation((10 * i, 0, 0))
+        scene.add_geometry(box, geom_name=name, node_name=name)
+    return scene
+
+
+def assembly():
+    cq = pytest.importorskip("cadquery")
+    bolt, plate = cq.Workplane().cylinder(4, 1), cq.Workplane().box(30, 30, 1)
+    sub = cq.Assembly(name="sub").add(bolt, name="bolt").add(bolt, name="bolt ", loc=cq.Location((5, 0, 0)))
+    return cq.Assembly(name="all").add(plate, name="plate").add(sub).add(bolt, name="nut", loc=cq.Location((9, 0, 0)))
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern", "is_meant"),
+    [
+        ("bolt", "bolt", True),
+        ("bolt:2", "bolt", True),
+        ("Bolt:12", "bOLT", True),
+        ("bolts", "bolt", False),
+        ("bolt M6", "bolt*", True),
+        ("sub/deep/bolt", "sub", True),
+        ("sub/deep/bolt", "sub/deep", True),
+        ("sub/deep/bolt", "*bolt", True),
+        ("sub2/bolt", "sub", False),
+        ("pin [a]", "pin [a]", True),
+        ("pin a", "pin [ab]", True),
+    ],
+)
+def test_what_a_pattern_means(name, pattern, is_meant):
+    assert matches(name, pattern) == is_meant
+
+
+def parts(source, **options):
+    return [part.name for part in hlr.draw(source, **options).parts]
+
+
+@pytest.mark.parametrize("kind", ["mesh", "brep"])
+def test_only_and_hide(kind):
+    source = mesh_scene() if kind == "mesh" else assembly()
+    bolts = ["bolt"] if kind == "mesh" else ["sub/bolt", "sub/bolt "]
+    assert parts(source, only=("plate",)) == ["plate"]
+    assert parts(source, hide=["plate", "nu?"]) == bolts
+    assert parts(source, only=["*bolt*", "nut"], hide=["nut"]) == bolts
+    if kind == "brep":
+        assert parts(source, only=["sub"]) == bolts
+        assert parts(source, only=["sub"], hide=["sub/bolt "]) == ["sub/bolt"]
+
+
+@pytest.mark.parametrize("kind", ["mesh", "brep"])
+def test_what_is_left_is_drawn_as_if_it_were_alone(kind):
+    source = mesh_scene() if kind == "mesh" else assembly()
+    alone = open_selected(source, Options(only=("nut",)))
+    low, high = open_source(source).bounds()
+    assert (np.ptp(alone.bounds(), axis=0) < high - low).any()
+    (mesh,) = alone.mesh(0.1, 0.3).parts
+    assert mesh.name == "nut" and len(mesh.triangles)
+    assert list(alone.looks()) == ["nut"]
+    nut = hlr.draw(source, only=("nut",), report=kind == "brep")
+    if kind == "brep":
+        assert nut.reached is not None
+        assert {line.part for line in nut.lines} == {0}
+        assert any(line.curve is not None for line in nut.lines)
+
+
+def test_it_holds_for_every_kind_of_picture():
+    scene = mesh_scene()
+    assert [part.name for part in hlr.preview(scene, size=(20, 20), hide=("nut",)).parts] == ["bolt", "plate"]
+    for options in (Options(hide=("nut",), within=5.0), Options(hide=("nut",), within=5.0, report=True)):
+        assert [part.name for part in hlr.draw_views(scene, ["iso"], options)[0].parts] == ["bolt", "plate"]
+    (plan,) = hlr.plan_views(scene, ["iso"], Options(only=("nut",)))
+    crossing = next(d for d in plan.decisions if d.name == "crossing search")
+    assert not crossing.on  # a box alone is convex
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"only": ["blot"]}, 'only "blot" matches no part: perhaps "bolt"'),
+        ({"hide": ["zzz"]}, 'hide "zzz" matches no part: there are "bolt", "nut", "plate"'),
+        ({"hide": ["*"]}, "no part would be left"),
+        ({"only": "bolt"}, "needs a list"),
+        ({"hide": [1]}, "needs a list"),
+        ({"var": "x"}, "no script"),
+        ({"var": 3}, "name of a variable"),
+    ],
+)
+def test_refusals(options, words):
+    with pytest.raises(OptionError, match=words):
+        hlr.draw(mesh_scene(), **options)
