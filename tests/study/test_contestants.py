@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from hlr.image.camera import resolve
+from hlr.lab.polylines import drawing_of
 from hlr.lab.study import occt
-from hlr.lab.study.ink import drawing_of
 from hlr.lab.study.watch import Watch
 from hlr.request.options import Options
 from hlr.source import open_source

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from hlr.drawing.curve import Arc, Bezier
+from hlr.lab.polylines import gathered, load
+from hlr.lab.sampling import chords
 from hlr.lab.study.frontier import frontier
-from hlr.lab.study.ink import _flattened, gathered, load
 from hlr.lab.study.job import HLR, POLY, Cost, Point
-from hlr.lab.study.judge import judged
+from hlr.lab.study.judge import LineJudge
 from hlr.lab.study.watch import Watch
 
 
@@ -21,14 +22,14 @@ TRUE = ink(
 
 
 def test_the_truth_has_no_errors():
-    found = judged(TRUE, TRUE)
+    found = LineJudge(TRUE).judge(TRUE)
     assert max(found["ink_worst"], found["off_worst"], found["wrong"]) == pytest.approx(0.0, abs=1e-12)
     assert found["true_visible"] == pytest.approx(150)
 
 
 def test_a_line_beside_its_place():
     drawn = ink(("sharp", True, [[0, 0.03], [100, 0.03]]), ("sharp", True, [[0, 9], [50, 9]]))
-    found = judged(TRUE, drawn)
+    found = LineJudge(TRUE).judge(drawn)
     assert found["ink_worst"] == pytest.approx(0.03) and found["ink_usual"] == pytest.approx(0.03)
     assert found["ink_mean"] == pytest.approx(0.02, rel=1e-3) and found["wrong"] == 0.0
 
@@ -38,7 +39,7 @@ def test_a_displaced_change(end):
     drawn = ink(
         ("sharp", True, [[0, 0], [end, 0]]), ("sharp", False, [[end, 0], [150, 0]]), ("sharp", True, [[0, 9], [50, 9]])
     )
-    found = judged(TRUE, drawn)
+    found = LineJudge(TRUE).judge(drawn)
     assert found["off_worst"] == pytest.approx(0.0, abs=1e-12)
     assert found["ink_worst"] == pytest.approx(3.0)
     assert found["mislabelled"] == pytest.approx(3.0 - 0.1, abs=0.01)
@@ -47,19 +48,22 @@ def test_a_displaced_change(end):
 
 def test_lost_and_false_lines():
     drawn = ink(("sharp", True, [[0, 0], [100, 0]]), ("sharp", True, [[0, 29], [10, 29]]))
-    found = judged(TRUE, drawn)
+    found = LineJudge(TRUE).judge(drawn)
     assert found["missing"] == pytest.approx(50) and found["too_much"] == pytest.approx(10)
     assert found["off_worst"] == pytest.approx(20) and found["wrong"] == pytest.approx(60 / 150)
 
 
 def test_tangent_edges_may_be_drawn_and_need_not():
     true = ink(("sharp", True, [[0, 0], [100, 0]]), ("smooth", True, [[0, 5], [100, 5]]))
-    assert judged(true, ink(("sharp", True, [[0, 0], [100, 0]])))["wrong"] == 0.0
-    assert judged(true, ink(("sharp", True, [[0, 0], [100, 0]]), ("sharp", True, [[0, 5], [100, 5]])))["wrong"] == 0.0
+    assert LineJudge(true).judge(ink(("sharp", True, [[0, 0], [100, 0]])))["wrong"] == 0.0
+    assert (
+        LineJudge(true).judge(ink(("sharp", True, [[0, 0], [100, 0]]), ("sharp", True, [[0, 5], [100, 5]])))["wrong"]
+        == 0.0
+    )
 
 
 def test_an_empty_drawing_misses_everything():
-    found = judged(TRUE, ink())
+    found = LineJudge(TRUE).judge(ink())
     assert found["missing"] == pytest.approx(150) and found["wrong"] == pytest.approx(1.0)
 
 
@@ -68,9 +72,9 @@ def test_chords_stay_as_near_as_asked(chord):
     arc = Arc(np.zeros(2), np.array([[30.0, 0.0], [0.0, 20.0]]), np.array([0.2, 4.0]))
     curve = Bezier(3, np.array([[0, 0], [10, 30], [40, -30], [50, 0], [60, 30], [70, 0], [80, 5]], float))
     for shape, start, end in ((arc, *arc.angles), (curve, 0.0, 2.0)):
-        chords = gathered([("sharp", True, _flattened(shape, chord))])
+        drawn = gathered([("sharp", True, chords(shape, chord))])
         dense = gathered([("sharp", True, shape.at(np.linspace(start, end, 5001)))])
-        assert judged(dense, chords)["ink_worst"] < 1.05 * chord + 1e-4
+        assert LineJudge(dense).judge(drawn)["ink_worst"] < 1.05 * chord + 1e-4
 
 
 def test_lines_are_kept(tmp_path):

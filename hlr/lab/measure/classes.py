@@ -43,6 +43,21 @@ def measured(
 
     Raises OptionError where the drawing does not know what was asked for, SourceError where the source cannot be read.
     """
+    return ModelJudge(source, threads=threads, samples=samples, finer=finer).judge(drawing)
+
+
+class ModelJudge:
+    """Holds drawings of one model against the model itself; arguments as of `measured`."""
+
+    def __init__(self, source: Any, *, threads: int = 0, samples: int = SAMPLES, finer: Drawing | None = None) -> None:
+        self._source, self._threads, self._samples, self._finer = source, threads, samples, finer
+
+    def judge(self, drawn: Drawing) -> Reached:
+        """All classes of error of one drawing. Raises as `measured` does."""
+        return _judged(self._source, drawn, self._threads, self._samples, self._finer)
+
+
+def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Drawing | None) -> Reached:
     if drawing.request is None:
         raise OptionError("this drawing does not know what it was asked for: measure one that hlr.draw has made")
     started = perf_counter()

@@ -8,7 +8,8 @@ from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.reached import Errors
-from hlr.lab.measure.written import Index, Written
+from hlr.lab.measure.written import Written
+from hlr.lab.sampling import Index
 
 
 def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:

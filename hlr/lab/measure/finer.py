@@ -28,7 +28,8 @@ from hlr.drawing.line import Line
 from hlr.drawing.reached import Errors, errors
 from hlr.errors import HlrError
 from hlr.lab.measure.rays import DENSE, Caster, contradicted, longest_run, runs
-from hlr.lab.measure.written import Index, Written, written
+from hlr.lab.measure.written import Written, written
+from hlr.lab.sampling import Index
 
 Mask = npt.NDArray[np.bool_]
 

@@ -28,7 +28,8 @@ from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.lab.measure.edges import TrueEdges
 from hlr.lab.measure.paper import Paper
-from hlr.lab.measure.written import Index, Written, in_model
+from hlr.lab.measure.written import Written, in_model
+from hlr.lab.sampling import Index
 
 ITERATIONS = 30
 EDGE_ON = 1e-9

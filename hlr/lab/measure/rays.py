@@ -26,7 +26,8 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.reached import Labels
 from hlr.image.camera import NEAR
 from hlr.lab.measure.paper import Paper
-from hlr.lab.measure.written import Index, Written, in_model
+from hlr.lab.measure.written import Written, in_model
+from hlr.lab.sampling import Index
 from hlr.request.accuracy import ANGLE, MESH_CONTACT, under
 
 RING = 8

@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
+from hlr.lab.sampling import Index, line_middles, numbered
 from hlr.writers.strokes import ARC, CUBIC, LINE, QUADRATIC, WHOLE, Rows, places_of, rows_of
-
-Index = npt.NDArray[np.int64]
 
 EXTRA, ROTATION = 2, 6
 """Decimals that radii have beyond those of points, and decimals of a rotation in degrees:
@@ -44,20 +42,7 @@ class Written:
 
     def middles(self, step: float) -> tuple[Floats, Index]:
         """(n, 2) points along the lines, in the middle of pieces at most `step` long, and the line of each."""
-        segments, line = self.steps()
-        length = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
-        # Running length over all lines: pieces go over bends, and each line's own begin at its start.
-        ends = np.cumsum(length)
-        last = np.flatnonzero(np.append(line[1:] != line[:-1], True)) if len(line) else np.zeros(0, np.int64)
-        total = np.diff(np.append(0.0, ends[last]))
-        count = np.maximum(np.ceil(total / step), 1.0).astype(np.int64)
-        number = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-        along = np.repeat(ends[last] - total, count) + (number + 0.5) * np.repeat(total / np.maximum(count, 1), count)
-        which = np.minimum(np.searchsorted(ends, along), np.repeat(last, count))
-        with np.errstate(all="ignore"):
-            t = np.nan_to_num((along - (ends[which] - length[which])) / length[which])[:, None]
-        points = segments[which, :2] * (1.0 - t) + segments[which, 2:] * t
-        return np.ascontiguousarray(points), np.repeat(line[last], count)
+        return line_middles(*self.steps(), step)
 
 
 def written(drawing: Drawing, *, cubic: bool = False) -> Written:
@@ -89,10 +74,8 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
             bend = np.hypot(second[..., 0], second[..., 1]).max(axis=0, initial=0.0) * DEGREE[op] * (DEGREE[op] - 1)
         # A chord over 1 / n of a curve is off by at most a eighth of its second derivative over n squared.
         pieces = np.maximum(np.ceil(np.sqrt(bend / (8.0 * CHORD * accuracy))), fewest).astype(np.int64)
-        which_of = np.repeat(np.arange(len(which)), pieces + (op == WHOLE))
-        begin = np.flatnonzero(np.append(True, np.diff(which_of) > 0))
-        number = np.arange(len(which_of)) - begin[which_of] + (op != WHOLE)
-        t = number / pieces[which_of]
+        which_of, number = numbered(pieces + (op == WHOLE))
+        t = (number + (op != WHOLE)) / pieces[which_of]
         points.append(shape.at(which_of, t) if op in (ARC, WHOLE) else _bezier(control[:, which_of], t))
         row.append(which[which_of])
     every = np.concatenate(row)

@@ -16,7 +16,8 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats
-from hlr.lab.study.ink import KINDS, Ink
+from hlr.lab.polylines import KINDS, Polylines
+from hlr.lab.sampling import with_ends
 
 SAMPLES = 200_000
 """Points along all lines of a drawing, beside their ends."""
@@ -31,41 +32,48 @@ EXTRA = tuple(KINDS.index(kind) for kind in ("smooth", "seam"))
 """Kinds that may be drawn and need not be."""
 
 
-def judged(true: Ink, drawn: Ink, threads: int = 0) -> dict[str, float]:
-    """Errors by name; lengths in millimetres on paper.
+class LineJudge:
+    """Holds polylines of any drawing program against true ones of the same view."""
 
-    off_mean, off_usual, off_worst   of all drawn lines from the nearest true line, visible or not
-    ink_mean, ink_usual, ink_worst   between visible ink drawn and true, both ways
-    too_much, missing                visible ink farther off than `NOTICED`: drawn, and not drawn
-    mislabelled                      of these: drawn visible on a truly hidden line, or hidden on a truly visible one
-    wrong                            too_much and missing, as a share of the true visible length
-    """
-    required = ~np.isin(true.kind, EXTRA)
-    allowed_seen = true.segments(true.visible)
-    allowed_all = true.segments()
-    seen, weight = _samples(drawn, drawn.visible)
-    unseen, unseen_weight = _samples(drawn, ~drawn.visible)
-    truly, true_weight = _samples(true, true.visible & required)
-    shown = _distance(seen, allowed_seen, threads)
-    short = _distance(truly, drawn.segments(drawn.visible), threads)
-    placed = np.concatenate(
-        [np.minimum(shown, _distance(seen, allowed_all, threads)), _distance(unseen, allowed_all, threads)]
-    )
-    both, both_weight = np.concatenate([shown, short]), np.concatenate([weight, true_weight])
-    extra, lacking = shown > NOTICED, short > NOTICED
-    hidden_there = _distance(seen[extra], true.segments(~true.visible), threads) <= NOTICED
-    hidden_drawn = _distance(truly[lacking], drawn.segments(~drawn.visible), threads) <= NOTICED
-    total = float(true_weight.sum())
-    too_much, missing = float(weight[extra].sum()), float(true_weight[lacking].sum())
-    return {
-        **_summary("off", placed, np.concatenate([weight, unseen_weight])),
-        **_summary("ink", both, both_weight),
-        "too_much": too_much,
-        "missing": missing,
-        "mislabelled": float(weight[extra][hidden_there].sum() + true_weight[lacking][hidden_drawn].sum()),
-        "wrong": (too_much + missing) / total if total > 0.0 else 0.0,
-        "true_visible": total,
-    }
+    def __init__(self, true: Polylines, threads: int = 0) -> None:
+        self._true, self._threads = true, threads
+
+    def judge(self, drawn: Polylines) -> dict[str, float]:
+        """Errors by name; lengths in millimetres on paper.
+
+        off_mean, off_usual, off_worst   of all drawn lines from the nearest true line, visible or not
+        ink_mean, ink_usual, ink_worst   between visible lines drawn and true, both ways
+        too_much, missing                visible lines farther off than `NOTICED`: drawn, and not drawn
+        mislabelled                      of these: drawn visible on a truly hidden line, or the other way round
+        wrong                            too_much and missing, as a share of the true visible length
+        """
+        true, threads = self._true, self._threads
+        required = ~np.isin(true.kind, EXTRA)
+        allowed_seen = true.segments(true.visible)
+        allowed_all = true.segments()
+        seen, weight = _samples(drawn, drawn.visible)
+        unseen, unseen_weight = _samples(drawn, ~drawn.visible)
+        truly, true_weight = _samples(true, true.visible & required)
+        shown = _distance(seen, allowed_seen, threads)
+        short = _distance(truly, drawn.segments(drawn.visible), threads)
+        placed = np.concatenate(
+            [np.minimum(shown, _distance(seen, allowed_all, threads)), _distance(unseen, allowed_all, threads)]
+        )
+        both, both_weight = np.concatenate([shown, short]), np.concatenate([weight, true_weight])
+        extra, lacking = shown > NOTICED, short > NOTICED
+        hidden_there = _distance(seen[extra], true.segments(~true.visible), threads) <= NOTICED
+        hidden_drawn = _distance(truly[lacking], drawn.segments(~drawn.visible), threads) <= NOTICED
+        total = float(true_weight.sum())
+        too_much, missing = float(weight[extra].sum()), float(true_weight[lacking].sum())
+        return {
+            **_summary("off", placed, np.concatenate([weight, unseen_weight])),
+            **_summary("ink", both, both_weight),
+            "too_much": too_much,
+            "missing": missing,
+            "mislabelled": float(weight[extra][hidden_there].sum() + true_weight[lacking][hidden_drawn].sum()),
+            "wrong": (too_much + missing) / total if total > 0.0 else 0.0,
+            "true_visible": total,
+        }
 
 
 def _summary(name: str, distance: Floats, weight: Floats) -> dict[str, float]:
@@ -83,20 +91,16 @@ def _summary(name: str, distance: Floats, weight: Floats) -> dict[str, float]:
 FARTHEST = 1000.0
 
 
-def _samples(ink: Ink, chosen: npt.NDArray[np.bool_]) -> tuple[Floats, Floats]:
+def _samples(lines: Polylines, chosen: npt.NDArray[np.bool_]) -> tuple[Floats, Floats]:
     """Points (n, 2) along the chosen lines, their ends among them, and the length (n,) for which each stands."""
-    pieces = ink.segments(chosen)
+    pieces = lines.segments(chosen)
     if len(pieces) == 0:
         return np.empty((0, 2)), np.empty(0)
-    length = np.hypot(pieces[:, 2] - pieces[:, 0], pieces[:, 3] - pieces[:, 1])
-    step = max(float(length.sum()) / SAMPLES, 1e-9)
-    count = np.maximum(np.ceil(length / step), 1.0).astype(np.int64) + 1
-    which = np.repeat(np.arange(len(pieces)), count)
-    t = (np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)) / (count[which] - 1)
-    points = pieces[which, :2] + (pieces[which, 2:] - pieces[which, :2]) * t[:, None]
-    # By the rule of trapezoids: the ends of a piece stand for half a step.
-    weight = length[which] / (count[which] - 1) * np.where((t == 0.0) | (t == 1.0), 0.5, 1.0)
-    return points, weight
+    step = max(float(np.hypot(*(pieces[:, 2:] - pieces[:, :2]).T).sum()) / SAMPLES, 1e-9)
+    found = with_ends(pieces, step)
+    # By the trapezoidal rule: the ends of a segment stand for half a step.
+    weight = np.where((found.share == 0.0) | (found.share == 1.0), 0.5, 1.0)
+    return found.points, (found.length / found.pieces)[found.segment] * weight
 
 
 def _distance(points: Floats, segments: Floats, threads: int) -> Floats:

@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 
 from hlr.image.camera import Camera
+from hlr.lab.polylines import Polylines, gathered
 from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, forget_mesh, mark_tangent_edges, mesh
-from hlr.lab.study.ink import Ink, gathered
 from hlr.lab.study.watch import Watch
 
 CHORD_MM = 0.001
 """On paper: how far chords are off the exact algorithm's curves. They are made when the clock has stopped."""
 
 
-def poly(shape: Any, camera: Camera, per_model: float, deflection: float, angle: float, watch: Watch) -> Ink:
+def poly(shape: Any, camera: Camera, per_model: float, deflection: float, angle: float, watch: Watch) -> Polylines:
     """HLRBRep_PolyAlgo on OpenCASCADE's own mesh. deflection: model units; angle: radians."""
     forget_mesh(shape)
     watch("tessellate")
@@ -32,7 +32,7 @@ def poly(shape: Any, camera: Camera, per_model: float, deflection: float, angle:
     return gathered([(name, visible, points * per_model) for name, visible, points in rival.lines(found)])
 
 
-def exact(shape: Any, camera: Camera, per_model: float, watch: Watch) -> Ink:
+def exact(shape: Any, camera: Camera, per_model: float, watch: Watch) -> Polylines:
     """HLRBRep_Algo on the B-rep itself."""
     watch("scene")
     mark_tangent_edges(shape)

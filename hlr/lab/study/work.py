@@ -12,12 +12,14 @@ from typing import Any
 import numpy as np
 
 from hlr.drawing.drawing import Drawing, DrawnView
+from hlr.drawing.line import Line
 from hlr.drawing.saving import render
 from hlr.errors import OptionError
 from hlr.image.camera import Camera
 from hlr.image.image import image_of
 from hlr.image.outlines import outlined
-from hlr.lab.study.ink import Ink, drawing_of, ink_of, load
+from hlr.lab.polylines import Polylines, drawing_of, load, polylines_of
+from hlr.lab.sampling import bezier_pieces
 from hlr.lab.study.job import EXACT, HLR, POLY, ZBUFFER, Cost, Job, Point
 from hlr.lab.study.watch import Watch
 from hlr.pipeline.draw import draw_views
@@ -117,7 +119,7 @@ def _hlr(job: Job) -> Point:
     watch("write")
     size = len(render(drawing, "svg"))
     watch.stop()
-    _keep(job, ink_of(drawing, CHORDS * job.setting))
+    _keep(job, polylines_of(drawing, CHORDS * job.setting))
     stages = dict(watch.stages)
     # The pipeline does not say when it passes from deciding to hiding and to lines: its own clock does.
     whole = stages.pop("visibility")
@@ -126,7 +128,7 @@ def _hlr(job: Job) -> Point:
         wall = drawing.timings[name]
         stages[name] = replace(whole, wall=wall, cpu=whole.cpu * wall / clock)
     counts = {name: int(drawing.counters.get(name, 0)) for name in ("triangles", "failed_checks", "contradictions")}
-    pieces = sum(_pieces(line.curve, len(line.points)) for line in drawing.lines)
+    pieces = sum(_pieces(line) for line in drawing.lines)
     return Point(
         HLR,
         job.setting,
@@ -136,17 +138,15 @@ def _hlr(job: Job) -> Point:
     )
 
 
-def _pieces(curve: Any, points: int) -> int:
+def _pieces(line: Line) -> int:
     """Straight pieces, arcs and Bezier curves of a line."""
-    if curve is None:
-        return points - 1
-    return (len(curve.points) - 1) // curve.degree if hasattr(curve, "degree") else 1
+    return len(line.points) - 1 if line.curve is None else bezier_pieces(line.curve)
 
 
 def _truth(job: Job) -> dict[str, Any]:
     """The lines that all are judged by: those of the finest drawing, and what may be drawn beside them."""
     drawing = _drawn(job, Watch(), smooth=True, seam=True)
-    _keep(job, ink_of(drawing, CHORDS * job.setting))
+    _keep(job, polylines_of(drawing, CHORDS * job.setting))
     return {"accuracy": job.setting, "lines": len(drawing.lines)}
 
 
@@ -163,10 +163,10 @@ def _occt(job: Job) -> Point:
     shape = opened.shape()
     watch.stop()
     if job.work == EXACT:
-        ink = occt.exact(shape, camera, at.per_model, watch)
+        lines = occt.exact(shape, camera, at.per_model, watch)
     else:
-        ink = occt.poly(shape, camera, at.per_model, at.tolerances.deflection, at.tolerances.angle, watch)
-    return _rival(job, ink, opened, camera, accuracy, watch)
+        lines = occt.poly(shape, camera, at.per_model, at.tolerances.deflection, at.tolerances.angle, watch)
+    return _rival(job, lines, opened, camera, accuracy, watch)
 
 
 def _zbuffer(job: Job) -> Point:
@@ -182,9 +182,9 @@ def _zbuffer(job: Job) -> Point:
     watch("plan")
     image = image_of(session.scene, camera, draft.image.placement)
     plan = session.plan(draft, image)
-    ink = hidden_lines(image, plan.role, int(job.setting), watch)
+    lines = hidden_lines(image, plan.role, int(job.setting), watch)
     watch.stop()
-    return _rival(job, ink, session.source, camera, pixel, watch)
+    return _rival(job, lines, session.source, camera, pixel, watch)
 
 
 def _flat_box(opened: Source, camera: Camera) -> tuple[Any, Any]:
@@ -194,17 +194,17 @@ def _flat_box(opened: Source, camera: Camera) -> tuple[Any, Any]:
     return flat.min(axis=0), flat.max(axis=0)
 
 
-def _rival(job: Job, ink: Ink, opened: Source, camera: Camera, accuracy: float | None, watch: Watch) -> Point:
+def _rival(job: Job, lines: Polylines, opened: Source, camera: Camera, accuracy: float | None, watch: Watch) -> Point:
     """The figures of a contestant that yields bare lines."""
     view: DrawnView = drawn_view(camera)
     watch("write")
-    bare = drawing_of(ink, opened.name, view, job.scale or 1.0, accuracy or WRITTEN)
+    bare = drawing_of(lines, opened.name, view, job.scale or 1.0, accuracy or WRITTEN)
     size = len(render(bare, "svg"))
     watch.stop()
-    _keep(job, ink)
-    counts = {"lines": len(ink.visible)}
+    _keep(job, lines)
+    counts = {"lines": len(lines.visible)}
     if accuracy is not None:  # else they are curves, and here only chords of them
-        counts |= {"segments": len(ink.points) - len(ink.visible), "bytes": size}
+        counts |= {"segments": len(lines.points) - len(lines.visible), "bytes": size}
     return Point(job.work, job.setting, accuracy=accuracy, stages=dict(watch.stages), counts=counts)
 
 
@@ -225,21 +225,22 @@ def _arithmetic(job: Job) -> dict[str, Any]:
 
 
 def _judge(job: Job) -> dict[str, Any]:
-    from hlr.lab.study.judge import judged
+    from hlr.lab.study.judge import LineJudge
 
     folder = Path(job.folder)
-    return {"errors": judged(load(folder / "truth.npz"), load(folder / f"{job.name}.npz"))}
+    judge = LineJudge(load(folder / "truth.npz"))
+    return {"errors": judge.judge(load(folder / f"{job.name}.npz"))}
 
 
 def _reached(job: Job) -> dict[str, Any]:
     """What an independent measurement says of our own drawing: OpenCASCADE's curves, surfaces, rays."""
-    from hlr.lab.measure import measured
+    from hlr.lab.measure.classes import ModelJudge
 
     opened = open_selected(job.source, job)
     drawing = draw_views(opened, [job.view], _options(job, accuracy=job.setting))[0]
-    return {"reached": measured(opened, drawing).as_dict()}
+    return {"reached": ModelJudge(opened).judge(drawing).as_dict()}
 
 
-def _keep(job: Job, ink: Ink) -> None:
+def _keep(job: Job, lines: Polylines) -> None:
     if job.folder:
-        ink.save(Path(job.folder) / f"{job.name}.npz")
+        lines.save(Path(job.folder) / f"{job.name}.npz")

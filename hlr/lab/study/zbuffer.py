@@ -17,7 +17,8 @@ import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
 from hlr.image.image import Image
-from hlr.lab.study.ink import KINDS, Ink
+from hlr.lab.polylines import KINDS, Polylines
+from hlr.lab.sampling import Index, numbered
 from hlr.lab.study.watch import Watch
 from hlr.scene.scene import INTERIOR
 from hlr.shading.lens import lens
@@ -34,8 +35,6 @@ DEPTH_BITS = 24
 MARGIN = 2.0
 """Pixels left empty around the model."""
 
-Index = npt.NDArray[np.int64]
-
 _NAMES = {
     EdgeClass.SHARP: "sharp",
     EdgeClass.BOUNDARY: "boundary",
@@ -44,7 +43,7 @@ _NAMES = {
 }
 
 
-def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: Watch) -> Ink:
+def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: Watch) -> Polylines:
     """The image's edges whose role says that they are drawn, and the contours of its curved faces, cut where they hide.
 
     role (e,) as in `hlr.visibility.plan.Plan`; pixels along the longer side of the buffer; parallel views only.
@@ -110,7 +109,7 @@ def _folds(image: Image, facing: Floats) -> npt.NDArray[np.bool_]:
     return (ahead > 0) & (behind > 0)
 
 
-def _cut(picture: Floats, paper: Floats, offsets: Index, kinds: npt.NDArray[np.uint8], allowed: Floats) -> Ink:
+def _cut(picture: Floats, paper: Floats, offsets: Index, kinds: npt.NDArray[np.uint8], allowed: Floats) -> Polylines:
     """Polylines cut halfway between samples that differ."""
     owner = np.repeat(np.arange(len(kinds)), np.diff(offsets))
     inner = owner[1:] == owner[:-1]
@@ -118,8 +117,7 @@ def _cut(picture: Floats, paper: Floats, offsets: Index, kinds: npt.NDArray[np.u
     # Samples of the piece after each vertex; the last vertex of a polyline is a sample by itself.
     count = np.append(np.where(inner, np.maximum(np.ceil(reach / SAMPLE), 1.0), 1.0), 1.0).astype(np.int64)
     count = count[: len(picture)]
-    vertex = np.repeat(np.arange(len(picture)), count)
-    step = np.arange(len(vertex)) - np.repeat(np.cumsum(count) - count, count)
+    vertex, step = numbered(count)
     t = (step / count[vertex])[:, None]
     next_one = np.minimum(vertex + 1, len(picture) - 1)
     at = picture[vertex] + (picture[next_one] - picture[vertex]) * t
@@ -140,4 +138,4 @@ def _cut(picture: Floats, paper: Floats, offsets: Index, kinds: npt.NDArray[np.u
     order = np.argsort(order, kind="stable")
     begins, of = begins[order], of[order]
     first = np.flatnonzero(begins)
-    return Ink(points, np.append(first, len(points)).astype(np.int64), visible[of[first]], kinds[line[of[first]]])
+    return Polylines(points, np.append(first, len(points)).astype(np.int64), visible[of[first]], kinds[line[of[first]]])

@@ -1,8 +1,7 @@
-"""Classified lines as bare polylines on paper: all that contestants have in common."""
+"""Polylines on paper with class and visibility: the one form that every drawing program's lines can be brought into."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,20 +10,15 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats
-from hlr.drawing.curve import Arc, Curve
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Kind, Line
-
-Index = npt.NDArray[np.int64]
+from hlr.lab.sampling import Index, chords
 
 KINDS: tuple[Kind, ...] = ("sharp", "boundary", "intersection", "outline", "smooth", "seam")
 
-MOST_PIECES = 20_000
-"""Chords of one curve."""
-
 
 @dataclass(frozen=True, slots=True)
-class Ink:
+class Polylines:
     """Polylines in millimetres on paper, measured from where the model's origin is projected to.
 
     points (n, 2); offsets (k + 1,) into them; visible (k,) bool; kind (k,) uint8 into `KINDS`
@@ -52,16 +46,16 @@ class Ink:
         np.savez(path, points=self.points, offsets=self.offsets, visible=self.visible, kind=self.kind)
 
 
-def load(path: Path) -> Ink:
+def load(path: Path) -> Polylines:
     """What `save` wrote."""
     with np.load(path) as arrays:
-        return Ink(arrays["points"], arrays["offsets"], arrays["visible"], arrays["kind"])
+        return Polylines(arrays["points"], arrays["offsets"], arrays["visible"], arrays["kind"])
 
 
-def gathered(lines: Sequence[tuple[str, bool, Floats]]) -> Ink:
+def gathered(lines: Sequence[tuple[str, bool, Floats]]) -> Polylines:
     """From (kind, visible, points (m, 2)) of each line."""
     counts = [len(points) for _, _, points in lines]
-    return Ink(
+    return Polylines(
         np.concatenate([points for _, _, points in lines]) if lines else np.empty((0, 2)),
         np.concatenate([[0], np.cumsum(counts, dtype=np.int64)]).astype(np.int64),
         np.array([visible for _, visible, _ in lines], bool),
@@ -69,40 +63,23 @@ def gathered(lines: Sequence[tuple[str, bool, Floats]]) -> Ink:
     )
 
 
-def ink_of(drawing: Drawing, chord: float) -> Ink:
-    """The lines of a drawing; curves become chords that are off by at most `chord` millimetres."""
+def polylines_of(drawing: Drawing, chord: float) -> Polylines:
+    """The lines of a drawing; curves become chords that are off them by at most `chord` millimetres."""
     origin = np.asarray(drawing.origin)
     lines = []
     for line in drawing.lines:
-        points = line.points if line.curve is None else _flattened(line.curve, chord)
+        points = line.points if line.curve is None else chords(line.curve, chord)
         lines.append((line.kind, line.visible, points + origin))
     return gathered(lines)
 
 
-def _flattened(curve: Curve, chord: float) -> Floats:
-    """Chords of n pieces are off by |second difference| / 8 n^2."""
-    if isinstance(curve, Arc):
-        start, end = curve.angles
-        count = math.ceil(abs(end - start) * math.sqrt(max(curve.radii) / (8.0 * chord)))
-        return curve.at(np.linspace(start, end, min(max(count, 1), MOST_PIECES) + 1))
-    d = curve.degree
-    pieces = (len(curve.points) - 1) // d
-    p = np.stack([curve.points[k : k + d * (pieces - 1) + 1 : d] for k in range(d + 1)])
-    bend = np.linalg.norm(np.diff(p, n=2, axis=0), axis=2).max(axis=0) * (d * (d - 1))
-    count = np.clip(np.ceil(np.sqrt(bend / (8.0 * chord))), 1, MOST_PIECES).astype(np.int64)
-    which = np.repeat(np.arange(pieces), count)
-    first = np.cumsum(count) - count
-    inside = (np.arange(len(which)) - first[which]) / count[which]
-    return curve.at(np.append(which + inside, float(pieces)))
-
-
-def drawing_of(ink: Ink, source: str, view: DrawnView, scale: float, accuracy: float) -> Drawing:
-    """Bare lines as a drawing, so that the same writer says how many bytes they need."""
-    low = ink.points.min(axis=0) if len(ink.points) else np.zeros(2)
-    flat = ink.points - low
-    lines = tuple(
-        Line(KINDS[ink.kind[i]], bool(ink.visible[i]), 0, None, None, part, np.empty((len(part), 3)))
-        for i, part in enumerate(np.split(flat, ink.offsets[1:-1]))
+def drawing_of(lines: Polylines, source: str, view: DrawnView, scale: float, accuracy: float) -> Drawing:
+    """Polylines as a drawing, so that the same writer says how many bytes they need."""
+    low = lines.points.min(axis=0) if len(lines.points) else np.zeros(2)
+    flat = lines.points - low
+    drawn = tuple(
+        Line(KINDS[lines.kind[i]], bool(lines.visible[i]), 0, None, None, part, np.empty((len(part), 3)))
+        for i, part in enumerate(np.split(flat, lines.offsets[1:-1]))
     )
     return Drawing(
         source=source,
@@ -113,5 +90,5 @@ def drawing_of(ink: Ink, source: str, view: DrawnView, scale: float, accuracy: f
         unit=1.0,
         up_axis=((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
         parts=(DrawnPart(source, None, np.eye(4)),),
-        lines=lines if len(ink.visible) else (),
+        lines=drawn if len(lines.visible) else (),
     )

@@ -1,0 +1,127 @@
+"""Points along lines: the one sampler of the lab, the benches and the tests.
+
+A segment is a row (x0, y0, x1, y1), millimetres on paper. What is between two samples is at most `step` long:
+
+::
+
+    with_ends     o----o----o----o     every end is a sample
+    middles       --o----o----o---     each sample stands in the middle of its piece
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hlr.common.types import Floats
+from hlr.drawing.curve import Arc, Curve
+
+Index = npt.NDArray[np.int64]
+
+MOST_CHORDS = 20_000
+"""Of one curve."""
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """Points (n, 2) along segments: which segment (n,) each lies on, and at which share (n,) of it, 0 to 1.
+
+    length, pieces (m,)   of each segment: millimetres, and how many pieces it was cut into
+    """
+
+    points: Floats
+    segment: Index
+    share: Floats
+    length: Floats
+    pieces: Index
+
+
+def with_ends(segments: Floats, step: float) -> Samples:
+    """The ends of every segment (m, 4), and points between them."""
+    length, pieces = _cut(segments, step)
+    segment, number = numbered(pieces + 1)
+    return _samples(segments, segment, number / pieces[segment], length, pieces)
+
+
+def middles(segments: Floats, step: float) -> Samples:
+    """The middles of the pieces of every segment (m, 4)."""
+    length, pieces = _cut(segments, step)
+    segment, number = numbered(pieces)
+    return _samples(segments, segment, (number + 0.5) / pieces[segment], length, pieces)
+
+
+def line_middles(segments: Floats, line: Index, step: float) -> tuple[Floats, Index]:
+    """(n, 2) the middles of pieces of whole lines, which go over bends, and the line (n,) of each.
+
+    line: (m,) of each segment (m, 4), ascending.
+    """
+    length = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
+    # Running length over all lines: each line's own begins at its start.
+    ends = np.cumsum(length)
+    last = np.flatnonzero(np.append(line[1:] != line[:-1], True)) if len(line) else np.zeros(0, np.int64)
+    total = np.diff(np.append(0.0, ends[last]))
+    pieces = np.maximum(np.ceil(total / step), 1.0).astype(np.int64)
+    which, number = numbered(pieces)
+    along = (ends[last] - total)[which] + (number + 0.5) * (total / pieces)[which]
+    segment = np.minimum(np.searchsorted(ends, along), last[which])
+    with np.errstate(all="ignore"):
+        t = np.nan_to_num((along - (ends[segment] - length[segment])) / length[segment])[:, None]
+    points = segments[segment, :2] * (1.0 - t) + segments[segment, 2:] * t
+    return np.ascontiguousarray(points), line[last][which]
+
+
+def polyline(points: Floats, step: float) -> Floats:
+    """(m, d) the points (n, d) of a polyline and others between them, neighbours at most `step` apart."""
+    way = np.diff(points, axis=0)
+    pieces = np.maximum(np.ceil(np.linalg.norm(way, axis=1) / step), 1.0).astype(np.int64)
+    segment, number = numbered(pieces)
+    inner = points[segment] + ((number + 1) / pieces[segment])[:, None] * way[segment]
+    return np.concatenate([points[:1], inner])
+
+
+def numbered(count: Index) -> tuple[Index, Index]:
+    """`count` (m,) samples of each of m things, one after another: whose each is (n,), and its number (n,) there."""
+    whose = np.repeat(np.arange(len(count)), count)
+    return whose, np.arange(len(whose)) - np.repeat(np.cumsum(count) - count, count)
+
+
+def chords(curve: Curve, most_off: float) -> Floats:
+    """(n, 2) points along a curve whose chords are at most `most_off` millimetres off it.
+
+    Chords of n pieces are off by |second difference| / 8 n^2.
+    """
+    if isinstance(curve, Arc):
+        start, end = curve.angles
+        count = math.ceil(abs(end - start) * math.sqrt(max(curve.radii) / (8.0 * most_off)))
+        return evenly(curve, min(max(count, 1), MOST_CHORDS) + 1)
+    d = curve.degree
+    pieces = bezier_pieces(curve)
+    p = np.stack([curve.points[k : k + d * (pieces - 1) + 1 : d] for k in range(d + 1)])
+    bend = np.linalg.norm(np.diff(p, n=2, axis=0), axis=2).max(axis=0) * (d * (d - 1))
+    count = np.clip(np.ceil(np.sqrt(bend / (8.0 * most_off))), 1, MOST_CHORDS).astype(np.int64)
+    piece, number = numbered(count)
+    return curve.at(np.append(piece + number / count[piece], float(pieces)))
+
+
+def evenly(curve: Curve, count: int) -> Floats:
+    """(count, 2) points at even steps of a curve's parameter."""
+    first, last = curve.angles if isinstance(curve, Arc) else (0.0, float(bezier_pieces(curve)))
+    return curve.at(np.linspace(first, last, count))
+
+
+def bezier_pieces(curve: Curve) -> int:
+    """Bezier curves in a chain; of an arc 1."""
+    return 1 if isinstance(curve, Arc) else (len(curve.points) - 1) // curve.degree
+
+
+def _cut(segments: Floats, step: float) -> tuple[Floats, Index]:
+    length = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
+    return length, np.maximum(np.ceil(length / step), 1.0).astype(np.int64)
+
+
+def _samples(segments: Floats, segment: Index, share: Floats, length: Floats, pieces: Index) -> Samples:
+    start, way = segments[:, :2], segments[:, 2:] - segments[:, :2]
+    return Samples(start[segment] + way[segment] * share[:, None], segment, share, length, pieces)
