@@ -41,11 +41,12 @@ ABOVE = ("cli", "__main__")
 
 # The crates of the kernel, and those of them that each may use.
 CRATES = {
+    "accuracy": set(),
     "exact": set(),
-    "brep": set(),
+    "brep": {"accuracy"},
     "mesh": {"brep"},
-    "visibility": {"exact", "mesh"},
-    "linework": {"exact", "brep", "mesh", "visibility"},
+    "visibility": {"accuracy", "exact", "mesh"},
+    "linework": {"accuracy", "exact", "brep", "mesh", "visibility"},
     "preview": {"brep"},
     "methods": {"exact"},
     "python": {"exact", "brep", "mesh", "visibility", "linework", "preview", "methods"},

@@ -5,12 +5,11 @@ use std::f64::consts::{FRAC_PI_3, TAU};
 use super::hull::chord_error;
 use crate::geometry::curve::Curve;
 use crate::geometry::vector::{cross, dot, length};
+use hlr_accuracy::CHORD_AIM;
 
 /// Places in a smooth stretch at which the curvature is asked for.
 const SAMPLES: usize = 12;
 const SAMPLES_OF_SPAN: usize = 4;
-/// Of the error that is allowed: what chords are laid out for, so that few have to be divided again.
-const AIM: f64 = 0.9;
 const MOST_CHORDS: usize = 50_000;
 const MOST_HALVINGS: u32 = 30;
 
@@ -66,7 +65,7 @@ fn stretch(curve: &Curve, low: f64, high: f64, deflection: f64, angle: f64, out:
             return 0.0;
         }
         let bend = length(&cross(&d, &dd)) / (speed * speed);
-        let by_error = (bend * speed / (8.0 * AIM * deflection)).sqrt();
+        let by_error = (bend * speed / (8.0 * CHORD_AIM * deflection)).sqrt();
         let rate = by_error.max(bend / angle.min(FRAC_PI_3));
         if rate.is_finite() { rate } else { 0.0 }
     };

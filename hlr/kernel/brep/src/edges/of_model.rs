@@ -5,6 +5,7 @@ use super::hull::from_chord;
 use crate::geometry::curve::{Curve, Vec3};
 use crate::geometry::vector::{length, sub};
 use crate::model::{Edge, Model};
+use hlr_accuracy::{CHORD_SAMPLED, EDGE_CERTAIN};
 
 /// Corners of an edge's polyline, in the edge's frame; parameters ascend. The ends are the vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,7 +17,7 @@ pub struct Polyline {
 impl Polyline {
     /// The chords with these numbers, ascending, are halved, as far as the edge is known so well; whether any was.
     pub fn divide(&mut self, model: &Model, edge: &Edge, chords: &[usize], deflection: f64) -> bool {
-        let shortest = 2.0 * NEAR_END * edge.tolerance.min(KNOWN * deflection).max(SAME);
+        let shortest = 2.0 * NEAR_END * edge.tolerance.min(EDGE_CERTAIN * deflection).max(SAME);
         let at = |t: f64| match (&edge.curve, &edge.only_on) {
             (Some(curve), _) => Some(curve.point(t)),
             (None, Some((curve, surface))) => {
@@ -49,16 +50,12 @@ impl Polyline {
 
 /// Of a turn about a pole: the parts of its line in (u, v).
 const POLE_PARTS: f64 = 16.0;
-/// Of the deflection: what is left for places that were not looked at.
-const SAMPLED: f64 = 0.5;
 /// In distances between a vertex and its curve: how far from the vertex a polyline leaves that curve.
 const LEAVES: f64 = 3.0;
 /// Of the first chord: where it would leave it beyond that, it is left as it is.
 const MOST_SHARE: f64 = 0.4;
 /// Tolerances from an end within which a polyline has no corner; what OpenCASCADE takes as the same point.
 const NEAR_END: f64 = 2.0;
-/// Of the deflection: as if edges were known as well as that.
-const KNOWN: f64 = 0.05;
 const SAME: f64 = 1e-7;
 const MOST_HALVINGS: u32 = 14;
 
@@ -103,7 +100,7 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
             const PARTS: u32 = 4;
             for i in 0..PARTS {
                 let t = first + (last - first) * f64::from(i + 1) / f64::from(PARTS);
-                sampled(&at, t, at(t), deflection * SAMPLED, 0, &mut rows);
+                sampled(&at, t, at(t), deflection * CHORD_SAMPLED, 0, &mut rows);
             }
             rows.into_iter().unzip()
         }
@@ -121,7 +118,7 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
     if edge.end_points == [None, None] && length(&sub(&points[0], &points[end])) <= edge.tolerance {
         points[end] = points[0];
     }
-    let (parameters, points) = apart(parameters, points, edge.tolerance.min(KNOWN * deflection));
+    let (parameters, points) = apart(parameters, points, edge.tolerance.min(EDGE_CERTAIN * deflection));
     let end = points.len() - 1;
     let finite = points.iter().flatten().all(|c| c.is_finite());
     // A closed edge of one chord would be none.

@@ -10,6 +10,7 @@ use crate::geometry::surface::Surface;
 use crate::geometry::vector::{length, sub};
 use crate::mesh::{FaceLoops, Fault, LoopPoint};
 use crate::model::{Face, Model, Use, Vertex};
+use hlr_accuracy::CHORD_MOST;
 
 /// A place that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -44,7 +45,7 @@ impl Border {
                 let off = from_chord(&surface.point(middle), &p.point, &q.point);
                 // Where the edge itself is off the surface, dividing it helps nobody.
                 let own = |p: &LoopPoint| length(&sub(&surface.point(p.uv), &p.point));
-                if off > deflection * SLACK && off > deflection * SLACK + own(&p).max(own(&q)) {
+                if off > deflection * CHORD_MOST && off > deflection * CHORD_MOST + own(&p).max(own(&q)) {
                     found.push(*chord);
                 }
             }
@@ -52,9 +53,6 @@ impl Border {
         found
     }
 }
-
-/// Of the deflection: chords are laid out for less than the whole of it.
-const SLACK: f64 = 1.01;
 
 /// # Errors
 /// An edge has no place on the surface, or the edges make no closed loops.

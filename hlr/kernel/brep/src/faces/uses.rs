@@ -8,9 +8,7 @@ use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, dot, length, sub};
 use crate::mesh::Fault;
 use crate::model::{Model, Use, Vertex};
-
-/// Of the deflection: how far a curve in (u, v) may be from its edge before the edge is asked itself.
-const OFF: f64 = 0.1;
+use hlr_accuracy::EDGE_IN_FACE;
 
 /// In the sense of the wire; the polyline's chords are numbered along the edge.
 pub struct Run {
@@ -55,7 +53,7 @@ pub fn run(
             points.iter().map(|p| sub(p, &origin)).map(|d| [dot(&d, &x), dot(&d, &y)]).collect()
         }
         (_, Some((curve, range))) => {
-            let limit = (OFF * deflection).min(tolerance.max(edge.tolerance)).max(1e-9 * extent(&points));
+            let limit = (EDGE_IN_FACE * deflection).min(tolerance.max(edge.tolerance)).max(1e-9 * extent(&points));
             by_curve(surface, curve, range, edge.range, line, &points, limit)
         }
         (_, None) if edge.degenerate => return Err(Fault::Degenerate),

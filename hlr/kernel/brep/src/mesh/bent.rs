@@ -13,13 +13,12 @@ use super::strips::{Strips, strips};
 use super::sweep;
 use super::{FaceLoops, Fault, Made, lattice};
 use crate::geometry::surface::Surface;
+use hlr_accuracy::MESH_BESIDE_BORDER;
 
 /// Rounds of more points.
 const ROUNDS: usize = 16;
 /// Points inside one face.
 const MOST: usize = 8_000_000;
-/// A triangle on the border cannot be better than the chord there: of that one's error, it may be off by as much.
-const BESIDE: f64 = 1.25;
 /// Of the length of a chord: new points are kept so far off it in the chart; nearer only where there is no other way.
 const OFF: [f64; 2] = [0.2, 0.02];
 
@@ -202,7 +201,7 @@ impl<'a> Work<'a> {
         let gap = gap(self.surface, corners, bends, kinked, self.deflection);
         if gap.whole > self.deflection {
             let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
-            if gap.whole > BESIDE * beside.fold(0.0, f64::max) {
+            if gap.whole > MESH_BESIDE_BORDER * beside.fold(0.0, f64::max) {
                 coarse.push(Coarse { gap, corners: t, number });
             }
         } else {

@@ -19,6 +19,7 @@ mod sweep;
 
 use crate::geometry::surface::Surface;
 use bound::Corner;
+use hlr_accuracy::MESH_BORDER;
 use outline::Outline;
 pub use steps::{OF_A_FACE, Steps, Told};
 
@@ -134,7 +135,7 @@ pub fn mesh_face(
 
 /// Of the deflection: how coarse the border of a face may be, so that the triangles beside it can keep the whole.
 pub fn border_share(surface: &Surface) -> f64 {
-    if bends_both_ways(surface) { 0.5 } else { 1.0 }
+    if bends_both_ways(surface) { MESH_BORDER } else { 1.0 }
 }
 
 /// Whether its faces have points inside.

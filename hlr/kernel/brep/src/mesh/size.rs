@@ -10,6 +10,7 @@ use super::steps::Steps;
 use crate::geometry::jet::Jet;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, length, unit};
+use hlr_accuracy::{MESH_AIM, MESH_SHORTEST};
 
 /// Cells along u and v to begin with, and at most.
 const FEWEST: usize = 4;
@@ -18,8 +19,6 @@ const MOST: usize = 256;
 const STEADY: f64 = 1.4;
 /// The same along the meridians of a surface of revolution, where cells are few.
 const STEADY_ROUND: f64 = 1.1;
-/// Of the deflection: what the lattice aims at, whose triangles are not quite equilateral.
-const FILL: f64 = 0.85;
 /// Triangles are at most so many times longer than wide where the surface bends in one direction only.
 const LONGEST: f64 = 12.0;
 /// Of the angle asked for: between the normals at the ends of an edge inside the face. Neighbouring triangles, whose middles
@@ -27,8 +26,6 @@ const LONGEST: f64 = 12.0;
 const TURN: f64 = 1.03;
 /// Radians between the directions of coordinate lines at the ends of an edge: about a pole.
 const FAN: f64 = 0.8;
-/// In deflections: what would be seen by shorter edges is less than the deflection.
-const SHORTEST: f64 = 2.0;
 
 /// Rounds of fitting the chart to the spacings.
 const FITS: usize = 4;
@@ -210,13 +207,13 @@ fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
     let (a, b) = (l.abs().max(e * least), k.abs().max(g * least));
     let twist = m.abs() / (a * b).sqrt();
     // A triangle of the side s is off by s^2 / 6 where both bend to one side, by s^2 / 8 on a saddle.
-    let square = FILL * deflection * if l * k < 0.0 { 8.0 / 1.0f64.hypot(twist) } else { 6.0 / (1.0 + twist) };
+    let square = MESH_AIM * deflection * if l * k < 0.0 { 8.0 / 1.0f64.hypot(twist) } else { 6.0 / (1.0 + twist) };
     let turn = [(l * l / e + m * m / g).sqrt(), (k * k / g + m * m / e).sqrt()];
     // How the directions of the lines along v turn along u, and the other way round.
     let across = |d: &[f64; 3], square: f64| length(&along(&jet.duv, d, -dot(&jet.duv, d) / square)) / square.sqrt();
     let fan = [across(&jet.dv, g), across(&jet.du, e)];
     let side = |k: usize, form: f64, metric: f64| {
-        let shortest = SHORTEST * deflection / metric.sqrt();
+        let shortest = MESH_SHORTEST * deflection / metric.sqrt();
         (square / form).sqrt().min(TURN * angle / turn[k]).min(FAN / fan[k]).max(shortest)
     };
     [side(0, a, e), side(1, b, g)]

@@ -9,14 +9,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::{ARC, CONTROL, CUBIC, START, WHOLE};
 use crate::paper::fit::{length, minus};
 use crate::paper::project::Vec2;
+use hlr_accuracy::{ARC_CUBIC, ARC_FIT, ARC_ROUND};
 
 /// Decimals that radii may have beyond those of points.
 pub const EXTRA: usize = 2;
 /// Decimals of a rotation in degrees.
 pub const ROTATION: usize = 6;
 
-/// Of the accuracy: how far a drawn arc may be from the true one.
-const SHARE: f64 = 0.2;
 const MOST_PIECES: usize = 12;
 /// Places where a drawn arc is measured, and places of the true one it is compared with.
 const MEASURED: usize = 7;
@@ -148,7 +147,7 @@ pub fn rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out: &mut
             let fits = (0..pieces).all(|i| {
                 let part = Arc { angles: [angle(i), angle(i + 1)], ..*arc };
                 let [a, b] = [stops[i], stops[i + 1]].map(|p| p.map(|c| c as f64 / scale));
-                strays(&shape, &a, &b, scale, &part) <= SHARE * accuracy
+                strays(&shape, &a, &b, scale, &part) <= ARC_FIT * accuracy
             });
             if fits || (pieces, extra) == (MOST_PIECES, EXTRA) {
                 stops[1..].iter().for_each(|p| out.push(*p, ARC, Some(shape)));
@@ -164,11 +163,11 @@ fn shape(arc: &Arc, scale: f64, extra: usize, accuracy: f64) -> Shape {
     let [major, minor] = arc.radii();
     let mut radii = [major, minor].map(|r| ((r * fine / coarse as f64).round() as i64).max(1) * coarse);
     // What no one sees would only cost digits: a circle seen from very nearly above is one.
-    if major - minor < 0.01 * accuracy {
+    if major - minor < ARC_ROUND * accuracy {
         radii[1] = radii[0];
         return Shape { radii, ..Shape::default() };
     }
-    let off = 0.01 * accuracy / (major - minor);
+    let off = ARC_ROUND * accuracy / (major - minor);
     let digits = (-off.to_degrees().log10()).ceil().clamp(0.0, ROTATION as f64) as i32;
     let unit = 10f64.powi(ROTATION as i32 - digits);
     Shape { radii, rotation: ((arc.rotation() * 10f64.powi(digits)).round() * unit) as i64, ..Shape::default() }
@@ -248,7 +247,7 @@ pub fn cubic_rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out
     };
     let turned = arc.angles[1] - arc.angles[0];
     // A quarter of a circle is off by 2.8e-4 of its radius, and the error falls with the sixth power of the angle.
-    let share = (2.8e-4 * arc.radii()[0] / (0.1 * accuracy)).max(1e-12).powf(1.0 / 6.0);
+    let share = (2.8e-4 * arc.radii()[0] / (ARC_CUBIC * accuracy)).max(1e-12).powf(1.0 / 6.0);
     let pieces = ((turned.abs() / FRAC_PI_2 * share.max(1.0)).ceil()).max(1.0);
     let step = turned / pieces;
     let arm = 4.0 / 3.0 * (0.25 * step).tan();

@@ -1,11 +1,7 @@
 //! What is left out of a line that others cover, and what is left of it.
 
 use super::{Polyline, View, distance};
-
-/// Covered stretches shorter than this many widths are crossings. A hidden line's are counted in accuracies, as if the ink
-/// were as wide as UNDER of them: the finer the ink, the more would be cut out beside cusps, where contours end.
-const CROSSING: f64 = 6.0;
-const UNDER: f64 = 6.0;
+use hlr_accuracy::{COVER_CROSSING, COVER_INK};
 
 /// How close is close, on paper.
 #[derive(Clone, Copy, Debug)]
@@ -112,7 +108,7 @@ pub(super) fn gaps(
     {
         last.to = total;
     }
-    let crossing = CROSSING * if line.visible { width } else { width.max(UNDER * widths.same) };
+    let crossing = COVER_CROSSING * if line.visible { width } else { width.max(COVER_INK * widths.same) };
     merged.retain(|c| c.to - c.from >= crossing || c.to - c.from >= total);
     merged
 }

@@ -6,6 +6,7 @@
 //! ```
 
 use super::{Polyline, View, distance};
+use hlr_accuracy::RUN_NOISE;
 use hlr_visibility::scan::invisibility::State;
 
 /// A piece of one mesh edge; parameters run from the edge's first to its second vertex.
@@ -37,13 +38,12 @@ impl Geometry<'_> {
             .map(|&e| self.edges[e as usize])
             .map(|[a, b]| distance(&self.flat[a as usize], &self.flat[b as usize]))
             .sum();
-        short.max((NOISE_EDGES * total / edges.len().max(1) as f64).min(NOISE_MOST * short))
+        short.max((NOISE_EDGES * total / edges.len().max(1) as f64).min(RUN_NOISE * short))
     }
 }
 
-/// In mean edge lengths of the chain, and at most in accuracies.
+/// In mean edge lengths of the chain.
 const NOISE_EDGES: f64 = 2.5;
-const NOISE_MOST: f64 = 6.0;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {

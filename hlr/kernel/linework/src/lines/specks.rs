@@ -9,12 +9,10 @@
 use std::collections::HashMap;
 
 use super::Polyline;
-
-/// Of the shortest length: vertices nearer to one another are left out of a line, too.
-const DOT: f64 = 0.25;
+use hlr_accuracy::SPECK_DOT;
 
 pub fn drop_specks(lines: &mut Vec<Polyline>, shortest: f64) {
-    drop_small(lines, |line| line.length() < DOT * shortest, DOT * shortest);
+    drop_small(lines, |line| line.length() < SPECK_DOT * shortest, SPECK_DOT * shortest);
     drop_small(lines, |_| true, shortest);
 }
 

@@ -17,23 +17,14 @@ use super::Placed;
 use super::fit::{length, minus};
 use super::project::Vec2;
 use crate::lines::View;
+use hlr_accuracy::{JUNCTION_ALONG, JUNCTION_EDGE, JUNCTION_MET, JUNCTION_OUTLINE, JUNCTION_TOUCH};
 use hlr_brep::geometry::curve::Vec3;
 
-/// In accuracies: how far the other line's polyline may be from the change, where one of the two is an outline: outlines
-/// are compared with the tessellation beside it, not on it.
-const NEAR: f64 = 2.0;
-/// The same between edges.
-const MOST: f64 = 1.0;
 /// Sine of the angle below which two lines touch rather than cross.
 const GRAZING: f64 = 0.1;
-/// In accuracies: how far apart lines may be that touch, and how far along them the place may be.
-const TOUCH: f64 = 0.2;
-const ALONG: f64 = 30.0;
 /// Sine of the angle between lines that run the same way.
 const ALIKE: f64 = 1e-6;
 const STEPS: usize = 12;
-/// Of the accuracy: when two curves have met.
-const MET: f64 = 1e-4;
 
 /// Whether a surface may end at a line in the image, and hide what goes on behind it. Where surfaces meet, and along
 /// smooth edges, none does.
@@ -124,7 +115,7 @@ struct Change {
 /// Changes of visibility that move, and outlines that go on. What lies less than `contact` behind may still hide.
 pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
     let changes = changes(routes);
-    let near = near(routes, &changes, NEAR * accuracy);
+    let near = near(routes, &changes, JUNCTION_OUTLINE * accuracy);
     near.chunk_by(|a, b| a.0 == b.0)
         .flat_map(|group| {
             let Change { at, ends } = &changes[group[0].0];
@@ -139,7 +130,7 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
                 }
                 let (away, s) = apart(at, &other.flat[k], &other.flat[k + 1]);
                 let lifted = own.border == Border::Outline || other.border == Border::Outline;
-                let reach = if lifted { NEAR } else { MOST } * accuracy;
+                let reach = if lifted { JUNCTION_OUTLINE } else { JUNCTION_EDGE } * accuracy;
                 if away > reach + own.bulge + other.bulge {
                     continue;
                 }
@@ -148,7 +139,11 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
                 let found = crossed.or_else(|| if lifted { touching(own, other, from, accuracy) } else { None });
                 let Some((t, u)) = found else { continue };
                 // An outline that is touched beyond its end goes on to there itself.
-                let reach = if crossed.is_none() && other.border == Border::Outline { ALONG } else { NEAR };
+                let reach = if crossed.is_none() && other.border == Border::Outline {
+                    JUNCTION_ALONG
+                } else {
+                    JUNCTION_OUTLINE
+                };
                 let Some(t) = own.ending(t, start) else { continue };
                 let moved = length(&minus(&own.at(t)[0], &own.at(start)[0]));
                 let before = view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
@@ -237,9 +232,9 @@ fn crossing(own: &Route, other: &Route, (start, u): (f64, f64), away: f64, accur
         if sine.is_nan() || sine <= GRAZING {
             return None;
         }
-        if length(&d) <= MET * accuracy {
+        if length(&d) <= JUNCTION_MET * accuracy {
             // The flatter the angle, the farther along its own line may a change move.
-            let most = (away.max(MOST * accuracy) / sine).min(ALONG * accuracy);
+            let most = (away.max(JUNCTION_EDGE * accuracy) / sine).min(JUNCTION_ALONG * accuracy);
             return (length(&minus(&p, &own.at(start)[0])) <= most).then_some((t, u));
         }
         t += (d[0] * b[1] - d[1] * b[0]) / cross;
@@ -276,12 +271,12 @@ fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -
     for _ in 0..STEPS {
         let (foot, away, g1) = look(t, u1);
         t = foot;
-        if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > ALONG * accuracy {
+        if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > JUNCTION_ALONG * accuracy {
             return None;
         }
         // At a seam the angle may not vanish entirely, and go no further.
         if g1.abs() < ALIKE || (g1 == g0 && g1.abs() < 1e3 * ALIKE) {
-            return (away <= TOUCH * accuracy).then_some((t, u1));
+            return (away <= JUNCTION_TOUCH * accuracy).then_some((t, u1));
         }
         if g1 == g0 {
             return None;

@@ -3,15 +3,12 @@
 use super::Placed;
 use super::fit::{dot, length, minus};
 use super::project::Vec2;
+use hlr_accuracy::{CURVE_BETWEEN, CURVE_END};
 use hlr_brep::geometry::curve::{Curve, Vec3};
 
 /// Places looked at per span of a B-spline before Newton's method begins.
 const PLACES: usize = 8;
 const STEPS: usize = 20;
-/// Of the accuracy: an end this close to the curve's own end is that end.
-const SNAP: f64 = 0.02;
-/// In accuracies: between two vertices the mesh may be off by more than at them, but not by this.
-const ASTRAY: f64 = 4.0;
 /// Of a period: what rounding may turn a step back by.
 const BACKLASH: f64 = 1e-7;
 
@@ -214,7 +211,7 @@ fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
             let turns = placed.track.period.map_or(0.0, |p| ((t[i] - end) / p).round() * p);
             let goal = end + turns;
             let apart = length(&minus(&placed.on_paper(t[i])[0], &placed.on_paper(goal)[0]));
-            if (goal - t[i]).abs() < 0.05 * whole && apart <= SNAP * accuracy {
+            if (goal - t[i]).abs() < 0.05 * whole && apart <= CURVE_END * accuracy {
                 t[i] = goal;
                 break;
             }
@@ -234,7 +231,9 @@ fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64, bulge: f64)
     (0..flat.len()).all(|i| near(t[i], &flat[i], &flat[i], accuracy + bulge))
         && (1..flat.len()).all(|i| {
             let (a, b) = (&flat[i - 1], &flat[i]);
-            [0.25, 0.5, 0.75].iter().all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, ASTRAY * accuracy + bulge))
+            [0.25, 0.5, 0.75]
+                .iter()
+                .all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, CURVE_BETWEEN * accuracy + bulge))
         })
 }
 

@@ -27,10 +27,8 @@ use bezier::Chain;
 use locate::Track;
 use project::{Paper, Projection, Vec2};
 
+use hlr_accuracy::CURVE_FIT;
 use hlr_brep::geometry::curve::{Curve, Vec3};
-
-/// Of the accuracy: what a fitted curve may be off. Lines that end on another's true curve are as far from what is drawn.
-const FIT: f64 = 0.1;
 
 #[derive(Clone, Debug, PartialEq)]
 pub enum Form {
@@ -115,7 +113,7 @@ pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
     for [a, b] in placed.track.unbroken(low, high) {
         let mut next = bezier::exact(&placed.paper, a, b).unwrap_or_else(|| {
             let (corners, spans) = (placed.paper.corners(a, b), placed.paper.spans(a, b));
-            fit::fit(&|t| placed.paper.at(t), a, b, &corners, spans, FIT * accuracy)
+            fit::fit(&|t| placed.paper.at(t), a, b, &corners, spans, CURVE_FIT * accuracy)
         });
         match &mut chain {
             Some(chain) => chain.points.extend(next.points.drain(1..)),

@@ -5,9 +5,7 @@ use super::Drawn;
 use super::arc::grow;
 use super::fit::{length, minus};
 use super::junction::Route;
-
-/// Of the accuracy: what rounding may part. Ends that are farther apart were moved to different places.
-const ROUNDED: f64 = 1e-6;
+use hlr_accuracy::CURVE_SHARED_END;
 
 /// Gives all ends that were one point the place of the first of them.
 pub fn share_ends(routes: &[Route], drawn: &mut [Option<Drawn>], accuracy: f64) {
@@ -24,7 +22,7 @@ pub fn share_ends(routes: &[Route], drawn: &mut [Option<Drawn>], accuracy: f64) 
         let Some((flat, space)) = drawn[i].as_ref().map(|d| (d.flat[end], d.space[end])) else { continue };
         for &(_, _, j, other) in &meeting[1..] {
             let Some(line) = drawn[j].as_mut() else { continue };
-            if length(&minus(&line.flat[other], &flat)) <= ROUNDED * accuracy {
+            if length(&minus(&line.flat[other], &flat)) <= CURVE_SHARED_END * accuracy {
                 line.end_in(other, flat, space);
             }
         }

@@ -19,18 +19,9 @@ use super::fit::{dot, length, minus};
 use super::project::Vec2;
 use crate::lines::simplify::off;
 use crate::lines::{Polyline, View, distance};
+use hlr_accuracy::{CONTOUR_BULGE, CONTOUR_CHORD, CONTOUR_FIT, CONTOUR_FLAT, CONTOUR_MOVE};
 use hlr_brep::geometry::curve::Vec3;
 
-/// Of the accuracy: how far a vertex may move.
-const MOVE: f64 = 0.5;
-/// Of the accuracy: how far curves may be from the moved contour.
-const MISFIT: f64 = 0.3;
-/// Of the accuracy: vertices nearer than this to their chord are no vertices of the shape.
-const FLAT: f64 = 0.15;
-/// Of the accuracy: how far a curve may bulge beyond one chord for the sake of its tangents.
-const BULGE: f64 = 0.2;
-/// Of the accuracy: how far the points along a curve may be from it between them.
-const CHORD: f64 = 0.1;
 /// A sharper turn than this is a corner however short its sides; radians.
 const CORNER: f64 = 2.0;
 const PASSES: usize = 12;
@@ -54,15 +45,15 @@ pub fn smooth(
     }
     let closed = n > 3 && line.flat[0] == line.flat[n - 1];
     let fixed: Vec<bool> = (0..n).map(|i| (!closed && (i == 0 || i + 1 == n)) || pinned(&line.flat[i])).collect();
-    let way = relaxed(&line.flat, &fixed, closed, MOVE * accuracy);
-    let kept = reduced(&way, &fixed, closed, FLAT * accuracy);
-    let tangents = tangents(&way, &kept, closed, BULGE * accuracy);
-    let mut fitting = Fitting::new(&way, &kept, &tangents, MISFIT * accuracy);
+    let way = relaxed(&line.flat, &fixed, closed, CONTOUR_MOVE * accuracy);
+    let kept = reduced(&way, &fixed, closed, CONTOUR_FLAT * accuracy);
+    let tangents = tangents(&way, &kept, closed, CONTOUR_BULGE * accuracy);
+    let mut fitting = Fitting::new(&way, &kept, &tangents, CONTOUR_FIT * accuracy);
     fitting.all(&fixed);
     let pieces = fitting.pieces;
     let mut out = Polyline { chain: line.chain, visible: line.visible, flat: vec![way[0]], space: vec![line.space[0]] };
     for piece in &pieces {
-        let many = steps(&piece.points, CHORD * accuracy);
+        let many = steps(&piece.points, CONTOUR_CHORD * accuracy);
         let mut places: Vec<f64> = (1..many).map(|k| k as f64 / many as f64).collect();
         let (from, to) = (piece.from, piece.to);
         places.extend(bends(&line.space[from..=to], depth).iter().map(|i| nearest(&piece.points, &way[from + i])));

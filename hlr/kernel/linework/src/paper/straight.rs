@@ -4,9 +4,8 @@
 use super::Placed;
 use super::fit::{dot, length, minus};
 use super::project::{Paper, Vec2};
+use hlr_accuracy::CURVE_STRAIGHT;
 
-/// Of the accuracy: how far from a straight line a piece may bulge and be drawn as one; less than what writers round.
-const BULGE: f64 = 0.05;
 const PLACES: usize = 8;
 /// Halvings of the interval around a turning point.
 const NARROWING: usize = 60;
@@ -39,7 +38,7 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
         let d = minus(p, &points[other]);
         (d[0] * way[1] - d[1] * way[0]).abs()
     };
-    if !points.iter().all(|p| off(p) <= BULGE * accuracy) {
+    if !points.iter().all(|p| off(p) <= CURVE_STRAIGHT * accuracy) {
         return None;
     }
     // Extremes inside the piece are turning points: narrowed down from the neighbouring places.

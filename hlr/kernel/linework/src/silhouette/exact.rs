@@ -2,14 +2,11 @@
 //! the tangents there.
 
 use super::face::Face;
+use hlr_accuracy::{OUTLINE_CIRCLE, OUTLINE_TANGENT_STEP};
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::nurbs::Nurbs;
 use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 
-/// Of the chord tolerance: how far a point of a circle may be from it.
-const ON: f64 = 1e-3;
-/// Of the chord tolerance: the step over which f is differentiated.
-const STEP: f64 = 0.05;
 /// Cosine between a tangent and the way from point to point below which it is not believed.
 const ASTRAY: f64 = 0.3;
 
@@ -20,7 +17,7 @@ pub fn tangent(face: &Face, uv: [f64; 2], chord: f64) -> Option<Vector> {
     if speed[0] == 0.0 || speed[1] == 0.0 {
         return None;
     }
-    let step = STEP * chord;
+    let step = OUTLINE_TANGENT_STEP * chord;
     let slope = |k: usize| {
         let mut beside = [uv; 2];
         beside[0][k] -= step / speed[k];
@@ -44,7 +41,7 @@ pub fn circle(face: &Face, points: &[Vector], chord: f64) -> Option<Curve> {
     let radius = length(&arm);
     let on = |p: &Vector| {
         let q = sub(p, &centre);
-        dot(&q, &axis).abs() <= ON * chord && (length(&q) - radius).abs() <= ON * chord
+        dot(&q, &axis).abs() <= OUTLINE_CIRCLE * chord && (length(&q) - radius).abs() <= OUTLINE_CIRCLE * chord
     };
     // It runs the way of the points.
     let way = cross(&arm, &sub(&points[1], &points[0]));

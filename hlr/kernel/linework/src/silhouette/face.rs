@@ -1,6 +1,7 @@
 //! One face as the tracer sees it: f = N . v on its surface, in model coordinates.
 
 use super::Model;
+use hlr_accuracy::OUTLINE_CURVATURE_STEP;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, scaled, sub, unit};
 
@@ -133,7 +134,7 @@ impl<'a> Face<'a> {
     pub fn radial(&self, uv: [f64; 2]) -> f64 {
         let Some([a, b]) = self.along_sight(uv) else { return 0.0 };
         let sight = self.model.sight(&self.point(uv));
-        let step = 0.1 * self.model.chord;
+        let step = OUTLINE_CURVATURE_STEP * self.model.chord;
         let at = |s: f64| self.normal([uv[0] + s * a, uv[1] + s * b]).map(|n| dot(&n, &sight));
         match (at(step), at(-step)) {
             (Some(ahead), Some(back)) => (ahead - back) / (2.0 * step),

@@ -12,6 +12,7 @@ use super::face::Face;
 use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
 use super::wrinkle::flatten;
+use hlr_accuracy::OUTLINE_GAP;
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::vector::{Vector, dot, length, sub};
 
@@ -35,9 +36,6 @@ pub struct Traced {
     pub grazing: Vec<Grazing>,
 }
 
-/// Of the chord tolerance: a fold shorter than this closes a gap that is none.
-const GAP: f64 = 0.5;
-
 /// Cosine of the turn up to which two curves are one.
 const ON: f64 = 0.95;
 
@@ -55,7 +53,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
         return None;
     }
     let Contour { crossings, mut folds, grazing } = contour(model, &values, stopped);
-    let same = Same::new(&crossings, &folds, GAP * model.chord);
+    let same = Same::new(&crossings, &folds, OUTLINE_GAP * model.chord);
     let (across, lone) = over_triangles(&crossings);
     folds.extend(lone.into_iter().filter_map(|(t, c)| into_apex(model, &values, t, c, &crossings[c as usize])));
     let mut links: Vec<Link> = across

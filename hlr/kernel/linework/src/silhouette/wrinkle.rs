@@ -16,11 +16,9 @@ use rayon::prelude::*;
 
 use super::face::{Face, root};
 use super::{Model, TIE};
+use hlr_accuracy::OUTLINE_WRINKLE;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{length, sub};
-
-/// In chord tolerances, of which an accuracy has ten: what has risen by an accuracy while N . v fell, and some.
-const HEIGHT: f64 = 15.0;
 
 /// Two nodes that an edge inside of a face joins.
 struct Tie {
@@ -65,7 +63,7 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
         let at = |t: f64| face.point([0, 1].map(|k| uv[0][k] + (uv[1][k] - uv[0][k]) * t));
         let change = at(t);
         for (k, own) in [a, b].into_iter().enumerate() {
-            wide[own] |= f[k].abs() * length(&sub(&at(k as f64), &change)) > HEIGHT * model.chord;
+            wide[own] |= f[k].abs() * length(&sub(&at(k as f64), &change)) > OUTLINE_WRINKLE * model.chord;
             around[own] = around[own].max(f[1 - k]);
         }
     }
@@ -93,7 +91,7 @@ const STEPS: u32 = 16;
 
 /// Whether f changes its sign on the way along the sight, ahead or back, before the surface has risen above the tolerance.
 fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
-    let step = HEIGHT * model.chord / (f.abs() * f64::from(STEPS));
+    let step = OUTLINE_WRINKLE * model.chord / (f.abs() * f64::from(STEPS));
     [step, -step].into_iter().any(|step| {
         let mut uv = model.uv[node];
         (0..STEPS).any(|_| {

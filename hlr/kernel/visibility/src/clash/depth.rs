@@ -12,16 +12,10 @@
 
 use super::reach::{Sheet, Vec3, cross, dot, minus};
 use super::search::Clash;
+use hlr_accuracy::{CONTACT_OF_ONE_SOLID, FLUSH};
 
 /// Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most.
 pub const SLIGHT_ANGLE: f64 = 0.35;
-/// In deflections, an eighth of the accuracy: a wall that reaches less far beyond a planar face stands on it, and has no
-/// line there but its own edge. That has to be forgiven in view depth as well, which is more, the more obliquely one
-/// looks: `hlr.request.accuracy` gives it ten times as much.
-const FLUSH: f64 = 0.25;
-/// Of the contact tolerance: one face of a solid does not touch another of the same solid, so less is forgiven. On sound
-/// solids facets cross by a fifth of a deflection at most.
-const SELF: f64 = 0.1;
 /// Of a triangle's size: planar faces are flat within this share of it.
 const ROUNDING: f64 = 1e-9;
 
@@ -77,7 +71,7 @@ impl Bodies<'_> {
         let solid = !groups.iter().any(|&g| self.bare[g]);
         let mut touch = groups.iter().fold(0.0f64, |most, &g| most.max(self.touch[g]));
         if groups[0] == groups[1] && solid {
-            touch *= SELF;
+            touch *= CONTACT_OF_ONE_SOLID;
         }
         let (reach, mut level) = self.corners_beyond(clash);
         // A planar face is where it is, and how far a wall goes beyond it is known; a facet is not.

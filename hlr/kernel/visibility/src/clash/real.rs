@@ -5,13 +5,12 @@
 use super::depth::{Bodies, Depth, SLIGHT_ANGLE};
 use super::reach::{Vec3, minus};
 use super::search::Clash;
+use hlr_accuracy::CONTACT_REAL;
 use hlr_mesh::topology::components;
 
 /// In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point
 /// differ by less than the tolerance over 2.8 of these.
 const BRIDGE: f64 = 4.0;
-/// Of the contact tolerance: what was rounded goes less deep than that; facets that cross at a small angle go deeper.
-const DEEP_ENOUGH: f64 = 0.03;
 /// In the sizes of its triangles: a figure where a curved face meets itself, as all triangles around a point do that cross
 /// one another there, is hardly larger, and is the tessellation's, not the shape's.
 const SMALL: f64 = 2.0;
@@ -138,7 +137,7 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     for (&i, &f) in slight.iter().zip(&bridge) {
         let size = all[i].segment.groups.iter().map(|&g| width[g]).fold(f64::INFINITY, f64::min);
         let gap = BRIDGE * (all[i].depth.touch * size).sqrt();
-        out[i] = holds[f] > 1 && deepest[f] >= DEEP_ENOUGH && extent[f] < gap;
+        out[i] = holds[f] > 1 && deepest[f] >= CONTACT_REAL && extent[f] < gap;
     }
     all.iter().zip(&mut out).for_each(|(c, out)| *out &= !c.depth.flush(c.sine, bodies.deflection));
     out

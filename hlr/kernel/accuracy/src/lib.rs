@@ -1,0 +1,116 @@
+//! The kernel's shares of the accuracy. `hlr/request/accuracy.py` has all others, and adds them up per class of line.
+//!
+//! Each number is a multiple of a length that the caller gives; the first words of its text name that length:
+//!
+//! ```text
+//! accuracy         what a drawing promises, millimetres on paper
+//! deflection       chord error asked of the mesher, half of the accuracy in the model
+//! chord tolerance  chord error asked of outlines, a fifth of the deflection
+//! contact depth    within which two surfaces touch
+//! width            within which two lines coincide, half of the accuracy
+//! ```
+
+// The mesher.
+
+/// Of the deflection: chord error of edges whose faces bend both ways. The triangles beside them need the rest.
+pub const MESH_BORDER: f64 = 0.5;
+/// Of the chord error asked for: the lattice inside a face aims at it, since its triangles are not quite equilateral.
+pub const MESH_AIM: f64 = 0.85;
+/// Of the deflection: the least length of an edge inside a face. Shorter ones show less than the deflection.
+pub const MESH_SHORTEST: f64 = 2.0;
+/// Of the error of the border chord beside it: a triangle there cannot be better.
+pub const MESH_BESIDE_BORDER: f64 = 1.25;
+/// Of the chord error asked for: chords are laid out for it, so that few have to be divided again.
+pub const CHORD_AIM: f64 = 0.9;
+/// Of the chord error asked for: chords of an edge that are off by more are divided again.
+pub const CHORD_MOST: f64 = 1.01;
+/// Of the deflection: chord error at the places of an edge in (u, v) that are looked at; the rest is for those between.
+pub const CHORD_SAMPLED: f64 = 0.5;
+/// Of the deflection: a vertex or an edge that is less certain than this counts as this certain.
+pub const EDGE_CERTAIN: f64 = 0.05;
+/// Of the deflection: a curve in (u, v) that is nearer to its edge than this stands for it.
+pub const EDGE_IN_FACE: f64 = 0.1;
+
+// Where parts meet.
+
+/// Of the deflection: a wall that reaches less far beyond a planar face stands on it, and has no line there but its own
+/// edge. In view depth that takes more, the more obliquely one looks: `CONTACT_PLANAR` is ten times as much.
+pub const FLUSH: f64 = 0.25;
+/// Of the contact depth: what one face of a solid may dip into another face of the same solid. On sound solids facets
+/// cross by a fifth of a deflection at most.
+pub const CONTACT_OF_ONE_SOLID: f64 = 0.1;
+/// Of the contact depth: a figure of intersection is real where it is deeper than this. Rounding goes less deep.
+pub const CONTACT_REAL: f64 = 0.03;
+
+// Outlines.
+
+/// Of the chord tolerance: the two ends of a fold shorter than this are one.
+pub const OUTLINE_GAP: f64 = 0.5;
+/// Of the chord tolerance: how far a point of an outline may be from the circle that it becomes.
+pub const OUTLINE_CIRCLE: f64 = 1e-3;
+/// Of the chord tolerance: the step over which tangents of outlines are differentiated.
+pub const OUTLINE_TANGENT_STEP: f64 = 0.05;
+/// Of the chord tolerance: the step over which the curvature along the sight is differentiated.
+pub const OUTLINE_CURVATURE_STEP: f64 = 0.1;
+/// Of the chord tolerance, of which an accuracy has ten: a wrinkle of a surface that rises by less is no outline.
+pub const OUTLINE_WRINKLE: f64 = 15.0;
+
+// Lines on their curves.
+
+/// Of the accuracy: how far a fitted curve may be from the true one. Lines that end on another's true curve are as far
+/// from what is drawn.
+pub const CURVE_FIT: f64 = 0.1;
+/// Of the accuracy: a curve that bulges less is drawn as a straight line. Writers round by more.
+pub const CURVE_STRAIGHT: f64 = 0.05;
+/// Of the accuracy: an end of a line this close to the end of its curve is that end.
+pub const CURVE_END: f64 = 0.02;
+/// Of the accuracy: how far a line may be from its curve between two vertices, where the mesh is off by more than at them.
+pub const CURVE_BETWEEN: f64 = 4.0;
+/// Of the accuracy: ends of one edge's lines this close are one point, parted by rounding.
+pub const CURVE_SHARED_END: f64 = 1e-6;
+
+/// Of the accuracy: how far a vertex of a mesh's contour may move when the contour is smoothed.
+pub const CONTOUR_MOVE: f64 = 0.5;
+/// Of the accuracy: how far curves may be from the moved contour.
+pub const CONTOUR_FIT: f64 = 0.3;
+/// Of the accuracy: vertices nearer than this to their chord are no vertices of the shape.
+pub const CONTOUR_FLAT: f64 = 0.15;
+/// Of the accuracy: how far a curve may bulge beyond one chord for the sake of its tangents.
+pub const CONTOUR_BULGE: f64 = 0.2;
+/// Of the accuracy: how far the points along a contour's curve may be from it between them.
+pub const CONTOUR_CHORD: f64 = 0.1;
+
+// Changes of visibility, moved to where the covering line crosses.
+
+/// Of the accuracy: how far the covering polyline may be from the change, where one of the two lines is an outline:
+/// outlines are compared with the tessellation beside it, not on it.
+pub const JUNCTION_OUTLINE: f64 = 2.0;
+/// Of the accuracy: the same between edges.
+pub const JUNCTION_EDGE: f64 = 1.0;
+/// Of the accuracy: lines this close touch.
+pub const JUNCTION_TOUCH: f64 = 0.2;
+/// Of the accuracy: how far along touching lines the change may move.
+pub const JUNCTION_ALONG: f64 = 30.0;
+/// Of the accuracy: two curves this close have met.
+pub const JUNCTION_MET: f64 = 1e-4;
+
+// What is too short to be drawn.
+
+/// Of the accuracy: the longest hidden run of a mesh's contour that its own folds explain.
+pub const RUN_NOISE: f64 = 6.0;
+/// Of the shortest length drawn: a line of its own below this is a dot.
+pub const SPECK_DOT: f64 = 0.25;
+/// Of the width: covered stretches of a visible line that are shorter are crossings, not coincidence.
+pub const COVER_CROSSING: f64 = 6.0;
+/// Of the width: for a hidden line the same multiple of the visible ink, which counts as at least this wide. With finer
+/// ink more would be cut out beside cusps, where contours end.
+pub const COVER_INK: f64 = 6.0;
+
+// Arcs in files.
+
+/// Of the accuracy: how far an SVG arc may be from the true one once its ends, radii and rotation are rounded.
+pub const ARC_FIT: f64 = 0.2;
+/// Of the accuracy: an ellipse whose radii differ by less is a circle, and a rotation that moves it by less is rounded off.
+pub const ARC_ROUND: f64 = 0.01;
+/// Of the accuracy: how far the cubic curves of an arc in PDF may be from it.
+pub const ARC_CUBIC: f64 = 0.1;
