@@ -61,32 +61,32 @@ def outlined(image: Image, threads: int, planner: Planner) -> Image:
     return found
 
 
-def _with_outlines(image: Image, on: TrueSurfaces, threads: int) -> Image:
+def _with_outlines(image: Image, surfaces: TrueSurfaces, threads: int) -> Image:
     face = image.all_faces()
     smooth = SMOOTH[image.edge_kind]
     deflection = image.placement.tolerances.deflection
-    found = _traced(image, on, face, smooth, OUTLINE_CHORD * deflection, threads)
-    image = replace(image, edge_curved=_untraced(image, face, found.traced & on.curved))
-    return _with_lines(image, on, found, deflection)
+    found = _traced(image, surfaces, face, smooth, OUTLINE_CHORD * deflection, threads)
+    image = replace(image, edge_curved=_untraced(image, face, found.traced & surfaces.curved))
+    return _with_lines(image, surfaces, found, deflection)
 
 
 def _traced(
     image: Image,
-    on: TrueSurfaces,
+    surfaces: TrueSurfaces,
     face: Ints,
     smooth: npt.NDArray[np.bool_],
     chord: float,
     threads: int,
 ) -> _kernel.Outlines:
     """The kernel's answer."""
-    wanted = on.curved.copy()
+    wanted = surfaces.curved.copy()
     # Planes as well, where a curved face runs into them: they may be what the fold is against.
     bent = image.edge_kind == EdgeClass.SMOOTH
     bent[: len(bent)] &= np.diff(image.offsets) == 2
     first = image.offsets[:-1][bent]
     one, two = face[image.incident[first]], face[image.incident[first + 1]]
-    wanted[one[on.curved[two]]] = True
-    wanted[two[on.curved[one]]] = True
+    wanted[one[surfaces.curved[two]]] = True
+    wanted[two[surfaces.curved[one]]] = True
     # Where several run along one chord, any of them tells the fold's curve.
     source = np.full(len(image.edges), -1, np.int32)
     tied = np.flatnonzero(image.chains.index >= 0)
@@ -95,7 +95,7 @@ def _traced(
     of_chain[tied] = tied
     source[image.chains.edges] = np.repeat(of_chain, count)
     return _kernel.silhouettes(
-        image.mesh(), on.of(wanted, face), smooth, source, image.camera.scaled(1.0), chord, threads=threads
+        image.mesh(), surfaces.of(wanted, face), smooth, source, image.camera.scaled(1.0), chord, threads=threads
     )
 
 
@@ -109,7 +109,7 @@ def _untraced(image: Image, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.ND
     return image.edge_curved & ~known
 
 
-def _with_lines(image: Image, on: TrueSurfaces, found: _kernel.Outlines, deflection: float) -> Image:
+def _with_lines(image: Image, surfaces: TrueSurfaces, found: _kernel.Outlines, deflection: float) -> Image:
     offsets, face, source = found.offsets, found.face, found.source
     n, m = len(image.points), len(offsets) - 1
     count = np.diff(offsets)
@@ -119,10 +119,10 @@ def _with_lines(image: Image, on: TrueSurfaces, found: _kernel.Outlines, deflect
     start = np.flatnonzero(inner).astype(np.int32)
     line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
     lines = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
-    part = (np.searchsorted(on.first, face, side="right") - 1).astype(np.int32)
+    part = (np.searchsorted(surfaces.first, face, side="right") - 1).astype(np.int32)
     # Groups follow faces: a face's triangles hang together.
-    group_of_face = np.zeros(len(on.number), np.int32)
-    group_of_face[on.first[image.triangle_part] + image.triangle_face] = image.triangle_group
+    group_of_face = np.zeros(len(surfaces.number), np.int32)
+    group_of_face[surfaces.first[image.triangle_part] + image.triangle_face] = image.triangle_group
     group = group_of_face[face]
     inside_out = np.repeat(found.concave & ~image.groups.cull[group], count)
     outward = np.where(inside_out, -1.0, 1.0)[:, None] * found.normals
@@ -136,7 +136,7 @@ def _with_lines(image: Image, on: TrueSurfaces, found: _kernel.Outlines, deflect
         part=part,
         index=np.full(m, -1, np.int32),
         other=np.full(m, -1, np.int32),
-        face=(face - on.first[part]).astype(np.int32),
+        face=(face - surfaces.first[part]).astype(np.int32),
         straight=np.zeros(m, bool),
     )
     hidden = np.asarray(found.concave & image.groups.cull[group])
@@ -193,7 +193,7 @@ def _with_lines(image: Image, on: TrueSurfaces, found: _kernel.Outlines, deflect
         beside=np.concatenate([beside, np.zeros(len(free), np.uint8)]),
         dented=np.concatenate([grazing.dented[bare], np.zeros(len(free), bool)]),
     )
-    return with_own_faces(shown, on, stretches)
+    return with_own_faces(shown, surfaces, stretches)
 
 
 def _lift(rise: Floats, deflection: float) -> Floats:

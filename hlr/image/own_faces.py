@@ -38,7 +38,7 @@ class Grazing:
     dented: npt.NDArray[np.bool_]
 
 
-def with_own_faces(image: Image, on: TrueSurfaces, grazing: Grazing) -> Image:
+def with_own_faces(image: Image, surfaces: TrueSurfaces, grazing: Grazing) -> Image:
     """An image that has silhouettes, with these faces."""
     if image.silhouettes is None or len(grazing.edge) == 0:
         return image
@@ -60,7 +60,7 @@ def with_own_faces(image: Image, on: TrueSurfaces, grazing: Grazing) -> Image:
     place = np.concatenate([points[parted], points[of]]).reshape(-1, 3)
     moved = np.concatenate([lifts[parted], grazing.off]).reshape(-1, 3)
     which = np.concatenate([edge[parted], edge[of]])
-    sheet = _sheets(image, on)
+    sheet = _sheets(image, surfaces)
     own = OwnFaces(
         edge=edge,
         range=_on_paper(image, edge, span),
@@ -70,7 +70,7 @@ def with_own_faces(image: Image, on: TrueSurfaces, grazing: Grazing) -> Image:
         offsets=np.append(first, len(of)).astype(np.int32),
         face=np.ascontiguousarray(grazing.face, np.int32),
         off=m + len(parted) + np.arange(len(of), dtype=np.int32),
-        first=on.first,
+        first=surfaces.first,
         sheet=sheet,
     )
     old = image.silhouettes
@@ -93,9 +93,9 @@ def with_own_faces(image: Image, on: TrueSurfaces, grazing: Grazing) -> Image:
     )
 
 
-def _sheets(image: Image, on: TrueSurfaces) -> Ints:
+def _sheets(image: Image, surfaces: TrueSurfaces) -> Ints:
     """(f,) one number for all faces that go on smoothly into one another."""
-    face = on.first[image.triangle_part] + image.triangle_face
+    face = surfaces.first[image.triangle_part] + image.triangle_face
     count = np.diff(image.offsets)
     tangent = np.flatnonzero(
         ((image.edge_kind == EdgeClass.SMOOTH) | (image.edge_kind == EdgeClass.SEAM)) & (count == 2)
@@ -103,7 +103,7 @@ def _sheets(image: Image, on: TrueSurfaces) -> Ints:
     pair = np.stack([face[image.incident[image.offsets[tangent] + k]] for k in (0, 1)], axis=1)
     key = distinct(pair[:, 0].astype(np.int64) << 32 | pair[:, 1])
     pair = np.stack([key >> 32, key & 0xFFFFFFFF], axis=1).astype(np.int32)
-    sheet = np.arange(len(on.number), dtype=np.int32)
+    sheet = np.arange(len(surfaces.number), dtype=np.int32)
     if len(pair):
         joined = np.asarray(_kernel.edge_components(np.ascontiguousarray(pair), len(sheet)), np.int32)
         sheet[pair.ravel()] = np.repeat(joined, 2) + np.int32(len(sheet))

@@ -53,7 +53,7 @@ def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
     silhouettes = image.silhouettes
     if silhouettes is not None:
         silhouettes = replace(silhouettes, hidden=silhouettes.hidden & ~opened[image.edge_group])
-    on = image.true_surfaces
+    surfaces = image.true_surfaces
     return replace(
         image,
         triangles=np.ascontiguousarray(image.triangles[kept]),
@@ -66,7 +66,7 @@ def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
         offsets=np.concatenate([[0], np.cumsum(per_edge)]).astype(np.int32),
         incident=np.ascontiguousarray(number[image.incident[held]], np.int32),
         groups=replace(image.groups, closed=image.groups.closed & ~opened, cull=image.groups.cull & ~opened),
-        true_surfaces=None if on is None else replace(on, corner=on.corner[kept]),
+        true_surfaces=None if surfaces is None else replace(surfaces, corner=surfaces.corner[kept]),
         silhouettes=silhouettes,
         convex=False,
     )

@@ -1,4 +1,4 @@
-"""Shaded pictures: source -> tessellate -> scene -> plan -> shading, and the drawing's own lines on top."""
+"""Shaded pictures: a session up to its scene, then the shaded faces, and the drawing's own lines on top."""
 
 from __future__ import annotations
 
@@ -8,16 +8,13 @@ from functools import partial
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from hlr import _kernel
 from hlr.common.clock import lap
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart
 from hlr.drawing.notes import Note
 from hlr.drawing.picture import Picture
-from hlr.image.camera import NEAR, Camera
+from hlr.image.camera import Camera
 from hlr.image.image import image_of
 from hlr.image.outlines import outlined
 from hlr.image.placement import Placement, place
@@ -29,21 +26,18 @@ from hlr.request.drawing_effects import DRAWING
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, View
 from hlr.request.picture_effects import (
-    AMBIENT,
-    DIFFUSE,
     PIXELS_PER_MM,
     PREVIEW,
-    SHOULDER,
-    Effects,
     PreviewOptions,
     checked_preview,
     decide_effects,
     line_options,
 )
 from hlr.scene.scene import Scene
-from hlr.shading.lens import Lens, depth_step, frame_scale, lens, light_lens, toward_light
+from hlr.shading.lens import Lens, depth_step, frame_scale, lens
 from hlr.shading.lines import cues, pieces, pieces_by_depth
-from hlr.shading.scene import ShadedScene, shaded_scene
+from hlr.shading.picture import Pixels, before_the_eye, empty_picture, first_faces, maps, shaded_picture
+from hlr.shading.scene import shaded_scene
 from hlr.source.model import Source
 from hlr.writers.png import parse_color
 from hlr.writers.style import width
@@ -73,78 +67,72 @@ def preview_views(
     background = parse_color(options.background)
     if not views:
         return []
-    session = Session(source, views, line_options(options, _sheet(options)), progress, partial(_placed, options))
-    unit = session.source.frame.unit
-
-    out = []
+    placing = partial(_placed, options)
+    session = Session(source, views, line_options(options, _sheet(options)), progress, placing)
+    pictures = []
     for i, draft in enumerate(session.drafts()):
         session.progress("visibility", i / len(views))
-        scene, image = session.scene, draft.image
-        camera, placement = image.camera, image.placement
-        clock = dict(session.clock)
-        started = perf_counter()
-        looks = session.source.looks()
-        shaded = shaded_scene(scene, looks, _before(scene, camera), options.threads)
-        planner = Planner(PREVIEW, options)
-        eye = lens(camera, shaded.points, placement.per_model * PIXELS_PER_MM, options.size)
-        facts = _facts(scene, camera, eye, unit)
-        effects = decide_effects(options, shaded.opacity, facts, planner)
-        started = lap(clock, "prepare", started)
-        pixels = _empty(options.size, background)
-        if effects.faces:
-            pixels = _shaded(shaded, camera, eye, effects, background, options.threads)
-        depth, ids = _maps(scene, shaded, eye, options, unit)
-        started = lap(clock, "picture", started)
-        if effects.lines:
-            lines = line_options(options, None, placement.scale)
-            bare = image_of(scene, camera, placement)
-            if effects.behind:
-                planner_behind = Planner(DRAWING, lines)
-                behind = without_glass(outlined(bare, options.threads, planner_behind), shaded.glass)
-                drawing = session.drawing(Draft(behind, lines, planner_behind))
-                _ink(pixels, drawing, eye, [BEHIND], options.threads)
-            drawing = session.drawing(Draft(bare, lines, Planner(DRAWING, lines)))
-            _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK], options.threads)
-            lap(clock, "edges", started)
-        clock["total"] = sum(clock.values())
-        strays = (note for note in placement.notes if note.code == "stray-parts")
-        notes = tuple(dict.fromkeys((*session.source.notes, *scene.notes, *strays)))
-        if facts.depth > facts.pixel and effects.faces:
-            notes = (*notes, _coarse(facts))
-        if options.strict:
-            refuse_warnings(notes)
-        out.append(
-            Picture(
-                source=session.source.name,
-                view=drawn_view(camera),
-                scale=eye[4] / unit,
-                pixels=pixels,
-                parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in scene.parts),
-                first_face=_first_face(scene),
-                depth=depth,
-                ids=ids,
-                notes=notes,
-                timings=clock,
-                plan=planner.decisions(),
-            )
-        )
-    return out
+        pictures.append(_picture(session, draft, options, background))
+    return pictures
 
 
-def _empty(size: tuple[int, int], background: tuple[int, ...]) -> npt.NDArray[np.uint8]:
-    """A picture of nothing."""
-    return np.full((size[1], size[0], 4), background, np.uint8)
+def _picture(session: Session, draft: Draft, options: PreviewOptions, background: tuple[int, ...]) -> Picture:
+    """The picture of one view: faces, maps, lines."""
+    source, scene, unit = session.source, session.scene, session.source.frame.unit
+    camera, placement = draft.image.camera, draft.image.placement
+    clock = dict(session.clock)
+    started = perf_counter()
+    shaded = shaded_scene(scene, source.looks(), before_the_eye(scene, camera), options.threads)
+    planner = Planner(PREVIEW, options)
+    eye = lens(camera, shaded.points, placement.per_model * PIXELS_PER_MM, options.size)
+    facts = _facts(scene, camera, eye, unit)
+    effects = decide_effects(options, shaded.opacity, facts, planner)
+    started = lap(clock, "prepare", started)
+    pixels = empty_picture(options.size, background)
+    if effects.faces:
+        pixels = shaded_picture(shaded, camera, eye, effects, background, options.threads)
+    depth, ids = maps(scene, shaded, eye, options, unit)
+    started = lap(clock, "picture", started)
+    if effects.lines:
+        lines = line_options(options, None, placement.scale)
+        bare = image_of(scene, camera, placement)
+        if effects.behind:
+            planner_behind = Planner(DRAWING, lines)
+            behind = without_glass(outlined(bare, options.threads, planner_behind), shaded.glass)
+            drawing = session.drawing(Draft(behind, lines, planner_behind))
+            _ink(pixels, drawing, eye, [BEHIND], options.threads)
+        drawing = session.drawing(Draft(bare, lines, Planner(DRAWING, lines)))
+        _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK], options.threads)
+        lap(clock, "edges", started)
+    clock["total"] = sum(clock.values())
+    strays = (note for note in placement.notes if note.code == "stray-parts")
+    notes = tuple(dict.fromkeys((*source.notes, *scene.notes, *strays)))
+    if facts.depth > facts.pixel and effects.faces:
+        notes = (*notes, _coarse(facts))
+    if options.strict:
+        refuse_warnings(notes)
+    return Picture(
+        source=source.name,
+        view=drawn_view(camera),
+        scale=eye[4] / unit,
+        pixels=pixels,
+        parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in scene.parts),
+        first_face=first_faces(scene),
+        depth=depth,
+        ids=ids,
+        notes=notes,
+        timings=clock,
+        plan=planner.decisions(),
+    )
 
 
-def _ink(
-    pixels: npt.NDArray[np.uint8], drawing: Drawing, eye: Lens, inks: Sequence[tuple[int, int, int, int]], threads: int
-) -> None:
+def _ink(pixels: Pixels, drawing: Drawing, eye: Lens, inks: Sequence[tuple[int, int, int, int]], threads: int) -> None:
     """The lines over a picture, in place: in one ink, or in as many as tell depths apart, the farthest first."""
     for wide in sorted({width(line.kind, True) for line in drawing.lines}):
-        these = [line for line in drawing.lines if width(line.kind, True) == wide]
-        levels = [pieces(these, drawing.origin, PIXELS_PER_MM, eye[5])]
+        lines = [line for line in drawing.lines if width(line.kind, True) == wide]
+        levels = [pieces(lines, drawing.origin, PIXELS_PER_MM, eye[5])]
         if len(inks) > 1:
-            levels = pieces_by_depth(these, drawing.origin, PIXELS_PER_MM, eye, len(inks))
+            levels = pieces_by_depth(lines, drawing.origin, PIXELS_PER_MM, eye, len(inks))
         for ink, strokes in zip(inks, levels, strict=True):
             _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, ink, threads)
 
@@ -158,10 +146,10 @@ def _coarse(facts: Facts) -> Note:
 
 
 def _facts(scene: Scene, camera: Camera, eye: Lens, unit: float) -> Facts:
-    on = scene.true_surfaces
+    surfaces = scene.true_surfaces
     return Facts(
-        curved=0 if on is None else int((~on.planar).sum()),
-        faces=on is not None,
+        curved=0 if surfaces is None else int((~surfaces.planar).sum()),
+        faces=surfaces is not None,
         perspective=camera.eye is not None,
         depth=depth_step(eye) * unit,
         pixel=unit / eye[4],
@@ -183,56 +171,3 @@ def _placed(options: PreviewOptions, camera: Camera, lines: Options, source: Sou
     scale = framed / PIXELS_PER_MM / source.frame.unit
     placement = place(camera, line_options(options, None, scale), source, bounds)
     return replace(placement, aspect=options.size[0] / options.size[1], notes=())
-
-
-def _before(scene: Scene, camera: Camera) -> npt.NDArray[np.float64] | None:
-    """(n,) positive for points before the near plane; None for parallel views."""
-    if camera.eye is None or camera.distance is None:
-        return None
-    return np.asarray(camera.ahead(scene.points) - NEAR * camera.distance)
-
-
-def _shaded(
-    shaded: ShadedScene, camera: Camera, eye: Lens, effects: Effects, background: tuple[int, ...], threads: int
-) -> npt.NDArray[np.uint8]:
-    toward = toward_light(camera, SHOULDER)
-    sun = light_lens(toward, camera, shaded.points, effects.shadows) if effects.shadows else None
-    return shaded.model.picture(
-        eye,
-        toward,
-        AMBIENT,
-        DIFFUSE,
-        effects.specular,
-        _light(background),
-        effects.antialias,
-        sun,
-        effects.occlusion,
-        threads,
-    )
-
-
-def _light(color: tuple[int, ...]) -> tuple[float, float, float, float]:
-    """sRGB and opacity, 0 to 255, -> linear light, premultiplied."""
-    opacity = color[3] / 255.0
-    share = [c / 255.0 for c in color[:3]]
-    r, g, b = (opacity * (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4) for c in share)
-    return (r, g, b, opacity)
-
-
-def _first_face(scene: Scene) -> npt.NDArray[np.int32]:
-    """(p + 1,) faces of all parts numbered together; a mesh has one."""
-    count = np.array([max(part.faces, 1) for part in scene.parts], np.int32)
-    if len(scene.triangles):
-        np.maximum.at(count, scene.triangle_part, scene.triangle_face + 1)
-    return np.concatenate([[0], np.cumsum(count)]).astype(np.int32)
-
-
-def _maps(
-    scene: Scene, shaded: ShadedScene, eye: Lens, options: PreviewOptions, unit: float
-) -> tuple[npt.NDArray[np.float64] | None, npt.NDArray[np.int32] | None]:
-    if not options.depth and not options.ids:
-        return None, None
-    ahead, triangle = shaded.model.maps(eye, options.threads)
-    face = _first_face(scene)[scene.triangle_part] + scene.triangle_face
-    ids = np.where(triangle >= 0, np.append(face, -1)[triangle], -1).astype(np.int32)
-    return (ahead * unit if options.depth else None), (ids if options.ids else None)

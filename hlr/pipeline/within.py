@@ -79,7 +79,7 @@ def draw_within(
 
     Where reading and the first pass take longer than that, the first drawing is the result, and a note states the
     excess. KeyboardInterrupt before the first drawing is raised; after it, the last finished drawing is the result.
-    Raises what `hlr.pipeline.drawing.draw_views` raises.
+    Raises what `hlr.pipeline.draw.draw_views` raises.
     """
     started = perf_counter() if started is None else started
     options = checked(options)
