@@ -131,11 +131,10 @@ def test_the_command_does_not_load_it_either(tmp_path, own_cache):
 def test_a_face_that_our_mesher_cannot_mesh_comes_back_from_the_dump(code, tmp_path):
     """Only then OpenCASCADE is loaded; it has meshed the shape of the dump before, too."""
     pytest.importorskip("cadquery")
-    from hard.test_faces_that_cannot_be_meshed import with_sliver
-    from hard.test_rim_whose_parameter_curve_is_a_scrawl import scrawled
+    from support.brep_shapes import plate_with_sliver, scrawled_cylinder
 
     path = tmp_path / "part.brep"
-    (with_sliver() if code == "not-meshed" else scrawled()[0]).exportBrep(str(path))
+    (plate_with_sliver() if code == "not-meshed" else scrawled_cylinder()[0]).exportBrep(str(path))
     first = hlr.draw(path)
     assert [note.code for note in first.notes] == [code]
     program = "import sys, hlr; print(hlr.draw(sys.argv[1]).to_svg()); print('OCP' in sys.modules)"

@@ -9,21 +9,13 @@ import sys
 import time
 
 import pytest
+from cache.entries import KEY, entry, key
 
-from hlr.cache.entry import HEAD, MARK, DamagedError, packed, unpacked
+from hlr.cache.entry import HEAD, MARK, DamagedError, unpacked
 from hlr.cache.folder import folder, most_bytes
 from hlr.cache.store import NotKeptError, Store
 from hlr.errors import OptionError
-
-KEY = "a" * 40
-
-
-def entry(key=KEY, size=500, **facts):
-    return packed(key, facts, [bytes(range(256)) * (size // 256), bytes(size % 256)])
-
-
-def key(number):
-    return f"{number:040x}"
+from support.programs import environment
 
 
 @pytest.fixture
@@ -194,8 +186,7 @@ def test_a_full_disk_leaves_the_old_entry(store, tmp_path):
 WRITER = """
 import sys
 from pathlib import Path
-sys.path.insert(0, sys.argv[3])
-from test_store import entry, key
+from cache.entries import entry, key
 from hlr.cache.store import Store
 store = Store(Path(sys.argv[1]), 200_000)
 print("ready", flush=True)
@@ -206,9 +197,8 @@ for turn in range(int(sys.argv[2])):
 
 
 def writer(store, turns):
-    here = os.path.dirname(__file__)
-    command = [sys.executable, "-P", "-c", WRITER, str(store.folder), str(turns), here]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    command = [sys.executable, "-P", "-c", WRITER, str(store.folder), str(turns)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment())
 
 
 def test_two_may_write_and_a_third_may_read_at_once(store):

@@ -5,19 +5,17 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 from typing import NamedTuple
 
-import fake_pipeline as fake
 import pytest
 
-FAKE = [sys.executable, str(Path(fake.__file__))]
+from support import fake_pipeline as fake
+from support.programs import environment
 
 # The command line with a file that takes its time, to be written and to be removed.
 WRITE_SLOWLY = """
 import os, sys, time
-sys.path.insert(0, sys.argv.pop(1))
-import fake_pipeline as fake
+from support import fake_pipeline as fake
 from hlr.cli import main
 from hlr.drawing import files
 
@@ -84,6 +82,7 @@ def started(tmp_path):
 
     def start(program, *arguments, **options):
         options.setdefault("preexec_fn", as_from_a_terminal)
+        options.setdefault("env", environment())
         process = subprocess.Popen([*program, *arguments], cwd=tmp_path, **options | {"start_new_session": True})
         processes.append(process)
         return process
@@ -100,7 +99,7 @@ def child(started):
     """Start the command line as a process of its own, on the stand-in pipeline."""
 
     def start(*arguments, **options):
-        return started(FAKE, *arguments, **options)
+        return started(fake.PROGRAM, *arguments, **options)
 
     return start
 
@@ -111,7 +110,7 @@ def slow_writer(started, tmp_path):
 
     def start(**options):
         (tmp_path / "a.svg").write_text("old")
-        program = [sys.executable, "-P", "-c", WRITE_SLOWLY, str(Path(fake.__file__).parent)]
+        program = [sys.executable, "-P", "-c", WRITE_SLOWLY]
         process = started(program, "draw", "a.step", "-o", "a.svg", stderr=subprocess.PIPE, **options)
         assert process.stderr.readline() == b"writing\n"
         return process
@@ -129,8 +128,8 @@ def on_terminal(child):
 
     def run(*arguments, columns=80, seconds=20.0, interrupt=None):
         control, terminal = pty.openpty()
-        environment = os.environ | {"TERM": "xterm", "COLUMNS": str(columns)}
-        process = child(*arguments, stderr=terminal, env=environment)
+        variables = environment(TERM="xterm", COLUMNS=str(columns))
+        process = child(*arguments, stderr=terminal, env=variables)
         os.close(terminal)
         shown, end = b"", time.monotonic() + seconds
         while time.monotonic() < end:

@@ -1,7 +1,8 @@
 import json
 
-import fake_pipeline as fake
 import pytest
+
+from support import fake_pipeline as fake
 
 
 def options(command, *arguments):

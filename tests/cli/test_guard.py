@@ -8,20 +8,17 @@ import subprocess
 import sys
 import time
 from importlib.util import find_spec
-from pathlib import Path
 
-import fake_pipeline as fake
 import pytest
+
+from support import fake_pipeline as fake
 
 if not hasattr(os, "fork"):
     pytest.skip("there is no worker without fork", allow_module_level=True)
 
-TESTS = Path(__file__).resolve().parents[1]
-
 # The command line, with a reader that does what {} says.
 PATCHED = """
 import ctypes, os, signal, sys
-sys.path.insert(0, {tests!r})
 import hlr.source.cad.step
 def reader(path, annotations=False):
     {body}
@@ -42,7 +39,7 @@ def patched(tmp_path):
     """The command line as a process of its own, with another reader of STEP files."""
 
     def start(body, *arguments, **options):
-        program = PATCHED.format(tests=str(TESTS), body=body)
+        program = PATCHED.format(body=body)
         (tmp_path / "part.step").write_bytes(b"ISO-10303-21;")
         (tmp_path / "a.svg").write_bytes(OLD)
         command = [sys.executable, "-P", "-c", program, *(arguments or ("draw", "part.step", "-o", "a.svg"))]
@@ -165,8 +162,7 @@ time.sleep(60)
 def test_the_command_ends_with_its_parent_but_for_nohup(started, how):
     parent = started(
         [sys.executable, "-P", "-c", PARENT, how],
-        sys.executable,
-        fake.__file__,
+        *fake.PROGRAM,
         "draw",
         "forever.step",
         stderr=subprocess.PIPE,

@@ -1,10 +1,10 @@
 """Several outputs in one pass, folders, and what contradicts itself."""
 
-import fake_pipeline as fake
 import pytest
 
 import hlr
 from hlr import Options, Perspective
+from support import fake_pipeline as fake
 
 
 def names(folder):

@@ -1,6 +1,6 @@
 """Draw mutated files for as long as asked, and keep those that do what none may.
 
-    python tests/fuzz/files.py --minutes 60 --seed 7 --jobs 2
+    cd tests && python -m fuzz.files --minutes 60 --seed 7 --jobs 2
 
 Every file must end in a drawing (exit code 0) or one sentence (2), with the earlier output intact in the latter case.
 What does not is saved under the folder `found`, one file for each way of failing: crash (a signal), hang, fault (exit
@@ -13,18 +13,15 @@ import argparse
 import hashlib
 import multiprocessing
 import random
-import sys
 import time
 from collections import Counter
 from pathlib import Path
 from typing import Any
 
+from fuzz.mutate import mutate
+from fuzz.warm import Warm
+
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-
-from mutate import mutate  # noqa: E402
-from warm import Warm  # noqa: E402
-
 DATA = HERE.parent / "data"
 
 

@@ -1,6 +1,6 @@
 """The entry from Python with anything in its arguments: a drawing or an HlrError, in one sentence, and nothing else.
 
-Options and cameras are tried in tests/test_errors.py; here it is arrays, objects and several things at once.
+Options and cameras are tried in tests/public/test_errors.py; here it is arrays, objects and several things at once.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-import refusals
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import hlr
 from hlr import HlrError, Options, Perspective
+from support import refusals
 
 KINDS = (
     np.float64,

@@ -6,12 +6,14 @@ pytest tests/hard --draw        # writes tests/hard/pictures/<case>.svg; look at
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import pytest
-from hard.expected import PICTURES, differences, doubled, ink, read_picture
 
 from hlr import Drawing
+from support.expected import differences, doubled, ink, read_picture
 
+PICTURES = Path(__file__).with_name("pictures")
 LARGEST_PICTURE = 40_000
 """Bytes."""
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 
 import pytest
-from hard.expected import agrees, by_oracle, differences, expect, ink
-from hard.shapes import BOX_EDGES, box, ring
-from linework.measures import length
 
 import hlr
+from support.expected import agrees, by_oracle, differences, expect, ink
+from support.measures import length
+from support.meshes import BOX_EDGES, box, ring
 
 LOW, HIGH = (-10, -15, -20), (10, 15, 20)
 MESH = box(LOW, HIGH)

@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import like
-from hard.expected import expect, of_kind
 
 import hlr
+from support.expected import expect, of_kind
 
 VIEW = (1, -2, 1.5)
 """From before, right and above."""

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, defects, of_kind
-from hard.shapes import BOX_EDGES, box, merged
 
 import hlr
+from support.expected import agrees, by_oracle, defects, of_kind
+from support.meshes import BOX_EDGES, box, merged
 
 LOW, HIGH = ((0, 0, 0), (10, 10, 10)), ((10, 10, 0), (18, 16, 10))
 """They share the upright edge at (10, 10)."""

@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, compound, faultless, like, ring, turn
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 HEAD, HEIGHT, SHANK, HOLE = 8.0, 5.0, 4.0, 4.5
 HALF, THICK = 25.0, 6.0

@@ -11,9 +11,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import box_edges, like, ring, turn
-from hard.expected import expect, of_kind
 
 import hlr
+from support.expected import expect, of_kind
 
 SIDE, THICK = 30.0, 4.0
 SHANK, LOW, TOP = 5.0, -12.0, 14.0

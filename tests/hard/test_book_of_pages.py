@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, defects
-from hard.shapes import face, merged, turned_over
 
 import hlr
+from support.expected import agrees, by_oracle, defects
+from support.meshes import face, merged, turned_over
 
 
 def book(count, opening=2 * np.pi, turned=False):

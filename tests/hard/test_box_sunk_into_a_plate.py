@@ -10,9 +10,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import arc, box_edges, compound
-from hard.expected import differences, expect, ink
 
 import hlr
+from support.expected import differences, expect, ink
 
 ACCURACY = 0.05
 HALF, THICK, SIDE, HIGH = 20.0, 10.0, 5.0, 10.0

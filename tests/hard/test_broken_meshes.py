@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, defects
-from hard.shapes import BOX_EDGES, box, merged, turned_over
 
 import hlr
+from support.expected import agrees, by_oracle, defects
+from support.meshes import BOX_EDGES, box, merged, turned_over
 
 POINTS, TRIANGLES = box((-10, -10, -10), (10, 10, 10))
 INSIDE = box((-4, -4, -4), (4, 4, 4))

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, differences, ink
-from hard.shapes import BOX_EDGES, as_parts, box, merged, moved, rotation
 
 import hlr
+from support.expected import agrees, by_oracle, differences, ink
+from support.meshes import BOX_EDGES, as_parts, box, merged, moved, rotation
 
 CUBE = box((-10, -10, -10), (10, 10, 10))
 

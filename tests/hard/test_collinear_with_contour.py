@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, expect
-from hard.shapes import as_parts, face, merged, moved
 
 import hlr
+from support.expected import agrees, expect
+from support.meshes import as_parts, face, merged, moved
 
 MIRRORS = [np.diag([x, y, 1.0]) for x in (1, -1) for y in (1, -1)]
 TURNS = [np.eye(3), np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])]

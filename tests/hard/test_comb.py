@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import differences, expect, ink
-from hard.shapes import as_parts, box, box_lines, face, merged
 
 import hlr
+from support.expected import differences, expect, ink
+from support.meshes import as_parts, box, box_lines, face, merged
 
 ACCURACY = 0.05
 COUNT = 1000

@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import kinds, like, ring, turn
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 RADIUS, HEIGHT = 10.0, 20.0
 HALF = float(np.degrees(np.arctan(RADIUS / HEIGHT)))

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle
-from hard.shapes import BOX_EDGES, as_parts, box, merged, moved, rotation
 
 import hlr
+from support.expected import agrees, by_oracle
+from support.meshes import BOX_EDGES, as_parts, box, merged, moved, rotation
 
 BASE = box((-10, -10, -10), (10, 10, 0))
 ON_EDGE = rotation((1, 0, 0), np.pi / 4)

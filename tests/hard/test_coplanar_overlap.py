@@ -7,10 +7,10 @@ corners are no longer exactly coplanar.
 from __future__ import annotations
 
 import pytest
-from hard.expected import agrees, expect
-from hard.shapes import as_parts, face, merged, moved, ring, rotation
 
 import hlr
+from support.expected import agrees, expect
+from support.meshes import as_parts, face, merged, moved, ring, rotation
 
 ONE = [(0, 0, 0), (20, 0, 0), (20, 10, 0), (0, 10, 0)]
 OTHER = [(10, 5, 0), (30, 5, 0), (30, 15, 0), (10, 15, 0)]

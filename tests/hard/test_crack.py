@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import differences, expect, ink
-from hard.shapes import as_parts, box, box_lines, face, grid, merged
 
 import hlr
+from support.expected import differences, expect, ink
+from support.meshes import as_parts, box, box_lines, face, grid, merged
 
 ACCURACY = 0.05
 WIDTHS = [0.0, 0.001, 0.1, 0.5, 0.9]

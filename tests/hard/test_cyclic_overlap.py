@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, expect
-from hard.shapes import as_parts, face, merged, moved, rotation
 
 import hlr
+from support.expected import agrees, by_oracle, expect
+from support.meshes import as_parts, face, merged, moved, rotation
 
 NEAR, FAR, END = 6.0, 10.0, 20.0
 """A strip runs between these distances from the centre, this far each way, and climbs by a quarter of its way."""

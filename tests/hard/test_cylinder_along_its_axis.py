@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import arc, kinds, like, ring, turn
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 HALF, OUTER, INNER = 50.0, 20.0, 18.0
 BRANCH, BORE, TOP = 8.0, 6.0, 35.0

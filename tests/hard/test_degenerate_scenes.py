@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, expect
-from hard.shapes import face, ring
 
 import hlr
+from support.expected import agrees, expect
+from support.meshes import face, ring
 
 CORNERS = [(0, 0, 0), (12, 0, 0), (3, 9, 0)]
 NONE = np.zeros((0, 3), int)

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import trimesh
 from hard.brep import same
-from hard.expected import agrees, by_oracle
-from hard.shapes import BOX_EDGES, BOX_QUADS, box, split
 
 import hlr
+from support.expected import agrees, by_oracle
+from support.meshes import BOX_EDGES, BOX_QUADS, box, split
 
 TURN = trimesh.transformations.rotation_matrix(0.7, (1, 2, 3))
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, compound, like, once, same
-from hard.expected import expect
 from OCP.BRep import BRep_Builder
 from OCP.TopoDS import TopoDS_Solid
 
 import hlr
+from support.expected import expect
 
 
 def part():

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hard.expected import Ink, agrees, by_oracle, differences, expect, ink, read_picture, wrong_by_rays
-from linework.models import box, parts
 
 import hlr
+from support.expected import Ink, agrees, by_oracle, differences, expect, ink, read_picture, wrong_by_rays
+from support.models import box, parts
 
 CORNERS = np.array([[x, y, z] for x in (-5, 5) for y in (-10, 10) for z in (-15, 15)], float)
 EDGES = [(i, j) for i in range(8) for j in range(i + 1, 8) if np.count_nonzero(CORNERS[i] != CORNERS[j]) == 1]

@@ -9,9 +9,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import arc, compound, kinds, like, ring, walk
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 
 def plate():

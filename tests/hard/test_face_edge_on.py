@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, expect
-from hard.shapes import as_parts, box, box_lines, face, merged, moved, rotation
 
 import hlr
+from support.expected import agrees, expect
+from support.meshes import as_parts, box, box_lines, face, merged, moved, rotation
 
 SHEET = [(-10, -10, 0), (10, -10, 0), (10, 10, 0), (-10, 10, 0)]
 OFF = [0.0, 1e-15, 1e-12, 1e-9, -1e-12, -1e-9, 1e-7]

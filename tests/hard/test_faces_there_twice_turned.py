@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from hard.brep import same
-from hard.expected import agrees, by_oracle, wrong_by_rays
-from hard.shapes import BOX_EDGES, BOX_QUADS, box, sphere, split
 
 import hlr
+from support.expected import agrees, by_oracle, wrong_by_rays
+from support.meshes import BOX_EDGES, BOX_QUADS, box, sphere, split
 
 
 def tub():

@@ -8,9 +8,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, like, once, ring, same
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 FAR = (1e6, -1e6, 5e5)
 

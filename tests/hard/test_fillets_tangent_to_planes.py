@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import arc, kinds, like, turn, walk
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 X, Y, Z, R = 30.0, 20.0, 10.0, 4.0
 """Half sides of the box and the radius of its upright edges, or of all."""

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import of_kind, wrong_by_rays
-from hard.shapes import grid
-from linework.measures import length, placed
 
 import hlr
+from support.expected import of_kind, wrong_by_rays
+from support.measures import length, placed
+from support.meshes import grid
 
 RADIUS, ROD, PITCH, TURNS = 15.0, 2.0, 12.0, 3
 

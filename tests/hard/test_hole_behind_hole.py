@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, expect
-from hard.shapes import as_parts, box, box_lines, grid, merged, ring
 
 import hlr
+from support.expected import agrees, by_oracle, expect
+from support.meshes import as_parts, box, box_lines, grid, merged, ring
 
 HOLE = [(-5, 0, -5), (5, 0, -5), (5, 0, 5), (-5, 0, 5)]
 RIM = [(-15, 0, -15), (15, 0, -15), (15, 0, 15), (-15, 0, 15)]

@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from hard.expected import agrees, by_oracle, differences, expect, ink, of_kind
-from hard.shapes import BOX_EDGES, as_parts, box, merged, ring
-from linework.models import solids
 
 import hlr
+from support.expected import agrees, by_oracle, differences, expect, ink, of_kind
+from support.meshes import BOX_EDGES, as_parts, box, merged, ring
+from support.models import solids
 
 BLOCK = ((-10, -10, -10), (10, 10, 10))
 BAR = ((0, -4, -3), (30, 4, 5))

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import defects, of_kind, wrong_by_rays
-from hard.shapes import cells
 
 import hlr
+from support.expected import defects, of_kind, wrong_by_rays
+from support.meshes import cells
 
 
 def bottle(n=160, m=64):
@@ -46,6 +46,6 @@ def test_what_is_reported():
 
 
 def test_a_sound_tube_of_the_same_make_has_no_such_defect():
-    from hard.shapes import torus
+    from support.meshes import torus
 
     assert defects(torus(15, 5, 40, 20)) == []

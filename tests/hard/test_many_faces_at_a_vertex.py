@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import Ink, agrees, expect, on_paper, pieces
-from linework.measures import length
 
 import hlr
+from support.expected import Ink, agrees, expect, on_paper, pieces
+from support.measures import length
 
 COUNT = 10_000
 RADIUS, HEIGHT = 20.0, 30.0

@@ -9,10 +9,10 @@ import itertools
 
 import numpy as np
 import pytest
-from hard.expected import agrees, covers, expect, wrong_by_rays
-from hard.shapes import ring, sharp_edges, split
 
 import hlr
+from support.expected import agrees, covers, expect, wrong_by_rays
+from support.meshes import ring, sharp_edges, split
 
 SIZE = 27.0
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from hard.expected import agrees, by_oracle
-from hard.shapes import BOX_EDGES, box, merged, moved
 
 import hlr
+from support.expected import agrees, by_oracle
+from support.meshes import BOX_EDGES, box, merged, moved
 
 MIRRORS = [np.diag(d) for d in ((-1.0, 1, 1, 1), (1, -1, 1, 1), (1, 1, -1, 1), (-1, -1, -1, 1), (-2, 1, 0.5, 1))]
 

@@ -10,11 +10,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hard.expected import defects, expect, of_kind, wrong_by_rays
-from hard.shapes import cells
-from linework.measures import length
 
 import hlr
+from support.expected import defects, expect, of_kind, wrong_by_rays
+from support.measures import length
+from support.meshes import cells
 
 RADIUS, WIDTH, TWISTS = 15.0, 12.0, 1
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.shapes import rotation
 
 import hlr
 from hlr import _kernel
 from hlr.scene import build
 from hlr.source.precision import coordinate_precision
+from support.meshes import rotation
 
 HEIGHT, RADIUS = 60.0, 20.0
 

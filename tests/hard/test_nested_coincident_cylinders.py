@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import compound, like, ring, same, turn
-from hard.expected import Ink, expect, ink
 
 import hlr
+from support.expected import Ink, expect, ink
 
 RADIUS, HEIGHT = 10.0, 30.0
 

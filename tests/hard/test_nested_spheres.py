@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import Ink, agrees, pieces
-from hard.shapes import as_parts, circle, merged, sphere
 
 import hlr
+from support.expected import Ink, agrees, pieces
+from support.meshes import as_parts, circle, merged, sphere
 
 N, M = 96, 48
 HOLE = np.radians(50)

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, expect
-from hard.shapes import BOX_EDGES, as_parts, box, box_lines, merged
 
 import hlr
+from support.expected import agrees, by_oracle, expect
+from support.meshes import BOX_EDGES, as_parts, box, box_lines, merged
 
 POINTS, TRIANGLES = box((-10, -10, -10), (10, 10, 10))
 BAD = [np.nan, np.inf, -np.inf]

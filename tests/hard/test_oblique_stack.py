@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, expect
-from hard.shapes import BOX_EDGES, as_parts, box, box_lines, merged, moved, rotation
 
 import hlr
+from support.expected import agrees, by_oracle, expect
+from support.meshes import BOX_EDGES, as_parts, box, box_lines, merged, moved, rotation
 
 LEVELS = [0.0, 7.0, 13.0, 20.0]
 TURNS = [rotation(axis, angle) for axis, angle in (((1, 2, 3), 0.4), ((3, -1, 1), 1.3), ((1, 1, 0), 1))]

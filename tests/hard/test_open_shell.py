@@ -8,10 +8,10 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import kinds, like, ring, turn
-from hard.expected import agrees, by_oracle, defects, expect
-from hard.shapes import BOX_EDGES, BOX_QUADS, box, split
 
 import hlr
+from support.expected import agrees, by_oracle, defects, expect
+from support.meshes import BOX_EDGES, BOX_QUADS, box, split
 
 LOW, HIGH = (0, 0, 0), (30, 20, 12)
 LID = 5

@@ -10,9 +10,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import arc, like, walk
-from hard.expected import expect, of_kind
 
 import hlr
+from support.expected import expect, of_kind
 
 WIDE, TALL, DEEP = 80.0, 40.0, 20.0
 SMALL, LARGE, HIGH, ROUND = 15.0, 30.0, 10.0, 4.0

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import Ink, agrees, by_oracle, differences, expect, ink
-from hard.shapes import BOX_EDGES, as_parts, box, face, merged, turned_over
 
 import hlr
 from hlr.drawing.notes import Note
+from support.expected import Ink, agrees, by_oracle, differences, expect, ink
+from support.meshes import BOX_EDGES, as_parts, box, face, merged, turned_over
 
 AHEAD = box((-3, 20, -2), (3, 26, 4))
 BEHIND = box((-3, -26, -2), (3, -20, 4))

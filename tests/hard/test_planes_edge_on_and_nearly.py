@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import like, once, turn, walk
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 ROOF = [(0, 0), (40, 0), (40, 10), (0, 30)]
 """The section in x and z; it runs from y = 0 to 25."""

@@ -18,36 +18,14 @@ import pytest
 import hlr
 from hlr.drawing.notes import Note
 from hlr.source import open_source
+from support.brep_shapes import scrawled_cylinder
 
 NOTE = Note("faces-mended", 'Part "part": 1 of 3 faces was meshed by OpenCASCADE (face 0).')
 EFFECT = "rescue of faces"
 
 
-def scrawled():
-    """A cylinder of diameter 6 and height 10; and its side, a TopoDS_Face."""
-    from OCP.BRep import BRep_Builder
-    from OCP.Geom2d import Geom2d_BezierCurve
-    from OCP.Geom2dConvert import Geom2dConvert
-    from OCP.gp import gp_Pnt2d
-    from OCP.TColgp import TColgp_Array1OfPnt2d
-    from OCP.TColStd import TColStd_Array1OfReal
-
-    solid = cq.Workplane().cylinder(10, 3).val()
-    (side,) = (face.wrapped for face in solid.Faces() if face.geomType() == "CYLINDER")
-    poles, knots = TColgp_Array1OfPnt2d(1, 4), TColStd_Array1OfReal(1, 2)
-    for i, (u, v) in enumerate([(0, 0), (9, 30), (-7, -30), (2, 5)]):
-        poles.SetValue(i + 1, gp_Pnt2d(u, v))
-    for i, knot in enumerate((0.0, 2 * math.pi)):
-        knots.SetValue(i + 1, knot)
-    curve = Geom2dConvert.CurveToBSplineCurve_s(Geom2d_BezierCurve(poles))
-    curve.SetKnots(knots)
-    rim = next(edge.wrapped for edge in cq.Shape.cast(side).Edges() if edge.geomType() == "CIRCLE")
-    BRep_Builder().UpdateEdge(rim, curve, side, 1e-7)
-    return solid, side
-
-
 def test_it_is_drawn_like_a_sound_one():
-    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3), "iso"), hlr.draw(scrawled()[0], "iso")
+    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3), "iso"), hlr.draw(scrawled_cylinder()[0], "iso")
     assert drawing.notes == (NOTE,) and sound.notes == ()
 
     def told(drawing):
@@ -59,7 +37,7 @@ def test_it_is_drawn_like_a_sound_one():
 
 
 def test_it_becomes_a_closed_mesh_on_its_surface():
-    (part,) = open_source(scrawled()[0]).mesh(0.01, 0.2).parts
+    (part,) = open_source(scrawled_cylinder()[0]).mesh(0.01, 0.2).parts
     a, b, c = (part.points[part.triangles[:, k]] for k in range(3))
     assert (a * np.cross(b, c)).sum() / 6 == pytest.approx(math.pi * 90, rel=0.01)
     middle = ((a + b + c) / 3)[part.triangle_face == 0]
@@ -67,7 +45,7 @@ def test_it_becomes_a_closed_mesh_on_its_surface():
 
 
 def test_what_was_rescued_is_counted_and_told():
-    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3)), hlr.draw(scrawled()[0])
+    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3)), hlr.draw(scrawled_cylinder()[0])
     assert [drawing.counters[name] for name in ("rescued_faces", "lost_faces")] == [1, 0]
     assert [sound.counters[name] for name in ("rescued_faces", "lost_faces")] == [0, 0]
     (row,) = (d for d in drawing.plan if d.name == EFFECT)
@@ -75,14 +53,14 @@ def test_what_was_rescued_is_counted_and_told():
     assert row.reason == "the kernel could not mesh 1 face: OpenCASCADE tries"
     (row,) = (d for d in sound.plan if d.name == EFFECT)
     assert not row.on and row.reason == "the kernel has meshed every face"
-    assert hlr.info(scrawled()[0]).notes == (NOTE,)
+    assert hlr.info(scrawled_cylinder()[0]).notes == (NOTE,)
     # Once, though its scale is found only after a first mesh, at which it was rescued, too.
-    assert hlr.draw(scrawled()[0], fit=(20, 20)).counters["rescued_faces"] == 1
+    assert hlr.draw(scrawled_cylinder()[0], fit=(20, 20)).counters["rescued_faces"] == 1
 
 
 def test_it_is_a_remark_and_no_warning():
     assert not NOTE.is_warning
-    assert hlr.draw(scrawled()[0], strict=True).notes == (NOTE,)
+    assert hlr.draw(scrawled_cylinder()[0], strict=True).notes == (NOTE,)
 
 
 def test_the_caller_s_shape_stays_as_it_is():
@@ -90,7 +68,7 @@ def test_the_caller_s_shape_stays_as_it_is():
     from OCP.BRepAdaptor import BRepAdaptor_Curve2d
     from OCP.TopLoc import TopLoc_Location
 
-    solid, side = scrawled()
+    solid, side = scrawled_cylinder()
 
     def curves():
         found = [BRepAdaptor_Curve2d(edge.wrapped, side) for edge in cq.Shape.cast(side).Edges()]
@@ -104,7 +82,7 @@ def test_the_caller_s_shape_stays_as_it_is():
 
 
 def test_the_command_tells_all_this(tmp_path):
-    scrawled()[0].exportBrep(str(tmp_path / "part.brep"))
+    scrawled_cylinder()[0].exportBrep(str(tmp_path / "part.brep"))
 
     def command(*arguments):
         words = [sys.executable, "-m", "hlr", *arguments]

@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import box_edges, compound, faultless, like, ring, turn
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 RADIUS, LOW, TOP = 6.0, -12.0, 14.0
 HALF, DEEP = 15.0, 10.0

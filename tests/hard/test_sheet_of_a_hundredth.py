@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, compound, faultless, kinds, like
-from hard.expected import Ink, expect, ink
 
 import hlr
+from support.expected import Ink, expect, ink
 
 THIN = 0.01
 SHEET = ((-20, 0, -15), (20, THIN, 15))

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, defects, differences, ink, on_paper
-from hard.shapes import BOX_EDGES, as_parts, box, merged, moved
 
 import hlr
+from support.expected import agrees, by_oracle, defects, differences, ink, on_paper
+from support.meshes import BOX_EDGES, as_parts, box, merged, moved
 
 EDGES = [*BOX_EDGES, *((i + 8, j + 8) for i, j in BOX_EDGES)]
 SHAPE = merged(box((-1, -1, -1), (1, 1, 1)), box((-0.5, -3, -0.25), (0.5, 0, 0.5)))

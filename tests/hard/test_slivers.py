@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, expect
-from hard.shapes import as_parts, box, box_lines, grid, moved, ring, rotation
 
 import hlr
+from support.expected import agrees, expect
+from support.meshes import as_parts, box, box_lines, grid, moved, ring, rotation
 
 WIDTH = 1e-4
 """Of a strip 100 long."""

@@ -8,9 +8,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import faultless, same
-from hard.expected import defects
 
 import hlr
+from support.expected import defects
 
 VIEWS = ["iso", "front", (0.3, -1, -0.4)]
 

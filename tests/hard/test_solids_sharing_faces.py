@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, kinds, like
-from hard.expected import defects, expect
 
 import hlr
+from support.expected import defects, expect
 
 LEFT = ((0, 0, 0), (10, 10, 10))
 RIGHT = ((10, 0, 0), (25, 10, 10))

@@ -9,9 +9,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import arc, kinds, like
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 RADIUS = 10.0
 CENTRE = (3.0, -4.0, 5.0)

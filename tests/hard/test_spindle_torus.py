@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import Rays, arc, kinds, like, ring
-from hard.expected import expect, of_kind
 
 import hlr
+from support.expected import expect, of_kind
 
 MAJOR, MINOR = 3.0, 5.0
 DIMPLE = (MINOR**2 - MAJOR**2) ** 0.5

@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, compound, kinds, like, turn
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 LOWER = ((-20, -15, -10), (20, 15, 0))
 UPPER = ((-6, -5, 0), (8, 7, 4))

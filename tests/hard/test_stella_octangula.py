@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, expect
-from hard.shapes import as_parts, merged, ring
 
 import hlr
+from support.expected import agrees, by_oracle, expect
+from support.meshes import as_parts, merged, ring
 
 A = 10.0
 FACES = np.array([[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]])

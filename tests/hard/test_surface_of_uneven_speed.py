@@ -13,9 +13,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import compound, faultless, like, walk
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 POLES = np.array([[0, 0], [0.02, 0.0], [0.5, 12], [100, 30]], float)
 """A Bezier curve in x and z: slow at its start."""

@@ -7,32 +7,12 @@ which end in the middle of it where the hill flattens out.
 from __future__ import annotations
 
 import cadquery as cq
-import numpy as np
 import pytest
 from hard.brep import faultless, kinds
-from hard.expected import defects, of_kind
 
 import hlr
-
-
-def height(x, y):
-    return 6 * np.sin(x / 7) * np.cos(y / 9) + 0.05 * x
-
-
-def terrain(count=14):
-    """Through a grid of heights: x and y run evenly, so it is nowhere steeper than the formula."""
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeFace
-    from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
-    from OCP.TColStd import TColStd_Array2OfReal
-
-    heights = TColStd_Array2OfReal(1, count, 1, count)
-    dx, dy = 80 / (count - 1), 60 / (count - 1)
-    for i in range(count):
-        for j in range(count):
-            heights.SetValue(i + 1, j + 1, float(height(i * dx, j * dy)))
-    maker = GeomAPI_PointsToBSplineSurface()
-    maker.Interpolate(heights, 0.0, dx, 0.0, dy)
-    return cq.Face(BRepBuilderAPI_MakeFace(maker.Surface(), 1e-6).Face())
+from support.brep_shapes import terrain
+from support.expected import defects, of_kind
 
 
 @pytest.mark.parametrize("views", [["front", "iso"], [(0.36, 0.86, 0.35), (-1, -0.4, 0.25)]])

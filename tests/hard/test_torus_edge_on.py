@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import arc, kinds, like, turn
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 MAJOR, MINOR = 20.0, 5.0
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import Ink, agrees, doubled, pieces, wrong_by_rays
-from hard.shapes import circle, torus
 
 import hlr
+from support.expected import Ink, agrees, doubled, pieces, wrong_by_rays
+from support.meshes import circle, torus
 
 MAJOR, MINOR = 20.0, 6.0
 N, M = 240, 96

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, by_oracle, of_kind
-from hard.shapes import BOX_EDGES, as_parts, box, face, merged
 
 import hlr
+from support.expected import agrees, by_oracle, of_kind
+from support.meshes import BOX_EDGES, as_parts, box, face, merged
 
 CUBE = box((-10, -10, -10), (10, 10, 10))
 BLADE = face((-25, -15, 2), (25, -15, 2), (0, 25, 2))

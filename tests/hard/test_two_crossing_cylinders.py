@@ -10,9 +10,9 @@ import cadquery as cq
 import numpy as np
 import pytest
 from hard.brep import compound, faultless, like
-from hard.expected import expect, of_kind
 
 import hlr
+from support.expected import expect, of_kind
 
 RADIUS, HALF = 8.0, 25.0
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, like
-from hard.expected import expect
 
 import hlr
+from support.expected import expect
 
 INCH = 25.4
 

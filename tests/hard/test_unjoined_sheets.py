@@ -9,9 +9,9 @@ from __future__ import annotations
 import cadquery as cq
 import pytest
 from hard.brep import box_edges, compound, faultless, kinds, like, ring, turn
-from hard.expected import defects, expect
 
 import hlr
+from support.expected import defects, expect
 
 
 def apart(shape):

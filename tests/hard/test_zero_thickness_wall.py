@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.expected import agrees, expect
-from hard.shapes import BOX_QUADS, as_parts, box, box_lines, merged, moved, ring, rotation, split
 
 import hlr
+from support.expected import agrees, expect
+from support.meshes import BOX_QUADS, as_parts, box, box_lines, merged, moved, ring, rotation, split
 
 TURNS = [np.eye(3), rotation((1, 2, 3), 0.7), rotation((3, -1, 1), 2.0)]
 WALL = (np.array([(x, 0.0, z) for x in (-10, 10) for z in (-8, 8)]), split([[0, 2, 3, 1], [0, 1, 3, 2]]))

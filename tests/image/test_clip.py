@@ -7,9 +7,6 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from linework.measures import counts, placed, samples, straight
-from linework.models import box, parts, sheet
-from scene.invariants import check
 
 import hlr
 from hlr import Options, Perspective
@@ -20,6 +17,9 @@ from hlr.image.image import image_of
 from hlr.scene.build import build
 from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
+from support.invariants import check
+from support.measures import counts, placed, samples, straight
+from support.models import box, parts, sheet
 
 
 def image_of_model(thing):

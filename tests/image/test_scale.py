@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from linework.models import box, parts
 
 import hlr
 from hlr import OptionError, Perspective
 from hlr.drawing.notes import Note
+from support.models import box, parts
 
 
 @pytest.mark.parametrize("view", ["front", "iso", (3, 1, -2)])
@@ -110,7 +110,8 @@ def test_the_accuracy_follows_the_size_unless_given():
 @pytest.mark.parametrize("scale", [0.2, 5.0])
 def test_the_accuracy_is_kept(accuracy, scale):
     import cadquery as cq
-    from linework.measures import placed, samples
+
+    from support.measures import placed, samples
 
     drawing = hlr.draw(cq.Workplane().cylinder(40, 30), "top", accuracy=accuracy, scale=scale)
     (line,) = drawing.lines
@@ -123,7 +124,8 @@ def test_the_accuracy_is_kept(accuracy, scale):
 
 def test_the_accuracy_is_kept_before_the_image_plane():
     import cadquery as cq
-    from linework.measures import placed, samples
+
+    from support.measures import placed, samples
 
     camera = Perspective(eye=(0, 0, 30), target=(0, 0, -1000), fov=120.0)
     drawing = hlr.draw(cq.Workplane().cylinder(4, 10), "top", perspective=camera)

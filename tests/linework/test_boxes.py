@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from linework.measures import counts, drawn_twice, length, placed, straight
-from linework.models import box, parts, sheet, solids
 
 import hlr
+from support.measures import counts, drawn_twice, length, placed, straight
+from support.models import box, parts, sheet, solids
 
 BREP_AND_MESH = pytest.mark.parametrize("kind", ["brep", "mesh"])
 

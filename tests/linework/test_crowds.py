@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from linework.measures import distances, drawn_twice, segments
-from linework.models import box, parts, solids
 
 import hlr
+from support.measures import distances, drawn_twice, segments
+from support.models import box, parts, solids
 
 RING = 0.02
 """Radius of the ring of rays around a sample; a line is judged only where all nine agree."""

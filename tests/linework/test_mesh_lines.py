@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from linework.measures import apart, distances, length, placed, samples
 
 import hlr
 from hlr.drawing.curve import Arc, Bezier
 from hlr.drawing.saving import render
+from support.measures import apart, distances, length, placed, samples
 
 ACCURACY = 0.2
 RADIUS = 20.0

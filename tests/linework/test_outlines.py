@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from linework.measures import counts, distances, drawn_twice, length, placed, samples, segments
-from linework.models import parts, turned
 
 import hlr
+from support.measures import counts, distances, drawn_twice, length, placed, samples, segments
+from support.models import parts, turned
 
 
 def cad():
@@ -205,7 +205,7 @@ def test_a_mesh_turned_inside_out_is_drawn_like_itself(view):
 
 
 def test_an_open_box_shows_its_inside():
-    from linework.models import box
+    from support.models import box
 
     mesh = box((20, 20, 20))
     mesh.update_faces(mesh.face_normals[:, 2] < 0.5)
@@ -225,7 +225,8 @@ def test_an_open_box_shows_its_inside():
 
 def test_faces_that_are_there_twice_are_drawn_once_and_reported():
     import trimesh
-    from linework.models import box
+
+    from support.models import box
 
     mesh = box((20, 20, 20))
     double = trimesh.Trimesh(mesh.vertices, np.concatenate([mesh.faces, mesh.faces[::-1]]), process=False)

@@ -24,11 +24,11 @@ from properties.assemblies import Piece, assemblies, assembly, axes, examples, r
 from properties.frozen import draw
 from properties.identity import identities
 from properties.ink import expect_same_ink
-from visibility import adapter, scenes
-from visibility.scenes import Edge, Scene
 
 from hlr import Perspective
 from hlr.request.accuracy import under
+from support.visibility import adapter, scenes
+from support.visibility.scenes import Edge, Scene
 
 ACCURACY = 0.01
 degrees = st.integers(1, 359)

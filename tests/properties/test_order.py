@@ -26,8 +26,9 @@ from properties.assemblies import Piece, assemblies, assembly, corners, drilled,
 from properties.frozen import draw
 from properties.identity import everything, ownerless, renumbered, without
 from properties.ink import expect_same_ink
-from visibility import adapter, scenes
-from visibility.scenes import Scene
+
+from support.visibility import adapter, scenes
+from support.visibility.scenes import Scene
 
 ACCURACY = 0.01
 few = examples(25)

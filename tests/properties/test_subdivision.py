@@ -21,8 +21,9 @@ from properties.assemblies import Piece, assemblies, assembly, examples, standin
 from properties.frozen import draw
 from properties.identity import identities
 from properties.ink import expect_same_ink
-from visibility import adapter, scenes
-from visibility.scenes import Scene
+
+from support.visibility import adapter, scenes
+from support.visibility.scenes import Scene
 
 ACCURACY = 0.01
 few = examples(20)

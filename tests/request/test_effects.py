@@ -9,10 +9,8 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
-from hard.test_rim_whose_parameter_curve_is_a_scrawl import scrawled
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from linework.models import box, parts, rotation, sheet, solids
 
 import hlr
 from hlr import Options, Perspective
@@ -22,6 +20,8 @@ from hlr.pipeline.draw import draw_views
 from hlr.request.drawing_effects import DRAWING
 from hlr.request.effect import PLAN, SCENE, Decision, Decisions, Effect, Facts, Planner, everything_on, explained
 from hlr.visibility.segments import solve
+from support.brep_shapes import scrawled_cylinder
+from support.models import box, parts, rotation, sheet, solids
 
 DATA = Path(__file__).resolve().parents[1] / "data"
 INSIDE = Perspective(eye=(3, -12, 2), target=(0, 0, 0), fov=60.0)
@@ -65,7 +65,7 @@ def two_sheets(gap):
 SCENES = {
     "meshing of curved faces": ((ball, {}), (lambda: cq.Workplane().box(9, 8, 7), {})),
     "triangulation of planar faces": ((lambda: cq.Workplane().box(9, 8, 7), {}), (ball, {})),
-    "rescue of faces": ((lambda: scrawled()[0], {}), (ball, {})),
+    "rescue of faces": ((lambda: scrawled_cylinder()[0], {}), (ball, {})),
     "repair": ((twice, {}), (lambda: box((20, 20, 20)), {})),
     "stitching of borders": ((lambda: two_sheets(1e-4), {}), (lambda: box((20, 20, 20)), {})),
     "intersection search": ((lambda: solids(*CROSSING), {}), (lambda: solids(*APART), {})),

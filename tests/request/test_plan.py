@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from linework.models import box, parts
 
 from hlr.errors import OptionError, ViewError
 from hlr.image.camera import resolve
@@ -26,6 +25,7 @@ from hlr.source import open_source
 from hlr.tables.line_classes import EdgeClass
 from hlr.visibility.plan import DRAWN, OUTLINE, decide
 from hlr.writers.style import WIDE
+from support.models import box, parts
 
 
 def test_options_are_frozen_and_their_defaults_pass():

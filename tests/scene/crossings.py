@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import cadquery as cq
 import numpy as np
-from hard import shapes
-from linework.models import box, solids
+
+from support import meshes
+from support.models import box, solids
 
 THROUGH = "the surface passes through itself"
 
@@ -105,7 +106,7 @@ def eight(radius=1.2, n=96, m=24):
     out = np.cross(along / np.linalg.norm(along, axis=1)[:, None], up)
     v = np.arange(m) * (2 * np.pi / m)
     ring = np.cos(v)[None, :, None] * out[:, None] + np.sin(v)[None, :, None] * up[:, None]
-    return shapes.grid(centre[:, None] + radius * ring, around=True, along=True)
+    return meshes.grid(centre[:, None] + radius * ring, around=True, along=True)
 
 
 def overlapping_boxes():

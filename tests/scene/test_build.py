@@ -8,8 +8,6 @@ import pytest
 import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from linework.models import box, parts, sheet, turned
-from scene.invariants import check
 
 from hlr import SourceError
 from hlr.scene.build import build
@@ -19,6 +17,8 @@ from hlr.source import open_source
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import combine_parts
 from hlr.tables.line_classes import EdgeClass
+from support.invariants import check
+from support.models import box, parts, sheet, turned
 
 
 def scene_of(thing, crease=30.0, deflection=0.05):

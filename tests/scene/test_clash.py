@@ -10,8 +10,6 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
-from hard import shapes
-from linework.models import box, parts, sheet, solids, turned
 from scene.crossings import (
     BORED,
     CROSSING,
@@ -32,6 +30,8 @@ from hlr.scene.defects import MAX_NOTES
 from hlr.scene.scene import Scene
 from hlr.source import open_source
 from hlr.tables.line_classes import EdgeClass
+from support import meshes
+from support.models import box, parts, sheet, solids, turned
 
 DEFLECTIONS = [0.5, 0.05, 0.005]
 
@@ -202,7 +202,7 @@ def test_a_shaft_in_the_bore_of_any_body_does_not_cross_it(name, deflection):
 
 @pytest.mark.parametrize(("n", "m"), [(64, 64), (64, 90), (90, 120), (200, 150)])
 def test_two_tessellations_of_one_cylinder_do_not_cross(n, m):
-    assert not walks(scene_of(shapes.as_parts(tube(n, 0), tube(m, 0.37))))
+    assert not walks(scene_of(meshes.as_parts(tube(n, 0), tube(m, 0.37))))
 
 
 def test_but_two_prisms_do():
@@ -210,7 +210,7 @@ def test_but_two_prisms_do():
 
     Their ends lie in common planes: there the edges of either lie flush on the other's end, and are drawn as edges.
     """
-    found = walks(scene_of(shapes.as_parts(tube(4, 0), tube(4, 0.5))))
+    found = walks(scene_of(meshes.as_parts(tube(4, 0), tube(4, 0.5))))
     upright = [w for w in found if np.ptp(w.points[:, 2]) > 1e-6]
     assert len(upright) == 8 and len(found) == 8
     side = 5 * 0.5**0.5
@@ -256,7 +256,7 @@ def test_a_tube_through_itself():
 
 
 def test_a_ring_does_not_pass_through_itself():
-    for scene in (scene_of(shapes.torus(10, 3, 48, 24)), scene_of(cq.Solid.makeTorus(10, 3))):
+    for scene in (scene_of(meshes.torus(10, 3, 48, 24)), scene_of(cq.Solid.makeTorus(10, 3))):
         assert defects(scene) == [()] and scene.groups.cull[0] and not walks(scene)
 
 

@@ -11,14 +11,14 @@ from dataclasses import replace
 import cadquery as cq
 import numpy as np
 import pytest
-from hard.expected import differences, doubled, expect, ink, of_kind
-from hard.shapes import as_parts
-from linework.models import box, parts, solids
 from scene.crossings import CROSSING, THROUGH, TOUCHING, bent, bore, eight, overlapping_boxes, tube
 
 import hlr
 from hlr.drawing.notes import Note
 from hlr.drawing.saving import render
+from support.expected import differences, doubled, expect, ink, of_kind
+from support.meshes import as_parts
+from support.models import box, parts, solids
 
 VIEW = (2, -3, 1)
 

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,6 +13,7 @@ from hypothesis import strategies as st
 from scene.oracle_of_clashes import common
 
 from hlr import _kernel
+from support.programs import environment
 
 TETRAHEDRON = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
 
@@ -197,7 +196,7 @@ def digest():
 def test_threads_are_no_matter():
     told = set()
     for threads in ("1", "2", "5"):
-        env = {**os.environ, "RAYON_NUM_THREADS": threads, "PYTHONPATH": str(Path(__file__).resolve().parents[1])}
+        env = environment(RAYON_NUM_THREADS=threads)
         told.add(subprocess.run([sys.executable, __file__], env=env, check=True, capture_output=True).stdout)
     assert len(told) == 1 and len(told.pop().strip()) == 64
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hard.shapes import rotation
 
 import hlr
+from support.meshes import rotation
 
 
 def prism(sides: int) -> tuple[np.ndarray, np.ndarray]:

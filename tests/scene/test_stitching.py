@@ -8,10 +8,10 @@ from collections import Counter
 import numpy as np
 import pytest
 import trimesh
-from hard.shapes import merged
 
 import hlr
 from hlr import _kernel
+from support.meshes import merged
 
 RADIUS, LENGTH = 50.0, 100.0
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from source.samples import samples
 
 from hlr.source import open_source
 
@@ -42,13 +43,6 @@ def off_cone(points):
     """Distance of points from the cone of `half_cone`."""
     radius = np.hypot(points[:, 0], points[:, 1])
     return np.abs(radius * math.cos(ANGLE) - points[:, 2] * math.sin(ANGLE))
-
-
-def samples(points, triangles):
-    """Points spread over triangles."""
-    steps = [(i / 6, j / 6) for i in range(7) for j in range(7 - i)]
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    return np.concatenate([(1 - u - v) * a + u * b + v * c for u, v in steps])
 
 
 @pytest.mark.parametrize("deflection", [0.2, 0.05, 0.01, 0.002])

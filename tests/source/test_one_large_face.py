@@ -8,10 +8,10 @@ import sys
 import textwrap
 
 import pytest
-from hard.test_terrain import terrain
 
 from hlr import _kernel
 from hlr.source.cad.prototypes import binary_dump
+from support.brep_shapes import terrain
 
 MINUTE = 1e-5
 """Chord error, millimetres, of tens of millions of triangles: many seconds of work on any machine."""

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import cadquery as cq
 import numpy as np
 import pytest
-from hard.test_faces_with_broken_outlines import cylinder
 
 from hlr.source.cad import pcurves
 from hlr.source.cad.shapes import sub_shapes
+from support.brep_shapes import shifted_cylinder
 
 TURN = 2.0 * math.pi
 
@@ -90,7 +90,7 @@ def test_curves_of_a_torus_in_both_directions():
 
 def test_broken_cylinders_of_the_hard_case():
     for which in ("seam", "top", "bottom"):
-        face = face_of(cylinder(which), "CYLINDER")
+        face = face_of(shifted_cylinder(which), "CYLINDER")
         pcurves.close_loops(face)
         v = np.array([use.ends for use in uses_of(face)])[..., 1]
         closed_from_nought(face, (v.min(), v.max()))

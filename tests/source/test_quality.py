@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from source.test_cones import samples
+from source.samples import samples
 
 from hlr.source import open_source
 

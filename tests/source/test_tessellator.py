@@ -6,11 +6,11 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from hard.test_rim_whose_parameter_curve_is_a_scrawl import scrawled
 
 from hlr.source import open_source
 from hlr.source.model import PartMesh, SurfaceParameters
 from hlr.tables.line_classes import EdgeClass
+from support.brep_shapes import scrawled_cylinder
 
 cq = pytest.importorskip("cadquery")
 
@@ -247,7 +247,7 @@ def values(carried):
 
 OWNERS = {
     "cadquery": lambda: cq.Workplane().sphere(3).union(cq.Workplane().box(8, 1, 1)).val(),
-    "to be rescued": lambda: scrawled()[0],
+    "to be rescued": lambda: scrawled_cylinder()[0],
 }
 
 

@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from visibility import adapter, oracle
-from visibility.adapter import Way
-from visibility.oracle import ONE, ZERO
-from visibility.scenes import Edge, Scene
+from support.visibility import adapter, oracle
+from support.visibility.adapter import Way
+from support.visibility.oracle import ONE, ZERO
+from support.visibility.scenes import Edge, Scene
 
 TOLERANCE = 1e-12
 """Parameters are exact fractions there and correctly rounded quotients here."""

@@ -1,6 +1,6 @@
 """Kernel against oracle for as long as you like.
 
-    python tests/visibility/long_run.py --segments 1000000 --seed 7
+    cd tests && python -m visibility.long_run --segments 1000000 --seed 7
 
 Prints progress once a minute. A scene that fails is made small and printed as a literal for `test_regressions.py`;
 exit code 1.
@@ -9,16 +9,14 @@ exit code 1.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
+from visibility import compare
 
-from visibility import adapter, compare, scenes
-from visibility.adapter import Way
+from support.visibility import adapter, scenes
+from support.visibility.adapter import Way
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
-from visibility import adapter, scenes
-from visibility.adapter import HIDDEN, ONE, VISIBLE
-from visibility.scenes import Scene
+
+from support.visibility import adapter, scenes
+from support.visibility.adapter import HIDDEN, ONE, VISIBLE
+from support.visibility.scenes import Scene
 
 ROUNDED = ("f64", "f32")
 

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from visibility import adapter, compare, oracle, scenes
-from visibility.scenes import Scene
+from visibility import compare
+
+from support.visibility import adapter, oracle, scenes
+from support.visibility.scenes import Scene
 
 SEEDS_PER_KIND = 40
 WAYS = {

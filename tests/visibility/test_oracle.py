@@ -9,8 +9,9 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from visibility import oracle, scenes
-from visibility.oracle import Segment, Triangle
+
+from support.visibility import oracle, scenes
+from support.visibility.oracle import Segment, Triangle
 
 SQUARE: list[Triangle] = [((0, 0, 0), (4, 0, 0), (4, 4, 0)), ((0, 0, 0), (4, 4, 0), (0, 4, 0))]
 THIRD, HALF = Fraction(1, 3), Fraction(1, 2)

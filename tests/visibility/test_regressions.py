@@ -11,8 +11,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
-from visibility import adapter, compare
-from visibility.scenes import Scene
+from visibility import compare
+
+from support.visibility import adapter
+from support.visibility.scenes import Scene
 
 CORPUS = {
     "an edge leaves a shared corner behind a face": Scene(

@@ -9,7 +9,6 @@ from collections import Counter
 import cadquery as cq
 import numpy as np
 import pytest
-from linework.models import box
 
 import hlr
 from hlr.drawing.curve import Arc, Bezier
@@ -19,6 +18,7 @@ from hlr.drawing.line import Bounds, Line
 from hlr.window.fill import cut_fill
 from hlr.window.frame import Frame
 from hlr.window.lines import cut_lines
+from support.models import box
 
 FLAT = DrawnView("top", "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 LEVEL, RAISED = (0, 0, 0), (0, 0, 20)

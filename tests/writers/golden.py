@@ -1,8 +1,9 @@
 """Compare with a file under tests/golden; HLR_GOLDEN=write makes it anew, to be read before it is committed."""
 
 import os
+from pathlib import Path
 
-from writers.fakes import GOLDEN
+GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "writers"
 
 
 def check(name, text):

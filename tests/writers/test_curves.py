@@ -6,12 +6,12 @@ import zlib
 from dataclasses import replace
 
 import numpy as np
-from writers.fakes import drawing, line
 
 from hlr.drawing.curve import Arc, Bezier
 from hlr.writers.pdf import pdf
 from hlr.writers.strokes import strokes
 from hlr.writers.svg import svg
+from support.drawings import drawing, line
 
 
 def arc(centre, major, minor, angles, turn=0.0, **of):

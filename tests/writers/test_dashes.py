@@ -7,13 +7,13 @@ from math import pi
 
 import numpy as np
 import pytest
-from writers.fakes import drawing, line
 from writers.test_pdf import content_of, image
 
 import hlr
 from hlr.drawing.curve import Arc
 from hlr.writers.pdf import pdf
 from hlr.writers.svg import svg
+from support.drawings import drawing, line
 
 NS = {"s": "http://www.w3.org/2000/svg"}
 

@@ -4,12 +4,12 @@ import stat
 import threading
 
 import pytest
-from writers.fakes import drawing, sample
 
 from hlr.drawing import files
 from hlr.drawing.drawing import timed
 from hlr.drawing.saving import format_of, render, write
 from hlr.errors import WriteError
+from support.drawings import drawing, sample
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from writers import golden
-from writers.fakes import ISO, drawing, line, sample
 
 from hlr.errors import WriteError
 from hlr.writers.json import document
+from support.drawings import ISO, drawing, line, sample
 
 
 def read(made):

@@ -6,9 +6,9 @@ import numpy as np
 import pypdfium2
 import pytest
 from writers import golden
-from writers.fakes import GOLDEN, drawing, line, part, sample
 
 from hlr.writers.pdf import pdf
+from support.drawings import drawing, line, part, sample
 
 MM = 72 / 25.4
 
@@ -33,7 +33,7 @@ def test_the_golden_file_notices_a_hundredth_of_a_millimetre():
     made = sample()
     moved = replace(made.lines[4], points=made.lines[4].points + [[0.01, 0.0], [0.0, 0.0]])
     changed = replace(made, lines=(*made.lines[:4], moved, *made.lines[5:]))
-    assert content_of(pdf(changed)) != (GOLDEN / "sample.pdf.txt").read_text()
+    assert content_of(pdf(changed)) != (golden.GOLDEN / "sample.pdf.txt").read_text()
 
 
 def test_the_page_has_the_size_of_the_drawing():

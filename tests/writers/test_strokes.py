@@ -1,9 +1,9 @@
 import numpy as np
-from writers.fakes import drawing, line, sample
 
 from hlr.tables.line_classes import EdgeClass
 from hlr.writers import style
 from hlr.writers.strokes import strokes
+from support.drawings import drawing, line, sample
 
 
 def only(layers):

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from writers import golden
-from writers.fakes import GOLDEN, drawing, line, part, sample
 
 from hlr.writers import style
 from hlr.writers.svg import svg
+from support.drawings import drawing, line, part, sample
 
 NS = {"s": "http://www.w3.org/2000/svg", "d": "urn:hlr:drawing:1"}
 TOKEN = re.compile(r"([Mlhvz])|(-?(?:\d+\.?\d*|\.\d+))")
@@ -52,7 +52,7 @@ def test_the_golden_file_notices_a_hundredth_of_a_millimetre():
     made = sample()
     moved = replace(made.lines[4], points=made.lines[4].points + [[0.01, 0.0], [0.0, 0.0]])
     changed = replace(made, lines=(*made.lines[:4], moved, *made.lines[5:]))
-    assert svg(changed).decode() != (GOLDEN / "sample.svg").read_text()
+    assert svg(changed).decode() != (golden.GOLDEN / "sample.svg").read_text()
 
 
 def test_size_is_in_millimetres_and_y_points_down():

@@ -11,7 +11,7 @@ import pytest
 
 from hlr import _kernel
 
-STUB = ast.parse((Path(__file__).parents[1] / "hlr" / "_kernel.pyi").read_text("utf-8"))
+STUB = ast.parse((Path(__file__).parents[2] / "hlr" / "_kernel.pyi").read_text("utf-8"))
 
 
 def public(names) -> set[str]:

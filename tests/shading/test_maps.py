@@ -7,7 +7,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 from PIL import Image
-from preview.shapes import box
+from shading.shapes import box
 
 import hlr
 from hlr.writers import png

@@ -9,12 +9,12 @@ import pytest
 import trimesh
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
-from linework.models import box
-from refusals import checked, drawn_or_refused, is_a_model, verdict
 
 import hlr
 from hlr import HlrError, Options, Perspective
 from hlr.errors import SourceError
+from support.models import box
+from support.refusals import checked, drawn_or_refused, is_a_model, verdict
 
 BOX = box((10, 20, 30))
 
@@ -217,7 +217,7 @@ def test_every_error_is_a_sentence():
 def test_every_note_in_the_source_is_a_sentence():
     """As far as its text stands there; what is put together ends with what stands last."""
     found = 0
-    for path in [p for folder in ("hlr", "cli") for p in (Path(__file__).parents[1] / folder).rglob("*.py")]:
+    for path in [p for folder in ("hlr", "cli") for p in (Path(__file__).parents[2] / folder).rglob("*.py")]:
         for call in ast.walk(ast.parse(path.read_text())):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "Note" and len(call.args) == 2:
                 last = call.args[1].values[-1] if isinstance(call.args[1], ast.JoinedStr) else call.args[1]

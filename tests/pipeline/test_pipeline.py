@@ -8,26 +8,17 @@ import sys
 import cadquery as cq
 import numpy as np
 import pytest
-import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from linework.measures import apart, counts, placed, segments, straight
-from linework.models import box, parts, rotation, solids
+from pipeline.models import FORMATS, MODELS, VIEWS, bare, bracket, clash
 
 import hlr
 from hlr import Options, Perspective, StrictError
 from hlr.drawing.saving import render
 from hlr.pipeline import session
-
-FORMATS = ("json", "svg", "pdf")
-
-
-def bracket():
-    return cq.Workplane().box(40, 30, 6).faces(">Z").workplane().hole(8).edges("|Z").fillet(3)
-
-
-def clash():
-    return cq.Assembly().add(cq.Workplane().box(20, 20, 20)).add(cq.Workplane().cylinder(40, 6))
+from support.measures import apart, counts, placed, segments, straight
+from support.models import box, parts, rotation, solids
+from support.programs import environment
 
 
 def glb(folder):
@@ -37,28 +28,12 @@ def glb(folder):
     return path
 
 
-MODELS = {
-    "bracket": bracket,
-    "clash": clash,
-    "ball": lambda: cq.Workplane().sphere(9).translate((5, 6, 7)),
-    "mesh": lambda: parts(trimesh.creation.icosphere(3, 10), box((30, 4, 4), (1, 2, 3))),
-}
-VIEWS = ("front", "iso", (2.0, 1.0, -3.0))
 CAMERAS = {
     "parallel": {},
     "half": {"scale": 0.5},
     "perspective": {"perspective": Perspective(fov=50.0)},
     "eye": {"perspective": Perspective(eye=(60, -80, 50), target=(1, 2, 3), fov=20.0), "scale": 2.0},
 }
-
-
-def bare(drawing, kind):
-    """The drawing as bytes, without the times that differ from run to run."""
-    if kind != "json":
-        return render(drawing, kind)
-    document = json.loads(render(drawing, kind))
-    del document["timings"]
-    return json.dumps(document).encode()
 
 
 PARALLEL = [(model, camera) for model in MODELS for camera in ("parallel", "half")]
@@ -174,17 +149,17 @@ def test_the_same_object_drawn_twice_is_the_same_drawing(model):
 
 PROGRAM = """
 import hashlib, sys
-sys.path.insert(0, sys.argv[1])
-from test_pipeline import *
+import hlr
+from pipeline.models import FORMATS, MODELS, VIEWS, bare
 for name in MODELS:
     for drawing in hlr.draw_views(MODELS[name](), VIEWS):
         print(name, *(hashlib.sha256(bare(drawing, kind)).hexdigest() for kind in FORMATS))
 """
 
 
-def test_another_process_gives_the_same_bytes(request):
-    folder = str(request.path.parent)
-    done = subprocess.run([sys.executable, "-P", "-c", PROGRAM, folder], capture_output=True, text=True, check=True)
+def test_another_process_gives_the_same_bytes():
+    command = [sys.executable, "-P", "-c", PROGRAM]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment())
     here = []
     for name, make in MODELS.items():
         for drawing in hlr.draw_views(make(), VIEWS):

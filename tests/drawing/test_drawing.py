@@ -8,13 +8,13 @@ from dataclasses import FrozenInstanceError, fields, replace
 import numpy as np
 import pytest
 import trimesh
-from writers.fakes import drawing, line, sample
 
 import hlr
 from hlr.drawing.curve import Arc, Bezier
 from hlr.drawing.drawing import Drawing, DrawnPart
 from hlr.drawing.fill import Gradient
 from hlr.drawing.notes import Note
+from support.drawings import drawing, line, sample
 
 POINTS = np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 2.0], [4.0, 0.0]])
 

@@ -61,7 +61,8 @@ def merged(*meshes: Mesh) -> Mesh:
 def as_parts(*meshes: Mesh) -> Any:
     """The same as parts of a scene."""
     import trimesh
-    from linework.models import parts
+
+    from support.models import parts
 
     return parts(*(trimesh.Trimesh(p, t, process=False) for p, t in meshes))
 

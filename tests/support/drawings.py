@@ -1,15 +1,12 @@
 """Small drawings made by hand."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.notes import Note
-
-GOLDEN = Path(__file__).resolve().parents[1] / "golden" / "writers"
 
 ISO = DrawnView(
     "iso",

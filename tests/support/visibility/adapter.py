@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from visibility.scenes import Edge, Scene
 
 from hlr import _kernel
+from support.visibility.scenes import Edge, Scene
 
 Piece = tuple[float, float, int]
 """t0, t1, state."""

@@ -18,15 +18,14 @@ from xml.etree import ElementTree
 
 import numpy as np
 import numpy.typing as npt
-from linework.measures import distances, drawn_twice, placed
-from visibility.oracle import LARGEST, states_either_side
 
 import hlr
 from hlr import Drawing, Line
+from support.measures import distances, drawn_twice, placed
+from support.visibility.oracle import LARGEST, states_either_side
 
 Floats = npt.NDArray[np.float64]
 
-PICTURES = Path(__file__).with_name("pictures")
 SVG = "{http://www.w3.org/2000/svg}"
 NUMBER = r"-?\d*\.?\d+"
 FINE = 64

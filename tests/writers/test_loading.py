@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from writers.fakes import sample
 
 import hlr
 from hlr.drawing.curve import Arc, Bezier
 from hlr.writers.loading import loads
+from support.drawings import sample
 
 cq = pytest.importorskip("cadquery")
 

@@ -4,7 +4,7 @@ import cadquery as cq
 import numpy as np
 import pytest
 import trimesh
-from preview.shapes import box, joined, linear, sheet
+from shading.shapes import box, joined, linear, sheet
 
 import hlr
 

@@ -1,12 +1,12 @@
 """The tests of odd requests fail where every request is refused: none of them is content with a refusal."""
 
-import os
 import re
 import subprocess
 import sys
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parent
+from support.programs import TESTS, environment
+
+FILES = ("public/test_errors.py", "fuzz/test_entry.py")
 # They ask for what cannot be drawn, or look at something else.
 CONTENT = {
     "test_every_error_is_an_hlr_error",
@@ -19,14 +19,13 @@ CONTENT = {
 
 
 def test_no_test_is_content_with_refusals():
-    command = [sys.executable, "-m", "pytest", "-p", "refuse_everything", "-rp", "--tb=no", "-o", "addopts="]
-    command += ["--import-mode=importlib", "--hypothesis-profile=unshrunk", "test_errors.py", "fuzz/test_entry.py"]
-    paths = os.pathsep.join([str(HERE), *filter(None, [os.environ.get("PYTHONPATH")])])
+    command = [sys.executable, "-m", "pytest", "-p", "support.refuse_everything", "-rp", "--tb=no", "-o", "addopts="]
+    command += ["--import-mode=importlib", "--hypothesis-profile=unshrunk", *FILES]
     ran = subprocess.run(
         command,
         check=False,
-        cwd=HERE,
-        env={**os.environ, "PYTHONPATH": paths},
+        cwd=TESTS,
+        env=environment(),
         capture_output=True,
         text=True,
         timeout=600,

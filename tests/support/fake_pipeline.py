@@ -1,6 +1,6 @@
 """Stand-ins for the pipeline: they answer by the source's name, so the command line is tested without any model.
 
-Run as a program, this file is the command line with those stand-ins in place of the pipeline.
+`python -m support.fake_pipeline` is the command line with those stand-ins in place of the pipeline.
 """
 
 import os
@@ -9,14 +9,11 @@ import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parent))
-
-from writers.fakes import ISO, drawing, line, sample
-
 import hlr
 from hlr import errors
 from hlr.common import faults
 from hlr.drawing.notes import Note
+from support.drawings import ISO, drawing, line, sample
 
 
 @dataclass(frozen=True)
@@ -41,6 +38,8 @@ class ModelInfo:
     parts: tuple
     notes: tuple
 
+
+PROGRAM = [sys.executable, "-P", "-m", "support.fake_pipeline"]
 
 ASKED = []
 """What draw_views was called with, last call last."""

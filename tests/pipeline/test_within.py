@@ -17,7 +17,7 @@ from hlr.errors import OptionError
 from hlr.pipeline import within
 from hlr.source import open_source
 
-DATA = Path(__file__).parent / "data"
+DATA = Path(__file__).parents[1] / "data"
 AS1 = DATA / "as1-oc-214.stp"
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 # The rooms of the package, from the ground up: each imports only those before it, whether at its top, inside a function
 # or for a type checker.

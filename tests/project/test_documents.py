@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("docs", "examples", "hlr", "tests")
 PAGES = sorted({*ROOT.glob("*.md"), *(p for f in FOLDERS for p in (ROOT / f).rglob("*.md") if "target" not in p.parts)})
 LINK = re.compile(r"\]\(([^)\s]+)\)|src=\"([^\"]+)\"")

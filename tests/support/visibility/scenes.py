@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from visibility.oracle import Point, Segment, Triangle
+
+from support.visibility.oracle import Point, Segment, Triangle
 
 Face = tuple[int, int, int]
 Edge = tuple[int, int]

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from preview.shapes import box
+from shading.shapes import box
 
 import hlr
 from hlr.request.picture_effects import PreviewOptions, decide_effects
