@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from hlr import compat
     from hlr.drawing.curve import Arc, Bezier
     from hlr.drawing.drawing import Accuracy, Drawing
-    from hlr.drawing.line import Bounds, Kind, Line
+    from hlr.drawing.line import Bounds, Line
     from hlr.drawing.model_info import ModelInfo, PartReport
     from hlr.drawing.notes import Note, NoteCode
     from hlr.drawing.picture import Picture
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from hlr.request.effect import Decision
     from hlr.request.options import Options, Perspective, View, ViewName, Wishes
     from hlr.request.picture_effects import PreviewOptions, PreviewWishes
+    from hlr.tables.line_classes import Kind
     from hlr.writers.loading import load
 
 __version__ = "0.1.0"
@@ -43,7 +44,7 @@ _HOME = {
     "Drawing": "hlr.drawing.drawing",
     "Format": "hlr.drawing.saving",
     "HlrError": "hlr.errors",
-    "Kind": "hlr.drawing.line",
+    "Kind": "hlr.tables.line_classes",
     "Line": "hlr.drawing.line",
     "ModelInfo": "hlr.drawing.model_info",
     "Note": "hlr.drawing.notes",

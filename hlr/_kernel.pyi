@@ -285,7 +285,7 @@ class Walks:
 class Chains:
     """Walks over mesh edges that become lines: those of the source, then contours of the mesh.
 
-    drawn: per EdgeClass, whether walks of it are drawn; triangle_part, triangle_face (t,); has_faces (parts,); facing
+    drawn: per line class, whether walks of it are drawn; triangle_part, triangle_face (t,); has_faces (parts,); facing
     (t,) int8 and role (e,) uint8 as the visibility pass has them; found (s,): edges drawn or contours, ascending.
     ValueError where they do not fit.
     """
@@ -399,7 +399,7 @@ class Cut:
 class Lines:
     """The lines of a drawing.
 
-    kind (n,) uint8, numbers of EdgeClass; visible (n,) bool; ties (n, 4) int32: part, edge, face, second part, -1 for
+    kind (n,) uint8: line classes; visible (n,) bool; ties (n, 4) int32: part, edge, face, second part, -1 for
     none; offsets (n + 1,) int32 into points (p, 2), millimetres on paper with y up, and points3 (p, 3), of the model;
     form (n,) uint8: 0 polyline, 1 straight, 2 arc, 3 and 4 Bezier curves of degree 2 and 3; data_offsets (n + 1,) int32
     into data: of an arc centre, two axes and two angles, of curves their points. ValueError where they do not fit.
@@ -425,7 +425,7 @@ class Lines:
         """What the constructor takes, by name."""
 
     def kinds(self) -> Bytes:
-        """(n,) numbers of EdgeClass."""
+        """(n,) numbers of line classes."""
 
     def visible(self) -> Bools:
         """(n,)"""
@@ -446,7 +446,9 @@ class Layer:
     """The pen strokes of one line class and visibility, in grid steps, y up."""
 
     @property
-    def kind(self) -> str: ...
+    def kind(self) -> int:
+        """Number of the line class."""
+
     @property
     def visible(self) -> bool: ...
     @property

@@ -6,9 +6,10 @@ from typing import Any
 
 from hlr.compat import viewport
 from hlr.compat.occt_edges import occt_compound
+from hlr.tables.line_classes import by_number
 
-KINDS = (("sharp", "boundary", "intersection"), ("smooth",), ("seam",), ("outline",), ())
-"""The kinds of lines in each of five compounds: sharp, smooth, sewn, outline, isoparametric."""
+COMPOUNDS = ("sharp", "smooth", "sewn", "outline", "isoparametric")
+"""In the order of the result."""
 
 
 def project_ex(shape: Any, direction: Any = (0.0, 0.0, 1.0)) -> list[Any]:
@@ -28,4 +29,5 @@ def project_ex(shape: Any, direction: Any = (0.0, 0.0, 1.0)) -> list[Any]:
         HlrError: the shape or the direction cannot be drawn; the message says why.
     """
     picture = viewport.draw_viewport(shape, viewport.viewport_along(direction, "direction"), seam=True)
-    return [occt_compound(picture.lines(kinds, visible), picture.shift) for visible in (True, False) for kinds in KINDS]
+    kinds = [[row.name for row in by_number() if row.occt == name] for name in COMPOUNDS]
+    return [occt_compound(picture.lines(some, visible), picture.shift) for visible in (True, False) for some in kinds]

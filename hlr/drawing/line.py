@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr.common.values import ByValue
 from hlr.drawing.curve import Curve
+from hlr.tables.line_classes import Kind
 
 Points = npt.NDArray[np.float64]
-
-Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection"]
-"""What a line is of: `Line.kind`."""
 
 
 class Bounds(NamedTuple):
@@ -46,7 +44,7 @@ class Bounds(NamedTuple):
 class Line(ByValue):
     """One visible or hidden piece of one edge. Lines are equal where all they hold is, number by number.
 
-    kind     sharp, smooth, seam, outline, boundary or intersection
+    kind     the name of a class in `hlr.tables.line_classes`: sharp, smooth, seam, outline, boundary or intersection
     part     index into Drawing.parts
     edge     index in the part's TopExp edge map; None for meshes and outlines
     face     index in the part's TopExp face map for outlines; else None

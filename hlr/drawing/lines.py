@@ -11,13 +11,10 @@ from hlr import _kernel
 from hlr.common.values import LateRecords
 from hlr.drawing.curve import Arc, Bezier, Curve
 from hlr.drawing.line import Bounds, Line
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import LINE_CLASSES, names
 
 POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
 """Forms of lines, as the kernel names them."""
-
-KINDS = tuple(kind.name.lower() for kind in EdgeClass)
-_NUMBER = {name: number for number, name in enumerate(KINDS)}
 
 
 class Lines(LateRecords[Line]):
@@ -43,7 +40,7 @@ def held(lines: Sequence[Line]) -> _kernel.Lines:
         return lines.held
     curves = [_numbers(line.curve) for line in lines]
     return _kernel.Lines(
-        np.array([_NUMBER[line.kind] for line in lines], np.uint8),
+        np.array([LINE_CLASSES[line.kind].number for line in lines], np.uint8),
         np.array([line.visible for line in lines], bool),
         np.array(
             [[_tie(n) for n in (line.part, line.edge, line.face, line.other)] for line in lines], np.int32
@@ -97,12 +94,12 @@ def _records(
 ) -> Iterator[Line]:
     for array in (points, points3, data):
         array.flags.writeable = False
-    at, of = offsets.tolist(), data_offsets.tolist()
+    at, of, classes = offsets.tolist(), data_offsets.tolist(), names()
     columns = zip(kind.tolist(), visible.tolist(), ties.tolist(), form.tolist(), strict=True)
     for i, (what, seen, (part, edge, face, other), shape) in enumerate(columns):
         first, last = at[i], at[i + 1]
         yield Line(
-            KINDS[what],
+            classes[what],
             seen,
             part,
             edge if edge >= 0 else None,

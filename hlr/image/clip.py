@@ -20,7 +20,8 @@ from hlr.image.image import Image, OwnFaces, Silhouettes
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Vector
 from hlr.scene.chains import edge_keys
-from hlr.scene.scene import INTERIOR, Chains, Groups
+from hlr.scene.scene import Chains, Groups
+from hlr.tables.line_classes import INTERIOR
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,16 +31,9 @@ from hlr.image.own_faces import Grazing, with_own_faces
 from hlr.request.accuracy import OUTLINE_CHORD, OUTLINE_LIFT, OUTLINE_SPARE, OWN_LIFT
 from hlr.request.effect import Facts, Planner
 from hlr.scene.chains import merge_chains
-from hlr.scene.scene import INTERIOR, Chains, TrueSurfaces
+from hlr.scene.scene import Chains, TrueSurfaces
 from hlr.source.model import Curves
-from hlr.tables.line_classes import EdgeClass
-
-SMOOTH = np.zeros(256, bool)
-SMOOTH[[INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM]] = True
-"""By the kind of an edge: the surface goes on smoothly there."""
-BARE = np.zeros(256, bool)
-BARE[[EdgeClass.SHARP, EdgeClass.BOUNDARY, EdgeClass.SMOOTH]] = True
-"""By the kind of an edge: two faces meet there, or one ends."""
+from hlr.tables.line_classes import EdgeClass, goes_on, where
 
 
 def outlined(image: Image, threads: int, planner: Planner) -> Image:
@@ -63,7 +56,7 @@ def outlined(image: Image, threads: int, planner: Planner) -> Image:
 
 def _with_outlines(image: Image, surfaces: TrueSurfaces, threads: int) -> Image:
     face = image.all_faces()
-    smooth = SMOOTH[image.edge_kind]
+    smooth = goes_on()[image.edge_kind]
     deflection = image.placement.tolerances.deflection
     found = _traced(image, surfaces, face, smooth, OUTLINE_CHORD * deflection, threads)
     image = replace(image, edge_curved=_untraced(image, face, found.traced & surfaces.curved))
@@ -81,7 +74,7 @@ def _traced(
     """The kernel's answer."""
     wanted = surfaces.curved.copy()
     # Planes as well, where a curved face runs into them: they may be what the fold is against.
-    bent = image.edge_kind == EdgeClass.SMOOTH
+    bent = where(lambda row: row.border and row.tangent)[image.edge_kind]
     bent[: len(bent)] &= np.diff(image.offsets) == 2
     first = image.offsets[:-1][bent]
     one, two = face[image.incident[first]], face[image.incident[first + 1]]
@@ -161,7 +154,7 @@ def _with_lines(image: Image, surfaces: TrueSurfaces, found: _kernel.Outlines, d
     )
     grazing = found.grazing
     # Edges and outlines, those that their own body does not hide anyway.
-    bare = BARE[image.edge_kind[grazing.edge]]
+    bare = where(lambda row: row.border)[image.edge_kind[grazing.edge]]
     if image.convex and not bare.any():
         # Of one convex body culling alone decides: nothing has to be told apart from its own faces.
         return shown

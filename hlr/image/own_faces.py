@@ -15,8 +15,8 @@ from hlr import _kernel
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
 from hlr.image.image import Image, OwnFaces
-from hlr.scene.scene import INTERIOR, TrueSurfaces
-from hlr.tables.line_classes import EdgeClass
+from hlr.scene.scene import TrueSurfaces
+from hlr.tables.line_classes import INTERIOR, where
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,9 +97,7 @@ def _sheets(image: Image, surfaces: TrueSurfaces) -> Ints:
     """(f,) one number for all faces that go on smoothly into one another."""
     face = surfaces.first[image.triangle_part] + image.triangle_face
     count = np.diff(image.offsets)
-    tangent = np.flatnonzero(
-        ((image.edge_kind == EdgeClass.SMOOTH) | (image.edge_kind == EdgeClass.SEAM)) & (count == 2)
-    )
+    tangent = np.flatnonzero(where(lambda row: row.tangent)[image.edge_kind] & (count == 2))
     pair = np.stack([face[image.incident[image.offsets[tangent] + k]] for k in (0, 1)], axis=1)
     key = distinct(pair[:, 0].astype(np.int64) << 32 | pair[:, 1])
     pair = np.stack([key >> 32, key & 0xFFFFFFFF], axis=1).astype(np.int32)

@@ -11,17 +11,16 @@ import numpy.typing as npt
 
 from hlr.common.types import Floats
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
-from hlr.drawing.line import Kind, Line
+from hlr.drawing.line import Line
 from hlr.lab.sampling import Index, chords
-
-KINDS: tuple[Kind, ...] = ("sharp", "boundary", "intersection", "outline", "smooth", "seam")
+from hlr.tables.line_classes import LINE_CLASSES, names
 
 
 @dataclass(frozen=True, slots=True)
 class Polylines:
     """Polylines in millimetres on paper, measured from where the model's origin is projected to.
 
-    points (n, 2); offsets (k + 1,) into them; visible (k,) bool; kind (k,) uint8 into `KINDS`
+    points (n, 2); offsets (k + 1,) into them; visible (k,) bool; kind (k,) uint8: numbers of line classes
     """
 
     points: Floats
@@ -59,7 +58,7 @@ def gathered(lines: Sequence[tuple[str, bool, Floats]]) -> Polylines:
         np.concatenate([points for _, _, points in lines]) if lines else np.empty((0, 2)),
         np.concatenate([[0], np.cumsum(counts, dtype=np.int64)]).astype(np.int64),
         np.array([visible for _, visible, _ in lines], bool),
-        np.array([KINDS.index(kind) for kind, _, _ in lines], np.uint8),
+        np.array([LINE_CLASSES[kind].number for kind, _, _ in lines], np.uint8),
     )
 
 
@@ -76,9 +75,9 @@ def polylines_of(drawing: Drawing, chord: float) -> Polylines:
 def drawing_of(lines: Polylines, source: str, view: DrawnView, scale: float, accuracy: float) -> Drawing:
     """Polylines as a drawing, so that the same writer says how many bytes they need."""
     low = lines.points.min(axis=0) if len(lines.points) else np.zeros(2)
-    flat = lines.points - low
+    flat, classes = lines.points - low, names()
     drawn = tuple(
-        Line(KINDS[lines.kind[i]], bool(lines.visible[i]), 0, None, None, part, np.empty((len(part), 3)))
+        Line(classes[lines.kind[i]], bool(lines.visible[i]), 0, None, None, part, np.empty((len(part), 3)))
         for i, part in enumerate(np.split(flat, lines.offsets[1:-1]))
     )
     return Drawing(

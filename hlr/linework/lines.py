@@ -14,22 +14,9 @@ from hlr.drawing.lines import Lines
 from hlr.image.image import Image
 from hlr.linework.curves import EdgeCurveLookup, guides
 from hlr.request.accuracy import CLOSED, CURVE_CHORD
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import by_number
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
-
-KIND_RANK = {
-    EdgeClass.SHARP: 0,
-    EdgeClass.BOUNDARY: 1,
-    EdgeClass.INTERSECTION: 2,
-    EdgeClass.OUTLINE: 3,
-    EdgeClass.SMOOTH: 16,
-    EdgeClass.SEAM: 32,
-}
-"""Of coincident lines the lower sixteen is drawn (a tangent edge or a seam never lies on top of an outline), of equal
-ones the nearer: what one would see. Only at the same depth does the kind decide."""
-
-_RANKS = np.array([KIND_RANK[kind] for kind in EdgeClass], np.uint8)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +43,7 @@ def draw_lines(
     """
     per_model, tolerances = image.placement.per_model, image.placement.tolerances
     chains = _chains(image, plan, segments)
-    rank = _RANKS[chains.kind]
+    rank = np.array([row.rank for row in by_number()], np.uint8)[chains.kind]
     if image.silhouettes is not None:
         # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
         rank += image.silhouettes.hidden[chains.first]

@@ -21,7 +21,7 @@ from hlr.request.effect import Decisions, Planner
 from hlr.request.options import Options, Request
 from hlr.scene.scene import Scene
 from hlr.source.model import Source
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import by_number, counted
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
 from hlr.window.cut import cut
@@ -125,7 +125,7 @@ STEPS = {
 def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[str, int]:
     image, plan, segments = solved.image, solved.plan, solved.segments
     kept = held(lines)
-    kinds = np.bincount(kept.kinds(), minlength=len(EdgeClass)).tolist()
+    kinds = np.bincount(kept.kinds(), minlength=len(by_number())).tolist()
     faces = 0 if fill is None else len(fill.faces) - 1
     return {
         **segments.counters,
@@ -133,9 +133,7 @@ def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[
         "outlines": 0 if image.silhouettes is None else len(image.silhouettes.curves.kind),
         "divided_points": len(image.points) if plan.divide else 0,
         "hidden_lines": len(lines) - int(np.count_nonzero(kept.visible())),
-        "smooth_lines": kinds[EdgeClass.SMOOTH],
-        "seam_lines": kinds[EdgeClass.SEAM],
-        "intersection_lines": kinds[EdgeClass.INTERSECTION],
+        **{str(row.counter): kinds[row.number] for row in counted()},
         "circles": kept.circles() if plan.step > 0.0 else 0,
         "curves_sought": solved.linework.curves_sought,
         "filled_faces": faces,

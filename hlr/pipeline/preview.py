@@ -22,7 +22,7 @@ from hlr.image.transparency import without_glass
 from hlr.pipeline.finish import drawn_view
 from hlr.pipeline.session import Draft, Session, refuse_warnings
 from hlr.request.check import checked_views
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, View
 from hlr.request.picture_effects import (
@@ -39,8 +39,8 @@ from hlr.shading.lines import cues, pieces, pieces_by_depth
 from hlr.shading.picture import Pixels, before_the_eye, empty_picture, first_faces, maps, shaded_picture
 from hlr.shading.scene import shaded_scene
 from hlr.source.model import Source
+from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers.png import parse_color
-from hlr.writers.style import width
 
 MARGIN = 0.04
 """Of the picture's smaller side: what is left empty around the model."""
@@ -97,11 +97,11 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
         lines = line_options(options, None, placement.scale)
         bare = image_of(scene, camera, placement)
         if effects.behind:
-            planner_behind = Planner(DRAWING, lines)
+            planner_behind = Planner(drawing_effects(), lines)
             behind = without_glass(outlined(bare, options.threads, planner_behind), shaded.glass)
             drawing = session.drawing(Draft(behind, lines, planner_behind))
             _ink(pixels, drawing, eye, [BEHIND], options.threads)
-        drawing = session.drawing(Draft(bare, lines, Planner(DRAWING, lines)))
+        drawing = session.drawing(Draft(bare, lines, Planner(drawing_effects(), lines)))
         _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK], options.threads)
         lap(clock, "edges", started)
     clock["total"] = sum(clock.values())
@@ -128,8 +128,9 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
 
 def _ink(pixels: Pixels, drawing: Drawing, eye: Lens, inks: Sequence[tuple[int, int, int, int]], threads: int) -> None:
     """The lines over a picture, in place: in one ink, or in as many as tell depths apart, the farthest first."""
-    for wide in sorted({width(line.kind, True) for line in drawing.lines}):
-        lines = [line for line in drawing.lines if width(line.kind, True) == wide]
+    widths = [LINE_CLASSES[line.kind].width_mm for line in drawing.lines]
+    for wide in sorted(set(widths)):
+        lines = [line for line, own in zip(drawing.lines, widths, strict=True) if own == wide]
         levels = [pieces(lines, drawing.origin, PIXELS_PER_MM, eye[5])]
         if len(inks) > 1:
             levels = pieces_by_depth(lines, drawing.origin, PIXELS_PER_MM, eye, len(inks))

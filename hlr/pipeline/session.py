@@ -35,7 +35,7 @@ from hlr.linework.lines import draw_lines
 from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
 from hlr.pipeline.finish import Solved, finished
 from hlr.request.accuracy import ANGLE, SMALL_DRAWING
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
@@ -120,7 +120,7 @@ class Session:
 
         With a size to fit into, the true scale is known only when the outlines are: then they are found here.
         """
-        planner = Planner(DRAWING, self.options)
+        planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
         for _ in range(2):
             finest = min(at.tolerances.deflection for at in self.placements)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from hlr.request.effect import ASKED, SCENE, Effect, Facts
 from hlr.request.options import Options
+from hlr.tables.line_classes import LineClass, counted
 
 BREP_KINDS = ("step", "iges", "brep", "script", "object")
 
@@ -26,17 +27,21 @@ def _count(number: int, what: str, plural: str = "") -> str:
     return f"{number:,} {what if number == 1 else plural or what + 's'}"
 
 
-def _wish(name: str, on: str, off: str) -> Effect:
+def _wish(option: str, title: str, counter: str, off: str = "not asked for") -> Effect:
     """An effect that is nothing but an option."""
-    counters = {"hidden": "hidden_lines", "smooth": "smooth_lines", "seam": "seam_lines"}
-    counters |= {"intersections": "intersection_lines", "circles": "circles", "fill": "filled_faces"}
-    titles = {"hidden": "hidden lines", "smooth": "smooth edges", "seam": "seams"}
-    titles |= {"intersections": "intersection lines", "circles": "circles of meshes", "fill": "fill"}
 
     def needed(_facts: Facts, options: Options) -> Answer:
-        return (True, on) if getattr(options, name) else (False, off)
+        return (True, "asked for") if getattr(options, option) else (False, off)
 
-    return Effect(titles[name], ASKED, needed, (counters[name],))
+    return Effect(title, ASKED, needed, (counter,))
+
+
+def _lines_of(row: LineClass) -> Effect:
+    """Lines of one class."""
+    counter = str(row.counter)
+    if row.option is not None:
+        return _wish(row.option, row.title, counter)
+    return Effect(row.title, ASKED, lambda _facts, _options: (True, "drawn in every drawing"), (counter,))
 
 
 def _brep(f: Facts, _o: Options) -> Answer:
@@ -179,7 +184,7 @@ def _colours(_f: Facts, options: Options) -> Answer:
     return (True, "faces are filled") if options.fill else (False, "lines are black")
 
 
-DRAWING: tuple[Effect, ...] = (
+_BEFORE: tuple[Effect, ...] = (
     Effect("B-rep reader", ASKED, _brep, ("brep_parts",)),
     Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
@@ -198,13 +203,18 @@ DRAWING: tuple[Effect, ...] = (
     Effect("depth pyramid", SCENE, _pyramid, ("pyramid_parts", "hidden_by_pyramid")),
     Effect("piercing search", SCENE, _piercings, ("piercing_tests",)),
     Effect("contact tolerance", SCENE, _contact, ("contacts",)),
-    _wish("hidden", "asked for", "not asked for: what nothing shows of goes no further"),
-    _wish("smooth", "asked for", "not asked for"),
-    _wish("seam", "asked for", "not asked for"),
-    _wish("intersections", "asked for", "not asked for"),
-    _wish("circles", "asked for", "not asked for"),
+    _wish("hidden", "hidden lines", "hidden_lines", "not asked for: what nothing shows of goes no further"),
+)
+
+_AFTER: tuple[Effect, ...] = (
+    _wish("circles", "circles of meshes", "circles"),
     Effect("exact curves", SCENE, _exact, ("curves_sought",)),
-    _wish("fill", "asked for", "not asked for"),
+    _wish("fill", "fill", "filled_faces"),
     Effect("window", ASKED, _window, ("window_cuts",)),
     Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),
 )
+
+
+def drawing_effects() -> tuple[Effect, ...]:
+    """The table; the line classes that are counted have a row each."""
+    return (*_BEFORE, *map(_lines_of, counted()), *_AFTER)

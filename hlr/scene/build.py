@@ -10,7 +10,7 @@ import numpy as np
 from hlr import _kernel
 from hlr._kernel import MeshFacts, MeshScene
 from hlr.errors import SourceError
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.chains import crease_chains, merge_chains
@@ -20,13 +20,13 @@ from hlr.scene.defects import defect_notes, part_reports
 from hlr.scene.duplicates import without_duplicates
 from hlr.scene.groups import add_wires, groups_of
 from hlr.scene.needles import reliable_normals
-from hlr.scene.scene import INTERIOR, Chains, Scene, TrueSurfaces
+from hlr.scene.scene import Chains, Scene, TrueSurfaces
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
 from hlr.source.bounds import LARGEST_COORDINATE
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import PartMeshes, combine_parts
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 
 def build(meshed: Tessellation, crease: float, deflection: float, planner: Planner | None = None) -> Scene:
@@ -34,7 +34,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
 
     planner: decides what is looked for at all. Raises SourceError where nothing is left to draw.
     """
-    plan = planner or Planner(DRAWING, Options())
+    plan = planner or Planner(drawing_effects(), Options())
     whole, mesh, doubled = _repaired(combine_parts(meshed.parts), plan)
     whole, mesh = _stitched(whole, mesh, deflection, plan)
     found, tables = mesh.scene(), whole.tables

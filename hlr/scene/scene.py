@@ -12,9 +12,6 @@ from hlr.common.types import Color, Floats, Ints
 from hlr.drawing.notes import Note
 from hlr.source.model import Surfaces
 
-INTERIOR = 255
-"""Kind of a mesh edge that no source edge runs along."""
-
 
 @dataclass(frozen=True, slots=True)
 class Groups:

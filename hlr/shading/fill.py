@@ -12,11 +12,11 @@ from hlr.common.types import Floats, Ints
 from hlr.drawing.fill import Fill, Gradient
 from hlr.image.camera import NEAR, Camera
 from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
-from hlr.scene.scene import INTERIOR, Scene
+from hlr.scene.scene import Scene
 from hlr.shading.lens import lens_at, toward_light
 from hlr.shading.scene import shaded_scene
 from hlr.source.model import Appearance
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import where
 
 MOST = 6_000_000
 """Points of the grid on which is looked for what is seen: about 150 MB while it is made."""
@@ -109,7 +109,7 @@ def _labels(scene: Scene) -> Ints:
     own = scene.triangle_part.astype(np.int64) * (int(face.max()) + 1) + face
     bare = scene.groups.bare[scene.triangle_group]
     if bare.any():
-        smooth = (scene.edge_kind == INTERIOR) | (scene.edge_kind == EdgeClass.SMOOTH)
+        smooth = where(lambda row: row.border and row.tangent, interior=True)[scene.edge_kind]
         inner = np.flatnonzero(smooth & (np.diff(scene.offsets) == 2))
         first = scene.offsets[:-1][inner]
         pairs = np.stack([scene.incident[first], scene.incident[first + 1]], axis=1)

@@ -7,8 +7,8 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
-from hlr.scene.scene import INTERIOR, Geometry
-from hlr.tables.line_classes import EdgeClass
+from hlr.scene.scene import Geometry
+from hlr.tables.line_classes import where
 
 Normals = npt.NDArray[np.float32]
 
@@ -53,7 +53,7 @@ def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_])
     """
     triangles = scene.triangles
     count = np.diff(scene.offsets)
-    smooth = (scene.edge_kind == INTERIOR) | (scene.edge_kind == EdgeClass.SMOOTH)
+    smooth = where(lambda row: row.border and row.tangent, interior=True)[scene.edge_kind]
     inner = np.flatnonzero(smooth & (count == 2))
     first = scene.offsets[:-1][inner]
     one, two = scene.incident[first], scene.incident[first + 1]

@@ -1,12 +1,26 @@
-"""Line classes: why a line is drawn."""
+"""Line classes: why a line is drawn. A row of one table says all that any stage has to know of a class.
+
+A new class is a new row. Its number is what meshes, the scene and the kernel carry; the kernel treats classes alike,
+but for the few that it makes or looks for itself (`kernel/linework/src/lines/drawn.rs`).
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from enum import IntEnum
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+Kind = Literal["sharp", "smooth", "seam", "outline", "boundary", "intersection"]
+"""The name of a line's class, for type checkers: `Line.kind`, "class" in JSON, the class of a group in SVG."""
 
 
 class EdgeClass(IntEnum):
-    """Why an edge is drawn; the names are those of the exchange format."""
+    """Numbers of the classes that stages make themselves, as the kernel has them."""
 
     SHARP = 0
     SMOOTH = 1
@@ -14,3 +28,141 @@ class EdgeClass(IntEnum):
     BOUNDARY = 3
     OUTLINE = 4
     INTERSECTION = 5
+
+
+INTERIOR = 255
+"""In place of a class: the edge of a triangle inside a face, of which no line is drawn."""
+
+WIDE_MM, NARROW_MM = 0.5, 0.25
+"""Widths of ISO 128, line group 0.5."""
+
+DASH = (12.0, 3.0)
+"""Dash and gap of hidden lines, in multiples of the line width (ISO 128)."""
+
+
+@dataclass(frozen=True, slots=True)
+class LineClass:
+    """A row of the table.
+
+    number           as meshes, the scene and the kernel carry it; numbers run from 0 without a gap
+    name             what drawings and files call it
+    title            of its lines, for people
+    rank             of lines that coincide in the image the one of the lower sixteen (rank // 16) is drawn, of those
+                     the nearer, at one depth the one of the lower rank; at most 254
+    place            lines are drawn in rising order of it, so that the wide ones lie on top
+    border           a face ends there, at another or at nothing
+    tangent          the surface goes on there without a fold, so that its image may turn over
+    option           the option that asks for such lines (`hlr.request.options.Options`); None: they are always drawn
+    by_default       whether they are drawn where the option is not given
+    help             of that option on the command line
+    counter          of such lines among a drawing's counters, and with it a row in the table of effects; None: neither
+    width_mm         of visible lines
+    hidden_width_mm  of hidden lines
+    dash             dash and gap of hidden lines, in multiples of their width
+    occt             which result of OpenCASCADE's HLRBRep such lines belong to: sharp, smooth, sewn or outline
+    """
+
+    number: int
+    name: Kind
+    title: str
+    rank: int
+    place: int
+    border: bool = False
+    tangent: bool = False
+    option: str | None = None
+    by_default: bool = True
+    help: str = ""
+    counter: str | None = None
+    width_mm: float = WIDE_MM
+    hidden_width_mm: float = NARROW_MM
+    dash: tuple[float, float] = DASH
+    occt: str = "sharp"
+
+    def drawn(self, options: object) -> bool:
+        """Whether lines of this class are drawn; options: `hlr.request.options.Options`."""
+        return self.option is None or bool(getattr(options, self.option))
+
+
+LINE_CLASSES: dict[str, LineClass] = {
+    row.name: row
+    for row in (
+        LineClass(EdgeClass.SHARP, "sharp", "sharp edges", rank=0, place=4, border=True),
+        LineClass(
+            EdgeClass.SMOOTH,
+            "smooth",
+            "smooth edges",
+            rank=16,
+            place=0,
+            border=True,
+            tangent=True,
+            option="smooth",
+            by_default=False,
+            help="Also tangent edges, thin.",
+            counter="smooth_lines",
+            width_mm=NARROW_MM,
+            occt="smooth",
+        ),
+        LineClass(
+            EdgeClass.SEAM,
+            "seam",
+            "seams",
+            rank=32,
+            place=1,
+            tangent=True,
+            option="seam",
+            by_default=False,
+            help="Also the seams of closed surfaces.",
+            counter="seam_lines",
+            width_mm=NARROW_MM,
+            occt="sewn",
+        ),
+        LineClass(EdgeClass.BOUNDARY, "boundary", "borders", rank=1, place=2, border=True),
+        LineClass(EdgeClass.OUTLINE, "outline", "outlines", rank=3, place=5, occt="outline"),
+        LineClass(
+            EdgeClass.INTERSECTION,
+            "intersection",
+            "intersection lines",
+            rank=2,
+            place=3,
+            option="intersections",
+            help="Lines where surfaces pass through each other. Default: on.",
+            counter="intersection_lines",
+        ),
+    )
+}
+"""All classes, by name."""
+
+
+def by_number() -> list[LineClass]:
+    """All classes; each stands at its number."""
+    return sorted(LINE_CLASSES.values(), key=lambda row: row.number)
+
+
+def names() -> list[Kind]:
+    """The names of all classes; each stands at its number."""
+    return [row.name for row in by_number()]
+
+
+def optional() -> list[LineClass]:
+    """Classes that an option asks for, in the order of their numbers."""
+    return [row for row in by_number() if row.option is not None]
+
+
+def counted() -> list[LineClass]:
+    """Classes whose lines are counted, in the order of their numbers."""
+    return [row for row in by_number() if row.counter is not None]
+
+
+def where(fits: Callable[[LineClass], bool], interior: bool = False) -> npt.NDArray[np.bool_]:
+    """(256,) by the class of an edge, whether its row fits; interior: what holds for INTERIOR."""
+    import numpy as np
+
+    out = np.zeros(256, bool)
+    out[[row.number for row in LINE_CLASSES.values() if fits(row)]] = True
+    out[INTERIOR] = interior
+    return out
+
+
+def goes_on() -> npt.NDArray[np.bool_]:
+    """(256,) by the class of an edge: the surface goes on there without a fold."""
+    return where(lambda row: row.tangent, interior=True)

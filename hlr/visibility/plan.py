@@ -16,15 +16,10 @@ from hlr.request.accuracy import Tolerances
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.groups import contact_depths
-from hlr.scene.scene import INTERIOR
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import by_number, counted, goes_on
 
 DRAWN = 1
 OUTLINE = 2
-
-FOLDING = np.zeros((2, 256), np.uint8)
-FOLDING[1, [INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM]] = OUTLINE
-"""Roles by whether an edge is curved and by its kind: where a curved surface may fold over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +31,7 @@ class Plan:
     sound   (g,) bool: no piercing search of a group against itself
     delta   (g,) float64: contact tolerance in view depth
     cap     (g,) float64: the most that is allowed against this group: half its thickness, in view depth
-    drawn_kind (6,) bool: per EdgeClass, whether source edges of that class are drawn as such
+    drawn_kind (k,) bool: per line class, whether source edges of that class are drawn as such
     step    radians: creases of meshes are circles where neighbouring vertices are less than this apart; 0: never
     fill    visible faces are painted
     contact what is hidden by less than delta and cap is told apart
@@ -76,11 +71,9 @@ MOST_STEP = 45.0
 def decide(image: Image, options: Options, planner: Planner) -> Plan:
     """Instructions for one view of a scene; planner: knows what was decided before."""
     tolerances = image.placement.tolerances
-    roles = FOLDING.copy()
-    drawn_kind = np.ones(len(EdgeClass), bool)
-    drawn_kind[EdgeClass.SMOOTH] = options.smooth
-    drawn_kind[EdgeClass.SEAM] = options.seam
-    drawn_kind[EdgeClass.INTERSECTION] = options.intersections
+    # By whether an edge is curved and by its class: where a curved surface goes on, it may fold over.
+    roles = np.stack([np.zeros(256, np.uint8), np.where(goes_on(), np.uint8(OUTLINE), np.uint8(0))])
+    drawn_kind = np.array([row.drawn(options) for row in by_number()])
     roles[:, : len(drawn_kind)] |= np.where(drawn_kind, np.uint8(DRAWN), np.uint8(0))
     role = roles[image.edge_curved.view(np.uint8), image.edge_kind]
     if image.silhouettes is not None:
@@ -102,7 +95,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     )
     loose = Facts(meeting=near, unsound=int(np.count_nonzero(used & ~groups.sound & ~groups.cull)))
     straight = image.chains.straight
-    for name in ("hidden lines", "smooth edges", "seams", "intersection lines", "circles of meshes", "colours"):
+    for name in ("hidden lines", *(row.title for row in counted()), "circles of meshes", "colours"):
         planner.on(name)
     planner.on("back-face culling", facts)
     touch = planner.on("contact tolerance", loose)

@@ -13,10 +13,11 @@ import numpy as np
 from hlr.drawing.curve import Arc, Bezier, Curve
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.fill import Fill
-from hlr.drawing.line import Bounds, Kind, Line
+from hlr.drawing.line import Bounds, Line
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
 from hlr.request.effect import Decision
+from hlr.tables.line_classes import LINE_CLASSES, Kind, names
 from hlr.writers.json import FORMAT, VERSION
 from hlr.writers.revive import array, revived
 
@@ -119,7 +120,7 @@ def _lines(entries: list[dict[str, Any]], parts: int) -> Iterator[Line]:
         if len(points) != len(points3) or len(points) < 2:
             raise ValueError(f"{what} should have as many points as points3, two or more")
         yield Line(
-            kind=revived(Kind, entry["class"], f"{what}.class"),
+            kind=_class(entry["class"], f"{what}.class"),
             visible=revived(bool, entry["visible"], f"{what}.visible"),
             part=part,
             edge=revived(int | None, entry["edge"], f"{what}.edge"),
@@ -129,6 +130,13 @@ def _lines(entries: list[dict[str, Any]], parts: int) -> Iterator[Line]:
             other=other,
             curve=None if "curve" not in entry else _curve(entry["curve"], f"{what}.curve"),
         )
+
+
+def _class(name: Any, what: str) -> Kind:
+    row = LINE_CLASSES.get(name) if isinstance(name, str) else None
+    if row is None:
+        raise ValueError(f"{what} should be one of {', '.join(names())}")
+    return row.name
 
 
 def _curve(entry: dict[str, Any], what: str) -> Curve:

@@ -13,6 +13,7 @@ import pydyf
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.fill import Fill
+from hlr.tables.line_classes import by_number
 from hlr.writers import style
 from hlr.writers.number import number
 from hlr.writers.strokes import Strokes, strokes
@@ -30,7 +31,7 @@ def pdf(drawing: Drawing) -> bytes:
     page = strokes(drawing, cubic=True)
     document = pydyf.PDF()
     layers = []
-    labels = [layer_name(layer.kind, layer.visible) for layer in page.layers]
+    labels = [layer_name(by_number()[layer.kind].name, layer.visible) for layer in page.layers]
     if drawing.fill is not None:
         labels.insert(0, "Fill")
     for name in labels:
@@ -94,9 +95,10 @@ def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
 
         out += [b"/OC /L0 BDC ", pdf_content(fill, page.places), b"EMC\n"]
     for index, layer in enumerate(page.layers, 0 if fill is None else 1):
+        row = by_number()[layer.kind]
         # Round caps would lengthen each dash by the line width.
-        cap = 1 if style.dash(layer.kind, layer.visible) is None else 0
-        width = number(style.width(layer.kind, layer.visible))
+        cap = 1 if style.dash(row, layer.visible) is None else 0
+        width = number(style.width(row, layer.visible))
         out += [f"/OC /L{index} BDC {width} w {cap} J [] 0 d\n".encode("ascii"), page.pdf(layer), b"EMC\n"]
     return b"".join(out)
 

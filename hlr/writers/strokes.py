@@ -17,15 +17,14 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
-from hlr.drawing.lines import KINDS, held
+from hlr.drawing.lines import held
 from hlr.errors import WriteError
+from hlr.tables.line_classes import LINE_CLASSES, WIDE_MM, by_number
 from hlr.writers import number, style
 
 START, LINE, CONTROL, QUADRATIC, CUBIC, ARC, WHOLE = range(7)
 """What a row of a stroke is: where it starts; a straight line to here; a control point of the curve that the next
 QUADRATIC or CUBIC row ends; the end of an arc; the centre of a whole circle or ellipse, the only row of its stroke."""
-
-_ORDER = [KINDS.index(kind) for kind in style.KINDS]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +48,7 @@ class Strokes:
 
     def _dashes(self, layer: _kernel.Layer) -> tuple[tuple[float, float] | None, list[_kernel.Layer]]:
         """The dashes, and the layers that dashed lines may go on from."""
-        pattern = style.dash(layer.kind, layer.visible)
+        pattern = style.dash(by_number()[layer.kind], layer.visible)
         return pattern, [] if pattern is None else [other for other in self.layers if other.visible]
 
 
@@ -66,12 +65,13 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     """
     x0, y0, x1, y1 = bounds = drawing.page
     accuracy, places = drawing.accuracy.used, places_of(drawing, bounds)
+    order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
     try:
-        layers = held(drawing.lines).layers(_ORDER, places, accuracy, cubic)
+        layers = held(drawing.lines).layers(order, places, accuracy, cubic)
     except ValueError:
         raise WriteError(number.NOT_FINITE) from None
     step = 10.0**places
-    border = math.ceil((style.MARGIN + style.WIDE) * 10**places)
+    border = math.ceil((style.MARGIN + WIDE_MM) * 10**places)
     left, bottom = round(x0 * step) - border, round(y0 * step) - border
     right, top = round(x1 * step) + border, round(y1 * step) + border
     return Strokes(places, left, bottom, right - left, top - bottom, tuple(layers))

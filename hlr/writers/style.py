@@ -2,35 +2,25 @@
 
 from __future__ import annotations
 
-WIDE = 0.5
-"""Width of visible lines in millimetres (line group 0.5)."""
-
-NARROW = 0.25
-"""Width of hidden lines, tangent edges and seams: half of WIDE."""
-
-DASH = (12.0, 3.0)
-"""Dash and gap of hidden lines, in multiples of the line width."""
+from hlr.tables.line_classes import NARROW_MM, WIDE_MM, LineClass
 
 MARGIN = 5.0
 """Empty border around the drawing in millimetres; the width of a line is added."""
 
-KINDS = ("smooth", "seam", "boundary", "intersection", "sharp", "outline")
-"""Line classes in the order of drawing: the narrow ones first, so that wide lines end on top."""
 
-
-def width(kind: str, visible: bool) -> float:
+def width(row: LineClass, visible: bool) -> float:
     """Line width in millimetres."""
-    return WIDE if visible and kind not in ("smooth", "seam") else NARROW
+    return row.width_mm if visible else row.hidden_width_mm
 
 
 def group_width(visible: bool) -> float:
     """Line width in millimetres of most classes: what a group of them states once."""
-    return WIDE if visible else NARROW
+    return WIDE_MM if visible else NARROW_MM
 
 
-def dash(kind: str, visible: bool) -> tuple[float, float] | None:
+def dash(row: LineClass, visible: bool) -> tuple[float, float] | None:
     """Dash and gap in millimetres; None for a continuous line."""
     if visible:
         return None
-    wide = width(kind, visible)
-    return DASH[0] * wide, DASH[1] * wide
+    dash, gap = row.dash
+    return dash * row.hidden_width_mm, gap * row.hidden_width_mm

@@ -18,6 +18,7 @@ from itertools import groupby
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.scale import ratio
+from hlr.tables.line_classes import by_number
 from hlr.writers import style
 from hlr.writers.number import number
 from hlr.writers.strokes import strokes
@@ -54,9 +55,10 @@ def svg(drawing: Drawing) -> bytes:
         name = "visible" if visible else "hidden"
         text.append(f'<g id="{name}" stroke-width="{number(usual)}"{cap}>\n'.encode("ascii"))
         for layer in layers:
-            wide = style.width(layer.kind, visible)
+            row = by_number()[layer.kind]
+            wide = style.width(row, visible)
             own = "" if wide == usual else f' stroke-width="{number(wide)}"'
-            text += [f'<g class="{layer.kind}"{own}>\n'.encode("ascii"), page.svg(layer), b"</g>\n"]
+            text += [f'<g class="{row.name}"{own}>\n'.encode("ascii"), page.svg(layer), b"</g>\n"]
         text.append(b"</g>\n")
     text.append(b"</svg>\n")
     return b"".join(text)

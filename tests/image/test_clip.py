@@ -15,8 +15,8 @@ from hlr.image.camera import resolve
 from hlr.image.clip import Plane, clip, planes
 from hlr.image.image import image_of
 from hlr.scene.build import build
-from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
+from hlr.tables.line_classes import INTERIOR
 from support.invariants import check
 from support.measures import counts, placed, samples, straight
 from support.models import box, parts, sheet

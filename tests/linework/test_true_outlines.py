@@ -19,7 +19,7 @@ from hlr.image.outlines import outlined
 from hlr.image.placement import Placement
 from hlr.lab.measure.occt_curves import evaluate_curves
 from hlr.request.accuracy import derive
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Planner
 from hlr.scene.build import build
 from hlr.source import open_source
@@ -68,7 +68,7 @@ def traced(shape, view, perspective, finer=1.0):
     tolerances = derive(0.02, 1.0, 0.0, brep=True)
     scene = build(source.mesh(tolerances.deflection / finer, tolerances.angle / finer), 30.0, tolerances.deflection)
     placement = Placement(1.0, 1.0, tolerances, 1.0, True, 1.0, 1.0)
-    image = outlined(image_of(scene, camera, placement), 1, Planner(DRAWING, options))
+    image = outlined(image_of(scene, camera, placement), 1, Planner(drawing_effects(), options))
     return image, camera, tolerances
 
 

@@ -20,7 +20,7 @@ from hlr.image.image import image_of
 from hlr.image.outlines import outlined
 from hlr.image.placement import place
 from hlr.request.accuracy import Tolerances
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Planner
 from hlr.request.options import Options
 from hlr.scene.build import build
@@ -80,7 +80,7 @@ def measured(path: Path, view: Any, options: Options) -> tuple[int, int, int, fl
     tolerances: Tolerances = at.tolerances
     meshed = source.mesh(tolerances.deflection, tolerances.angle)
     bare = image_of(build(meshed, options.crease, tolerances.deflection), camera, at)
-    scene = outlined(bare, 0, Planner(DRAWING, options))
+    scene = outlined(bare, 0, Planner(drawing_effects(), options))
     faces = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.roots.shapes]
     parts, values, count = source.parts, [np.zeros((0, 2))], 0
     for part, face, points in outlines(scene):

@@ -17,7 +17,7 @@ from hlr import Options, Perspective
 from hlr.drawing.saving import render
 from hlr.pipeline import session
 from hlr.pipeline.draw import draw_views
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import PLAN, SCENE, Decision, Decisions, Effect, Facts, Planner, everything_on, explained
 from hlr.visibility.segments import solve
 from support.brep_shapes import scrawled_cylinder
@@ -89,7 +89,7 @@ SCENES = {
 
 
 def test_every_effect_of_the_scene_has_its_scenes():
-    assert set(SCENES) == {effect.name for effect in DRAWING if effect.origin == SCENE}
+    assert set(SCENES) == {effect.name for effect in drawing_effects() if effect.origin == SCENE}
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -375,7 +375,7 @@ def test_visible_lines_are_the_same_without_the_hidden_ones(name):
 
 
 def test_decisions_become_records_when_they_are_looked_at():
-    planner = Planner(DRAWING, hlr.Options())
+    planner = Planner(drawing_effects(), hlr.Options())
     planner.on("outlines", Facts(curved=2))
     planner.spent("outlines", outlines=3)
     late = Decisions(planner, {"outlines": 3})

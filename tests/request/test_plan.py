@@ -16,15 +16,13 @@ from hlr.image.image import image_of
 from hlr.image.placement import Placement
 from hlr.request.accuracy import DEFAULT_ACCURACY, FINEST_BREP, FINEST_MESH, choose, derive, under
 from hlr.request.check import checked, checked_views
-from hlr.request.drawing_effects import DRAWING
+from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Planner
 from hlr.request.options import Options, Perspective
 from hlr.scene.build import build
-from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import INTERIOR, WIDE_MM, EdgeClass
 from hlr.visibility.plan import DRAWN, OUTLINE, decide
-from hlr.writers.style import WIDE
 from support.models import box, parts
 
 
@@ -117,8 +115,8 @@ def test_the_finest_accuracies_are_four_and_a_hundred_steps_of_the_grid():
 
 def test_what_lies_under_ink_is_no_farther_than_half_a_wide_line():
     for accuracy in (1e-4, 0.01, 0.05, 0.2, 3.0):
-        assert accuracy <= under(accuracy) <= max(accuracy, WIDE / 2)
-    assert under(0.2) == WIDE / 2
+        assert accuracy <= under(accuracy) <= max(accuracy, WIDE_MM / 2)
+    assert under(0.2) == WIDE_MM / 2
 
 
 def planned(thing, view="iso", **options):
@@ -128,7 +126,7 @@ def planned(thing, view="iso", **options):
     camera = resolve(view, asked, source.frame, source.bounds())
     tolerances = derive(0.05, 1.0, 100.0, brep=True)
     placement = Placement(1.0, 1.0, tolerances, 1.0, True, 1.0, 1.0)
-    return scene, decide(image_of(scene, camera, placement), asked, Planner(DRAWING, asked)), tolerances
+    return scene, decide(image_of(scene, camera, placement), asked, Planner(drawing_effects(), asked)), tolerances
 
 
 @pytest.mark.parametrize("smooth", [False, True])

@@ -12,11 +12,10 @@ from hypothesis import strategies as st
 from hlr import SourceError
 from hlr.scene.build import build
 from hlr.scene.duplicates import without_duplicates
-from hlr.scene.scene import INTERIOR
 from hlr.source import open_source
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import combine_parts
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 from support.invariants import check
 from support.models import box, parts, sheet, turned
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hlr.scene.scene import INTERIOR, Scene
-from hlr.tables.line_classes import EdgeClass
+from hlr.scene.scene import Scene
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 
 def check(scene: Scene, *, gaps: bool = False) -> None:

@@ -8,6 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from writers import golden
 
+from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers import style
 from hlr.writers.svg import svg
 from support.drawings import drawing, line, part, sample
@@ -98,7 +99,7 @@ def test_widths_are_those_of_the_style(monkeypatch):
         for of_kind in group:
             visible = group.get("id") == "visible"
             drawn = of_kind.get("stroke-width") or group.get("stroke-width")
-            assert float(drawn) == style.width(of_kind.get("class"), visible)
+            assert float(drawn) == style.width(LINE_CLASSES[of_kind.get("class")], visible)
 
 
 def test_metadata_names_the_source_the_view_and_the_parts():

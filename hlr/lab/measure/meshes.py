@@ -13,7 +13,7 @@ from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written
 from hlr.pipeline.session import Session
 from hlr.request.options import Options
-from hlr.scene.scene import INTERIOR
+from hlr.tables.line_classes import INTERIOR
 
 EDGE_ON = 0.01
 """In deflections: a triangle whose image is no higher than this is seen edge-on."""

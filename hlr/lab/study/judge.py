@@ -16,8 +16,9 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats
-from hlr.lab.polylines import KINDS, Polylines
+from hlr.lab.polylines import Polylines
 from hlr.lab.sampling import with_ends
+from hlr.tables.line_classes import where
 
 SAMPLES = 200_000
 """Points along all lines of a drawing, beside their ends."""
@@ -27,9 +28,6 @@ NOTICED = 0.1
 
 USUAL = 0.99
 """Share of the ink that is nearer than `ink_usual`."""
-
-EXTRA = tuple(KINDS.index(kind) for kind in ("smooth", "seam"))
-"""Kinds that may be drawn and need not be."""
 
 
 class LineJudge:
@@ -48,7 +46,8 @@ class LineJudge:
         wrong                            too_much and missing, as a share of the true visible length
         """
         true, threads = self._true, self._threads
-        required = ~np.isin(true.kind, EXTRA)
+        # What nobody has to ask for; the others may be drawn and need not be.
+        required = where(lambda row: row.by_default)[true.kind]
         allowed_seen = true.segments(true.visible)
         allowed_all = true.segments()
         seen, weight = _samples(drawn, drawn.visible)

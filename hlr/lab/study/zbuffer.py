@@ -17,13 +17,12 @@ import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
 from hlr.image.image import Image
-from hlr.lab.polylines import KINDS, Polylines
+from hlr.lab.polylines import Polylines
 from hlr.lab.sampling import Index, numbered
 from hlr.lab.study.watch import Watch
-from hlr.scene.scene import INTERIOR
 from hlr.shading.lens import lens
 from hlr.shading.scene import shaded_scene
-from hlr.tables.line_classes import EdgeClass
+from hlr.tables.line_classes import EdgeClass, goes_on
 from hlr.visibility.plan import DRAWN
 
 SAMPLE = 0.5
@@ -34,13 +33,6 @@ DEPTH_BITS = 24
 """Of a usual depth buffer: its smallest difference in depth."""
 MARGIN = 2.0
 """Pixels left empty around the model."""
-
-_NAMES = {
-    EdgeClass.SHARP: "sharp",
-    EdgeClass.BOUNDARY: "boundary",
-    EdgeClass.INTERSECTION: "intersection",
-    EdgeClass.OUTLINE: "outline",
-}
 
 
 def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: Watch) -> Polylines:
@@ -80,7 +72,7 @@ def _bias(normals: Floats, scale: float, deep: float) -> Floats:
 
 
 def _edges(image: Image, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[Index, Index, npt.NDArray[np.uint8]]:
-    """Vertices of all polylines one after another, offsets (k + 1,) into them, and their kinds into `KINDS`."""
+    """Vertices of all polylines one after another, offsets (k + 1,) into them, and the numbers of their classes."""
     walks, kinds = [], []
     chains = image.chains
     drawn = (role & DRAWN) != 0
@@ -90,11 +82,11 @@ def _edges(image: Image, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[
             ends = image.edges[edges]
             back = chains.reversed[chains.offsets[i] : chains.offsets[i + 1]]
             walks.append(np.append(np.where(back, ends[:, 1], ends[:, 0]), ends[-1, 0 if back[-1] else 1]))
-            kinds.append(KINDS.index(_NAMES.get(EdgeClass(int(chains.kind[i])), "smooth")))
-    smooth = np.isin(image.edge_kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM)) & image.edge_curved
+            kinds.append(int(chains.kind[i]))
+    smooth = goes_on()[image.edge_kind] & image.edge_curved
     for e in np.flatnonzero(smooth & _folds(image, normals[:, 2])):
         walks.append(image.edges[e])
-        kinds.append(KINDS.index("outline"))
+        kinds.append(EdgeClass.OUTLINE)
     offsets = np.concatenate([[0], np.cumsum([len(walk) for walk in walks])]).astype(np.int64)
     joined = np.concatenate(walks) if walks else np.empty(0, np.int64)
     return joined.astype(np.int64), offsets, np.array(kinds, np.uint8)

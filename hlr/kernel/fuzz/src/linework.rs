@@ -88,7 +88,7 @@ fn check_ranks(lines: &[Polyline], rank: &[u32]) {
 fn check_driver(case: &Case, geometry: &Geometry, unthinned: &[Polyline], thinned: &[Polyline]) {
     let mut chains = Chains::new();
     for (edges, reversed) in &case.chains {
-        let about = About { kind: Kind::Sharp, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
+        let about = About { kind: Kind::SHARP, part: 0, edge: -1, face: -1, other: -1, noisy: false, straight: false };
         chains.push(edges, reversed, about);
     }
     let Some(found) = drawn(geometry, &chains, &case.traits, &case.tolerances, &|| false) else {

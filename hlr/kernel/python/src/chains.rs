@@ -7,10 +7,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows};
-use super::drawn::kind_of;
 use super::guard::caught;
 use super::held::{Groups, Mesh};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
+use hlr_linework::lines::drawn::Kind;
 use hlr_linework::lines::outlines::{About, Chains as Found, Surface, add_outlines};
 
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
@@ -82,22 +82,20 @@ impl Walks {
             if offsets.windows(2).any(|w| w[0] >= w[1]) {
                 return Err(PyValueError::new_err("offsets must ascend"));
             }
-            let about = |i: usize| {
-                Ok(About {
-                    kind: kind_of(kind[i])?,
-                    part: part[i],
-                    edge: index[i],
-                    face: face[i],
-                    other: other[i],
-                    noisy: false,
-                    straight: straight[i],
-                })
+            let about = |i: usize| About {
+                kind: Kind(kind[i]),
+                part: part[i],
+                edge: index[i],
+                face: face[i],
+                other: other[i],
+                noisy: false,
+                straight: straight[i],
             };
             Ok(Walks {
                 offsets: offsets.to_vec(),
                 edges: edges.to_vec(),
                 reversed: reversed.to_vec(),
-                about: (0..kind.len()).map(about).collect::<PyResult<_>>()?,
+                about: (0..kind.len()).map(about).collect(),
             })
         })
     }
@@ -105,11 +103,11 @@ impl Walks {
 
 impl Walks {
     /// Those whose class is drawn.
-    fn chosen(&self, drawn: &[bool; 6]) -> Found {
+    fn chosen(&self, drawn: &[bool]) -> Found {
         let mut out = Found::new();
         for (about, w) in self.about.iter().zip(self.offsets.windows(2)) {
             // Chains of a kind that was not asked for may still hold contours: those are drawn as outlines instead.
-            if drawn[about.kind as usize] {
+            if drawn[about.kind.0 as usize] {
                 let run = w[0] as usize..w[1] as usize;
                 out.push(&self.edges[run.clone()], &self.reversed[run], *about);
             }
@@ -130,7 +128,7 @@ impl Chains {
     fn new(
         py: Python<'_>,
         walks: &Walks,
-        drawn: [bool; 6],
+        drawn: Vec<bool>,
         mesh: &Mesh,
         groups: &Groups,
         triangle_part: PyReadonlyArray1<'_, i32>,
@@ -166,6 +164,7 @@ impl Chains {
             let found = flat(&found, "found")?;
             expect_below("found", found.iter().copied(), edges.len())?;
             expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;
+            expect_below("classes of walks", walks.about.iter().map(|a| i32::from(a.kind.0)), drawn.len())?;
             let mut out = walks.chosen(&drawn);
             add_outlines(&surface, found, &mut out);
             Ok(Chains(Arc::new(out)))
@@ -196,7 +195,7 @@ impl Chains {
 
     #[getter]
     fn kind<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        self.column(py, |a| a.kind as u8)
+        self.column(py, |a| a.kind.0)
     }
 
     #[getter]

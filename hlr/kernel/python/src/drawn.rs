@@ -56,7 +56,7 @@ impl Lines {
                 let wrong = |what: &str| PyValueError::new_err(format!("line {i} {what}"));
                 let [part, edge, face, other] = ties[i];
                 Ok(Line {
-                    kind: kind_of(kind[i])?,
+                    kind: Kind(kind[i]),
                     visible: visible[i],
                     part,
                     edge,
@@ -123,7 +123,7 @@ impl Lines {
 
     /// (n,) numbers of the lines' classes.
     fn kinds<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        self.0.0.iter().map(|l| l.kind as u8).collect::<Vec<_>>().into_pyarray(py)
+        self.0.0.iter().map(|l| l.kind.0).collect::<Vec<_>>().into_pyarray(py)
     }
 
     /// (n,) whether each is visible.
@@ -133,7 +133,7 @@ impl Lines {
 
     /// How many creases and borders without an edge lie on a curve: those of meshes, on circles.
     fn circles(&self) -> usize {
-        let bare = |l: &&Line| l.edge < 0 && matches!(l.kind, Kind::Sharp | Kind::Boundary);
+        let bare = |l: &&Line| l.edge < 0 && matches!(l.kind, Kind::SHARP | Kind::BOUNDARY);
         self.0.0.iter().filter(bare).filter(|l| l.curve.is_some()).count()
     }
 
@@ -147,7 +147,7 @@ impl Lines {
         cubic: bool,
     ) -> PyResult<Vec<Layer>> {
         self.check(places)?;
-        let order = order.into_iter().map(kind_of).collect::<PyResult<Vec<Kind>>>()?;
+        let order: Vec<Kind> = order.into_iter().map(Kind).collect();
         let found = run(py, 0, self.0.0.len(), |_| layers(&self.0, &order, places, accuracy, cubic))?;
         Ok(found.into_iter().map(Layer).collect())
     }
@@ -181,11 +181,6 @@ impl Lines {
         }
         Ok(())
     }
-}
-
-pub fn kind_of(number: u8) -> PyResult<Kind> {
-    let found = Kind::ALL.get(number as usize);
-    found.copied().ok_or_else(|| PyValueError::new_err(format!("there is no class {number} of lines")))
 }
 
 /// Ranges of `count` rows, in an array that ascends from 0 to `limit`.
@@ -237,8 +232,8 @@ pub struct Layer(Inked);
 #[pymethods]
 impl Layer {
     #[getter]
-    fn kind(&self) -> &'static str {
-        self.0.kind.name()
+    fn kind(&self) -> u8 {
+        self.0.kind.0
     }
 
     #[getter]

@@ -5,24 +5,15 @@ use crate::paper::arc::{arc_bounds, grow};
 use crate::paper::bezier::Chain;
 use crate::paper::project::Vec2;
 
-/// Why a line is drawn, numbered as `EdgeClass` in Python.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    Sharp,
-    Smooth,
-    Seam,
-    Boundary,
-    Outline,
-    Intersection,
-}
+/// Why a line is drawn: the number of a line class (`hlr/tables/line_classes.py`). The kernel treats classes alike, but
+/// for these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Kind(pub u8);
 
 impl Kind {
-    pub const ALL: [Kind; 6] =
-        [Kind::Sharp, Kind::Smooth, Kind::Seam, Kind::Boundary, Kind::Outline, Kind::Intersection];
-
-    pub fn name(self) -> &'static str {
-        ["sharp", "smooth", "seam", "boundary", "outline", "intersection"][self as usize]
-    }
+    pub const SHARP: Kind = Kind(0);
+    pub const BOUNDARY: Kind = Kind(3);
+    pub const OUTLINE: Kind = Kind(4);
 }
 
 /// What a line is on paper where its points are but places along it; millimetres, y up.

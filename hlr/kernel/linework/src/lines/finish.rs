@@ -24,9 +24,9 @@ struct Made {
 pub fn guide(about: &About, of: &Trait, curve: Option<u32>, place: u32, bulge: f64) -> Guide {
     // Where a surface may end in the image. The outline of a mesh is an edge of it.
     let border = match about.kind {
-        Kind::Sharp | Kind::Boundary => Border::Edge,
-        Kind::Outline if of.bare => Border::Edge,
-        Kind::Outline => Border::Outline,
+        Kind::SHARP | Kind::BOUNDARY => Border::Edge,
+        Kind::OUTLINE if of.bare => Border::Edge,
+        Kind::OUTLINE => Border::Outline,
         _ => Border::None,
     };
     Guide { curve, place, border, bulge, smoothed: of.noisy && of.bare }
@@ -69,7 +69,7 @@ pub fn finish(
     // Sorting is stable: lines that are alike in all of these stay as they were.
     made.sort_by_key(|m| {
         let a = &about[m.line.chain as usize];
-        (a.part, a.kind as u8, a.edge, a.face, a.other)
+        (a.part, a.kind, a.edge, a.face, a.other)
     });
     (Lines(made.into_iter().map(|m| line(m, about, &low)).collect()), low)
 }

@@ -105,7 +105,7 @@ pub fn add_outlines(s: &Surface, found: &[i32], out: &mut Chains) {
         let head = owner[walks.order[run.start] as usize];
         let edges: Vec<i32> = walks.order[run.clone()].iter().map(|&k| contour[k as usize]).collect();
         let about = About {
-            kind: Kind::Outline,
+            kind: Kind::OUTLINE,
             part: s.triangle_part[head],
             edge: -1,
             face: face(head),

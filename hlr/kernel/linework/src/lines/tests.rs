@@ -80,21 +80,21 @@ impl Ring {
 /// Ten by ten model units, its lower left corner away from the origin.
 fn square() -> Ring {
     let space = vec![[5.0, 5.0, 0.0], [15.0, 5.0, 0.0], [15.0, 15.0, 0.0], [5.0, 15.0, 0.0]];
-    Ring { space, kind: Kind::Sharp, curve: None }
+    Ring { space, kind: Kind::SHARP, curve: None }
 }
 
 fn circle() -> Ring {
     let at = |k: usize| TAU * k as f64 / 32.0;
     let space = (0..32).map(|k| [4.0 * at(k).cos(), 4.0 * at(k).sin(), 1.0]).collect();
     let curve = Curve::Ellipse { p: [0.0, 0.0, 1.0], a: [4.0, 0.0, 0.0], b: [0.0, 4.0, 0.0] };
-    Ring { space, kind: Kind::Sharp, curve: Some(curve) }
+    Ring { space, kind: Kind::SHARP, curve: Some(curve) }
 }
 
 #[test]
 fn a_square_is_one_closed_line_from_its_lower_left_corner() {
     let lines = square().drawn(|_| State::Visible, true, false).expect("an answer").0;
     let [line] = &lines[..] else { panic!("{lines:?}") };
-    assert!(line.visible && line.curve.is_none() && (line.part, line.edge, line.kind) == (3, 7, Kind::Sharp));
+    assert!(line.visible && line.curve.is_none() && (line.part, line.edge, line.kind) == (3, 7, Kind::SHARP));
     assert_eq!(line.flat, [[0.0, 0.0], [20.0, 0.0], [20.0, 20.0], [0.0, 20.0], [0.0, 0.0]]);
     assert_eq!((line.space[0], line.space[2]), ([5.0, 5.0, 0.0], [15.0, 15.0, 0.0]));
 }
