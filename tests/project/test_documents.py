@@ -35,6 +35,26 @@ def test_every_link_leads_somewhere(page):
     assert not list(broken(page))
 
 
+FILES = {f"/{path.relative_to(ROOT).as_posix()}" for end in ("py", "rs") for path in ROOT.rglob(f"*.{end}")}
+
+
+def missing(page):
+    """Files of code that a page names, and that are not there: by their path, or the end of it."""
+    named = re.findall(r"`((?:[\w-]+/)*\w+\.(?:py|rs))`", page.read_text("utf-8"))
+    return [name for name in named if not any(path.endswith(f"/{name}") for path in FILES)]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_file_of_code_that_a_page_names_is_there(page):
+    assert not missing(page)
+
+
+def test_a_file_that_is_not_there_is_found(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("`session.py`, `pipeline/session.py`, `pipeline/nothing.py`\n")
+    assert missing(page) == ["pipeline/nothing.py"]
+
+
 def test_a_broken_link_is_found(tmp_path):
     page = tmp_path / "page.md"
     page.write_text("# One, two\n[a](none.md) [b](#three) [c](#one-two) [d](page.md) `[e](none.md)`\n")
