@@ -27,6 +27,7 @@ def test_cells_of_exact_cubes() -> None:
     assert [scenes._cells(count) for count in (1, 8, 9, 1000, 1001, 4000, 16000)] == [1, 2, 3, 10, 11, 16, 26]
 
 
+@pytest.mark.slow
 def test_parts_of_an_assembly_do_not_touch() -> None:
     """Each stays in the ball of its cell: else the peer and we would be asked about contacts too."""
     for number, solid in enumerate(Shape.cast(scenes.assembly(200)).Solids()):
@@ -45,11 +46,13 @@ def test_kernel_gets_the_triangles_that_the_peer_has() -> None:
     assert occt.hide(shape, PolyAlgo) > 0 and occt.hide(shape, ExactAlgo) > 0
 
 
+@pytest.mark.slow
 def test_measure_reports_a_median_and_memory() -> None:
     (result,) = measure.measure("plate20", ["kernel"], 1)
     assert result["seconds"] == result["all"][0] and result["peak_mb"] > 50 and result["triangles"] > 40_000
 
 
+@pytest.mark.slow
 def test_a_measurement_that_fails_stays_in_the_table() -> None:
     given = Namespace(budget=60.0, timeout=60.0, repeat=1, memory=True)
     failed, other = pairs.together("no such file.step", ["poly", "kernel"], given)
@@ -72,6 +75,7 @@ def test_what_is_lost_stands_out() -> None:
     assert pairs.won([2.0, 0.5, None]) == "Geometric mean of 2 ratios: 1.00; lost: 1."
 
 
+@pytest.mark.slow
 def test_tables_are_made_of_what_was_asked_for(tmp_path, capsys) -> None:
     shapes = {"solid.brep": scenes.box(), "wire.brep": Shape.cast(scenes.box()).Edges()[0].wrapped}
     for name, shape in shapes.items():

@@ -110,6 +110,7 @@ def test_curves_take_shares_of_all_that_is_drawn() -> None:
     assert stability_plot.shares(rows, "hidden") == {1e-7: [0.005], 1e-6: [0.005]}
 
 
+@pytest.mark.slow
 def test_a_drawer_that_fails_is_a_row(tmp_path: Path) -> None:
     rows = list(stability.measured(tmp_path / "nothing.step", "hlr", 1, 60, 60.0))
     assert len(rows) == 1 and "failure" in rows[0]

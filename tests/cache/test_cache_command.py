@@ -21,6 +21,7 @@ def run(tmp_path):
     return run
 
 
+@pytest.mark.slow
 def test_a_model_comes_and_goes(run, own_cache, tmp_path):
     assert run("cache", "info").stdout == f"{own_cache}: 0 models, 0.0 MB of at most 1,000.0 MB\n"
     told = run("draw", PART, "-o", "a.svg", "--explain").stderr.splitlines()[-1]
@@ -41,6 +42,7 @@ def path_size(known):
     return f"{known['bytes'] / 1e6:,.1f} MB"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("options", "environment"), [(["--no-cache"], {}), ([], {"HLR_CACHE": "off"}), (["--no-cache"], {"HLR_CACHE": "x"})]
 )
@@ -75,6 +77,7 @@ def test_off_there_is_nothing_to_say_or_to_clear(run):
     assert json.loads(run("cache", "info", "--json", HLR_CACHE="off").stdout)["folder"] is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("arguments", [["draw", PART, "-o", "a.svg"], ["cache", "info"], ["info", PART]])
 def test_a_wrong_size_is_refused_in_a_sentence(run, arguments, tmp_path):
     done = run(*arguments, HLR_CACHE_SIZE="much")
@@ -83,11 +86,13 @@ def test_a_wrong_size_is_refused_in_a_sentence(run, arguments, tmp_path):
     assert not (tmp_path / "a.svg").exists()
 
 
+@pytest.mark.slow
 def test_a_mesh_does_not_ask_for_the_size(run, tmp_path):
     (tmp_path / "one.off").write_bytes(b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     assert run("draw", "one.off", "-o", "a.svg", HLR_CACHE_SIZE="much").returncode == 0
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_be_written_is_said_by_explain_alone(run, tmp_path):
     (tmp_path / "file").write_bytes(b"")
     done = run("draw", PART, "-o", "a.svg", "--strict", HLR_CACHE="file")
@@ -97,6 +102,7 @@ def test_a_folder_that_cannot_be_written_is_said_by_explain_alone(run, tmp_path)
     assert run("cache", "clear", HLR_CACHE="file").stdout == "file: 0 models removed, 0.0 MB\n"
 
 
+@pytest.mark.slow
 def test_a_crash_while_reading_leaves_nothing(run, own_cache, tmp_path):
     broken = tmp_path / "broken.step"
     broken.write_bytes(PART.read_bytes()[:30000])

@@ -64,6 +64,7 @@ def everything(path):
     return stated, svgs, hlr.info(path), plans, picture.pixels.tobytes(), picture.ids.tobytes()
 
 
+@pytest.mark.slow
 def test_all_is_the_same_with_the_cache_without_it_and_out_of_it(models, monkeypatch, own_cache):
     for path in [*models, ASSEMBLY, PART]:
         monkeypatch.setenv("HLR_CACHE", "off")
@@ -74,6 +75,7 @@ def test_all_is_the_same_with_the_cache_without_it_and_out_of_it(models, monkeyp
         assert without == everything(path)
 
 
+@pytest.mark.slow
 def test_a_choice_of_parts_is_the_same_out_of_the_cache(models, monkeypatch, own_cache):
     for path, wish in (
         (ASSEMBLY, {"hide": ("*bolt*",)}),
@@ -99,6 +101,7 @@ LOADED = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "call",
     [
@@ -116,6 +119,7 @@ def test_opencascade_is_not_loaded_for_what_was_read_before(call, models):
         assert subprocess.run(program, capture_output=True, text=True, check=True).stdout == "\n", path
 
 
+@pytest.mark.slow
 def test_the_command_does_not_load_it_either(tmp_path, own_cache):
     code = "import atexit, sys; atexit.register(lambda: print('OCP' in sys.modules)); "
     code += "from hlr.cli import main; main(sys.argv[1:])"
@@ -127,6 +131,7 @@ def test_the_command_does_not_load_it_either(tmp_path, own_cache):
     assert drawn[0] == drawn[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", ["not-meshed", "faces-mended"])
 def test_a_face_that_our_mesher_cannot_mesh_comes_back_from_the_dump(code, tmp_path):
     """Only then OpenCASCADE is loaded; it has meshed the shape of the dump before, too."""
@@ -223,6 +228,7 @@ def test_a_file_that_changes_while_it_is_read_is_not_kept(tmp_path, own_cache, m
     assert not own_cache.exists()
 
 
+@pytest.mark.slow
 def test_damage_anywhere_is_replaced(own_cache):
     """One byte of each stretch, and the end cut off at each: never used, never an error."""
     drawing = hlr.draw(ASSEMBLY)
@@ -313,6 +319,7 @@ def test_an_entry_with_a_good_checksum_is_not_trusted(hostile, own_cache):
     assert again.infos() == source.infos()
 
 
+@pytest.mark.slow
 def test_every_number_of_an_entry_may_be_wrong(own_cache):
     """Bytes of the tables at random, with a good checksum: what is let through is drawn or refused in a sentence."""
     colours = open_source(ASSEMBLY)

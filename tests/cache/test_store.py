@@ -201,6 +201,7 @@ def writer(store, turns):
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment())
 
 
+@pytest.mark.slow
 def test_two_may_write_and_a_third_may_read_at_once(store):
     store.most = 200_000
     writers = [writer(store, 300) for _ in range(2)]
@@ -217,6 +218,7 @@ def test_two_may_write_and_a_third_may_read_at_once(store):
     assert len(list(store.folder.iterdir())) == 5
 
 
+@pytest.mark.slow
 def test_whoever_is_killed_while_writing_leaves_no_damage(store):
     store.most = 200_000
     waits = random.Random(1)

@@ -22,6 +22,7 @@ def mesh_scene():
     return scene
 
 
+@pytest.mark.slow
 def test_on_the_command_line(hlr_real, tmp_path):
     mesh_scene().export(tmp_path / "m.glb")
     assert hlr_real("draw", "m.glb", "-o", "a.json", "--only", "Bolt", "--only", "n*", "--hide", "nut").code == 0

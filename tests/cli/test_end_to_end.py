@@ -110,6 +110,7 @@ def test_points_on_paper_are_the_projected_model_points(run, tmp_path):
                 assert got == pytest.approx(2 * sum(a * b for a, b in zip(axis, point, strict=True)) - shift, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_a_mesh_never_loads_the_cad_kernel(tmp_path):
     (tmp_path / "box.off").write_text(BOX)
     err, loaded = fresh(tmp_path, "draw", "box.off", "-o", "box.svg")
@@ -144,6 +145,7 @@ def test_several_views_in_several_formats(run, tmp_path):
     assert 'width="51mm" height="41mm"' in (tmp_path / "box-top.svg").read_text()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(find_spec("cadquery") is None, reason="the script is one of CadQuery")
 def test_the_same_bytes_from_run_to_run_and_for_any_number_of_threads(run, tmp_path):
     for ending in ("svg", "pdf"):
@@ -230,6 +232,7 @@ def test_strict(run, tmp_path):
     assert not (tmp_path / "strict.svg").exists()
 
 
+@pytest.mark.slow
 def test_as_a_module(run, tmp_path):
     run("draw", "box.off", "-o", "one.svg")
     command = [sys.executable, "-P", "-m", "hlr", "draw", "box.off", "-o", "two.svg"]

@@ -132,6 +132,7 @@ def test_a_hang_up_that_nohup_ignores_stays_ignored(child):
         process.wait(timeout=0.5)
 
 
+@pytest.mark.slow
 @posix
 def test_a_reader_that_goes_away_is_no_error(child):
     process = child("draw", "large.step", "-o", "-", stdout=subprocess.PIPE, stderr=subprocess.PIPE)

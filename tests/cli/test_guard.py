@@ -48,6 +48,7 @@ def patched(tmp_path):
     return start
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "reason"),
     [
@@ -116,6 +117,7 @@ def test_a_crash_after_all_was_written_is_none(child, tmp_path):
     assert (tmp_path / "a.svg").read_bytes().endswith(b"</svg>\n")
 
 
+@pytest.mark.slow
 def test_the_progress_bar_is_gone_before_the_sentence(on_terminal):
     shown, code = on_terminal("draw", "crash-slowly.step", columns=200)
     assert code == 1
@@ -126,6 +128,7 @@ def test_the_progress_bar_is_gone_before_the_sentence(on_terminal):
     assert sentence.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_exit_codes_and_output_pass_through(child, tmp_path):
     def run(*arguments):
         return finished(child(*arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE))
@@ -158,6 +161,7 @@ time.sleep(60)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["plain", "nohup"])
 def test_the_command_ends_with_its_parent_but_for_nohup(started, how):
     parent = started(
@@ -176,6 +180,7 @@ def test_the_command_ends_with_its_parent_but_for_nohup(started, how):
         assert parent.stderr.read() == b""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("code", [0, 7])
 def test_a_script_that_leaves_is_refused(started, tmp_path, code):
     (tmp_path / "part.py").write_text(f"import os\nos._exit({code})\n")
@@ -197,6 +202,7 @@ def test_a_script_that_leaves_is_refused(started, tmp_path, code):
     assert [path.name for path in tmp_path.iterdir()] == ["part.py"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(find_spec("cadquery") is None, reason="the script is one of CadQuery")
 def test_a_script_may_do_at_exit_what_it_likes(started, tmp_path):
     (tmp_path / "part.py").write_text(
@@ -207,6 +213,7 @@ def test_a_script_may_do_at_exit_what_it_likes(started, tmp_path):
     assert (tmp_path / "a.svg").exists()
 
 
+@pytest.mark.slow
 def test_no_core_file_is_left(patched, tmp_path):
     import resource
 
@@ -217,6 +224,7 @@ def test_no_core_file_is_left(patched, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.svg", "part.step"]
 
 
+@pytest.mark.slow
 def test_those_who_look_for_the_fault_see_where_it_was(patched):
     code, _, err = finished(patched("ctypes.string_at(0)", env=os.environ | {"HLR_DEBUG": "1"}))
     assert code == 2
@@ -230,6 +238,7 @@ def test_another_program_is_not_split(hlr_command, monkeypatch):
     assert hlr_command("draw", "a.step").code == 0
 
 
+@pytest.mark.slow
 def test_help_needs_no_worker(tmp_path):
     program = "import os; os.fork = lambda: 1 / 0\nfrom hlr.cli import main; main()"
     for arguments in (["--help"], ["draw", "--help"], ["draw", "a.step", "-o", "a.dwg"]):

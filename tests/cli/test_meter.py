@@ -1,7 +1,10 @@
 import re
 import signal
 
+import pytest
 
+
+@pytest.mark.slow
 def test_a_long_job_shows_its_stage_and_then_clears_it(on_terminal):
     shown, code = on_terminal("draw", "slow.step", "-o", "a.svg")
     assert code == 0
@@ -18,6 +21,7 @@ def test_a_short_job_shows_only_what_was_written(on_terminal):
     assert re.fullmatch(r"a\.svg: .* lines, [\d.]+ s\r\n", shown)
 
 
+@pytest.mark.slow
 def test_quiet(on_terminal):
     assert on_terminal("draw", "slow.step", "-o", "a.svg", "--quiet") == ("", 0)
 

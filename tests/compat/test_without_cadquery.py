@@ -37,6 +37,7 @@ def test_its_files_are_read(tmp_path: Path, suffix: str) -> None:
     assert ink(read) == pytest.approx(ink(drawn), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_script_and_an_assembly_with_colours(tmp_path: Path) -> None:
     (tmp_path / "part.py").write_text(SCRIPT)
     command = [sys.executable, "-P", "-m", "hlr", "draw", "part.py", "-o", "part.svg"]

@@ -97,6 +97,7 @@ def right_arrays(vertices: np.ndarray, faces: np.ndarray) -> bool | None:
     return refusals.is_a_model(vertices, faces.astype(np.int64)[:, :3])
 
 
+@pytest.mark.slow
 @given(any_array, any_array)
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_arrays(vertices: np.ndarray, faces: np.ndarray) -> None:
@@ -112,6 +113,7 @@ def test_arrays_of_each_kind() -> None:
             checked((vertices, faces), right=right_arrays(vertices, faces))
 
 
+@pytest.mark.slow
 @given(nested(st.one_of(simple, any_array)))
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_anything_as_a_source(thing: Any) -> None:
@@ -153,6 +155,7 @@ def right_option(name: str, thing: Any) -> bool | None:
     return refusals.verdict(**{name: thing}) if name in refusals.JUDGED else None
 
 
+@pytest.mark.slow
 @given(st.sampled_from(["view", *OPTIONS]), nested(simple))
 @settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_anything_as_an_option(name: str, thing: Any) -> None:
@@ -187,6 +190,7 @@ def test_a_view_of_two_lines() -> None:
     with_option("view", "iso\nfront", False)
 
 
+@pytest.mark.slow
 @given(
     meshes(),
     st.one_of(st.sampled_from(["iso", "front", "top"]), st.tuples(number, number, number)),
@@ -216,6 +220,7 @@ def test_info_of_any_mesh(mesh: Any) -> None:
     assert info.parts
 
 
+@pytest.mark.slow
 @given(meshes(), st.integers(1, 3))
 @settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_the_same_again_on_more_threads(mesh: Any, threads: int) -> None:

@@ -53,6 +53,7 @@ def judge(warm: Warm, name: str, data: bytes) -> None:
     assert fault is None, fault
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SEEDS, ids=lambda path: path.name)
 def test_seeds_are_drawn(warm: Warm, path: Path) -> None:
     result = warm.draw(path.name, path.read_bytes())
@@ -64,6 +65,7 @@ def test_files_that_once_failed(warm: Warm, path: Path) -> None:
     judge(warm, path.name, path.read_bytes())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SEEDS, ids=lambda path: path.name)
 def test_mutants(warm: Warm, path: Path) -> None:
     rng = random.Random(path.name)
@@ -99,6 +101,7 @@ def hlr(folder: Path, *arguments: str) -> subprocess.Popen[bytes]:
     return subprocess.Popen(command, cwd=folder, start_new_session=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["reference-to-nothing.step", "line-broken.igs", "shape-out-of-range.brep"])
 def test_what_crashes_opencascade_is_refused_in_a_sentence(tmp_path: Path, name: str) -> None:
     """Should a newer OpenCASCADE refuse these files itself, so much the better."""

@@ -25,6 +25,7 @@ def model(tilt=0.0):
     return both.rotate((0, 0, 0), (1, 2, 3), tilt)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tilt", [0, 33])
 def test_the_front_half_of_the_rim_is_seen_and_the_hole_is_not(tilt, picture):
     """Turned in space the planes are equal only up to rounding; the picture is the same."""
@@ -43,6 +44,7 @@ def test_the_front_half_of_the_rim_is_seen_and_the_hole_is_not(tilt, picture):
         picture(drawing, twice=1.0)
 
 
+@pytest.mark.slow
 def test_by_rays():
     for drawing in faultless(model(), model(), ["iso", (1, 3, 0.1), (0.3, 0.2, -1)]):
         assert drawing.lines

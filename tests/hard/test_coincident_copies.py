@@ -46,6 +46,7 @@ def test_turned_copies_are_equal_but_for_rounding(angle):
     agrees(drawing, cube_alone(drawing))
 
 
+@pytest.mark.slow
 def test_order_and_orientation_of_what_is_given_do_not_matter():
     points, triangles = merged(*(box(c - s, c + s) for c, s in zip(*random_boxes(12), strict=True)))
     plain = hlr.draw((points, triangles), "iso")

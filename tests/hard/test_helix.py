@@ -29,6 +29,7 @@ def helix(around=32, along=80):
     return grid(middle + ROD * (np.cos(v)[..., None] * out + np.sin(v)[..., None] * up), around=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["front", "iso", (1, -1, 0.2), "top"])
 def test_rays_agree(picture, view):
     points, triangles = helix()

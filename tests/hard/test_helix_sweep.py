@@ -23,6 +23,7 @@ def spring():
 VIEWS = ["front", "iso", "top", (0.36, 0.86, 0.35)]
 
 
+@pytest.mark.slow
 def test_by_rays():
     for drawing in faultless(spring(), spring(), VIEWS, 2000):
         assert {line.kind for line in drawing.lines} == {"sharp", "outline"}
@@ -32,6 +33,7 @@ def test_its_outline_is_there_once():
     once(hlr.draw(spring(), "front"))
 
 
+@pytest.mark.slow
 def test_it_is_as_wide_and_high_as_helix_and_wire_say(picture):
     drawing = hlr.draw(spring(), "front")
     x0, y0, x1, y1 = drawing.bounds

@@ -26,6 +26,7 @@ def bottle(n=160, m=64):
     return points, cells(number)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", "front", (1, 2, 3), (1, 1, 0.1)])
 def test_rays_agree(picture, view):
     points, triangles = bottle()

@@ -47,6 +47,7 @@ NEAR = 20
 """Degrees from a generator seen edge-on, within which contact tolerance may decide about a rim."""
 
 
+@pytest.mark.slow
 def test_a_tube_around_a_cylinder_of_its_own_bore(picture):
     """A ring around a cylinder of its own bore, seen from above: only the front half of its inner rim is seen."""
     view = turn((0, -1, 0), (1, 0, 0), -35)

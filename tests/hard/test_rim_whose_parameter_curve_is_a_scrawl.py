@@ -81,6 +81,7 @@ def test_the_caller_s_shape_stays_as_it_is():
     assert [BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()) for face in solid.Faces()] == [None] * 3
 
 
+@pytest.mark.slow
 def test_the_command_tells_all_this(tmp_path):
     scrawled_cylinder()[0].exportBrep(str(tmp_path / "part.brep"))
 

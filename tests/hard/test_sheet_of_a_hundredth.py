@@ -43,6 +43,7 @@ def test_something_close_behind_is_hidden(gap):
     assert any(not line.visible and line.points3[:, 1].max() > 1 for line in drawing.lines)
 
 
+@pytest.mark.slow
 def test_a_tube_of_foil_hides_what_is_in_it():
     tube = cq.Workplane().circle(10).circle(10 - THIN).extrude(30).val()
     inside = box((-3, -3, 5), (3, 3, 20))

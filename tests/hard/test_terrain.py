@@ -15,12 +15,14 @@ from support.brep_shapes import terrain
 from support.expected import defects, of_kind
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("views", [["front", "iso"], [(0.36, 0.86, 0.35), (-1, -0.4, 0.25)]])
 def test_by_rays(views):
     for drawing in faultless(terrain(), terrain(), views, 2000):
         assert {kind for kind, _ in kinds(drawing)} <= {"boundary", "outline"}
 
 
+@pytest.mark.slow
 def test_outlines_lie_where_the_surface_is_seen_edge_on(picture):
     """Each point's normal, by the B-spline itself, is square to the view but for half the turn of one chord."""
     face = terrain()

@@ -20,6 +20,7 @@ UNDER_THE_HEAD = 16
 SCREW = Path(__file__).parents[1] / "data" / "M6-1x12-countersunk-screw.step"
 
 
+@pytest.mark.slow
 def test_not_one_sample_is_wrong():
     count = 0
     for drawing in faultless(SCREW, reference.read_shape(SCREW), ["front", "iso", "top", (0.36, 0.86, 0.35)]):
@@ -28,6 +29,7 @@ def test_not_one_sample_is_wrong():
     assert count == 4
 
 
+@pytest.mark.slow
 def test_coarsely_drawn_an_edge_is_seen_as_far_as_its_outline_goes_on():
     """The edge under the head is concave: it is hidden from where the cone turns away and its outline begins."""
     (drawing,) = faultless(SCREW, reference.read_shape(SCREW), ["iso"], 533)
@@ -37,6 +39,7 @@ def test_coarsely_drawn_an_edge_is_seen_as_far_as_its_outline_goes_on():
     assert gaps.min() < 0.05 * drawing.accuracy.used
 
 
+@pytest.mark.slow
 def test_it_is_as_large_on_paper_as_the_model():
     """The outermost line is the outline of the thread or the head, and ends where the solid does."""
     points = reference.from_shape(reference.read_shape(SCREW), 2000).points
@@ -47,5 +50,6 @@ def test_it_is_as_large_on_paper_as_the_model():
         assert (x1 - x0, y1 - y0) == pytest.approx((width, height), abs=0.05)
 
 
+@pytest.mark.slow
 def test_picture(picture):
     picture(hlr.draw(SCREW, "iso", fit=(40, 40), accuracy=0.1), twice=20.0, step=1.0)

@@ -39,6 +39,7 @@ def test_from_above_it_is_two_circles():
     agrees(drawing, Ink(pieces([circle(MAJOR + MINOR, N), circle(MAJOR - MINOR, N)]), np.zeros((0, 2, 2))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("height", [0.05, 0.2, 0.3, 0.6, 1.0])
 def test_obliquely_the_inner_outline_has_cusps_and_rays_agree(picture, height):
     # Koenderink (1984): a contour ends where the line of sight is asymptotic; beyond that it is hidden by its own lip.

@@ -38,6 +38,7 @@ def test_generators_end_where_they_enter(picture):
     picture(drawing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("other", [RADIUS, 0.6 * RADIUS])
 def test_by_rays(other):
     for drawing in faultless(crossing(other), crossing(other), ["front", "iso", (0.3, -1, 0.4)]):

@@ -87,6 +87,7 @@ unit = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
 cutting = st.lists(st.tuples(unit, st.integers(-6, 6)), min_size=1, max_size=4)
 
 
+@pytest.mark.slow
 @given(cutting, st.sampled_from(["mesh", "wires", "torus"]))
 @settings(max_examples=80, deadline=None)
 def test_any_cuts_leave_a_scene_that_agrees(cuts, kind):

@@ -49,6 +49,7 @@ def conics() -> dict[str, Any]:
 EXACT = {"circle": Arc, "arc": Arc, "ellipse": Arc, "parabola": Bezier, "spline": Bezier, "closed spline": Bezier}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", list(conics()))
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective()])
 def test_conics_and_splines_in_random_views(name: str, perspective: Any) -> None:
@@ -105,6 +106,7 @@ def test_a_mirrored_and_moved_part_draws_its_own_curves() -> None:
         assert off < 0.05 and forms["Arc"] > 6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["nist_ctc_01_asme1_ap242-e1.stp", "as1-oc-214.stp"])
 def test_real_files(name: str) -> None:
     true = true_curves(open_source(DATA / name))

@@ -51,6 +51,7 @@ def smooth() -> tuple[trimesh.Trimesh, hlr.Drawing]:
     return mesh, hlr.draw(mesh, (3, 2, 1), accuracy=ACCURACY)
 
 
+@pytest.mark.slow
 def test_a_contour_stays_within_the_accuracy_of_the_mesh(smooth: tuple[trimesh.Trimesh, hlr.Drawing]) -> None:
     mesh, drawing = smooth
     raw = contour(mesh, drawing)

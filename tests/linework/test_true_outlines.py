@@ -100,6 +100,7 @@ def slopes(shape, face, points, camera: Camera) -> tuple[np.ndarray, np.ndarray]
     return np.array(slope), np.array(away)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
 @pytest.mark.parametrize("view", [(0.8, -0.6, 0.1), (1, 0.3, -0.05), (-0.9, -0.4, 0.03)])
 @pytest.mark.parametrize("shape", [torus, wave, vase, extruded, offset])
@@ -139,6 +140,7 @@ def test_cones_have_two_outlines_or_none():
         assert sum(count(found)) == (2 if outside else 0)
 
 
+@pytest.mark.slow
 def test_a_torus_has_as_many_outlines_as_its_angle_says():
     """One closed curve outside; inside one closed curve without cusps where the sight is steep, else four arcs between
     four cusps, of which the two concave ones are hidden."""
@@ -180,6 +182,7 @@ def test_a_fillet_tangent_to_a_plane_seen_edge_on_has_one_line(view):
     assert ink == pytest.approx(2 * (width + height) - 8 * 2 + 2 * np.pi * 2, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
 @pytest.mark.parametrize("view", [(0.8, -0.6, 0.1), (1, 0.3, -0.05)])
 @pytest.mark.parametrize("shape", [torus, wave, vase, offset])

@@ -31,6 +31,7 @@ def screw():
     return measured(model, hlr.draw(model, "front", scale=5.0))
 
 
+@pytest.mark.slow
 def test_a_screw_at_5_to_1_keeps_it(screw):
     assert screw.accuracy == pytest.approx(0.04, abs=0.002)  # a two-thousandth of so small a drawing
     assert max(screw.edges.worst, screw.outlines.worst, screw.lost.worst) <= screw.accuracy

@@ -15,17 +15,20 @@ QUICK = 4000
 VIEWS: list[referee.View] = ["front", "top", "right", "iso", *referee.random_views(1)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.MODELS)
 def test_brep(name: str, tmp_path: Path) -> None:
     expect_faultless(models.save(name, tmp_path))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".stl", ".ply", ".glb"])
 @pytest.mark.parametrize("name", ["bracket", "clash", "ball_in_ring"])
 def test_mesh(name: str, suffix: str, tmp_path: Path) -> None:
     expect_faultless(models.save(name, tmp_path, suffix))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bracket", "ball_in_ring"])
 def test_perspective(name: str, tmp_path: Path) -> None:
     from hlr.drawing.saving import render

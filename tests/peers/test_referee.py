@@ -162,6 +162,7 @@ def test_reference_of_a_far_away_model_is_as_good(tmp_path: Path) -> None:
         assert verdict.wrong == 0
 
 
+@pytest.mark.slow
 def test_command_judges_a_peer_and_writes_the_table(tmp_path: Path) -> None:
     path = models.save("box", tmp_path)
     table = tmp_path / "table.md"
@@ -215,6 +216,7 @@ def test_json_survives_a_round_trip(tmp_path: Path) -> None:
     assert exchange.read(tmp_path / "a.json").lines[0].kind == "sharp"
 
 
+@pytest.mark.slow
 def test_command_judges_a_finished_drawing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     model = models.save("bracket", tmp_path)
     document = occt.draw(reference.read_shape(model), "exact", occt.camera_of("iso"))
@@ -229,6 +231,7 @@ def test_command_judges_a_finished_drawing(tmp_path: Path, capsys: pytest.Captur
     assert f"line {deep} at" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_missing_and_wrongly_hidden_outlines_are_noticed() -> None:
     """What rays from drawn lines cannot see: a contour called hidden, and no line at all."""
     shape = models.shape("bracket")

@@ -34,6 +34,7 @@ def judged(path: Path, drawer: Callable[[list[Drawing]], list[Drawing]] | None =
         return list(referee.judge_file(path, ["front", "iso"], fineness=QUICK, pixels=PIXELS))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RIGHT)
 def test_a_right_drawing_passes(name: str, tmp_path: Path) -> None:
     for each in judged(models.save(name, tmp_path)):

@@ -157,6 +157,7 @@ for name in MODELS:
 """
 
 
+@pytest.mark.slow
 def test_another_process_gives_the_same_bytes():
     command = [sys.executable, "-P", "-c", PROGRAM]
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment())

@@ -168,6 +168,7 @@ def started():
         process.wait()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_after_ctrl_c_the_finished_drawing_is_there(started, tmp_path):
     target = tmp_path / "a.svg"
@@ -182,6 +183,7 @@ def test_after_ctrl_c_the_finished_drawing_is_there(started, tmp_path):
     assert [p.name for p in tmp_path.iterdir()] == ["a.svg"]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_before_the_first_drawing_ctrl_c_writes_nothing(started, tmp_path):
     target = tmp_path / "a.svg"
@@ -192,6 +194,7 @@ def test_before_the_first_drawing_ctrl_c_writes_nothing(started, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_standard_output_gets_one_drawing():
     done = subprocess.run(
         command("-o", "-", "--within", "60s", "--accuracy", "0.2"), capture_output=True, text=True, check=True

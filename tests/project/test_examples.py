@@ -56,6 +56,7 @@ def test_there_are_examples():
     assert len(SCRIPTS) >= 6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 def test_an_example_writes_what_is_shown(script, folder):
     for name in OPTIONAL:

@@ -176,6 +176,7 @@ def test_a_refused_option_loads_nothing_heavy():
     assert not loaded_by(f"exec({code!r})", "draw", "a.step", "-o", "a.dwg") & HEAVY
 
 
+@pytest.mark.slow
 def test_drawing_a_plain_mesh_loads_no_library_but_numpy(tmp_path):
     heavy = HEAVY - {"numpy"} | {"email", "http", "random"}
     (tmp_path / "one.off").write_bytes(b"OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
@@ -190,6 +191,7 @@ def test_drawing_a_plain_mesh_loads_no_library_but_numpy(tmp_path):
         (tmp_path / "out.svg").unlink()
 
 
+@pytest.mark.slow
 def test_drawing_loads_no_masked_arrays(tmp_path):
     code = "import hlr, sys; hlr.draw(sys.argv[1]).to_svg(); print('numpy.ma' in sys.modules)"
     command = [sys.executable, "-P", "-c", code, str(ROOT / "tests/data/soup.stl")]

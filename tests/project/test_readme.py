@@ -15,6 +15,7 @@ EXAMPLES = [
 ]
 
 
+@pytest.mark.slow
 def test_the_python_examples_run(tmp_path, monkeypatch):
     cq = pytest.importorskip("cadquery")
     shutil.copy(ROOT / "tests" / "data" / "as1-oc-214.stp", tmp_path / "part.step")

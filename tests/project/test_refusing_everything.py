@@ -4,6 +4,8 @@ import re
 import subprocess
 import sys
 
+import pytest
+
 from support.programs import TESTS, environment
 
 FILES = ("public/test_errors.py", "fuzz/test_entry.py")
@@ -18,6 +20,7 @@ CONTENT = {
 }
 
 
+@pytest.mark.slow
 def test_no_test_is_content_with_refusals():
     command = [sys.executable, "-m", "pytest", "-p", "support.refuse_everything", "-rp", "--tb=no", "-o", "addopts="]
     command += ["--import-mode=importlib", "--hypothesis-profile=unshrunk", *FILES]

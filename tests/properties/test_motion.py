@@ -160,6 +160,7 @@ def test_in_perspective_too(pieces, brep, power):
     expect_doubled(assembly(pieces, brep), "iso", power, ACCURACY, perspective=camera)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.EVERY)
 def test_a_model_scaled_by_a_power_of_two(name):
     model = models.model(name)

@@ -68,18 +68,21 @@ def test_triangles_of_a_box_drawn_from_both_sides():
     expect_any_order_of_triangles(replace(box, parts=(doubled,)), "iso", ACCURACY, np.random.default_rng(1))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, generators)
 def test_triangles_and_edges_of_an_assembly(several, brep, view, rng):
     expect_any_order_of_triangles(assembly(several, brep), view, ACCURACY, rng)
 
 
+@pytest.mark.slow
 @few
 @given(holes, views, generators)
 def test_triangles_of_a_drilled_block(several, view, rng):
     expect_any_order_of_triangles(drilled((BLOCK, *several)), view, ACCURACY, rng)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.EVERY)
 def test_triangles_and_edges_of_a_model(name):
     model = models.model(name)
@@ -92,6 +95,7 @@ def expect_any_order_of_faces(model, view, accuracy, rng):
     expect_same_files(before, renumbered(after, range(len(model.parts)), old))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), views, generators)
 def test_faces_of_an_assembly(several, view, rng):
@@ -121,6 +125,7 @@ def share_a_line(several) -> bool:
     return any(len(one & other) > 1 for one, other in combinations(points, 2))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, st.randoms(use_true_random=False))
 def test_parts_of_an_assembly(several, brep, view, random):
@@ -128,6 +133,7 @@ def test_parts_of_an_assembly(several, brep, view, random):
     expect_any_order_of_parts(assembly(several, brep), view, ACCURACY, order, owners=not share_a_line(several))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(upright), kinds, views, st.randoms(use_true_random=False))
 def test_parts_that_have_lines_in_common(several, brep, view, random):
@@ -137,6 +143,7 @@ def test_parts_that_have_lines_in_common(several, brep, view, random):
     expect_any_order_of_parts(assembly(twins, brep), view, ACCURACY, order, owners=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [models.ASSEMBLY, models.GEARS])
 @pytest.mark.parametrize("view", ["front", "iso"])
 def test_parts_of_a_model(name, view):
@@ -149,6 +156,7 @@ def expect_any_order_of_points(model, view, accuracy, rng):
     expect_same_ink(draw(model, view, accuracy), draw(changes.shuffled_points(model, rng), view, accuracy))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, generators)
 def test_points_of_an_assembly(several, brep, view, rng):

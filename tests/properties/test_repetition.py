@@ -43,6 +43,7 @@ def test_threads_and_an_assembly(pieces, brep, view, camera):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.EVERY)
 @pytest.mark.parametrize("view", ["front", "iso"])
 def test_threads_and_a_model(name, view):
@@ -60,6 +61,7 @@ def crowd(count=200, seed=1):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["front", (3, -2, 1)])
 def test_threads_and_a_crowd(view):
     model = crowd()
@@ -86,6 +88,7 @@ print(*drawn_here(), sep="\\n")
 """
 
 
+@pytest.mark.slow
 def test_another_process_meshes_and_draws_the_same():
     """Also where sets and dictionaries run in another order, and the machine seems to have another number of cores."""
     tests = str(Path(__file__).resolve().parents[1])

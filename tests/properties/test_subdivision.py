@@ -42,6 +42,7 @@ def test_boxes_on_a_lattice_give_the_same_lines(several, rng):
         assert np.abs(one.points - other.points).max() < step
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), st.booleans(), views, generators)
 def test_an_assembly(several, brep, view, rng):

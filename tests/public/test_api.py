@@ -89,6 +89,7 @@ REFUSED = {
 }
 
 
+@pytest.mark.slow
 def test_a_type_checker_takes_what_is_right_and_refuses_what_is_wrong(tmp_path):
     pytest.importorskip("mypy")
     path = tmp_path / "program.py"

@@ -33,6 +33,7 @@ vector = st.tuples(any_float, any_float, any_float)
 near = st.tuples(*[st.floats(-60, 60)] * 3)
 
 
+@pytest.mark.slow
 @given(
     view=st.one_of(st.sampled_from(["front", "iso", "nowhere", ""]), vector, near, st.lists(any_float, max_size=4)),
     scale=st.one_of(st.just(1.0), any_float),
@@ -72,6 +73,7 @@ def test_any_camera_among_the_parts(eye, target, fov, fit):
     checked(BOX, "iso", right=verdict("iso", perspective=camera), fit=fit, perspective=camera)
 
 
+@pytest.mark.slow
 @given(eye=st.one_of(st.none(), vector), target=st.one_of(st.none(), vector), fov=st.one_of(st.none(), any_float))
 @settings(max_examples=150, deadline=None)
 def test_any_numbers_as_a_camera(eye, target, fov):

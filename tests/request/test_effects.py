@@ -168,6 +168,7 @@ CASES = [("as1-oc-214.stp", camera) for camera in CAMERAS]
 CASES += [("nist_ctc_01_asme1_ap242-e1.stp", "visible"), ("soup.stl", "parallel"), ("cube_gears.3mf", "perspective")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "camera"), CASES)
 def test_forcing_changes_nothing_of_real_models(name, camera):
     expect_neutral(lambda: DATA / name, [(1, -2, 1.5)], fit=(180, 120), **CAMERAS[camera])
@@ -328,6 +329,7 @@ def test_the_table_for_people():
     ]
 
 
+@pytest.mark.slow
 def test_planned_without_drawing_as_when_drawn():
     for options in (Options(), Options(fit=(100, 80), hidden=False, perspective=Perspective())):
         planned = hlr.plan_views(DATA / "as1-oc-214.stp", ["iso", "front"], options)

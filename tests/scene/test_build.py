@@ -70,6 +70,7 @@ def test_the_tables_agree(name):
     check(scene_of(MODELS[name]()))
 
 
+@pytest.mark.slow
 @given(
     st.lists(st.tuples(*[st.integers(0, 2)] * 3), min_size=3, max_size=9, unique=True).flatmap(
         lambda points: st.tuples(

@@ -191,6 +191,7 @@ def test_what_touches_does_not_cross(name, deflection):
     assert not walks(scene) and not scene.notes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deflection", [0.5, 0.1, 0.05, 0.02, 0.005])
 @pytest.mark.parametrize("name", BORED)
 def test_a_shaft_in_the_bore_of_any_body_does_not_cross_it(name, deflection):

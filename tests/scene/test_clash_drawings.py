@@ -105,6 +105,7 @@ def test_hidden_ones_go_with_hidden_lines():
     assert met(drawing, True) and not met(drawing, False)
 
 
+@pytest.mark.slow
 def test_on_the_command_line(tmp_path):
     model = tmp_path / "post.step"
     cq.exporters.export(cq.Workplane(obj=post().toCompound()), str(model))

@@ -90,6 +90,7 @@ def judge(soup, found):
     return told
 
 
+@pytest.mark.slow
 @given(soups)
 @settings(max_examples=300)
 def test_all_that_meet_and_nothing_else(soup):
@@ -129,6 +130,7 @@ def test_the_judge_notices(spoil):
     assert judge(soup, found)
 
 
+@pytest.mark.slow
 @given(soups, st.randoms(use_true_random=False))
 @settings(max_examples=100)
 def test_the_order_of_groups_and_triangles_is_no_matter(soup, random):
@@ -149,6 +151,7 @@ def test_the_order_of_groups_and_triangles_is_no_matter(soup, random):
         assert np.array_equal(ends, after[pair][0]) and (depth, sine) == after[pair][1:]
 
 
+@pytest.mark.slow
 @given(soups, st.lists(st.permutations([0, 1, 2]), min_size=20, max_size=20))
 @settings(max_examples=100)
 def test_turning_triangles_is_no_matter_where_they_meet_deeply(soup, turns):
@@ -193,6 +196,7 @@ def digest():
     return hashlib.sha256(whole).hexdigest()
 
 
+@pytest.mark.slow
 def test_threads_are_no_matter():
     told = set()
     for threads in ("1", "2", "5"):

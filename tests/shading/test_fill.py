@@ -88,6 +88,7 @@ def test_svg_and_pdf_carry_the_faces():
     assert svg.replace(group, "") == written(plain, "svg").decode()
 
 
+@pytest.mark.slow
 def test_the_same_bytes_each_time():
     for kind in ("svg", "pdf"):
         assert written(cube(threads=1), kind) == written(cube(threads=2), kind)
@@ -135,6 +136,7 @@ def shown(source, **options):
     return hlr.preview(source, size=(200, 200), **options).pixels[100, 100, :3].astype(int)
 
 
+@pytest.mark.slow
 def test_each_face_has_its_own_colour():
     mesh = trimesh.Trimesh(CUBE, SIDES, process=False)
     colours = np.array([(200, 30, 30), (30, 200, 30), (30, 30, 200), (200, 200, 30), (200, 30, 200), (30, 200, 200)])
@@ -144,6 +146,7 @@ def test_each_face_has_its_own_colour():
         assert painted(drawing, middle(drawing)) == pytest.approx(shown(mesh, view=view), abs=2)
 
 
+@pytest.mark.slow
 def test_glass_shows_what_it_contains_and_keeps_its_opacity():
     inside = trimesh.Trimesh(0.4 * CUBE + 6.0, SIDES, process=False)
     inside.visual.face_colors = np.tile(np.array((220, 20, 20, 255), np.uint8), (12, 1))
@@ -192,6 +195,7 @@ def test_bands_of_light_are_narrow_and_leave_no_gap():
     assert sizes[0] == pytest.approx(np.pi * 400, rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 0.3, 1.1])
 def test_a_hundred_sheets_through_one_another_take_bounded_time(turn):
     """No order of painting exists, and cutting them all by one another makes hundreds of thousands of pieces."""
@@ -219,6 +223,7 @@ def test_where_two_sheets_pass_through_one_another_the_border_is_exact():
     assert sorted(area(drawing, k) for k in range(len(drawing.fill.part))) == pytest.approx([200, 200], rel=1e-4)
 
 
+@pytest.mark.slow
 def test_corners_lie_where_the_model_has_them():
     rng = np.random.default_rng(2)
     for _ in range(5):
@@ -240,6 +245,7 @@ def test_a_gradient_in_the_files():
     assert b"/ShadingType 2" in data and b"/Pattern" in data
 
 
+@pytest.mark.slow
 def test_glass_that_stands_on_a_floor_has_an_even_bottom():
     import cadquery as cq
 
@@ -252,6 +258,7 @@ def test_glass_that_stands_on_a_floor_has_an_even_bottom():
     assert len(filled.loops) - 1 < 16
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("top", [0.0, 12.0])
 def test_a_cone_has_no_bands(top):
     """Its light is a fan of narrow wedges, each a level of the screen apart; none goes astray at the apex."""

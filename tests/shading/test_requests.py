@@ -66,6 +66,7 @@ def command(*arguments, cwd):
     return subprocess.run(line, capture_output=True, text=True, cwd=cwd, check=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -87,6 +88,7 @@ def test_the_command_refuses_in_one_sentence(tmp_path, arguments, words):
     assert [path.name for path in tmp_path.iterdir()] == ["a.off"]
 
 
+@pytest.mark.slow
 def test_the_command_writes_all_that_was_asked(tmp_path):
     (tmp_path / "a.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
     done = command(
@@ -107,11 +109,13 @@ def loaded(code):
 MESH = "[(0.,0.,0.),(1.,0.,0.),(0.,1.,0.)]), np.array([(0,1,2)])"
 
 
+@pytest.mark.slow
 def test_a_drawing_does_not_load_what_pictures_need():
     names = loaded(f"import numpy as np, hlr; hlr.draw((np.array({MESH}), view='top')")
     assert "numpy" in names and not names & {"PIL", "OCP"}
 
 
+@pytest.mark.slow
 def test_a_picture_of_a_mesh_does_not_load_opencascade():
     names = loaded(f"import numpy as np, hlr; hlr.preview((np.array({MESH}), view='top', size=(20, 20))")
     assert "PIL" in names and "OCP" not in names

@@ -189,6 +189,7 @@ def test_every_ending_is_dispatched(tmp_path):
             open_source(path)
 
 
+@pytest.mark.slow
 def test_nothing_is_printed(folder, tmp_path):
     (tmp_path / "cut.brep").write_bytes((folder / "block.brep").read_bytes()[:3000])
     code = (

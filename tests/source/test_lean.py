@@ -48,6 +48,7 @@ def loaded(path, whose):
     return set(modules.split()), drawing
 
 
+@pytest.mark.slow
 def test_it_loads_no_more_than_it_needs_and_draws_the_same(models):
     for path in models:
         own, another = loaded(path, "own"), loaded(path, "another's")
@@ -57,6 +58,7 @@ def test_it_loads_no_more_than_it_needs_and_draws_the_same(models):
         assert own[1] == another[1]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="without fork the process is not claimed")
 def test_the_command_s_process_is_its_own(models, tmp_path):
     for path in (models[0], GEARS):
@@ -67,6 +69,7 @@ def test_the_command_s_process_is_its_own(models, tmp_path):
         assert not tried & {"scipy._lib", "embreex.rtcore", "httpx._client", "jsonschema.validators", "shapely.lib"}
 
 
+@pytest.mark.slow
 def test_a_caller_s_trimesh_is_whole(models):
     """Called from another program nothing is hidden, also from what it imports later."""
     code = "import hlr, sys; hlr.draw(sys.argv[1], accuracy=0.5); import trimesh; print(trimesh.graph.coo_matrix)"

@@ -278,6 +278,7 @@ def test_a_byte_order_mark_is_no_obstacle(tmp_path):
     assert len(open_source(tmp_path / "bom.obj").mesh(0.1, 0.3).parts) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["stl", "obj", "3mf"])
 def test_a_mesh_never_loads_a_cad_kernel(kind, tmp_path, data):
     path = data / {"stl": "soup.stl", "3mf": "cube_gears.3mf"}.get(kind, "")

@@ -76,11 +76,13 @@ def run(body):
     )
 
 
+@pytest.mark.slow
 def test_quarters():
     done = run(QUARTERS)
     assert (done.returncode, done.stdout) == (0, "disc\nsegment\npolygon\n"), done.stderr[-500:]
 
 
+@pytest.mark.slow
 def test_a_sphere_cut_into_octants():
     done = run(SPHERE)
     assert done.returncode == 0, done.stderr[-500:]

@@ -39,6 +39,7 @@ def command(*arguments):
     return [sys.executable, "-P", "-m", "hlr", "study", *map(str, arguments)]
 
 
+@pytest.mark.slow
 def test_files_and_figures(box, tmp_path):
     folder = tmp_path / "out" / "figures"
     wishes = (
@@ -71,6 +72,7 @@ def test_files_and_figures(box, tmp_path):
     assert (folder / "error.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -94,6 +96,7 @@ COST = Cost(1.0, 1.0, 1.0)
 LOOK = {"name": "box", "scale": 1.0, "width": 9.0, "height": 9.0, "parts": 1, "notes": []}
 
 
+@pytest.mark.slow
 def test_a_stopped_study_keeps_what_is_finished(box, tmp_path, monkeypatch):
     from hlr.cli.commands.study import study as verb
     from hlr.cli.signals import Stopped
@@ -165,6 +168,7 @@ def test_a_study_needs_time(box):
         study(str(box), limit=0.0)
 
 
+@pytest.mark.slow
 def test_the_frontier_is_marked():
     points = [
         Point(

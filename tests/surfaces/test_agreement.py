@@ -19,6 +19,7 @@ EVERYWHERE = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["even-odd", "non-zero"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_scenes(kind, rule):

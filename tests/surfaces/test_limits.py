@@ -65,6 +65,7 @@ def test_triangulating_is_stopped():
     assert time.monotonic() - started < 20.0
 
 
+@pytest.mark.slow
 def test_memory_does_not_abort_the_process():
     program = """
         import resource, numpy as np

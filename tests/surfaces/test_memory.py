@@ -38,6 +38,7 @@ print(most() - before)
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux tells the most that a program had")
 @pytest.mark.parametrize("method", ["z-buffer", "scan-line z-buffer", "warnock"])
 def test_10_a_process_takes_what_is_stated(method):

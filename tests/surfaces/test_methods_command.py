@@ -20,6 +20,7 @@ def run(*arguments, cwd):
     return done.returncode, done.stdout, done.stderr
 
 
+@pytest.mark.slow
 def test_tables_and_files(tmp_path):
     code, out, err = run("--polygons", "100", "--crossing", "40", "--size", "48x32", "-o", "figures", cwd=tmp_path)
     assert (code, err) == (0, "")
@@ -53,6 +54,7 @@ def box(path):
     trimesh.creation.box((3, 2, 1)).export(path)
 
 
+@pytest.mark.slow
 def test_a_model_alone(tmp_path):
     box(tmp_path / "box.stl")
     chosen = ["--method", "ray casting, flat", "--method", "scan-line z-buffer, per polygon", "--method", "scan line"]
@@ -131,6 +133,7 @@ def test_what_is_not_finished_is_said():
     assert report.LATE in report.text(found) and ",no," in report.comma_separated(found)
 
 
+@pytest.mark.slow
 def test_the_textbooks_table_stands_beside_todays():
     assert textbook.COST["depth sort"] == (1, 10, 507) and textbook.COST["z-buffer"] == (54, 54, 54)
     assert textbook.COST["scan line"] == (5, 21, 100) and textbook.COST["warnock"] == (11, 64, 307)

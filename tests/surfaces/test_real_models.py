@@ -8,6 +8,7 @@ from surfaces.real_models import different
 DATA = Path(__file__).resolve().parents[1] / "data"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["M6-1x12-countersunk-screw.step", "soup.stl"])
 def test_methods_agree_on_a_real_model(name):
     views = (("iso", None),)

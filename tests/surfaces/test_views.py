@@ -50,6 +50,7 @@ def right(scene, found, told, rule="even-odd", least=0.5, loss=2.0**-40):
     assert sure >= least * found.ids.size, told
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rule", ["even-odd", "non-zero"])
 @pytest.mark.parametrize("view", VIEWS)
 def test_the_rationals_agree(view, rule):
@@ -60,6 +61,7 @@ def test_the_rationals_agree(view, rule):
         right(scene, found, f"{view}, {rule}, seed {seed}", rule)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("warp", [0.0, 1e-8, 1e-6, 0.05])
 def test_all_methods_agree(view, warp):
@@ -79,6 +81,7 @@ def test_far_large_and_small(view, shift, scale):
         assert (found.ids >= 0).mean() > 0.05
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 def test_detail_beside_something_far_away(view):
     # The picture shows what measures a thousand-millionth of the scene, and in which depths differ by less still.

@@ -22,6 +22,7 @@ WAYS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", WAYS)
 @pytest.mark.parametrize("kind", range(len(scenes.KINDS)), ids=[kind.__name__ for kind in scenes.KINDS])
 def test_random_scenes(kind: int, way: str) -> None:
@@ -60,6 +61,7 @@ def soups(draw: st.DrawFn) -> Scene:
     return Scene(tuple(points), tuple(faces), tuple(sorted(wires)))
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(soups())
 def test_any_soup(scene: Scene) -> None:

@@ -80,6 +80,7 @@ point = st.tuples(coordinate, coordinate, coordinate)
 triangle = st.tuples(point, point, point)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(st.tuples(point, point), st.lists(triangle, max_size=5), st.permutations(range(3)))
 def test_winding_does_not_matter_and_triangles_add_up(

@@ -316,6 +316,7 @@ def test_what_was_reached_is_that_of_the_whole_drawing():
     assert cut.reached == whole.reached and cut.window is not None and len(cut.lines) < len(whole.lines)
 
 
+@pytest.mark.slow
 def test_the_command(tmp_path):
     box((10, 10, 10)).export(tmp_path / "a.stl")
 

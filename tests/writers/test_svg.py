@@ -149,6 +149,7 @@ coordinate = st.one_of(st.integers(-3, 3).map(float), st.floats(-500, 500))
 polyline = st.lists(st.tuples(coordinate, coordinate), min_size=2, max_size=8)
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(st.lists(polyline, min_size=1, max_size=5), st.sampled_from([0.5, 0.05, 0.001]))
 @example([[(0.0, 0.0), (0.0, 6.103515625e-05)]], 0.001)  # one step of the grid: both ends near both points
