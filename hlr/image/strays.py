@@ -1,4 +1,4 @@
-"""A few parts far from all others make a drawing so large that the rest is a postage stamp: a remark says which."""
+"""Stray parts: a few parts far from all others, which make the drawing much larger. A note names them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ GAP = 1.0
 
 
 def stray_note(source: Source, camera: Camera) -> Note | None:
-    """A remark where some of a source's parts stretch the view."""
+    """A note where some of a source's parts stretch the view."""
     names = source.names()
     if camera.framed or len(names) < 4:
         return None

@@ -1,4 +1,4 @@
-"""What is seen through glass: the scene without its transparent triangles, but with all of its lines."""
+"""Transparent parts: an image in which they hide nothing, though their own lines are drawn."""
 
 from __future__ import annotations
 

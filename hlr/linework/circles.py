@@ -1,6 +1,6 @@
-"""Circles of meshes: creases and borders all of whose vertices lie on one, drawn as that circle where it was asked for.
+"""Circles of meshes: a crease or border whose vertices all lie on a circle is drawn as that circle, on request.
 
-A polygon's vertices lie on a circle, too. So the angles count that they stand apart, seen from the centre:
+The vertices of a regular polygon lie on a circle, too. The angle between neighbours, seen from the centre, decides:
 
 ::
 

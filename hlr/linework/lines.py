@@ -1,4 +1,4 @@
-"""From segments to the drawing's lines: chained, merged, of coincident ones one, tied to part, edge and face."""
+"""Segments become lines: chained, merged, one for each set of coincident ones, tied to part, edge and face."""
 
 from __future__ import annotations
 

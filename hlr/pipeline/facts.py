@@ -1,4 +1,4 @@
-"""What the first stages tell the planner: how the source was read, meshed and, where need be, rescued."""
+"""What the first stages tell the planner: how the source was read and meshed, and which faces needed another mesher."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The finished drawing: lines, and all that is known about how they came to be."""
+"""The finished drawing: its lines, accuracy, notes, counters and times."""
 
 from __future__ import annotations
 

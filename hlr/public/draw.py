@@ -1,4 +1,4 @@
-"""What `hlr.draw` is: one pass of the pipeline, or as many as fit into a time; and what was reached, if asked for."""
+"""`hlr.draw` and `hlr.draw_views`: one pass of the pipeline, or as many as fit into a time, and a report on request."""
 
 from __future__ import annotations
 

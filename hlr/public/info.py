@@ -1,4 +1,4 @@
-"""What a model is made of, and what is wrong with it: source -> tessellate -> scene, and a report."""
+"""`hlr.info`: what a model is made of, and its defects. The model is meshed, and nothing is drawn."""
 
 from __future__ import annotations
 

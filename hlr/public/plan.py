@@ -1,4 +1,4 @@
-"""What a drawing would need, without drawing it: source -> tessellate -> scene -> plan."""
+"""`hlr.plan_views`: what a drawing would need, without drawing it."""
 
 from __future__ import annotations
 

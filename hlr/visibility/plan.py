@@ -27,18 +27,18 @@ class Plan:
     """The kernel's instructions.
 
     role    (e,) uint8: DRAWN, OUTLINE (drawn where it is a contour), both, or 0
-    cull    (g,) bool: faces turned away are not looked at
-    sound   (g,) bool: no piercing search of a group against itself
-    delta   (g,) float64: contact tolerance in view depth
-    cap     (g,) float64: the most that is allowed against this group: half its thickness, in view depth
+    cull    (g,) bool: faces turned away from the viewer are skipped
+    sound   (g,) bool: the group does not pass through itself, and is not searched for places where it does
+    delta   (g,) float64: contact tolerance in view depth: what is hidden by less counts as touching
+    cap     (g,) float64: upper limit of the tolerance against this group: half its thickness, in view depth
     drawn_kind (k,) bool: per line class, whether source edges of that class are drawn as such
-    step    radians: creases of meshes are circles where neighbouring vertices are less than this apart; 0: never
+    step    radians: a crease of a mesh is drawn as a circle where its vertices are less than this apart; 0: never
     fill    visible faces are painted
-    contact what is hidden by less than delta and cap is told apart
+    contact whether the contact tolerance applies
     divide  points are divided by their distance from the eye
-    crossings, piercings, pyramid: which steps of the visibility pass are gone through
-    straight (c,) bool: per chain of the scene, between two planes: no curve has to be looked for
-    every_curve  but all are read: for measuring what that would cost
+    crossings, piercings, pyramid: which steps the visibility pass takes
+    straight (c,) bool: per chain of the scene: it runs between two planes, so it has no curve to look up
+    every_curve  all curves are looked up all the same, to measure what that costs
     """
 
     role: npt.NDArray[np.uint8]
