@@ -2,7 +2,7 @@
 
 The visibility pass works on mesh edges. What it found stays what decides: the kernel makes of each polyline the
 interval of its curve between its two ends, on paper an arc, a chain of Bezier curves or a straight line
-(`kernel/linework/src/paper`).
+(`kernel/linework/src/fit`).
 """
 
 from __future__ import annotations

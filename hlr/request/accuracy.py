@@ -4,8 +4,8 @@ The accuracy is shared out so that the parts of an emitted line's error add up t
 
     line                         what it is off by, in accuracies
     polyline                     0.5 tessellation + 0.25 vertices left out + 0.1 digits
-    edge or outline of a B-rep   0.1 curve fitting (kernel, paper::FIT) + 0.2 arcs in SVG (ink::arcs) + 0.1 digits
-    contour of a mesh            0.5 smoothing (kernel, paper::smooth) + 0.1 digits
+    edge or outline of a B-rep   0.1 curve fitting (kernel, fit::FIT) + 0.2 arcs in SVG (curves::arcs) + 0.1 digits
+    contour of a mesh            0.5 smoothing (kernel, fit::smooth) + 0.1 digits
     change of visibility         0.5 tessellation, across the line; along it that over the sine of the angle at which
                                  what covers it crosses; and pieces that are too short to be drawn: 0.75
 

@@ -1,7 +1,7 @@
 """Numbers in SVG and PDF: fixed decimals that follow from the drawing's accuracy.
 
-Both round to a decimal grid first and then print integers of that grid (points: the kernel's `ink`). So a point
-has the same digits in both, and sums of relative coordinates are exact.
+Both round to a decimal grid first and then print integers of that grid (points: the kernel's `linework::curves`). So
+a point has the same digits in both, and sums of relative coordinates are exact.
 """
 
 from __future__ import annotations

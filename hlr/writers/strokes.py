@@ -1,7 +1,7 @@
 """Lines to pen strokes: rounded to the grid, sorted into layers, joined where one ends and the next begins.
 
 SVG and PDF draw the same strokes; the exchange format keeps the lines as they are. The kernel makes them
-(`kernel/linework/src/ink`).
+(`kernel/linework/src/curves`).
 """
 
 from __future__ import annotations

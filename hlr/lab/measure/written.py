@@ -15,7 +15,7 @@ from hlr.writers.strokes import ARC, CUBIC, LINE, QUADRATIC, WHOLE, Rows, places
 
 EXTRA, ROTATION = 2, 6
 """Decimals that radii have beyond those of points, and decimals of a rotation in degrees:
-`kernel/linework/src/ink/arcs.rs`."""
+`kernel/linework/src/curves/arcs.rs`."""
 
 FEWEST = {LINE: 4, QUADRATIC: 8, CUBIC: 8, ARC: 16, WHOLE: 32}
 """Pieces that a straight line, a curve, an arc, a full circle are looked at in, at least."""

@@ -11,7 +11,7 @@ use std::time::Instant;
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::mesh::{Fault, Steps, border_share, mesh_face};
+use hlr_brep::mesh::{Fault, Progress, border_share, mesh_face};
 use hlr_brep::model::Model;
 use hlr_brep::tessellate::{Watch, tessellate};
 
@@ -57,7 +57,7 @@ fn main() {
         let made = border
             .as_ref()
             .map_err(Clone::clone)
-            .and_then(|b| mesh_face(surface, &b.loops, deflection, 0.5, &Steps::free()));
+            .and_then(|b| mesh_face(surface, &b.loops, deflection, 0.5, &Progress::free()));
         let time = start.elapsed().as_secs_f64();
         let entry = kinds.entry(kind(surface)).or_insert((0, 0, 0.0));
         entry.0 += 1;

@@ -22,7 +22,8 @@ use hlr_brep::format::moved;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, cross, dot, length, scaled, sub};
 use hlr_brep::mesh::FaceMesh;
-use hlr_brep::model::{Face, Model};
+use hlr_brep::model::Model;
+use hlr_brep::shapes::Face;
 use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
 
 /// Places looked at along each edge.

@@ -1,12 +1,13 @@
-//! Parts put together from the meshes of their faces: one node for each place, whatever face it is seen from.
+//! The mesh of a part, put together from the meshes of its faces. Faces share their nodes along common edges.
 
 use rayon::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use crate::faces::Node;
 use crate::format::{IDENTITY, Matrix, moved};
-use crate::laid::LaidPart;
-use crate::model::{Model, Vertex};
+use crate::model::Model;
+use crate::part_topology::PartTopology;
+use crate::shapes::Vertex;
 use crate::tessellate::Tessellation;
 
 /// One part's mesh. Triangles are counterclockwise seen from outside.
@@ -29,7 +30,7 @@ pub struct PartMesh {
 }
 
 pub fn assemble(model: &Model, meshed: &Tessellation) -> Vec<PartMesh> {
-    (0..model.laid.len()).into_par_iter().map(|p| part(model, meshed, p)).collect()
+    (0..model.topology.len()).into_par_iter().map(|p| part(model, meshed, p)).collect()
 }
 
 /// Places of edges in a part: of each edge's polyline the numbers of its corners.
@@ -46,17 +47,17 @@ impl Corners {
     }
 }
 
-fn corners(meshed: &Tessellation, laid: &LaidPart) -> Corners {
-    let lines = laid.edges.iter().filter_map(|edge| meshed.lines[edge.edge as usize].as_ref());
+fn corners(meshed: &Tessellation, topology: &PartTopology) -> Corners {
+    let lines = topology.edges.iter().filter_map(|edge| meshed.lines[edge.edge as usize].as_ref());
     let count = lines.map(|line| line.points.len()).sum();
     let mut out = Corners {
-        start: Vec::with_capacity(laid.edges.len() + 1),
+        start: Vec::with_capacity(topology.edges.len() + 1),
         of_edge: Vec::with_capacity(count),
-        vertices: FxHashMap::with_capacity_and_hasher(laid.edges.len(), FxBuildHasher),
+        vertices: FxHashMap::with_capacity_and_hasher(topology.edges.len(), FxBuildHasher),
         points: Vec::with_capacity(count),
     };
     out.start.push(0);
-    for edge in &laid.edges {
+    for edge in &topology.edges {
         if let Some(line) = &meshed.lines[edge.edge as usize] {
             let place = |p: &[f64; 3]| edge.place.as_ref().map_or(*p, |m| moved(m, p));
             let last = line.points.len() - 1;
@@ -79,10 +80,10 @@ fn corners(meshed: &Tessellation, laid: &LaidPart) -> Corners {
 }
 
 fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
-    let laid = &model.laid[number];
-    let mut corners = corners(meshed, laid);
+    let topology = &model.topology[number];
+    let mut corners = corners(meshed, topology);
     let mut out = PartMesh::default();
-    let meshes = || laid.faces.iter().map(|face| &meshed.faces[face.face as usize].mesh);
+    let meshes = || topology.faces.iter().map(|face| &meshed.faces[face.face as usize].mesh);
     let [triangles, points]: [usize; 2] =
         [meshes().map(|mesh| mesh.triangles.len()).sum(), meshes().map(|mesh| mesh.points.len()).sum()];
     out.triangles.reserve(triangles);
@@ -92,8 +93,8 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
     corners.points.reserve(points);
     let mut degenerate_ends: FxHashMap<Vertex, u32> = FxHashMap::default();
     let edge_number: FxHashMap<(u32, u32), u32> =
-        (0..).zip(&laid.edges).map(|(i, edge)| ((edge.edge, edge.location), i)).collect();
-    for (f, face) in laid.faces.iter().enumerate() {
+        (0..).zip(&topology.edges).map(|(i, edge)| ((edge.edge, edge.location), i)).collect();
+    for (f, face) in topology.faces.iter().enumerate() {
         let found = &meshed.faces[face.face as usize];
         let mesh = &found.mesh;
         let place = |p: &[f64; 3]| face.place.as_ref().map_or(*p, |m| moved(m, p));
@@ -163,9 +164,9 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
 }
 
 fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners, out: &mut PartMesh) {
-    for (e, laid) in model.laid[number].edges.iter().enumerate() {
-        let edge = &model.edges[laid.edge as usize];
-        let Some(line) = meshed.lines[laid.edge as usize].as_ref().filter(|_| !edge.degenerate) else { continue };
+    for (e, topology) in model.topology[number].edges.iter().enumerate() {
+        let edge = &model.edges[topology.edge as usize];
+        let Some(line) = meshed.lines[topology.edge as usize].as_ref().filter(|_| !edge.degenerate) else { continue };
         let all = corners.of(e);
         let classes = &model.classes[number][e];
         let mut begin = 0;

@@ -1,8 +1,9 @@
-//! Why an edge of a part is drawn: sharp, smooth, seam or border, in pieces where that changes.
+//! The class of each edge of a part: sharp, smooth, seam or border. Where it changes along an edge, the edge has
+//! pieces.
 
 use crate::format::Orientation;
-use crate::laid::{LaidFace, LaidPart};
-use crate::model::{Model, Use};
+use crate::part_topology::{PartFace, PartTopology};
+use crate::shapes::{Shapes, Use};
 use crate::tangency::{Meeting, NEARLY_TANGENT, Side, meeting, worst};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,8 +15,8 @@ pub enum EdgeClass {
     Boundary = 3,
 }
 
-/// Of one edge of a part: its class at the beginning, and that of each further piece with the parameter on the edge's curve
-/// where it begins.
+/// The classes along one edge of a part: the class at its start, then the parameter on the edge's curve at which each
+/// further piece begins, with the class of that piece.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Classes {
     pub first: EdgeClass,
@@ -24,14 +25,14 @@ pub struct Classes {
 
 /// An edge of two faces is smooth where the surface normals agree along it; a seam whose normals do not agree is a
 /// crease. Edges of more than two faces, and edges of none, are sharp; those of one face are its border.
-pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
-    let laid = &part.edges[number];
-    let edge = &model.edges[laid.edge as usize];
+pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
+    let placed = &part.edges[number];
+    let edge = &shapes.edges[placed.edge as usize];
     let whole = |first| Classes { first, more: Vec::new() };
     let sharp_or = |smooth: bool, class| if smooth { class } else { EdgeClass::Sharp };
-    match laid.faces[..] {
-        [one] if laid.twice => {
-            let sides = sides_of_seam(model, part, one, number as u32);
+    match placed.faces[..] {
+        [one] if placed.twice => {
+            let sides = sides_of_seam(shapes, part, one, number as u32);
             let agree = match sides.as_ref().map(|sides| (sides.iter().any(|s| s.free), worst(sides))) {
                 Some((false, _)) => true,
                 Some((true, Some(angle))) => angle <= NEARLY_TANGENT,
@@ -39,9 +40,9 @@ pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
             };
             whole(sharp_or(agree, EdgeClass::Seam))
         }
-        [_] if !laid.inner => whole(EdgeClass::Boundary),
+        [_] if !placed.inner => whole(EdgeClass::Boundary),
         [one, two] => {
-            let found = [one, two].map(|face| side(model, part, face, number as u32));
+            let found = [one, two].map(|face| side(shapes, part, face, number as u32));
             let met = match found {
                 [Some(one), Some(two)] => meeting(&[one, two], edge.tangent),
                 _ => Meeting::Unknown,
@@ -64,32 +65,32 @@ pub fn classes(model: &Model, part: &LaidPart, number: usize) -> Classes {
     }
 }
 
-fn uses<'a>(model: &'a Model, part: &'a LaidPart, face: u32, number: u32) -> impl Iterator<Item = &'a Use> {
-    let wires = &model.faces[part.faces[face as usize].face as usize].wires;
+fn uses<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> impl Iterator<Item = &'a Use> {
+    let wires = &shapes.faces[part.faces[face as usize].face as usize].wires;
     part.places(number, face).map(|[wire, k]| &wires[wire][k])
 }
 
-fn side<'a>(model: &'a Model, part: &'a LaidPart, face: u32, number: u32) -> Option<Side<'a>> {
-    one_side(model, &part.faces[face as usize], uses(model, part, face, number).next()?)
+fn side<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<Side<'a>> {
+    one_side(shapes, &part.faces[face as usize], uses(shapes, part, face, number).next()?)
 }
 
-fn one_side<'a>(model: &'a Model, laid: &'a LaidFace, used: &Use) -> Option<Side<'a>> {
-    let face = &model.faces[laid.face as usize];
-    let curve = used.curve2.and_then(|(curve, range)| Some((model.curves2[curve].as_ref()?, range)));
+fn one_side<'a>(shapes: Shapes<'a>, placed: &'a PartFace, used: &Use) -> Option<Side<'a>> {
+    let face = &shapes.faces[placed.face as usize];
+    let curve = used.curve2.and_then(|(curve, range)| Some((shapes.curves2[curve].as_ref()?, range)));
     let free = face.record.as_ref().is_some_and(|r| r.kind > LAST_ELEMENTARY);
-    Some(Side { surface: face.surface.as_ref()?, curve, place: laid.place.as_ref(), reversed: laid.reversed, free })
+    Some(Side { surface: face.surface.as_ref()?, curve, place: placed.place.as_ref(), reversed: placed.reversed, free })
 }
 
 /// Plane, cylinder, cone, sphere, torus.
 const LAST_ELEMENTARY: u8 = 5;
 
 /// None where the face does not have the edge once in each sense.
-fn sides_of_seam<'a>(model: &'a Model, part: &'a LaidPart, face: u32, number: u32) -> Option<[Side<'a>; 2]> {
-    let laid = &part.faces[face as usize];
-    let both: Vec<&Use> = uses(model, part, face, number).collect();
+fn sides_of_seam<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<[Side<'a>; 2]> {
+    let placed = &part.faces[face as usize];
+    let both: Vec<&Use> = uses(shapes, part, face, number).collect();
     match both[..] {
         [one, two] if one.orientation != two.orientation && two.orientation != Orientation::Internal => {
-            Some([one_side(model, laid, one)?, one_side(model, laid, two)?])
+            Some([one_side(shapes, placed, one)?, one_side(shapes, placed, two)?])
         }
         _ => None,
     }

@@ -1,12 +1,12 @@
-//! The tree of every part, expanded into faces, edges and their uses.
+//! Walks the shape tree of every part and lists its faces, its edges, and which face uses which edge.
 //!
-//! The order is that of TopExp::MapShapes, so that a number here is an index in a part's face or edge map.
+//! The order is that of TopExp::MapShapes: a number here is an index in the part's face or edge map.
 
 use rustc_hash::FxHashMap;
 
 use crate::format::{Damaged, Dump, Kind, Orientation, Sub};
 
-/// A face of a part: number of the underlying face, location, how it stands.
+/// A face of a part: number of the underlying face, location, and orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlacedFace {
     pub face: u32,
@@ -42,10 +42,10 @@ pub struct Explored {
     pub parts: Vec<Part>,
 }
 
-/// Faces, edges and what holds them, in all parts: what is nested so that it makes more is damage.
+/// The most shapes that all parts may have together. A file whose nesting makes more of them is damaged.
 const MOST: usize = 200_000_000;
 
-/// A shape on its way: with the face it belongs to, and location and orientation from the part on.
+/// A shape during the walk: the face it belongs to, and its location and orientation relative to the part.
 #[derive(Clone, Copy)]
 struct Item {
     shape: u32,

@@ -1,4 +1,4 @@
-//! Boundary representations: curves, surfaces, and the mesh of a face. No Python here.
+//! Boundary representations: curves, surfaces, edges as polylines, and meshes of faces.
 
 pub mod assemble;
 pub mod certificate;
@@ -6,11 +6,12 @@ pub mod classes;
 pub mod edges;
 pub mod explore;
 pub mod faces;
+pub mod foreign_mesh;
 pub mod format;
 pub mod geometry;
-pub mod laid;
 pub mod mesh;
 pub mod model;
-pub mod patch;
+pub mod part_topology;
+pub mod shapes;
 pub mod tangency;
 pub mod tessellate;

@@ -1,91 +1,26 @@
-//! A dump as parts, faces and edges: each underlying face and edge once, however often it is placed.
+//! The model read from a dump: parts, and each underlying face and edge once, however often it is placed.
 
 use rayon::prelude::*;
 
 use crate::classes::{Classes, classes};
 use crate::explore::{self, Part};
-use crate::format::{Damaged, Dump, Kind, Locations, Matrix, On, Orientation, Shape, SurfaceRecord};
+use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
-use crate::laid::{LaidPart, laid};
-
-/// A vertex as a shape sees it that holds it: underlying shape and location.
-pub type Vertex = (u32, u32);
-
-/// The end of an edge that has no vertex there: with the edge's number.
-pub const NO_VERTEX: u32 = 1 << 31;
+use crate::part_topology::{PartTopology, part_topology};
+use crate::shapes::{Edge, Face, OnSurface, Shapes, Use};
 
 pub struct Model {
     pub locations: Locations,
     pub edges: Vec<Edge>,
     pub faces: Vec<Face>,
     pub parts: Vec<Part>,
-    pub laid: Vec<LaidPart>,
+    pub topology: Vec<PartTopology>,
     /// By part and edge.
     pub classes: Vec<Vec<Classes>>,
     /// In (u, v), as curves in space with z = 0.
     pub curves2: Vec<Option<Curve>>,
-}
-
-/// An underlying edge, in its own frame.
-pub struct Edge {
-    /// None: only its curves on surfaces are known.
-    pub curve: Option<Curve>,
-    pub range: [f64; 2],
-    pub tolerance: f64,
-    /// All of it is one point: a pole.
-    pub degenerate: bool,
-    /// First and last vertex, and where they are.
-    pub ends: [Option<Vertex>; 2],
-    pub end_points: [Option<[f64; 3]>; 2],
-    /// A file or a modeller recorded that two faces are tangent along it.
-    pub tangent: bool,
-    pub on: Vec<OnSurface>,
-    pub polygon: Option<Vec<[f64; 3]>>,
-    /// Of an edge without a curve in space: number of its curve in (u, v), and the surface in the edge's frame.
-    pub only_on: Option<(usize, Surface)>,
-    /// Parameters at which its polyline has a corner, ascending.
-    pub joints: Vec<f64>,
-}
-
-/// An edge's curves in (u, v) of a surface, one for each sense where the edge is a seam.
-pub struct OnSurface {
-    pub surface: usize,
-    pub location: u32,
-    pub curves: [usize; 2],
-    pub range: [f64; 2],
-}
-
-/// An underlying face, in its own frame; taken forward.
-pub struct Face {
-    pub record: Option<SurfaceRecord>,
-    pub surface: Option<Surface>,
-    pub tolerance: f64,
-    pub wires: Vec<Vec<Use>>,
-    /// Triangles that are all the face has.
-    pub own: Option<crate::format::Triangulation>,
-}
-
-/// An edge in a wire of a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Use {
-    pub edge: u32,
-    pub location: u32,
-    /// Where the location puts it; None: where it is.
-    pub place: Option<Matrix>,
-    pub orientation: Orientation,
-    /// First and last vertex of the edge, as the face sees them.
-    pub ends: [Vertex; 2],
-    /// Number of the curve in (u, v), and its range.
-    pub curve2: Option<(usize, [f64; 2])>,
-}
-
-impl Edge {
-    /// First and last vertex; one that there is not is the edge's own.
-    pub fn ends(&self, number: u32) -> [Vertex; 2] {
-        self.ends.map(|end| end.unwrap_or((NO_VERTEX | number, 0)))
-    }
 }
 
 impl Model {
@@ -103,21 +38,23 @@ impl Model {
         let faces: Vec<Face> =
             found.faces.iter().map(|&shape| face(&mut dump, shape, &number, &edges, &mut triangulations)).collect();
         let Dump { mut locations, curves2, .. } = dump;
-        let laid: Vec<LaidPart> = found.parts.iter().map(|part| laid(part, &faces, &edges, &mut locations)).collect();
-        let mut model = Model { locations, edges, faces, parts: found.parts, laid, classes: Vec::new(), curves2 };
+        let topology: Vec<PartTopology> =
+            found.parts.iter().map(|part| part_topology(part, &faces, &edges, &mut locations)).collect();
+        let mut model = Model { locations, edges, faces, parts: found.parts, topology, classes: Vec::new(), curves2 };
         model.classify();
         Ok(model)
     }
 
     /// How the faces of all parts meet; where that changes along an edge, its polyline gets a corner.
     fn classify(&mut self) {
-        let of_part = |part: &LaidPart| -> Vec<Classes> {
-            (0..part.edges.len()).into_par_iter().map(|edge| classes(self, part, edge)).collect()
+        let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2 };
+        let of_part = |part: &PartTopology| -> Vec<Classes> {
+            (0..part.edges.len()).into_par_iter().map(|edge| classes(shapes, part, edge)).collect()
         };
-        self.classes = self.laid.par_iter().map(of_part).collect();
-        for (part, classes) in self.laid.iter().zip(&self.classes) {
-            for (laid, classes) in part.edges.iter().zip(classes) {
-                self.edges[laid.edge as usize].joints.extend(classes.more.iter().map(|(joint, _)| joint));
+        self.classes = self.topology.par_iter().map(of_part).collect();
+        for (part, classes) in self.topology.iter().zip(&self.classes) {
+            for (placed, classes) in part.edges.iter().zip(classes) {
+                self.edges[placed.edge as usize].joints.extend(classes.more.iter().map(|(joint, _)| joint));
             }
         }
         for edge in &mut self.edges {

@@ -1,6 +1,7 @@
-//! The mesh of a model: edges once, then each underlying face once, on all threads.
+//! The mesh of a model: each edge once, then each underlying face once, on all threads.
 //!
-//! Chords that are too coarse for one of their faces, or cross there, are divided for both; the faces beside them follow.
+//! Chords that are too coarse for one of their faces, or cross there, are divided for both; the faces beside them
+//! follow.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -10,8 +11,9 @@ use rayon::prelude::*;
 
 use crate::edges::{Polyline, polyline};
 use crate::faces::{Border, Node, border};
-use crate::mesh::{FaceMesh, Fault, Steps, Told, border_share, mesh_face};
-use crate::model::{Face, Model};
+use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face};
+use crate::model::Model;
+use crate::shapes::Face;
 
 /// Rounds of dividing chords.
 const MOST_ROUNDS: usize = 12;
@@ -65,7 +67,7 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
             &lines,
             |i| {
                 let divisible = round < MOST_ROUNDS && !settled.contains(&i);
-                let steps = Steps::new(watch.stopped, Some(Told { all: watch.done, face: &told[i] }));
+                let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }));
                 let face = &model.faces[i];
                 let tried = steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?;
                 if !tried.waits {
@@ -203,7 +205,7 @@ fn try_face(
     deflection: f64,
     angle: f64,
     divisible: bool,
-    steps: &Steps,
+    steps: &Progress,
 ) -> Tried {
     let failed = |fault, coarse| Tried {
         face: MeshedFace { fault: Some(fault), ..MeshedFace::default() },

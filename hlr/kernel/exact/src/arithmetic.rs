@@ -1,9 +1,10 @@
-//! The numbers that the predicates reckon with: exact integers, or, to see what exactness is worth, floating point.
+//! The number types of the predicates: exact integers for drawings; floating point for `hlr study`, for comparison.
 //!
 //! The points are the same snapped ones in all three. `f64` holds their coordinates and differences without error and
 //! rounds products; `f32` rounds coordinates as well, to 24 bits. With either a sign may be wrong, and the sides of one
-//! line seen by two polygons may contradict each other: the literature's plain predicates, for the study of what they
-//! cost and lose. (L. Kettner et al., "Classroom examples of robustness problems in geometric computations", 2008.)
+//! line as two polygons compute them may contradict each other. These are the plain predicates of the literature; the
+//! study measures what they cost and what they get wrong. (L. Kettner et al., "Classroom examples of robustness
+//! problems in geometric computations", 2008.)
 
 use std::cmp::Ordering;
 use std::fmt::Debug;

@@ -1,4 +1,4 @@
-//! Places on a drawn edge, 0 at its first end and 1 at its second, and their order.
+//! Parameters on a drawn edge, 0 at its first end and 1 at its second, and their order.
 
 use std::cmp::Ordering;
 use std::fmt::Debug;
@@ -14,7 +14,8 @@ pub trait Place: Copy + Debug + Send + Sync {
     fn compare(&self, other: &Self) -> Ordering;
 }
 
-/// A parameter n / d in 0..1 on a drawn edge, d > 0: 63 bits where a contour is crossed, 127 where a polygon is pierced.
+/// A parameter n / d in 0..1 on a drawn edge, d > 0: 63 bits where a contour is crossed, 127 where a polygon is
+/// pierced.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     n: i128,
@@ -57,7 +58,7 @@ impl Place for Parameter {
     }
 }
 
-/// A parameter that is only as good as its rounding.
+/// A parameter in floating point, with its rounding error.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounded(f64);
 

@@ -1,8 +1,8 @@
-//! Every decision of the visibility pass: signs of integer polynomials in the snapped points.
+//! The geometric predicates of the visibility pass: signs of integer polynomials in the snapped points.
 //!
-//! Ties. A drawn segment f = a -> b is thought of as moved by (e^2, e^3, -e) for an infinitely small e > 0, and
-//! its end points as moved inward by eta (b - a) with eta >> e. Perturbing f alone is enough (no two obscuring
-//! things are ever compared), and every tie below is one of these two shifts, spelled out:
+//! Ties are broken by symbolic perturbation. A drawn segment f = a -> b counts as moved by (e^2, e^3, -e) for an
+//! infinitely small e > 0, and its end points as moved inward by eta (b - a) with eta >> e. Perturbing f alone is
+//! enough (no two obscuring things are ever compared), and every tie below is one of these two shifts, spelled out:
 //!
 //! ```text
 //!   a on the line p->q        the other end's side decides (eta); both on it: the shift (e^2, e^3)

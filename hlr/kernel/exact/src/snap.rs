@@ -1,4 +1,4 @@
-//! The only rounding there is: view coordinates become integers on a power-of-two grid.
+//! The one rounding of the visibility pass: view coordinates become integers on a power-of-two grid.
 //!
 //! |x|, |y| <= 2^30 - 1 keeps `orient2d` within 63 bits; |z| <= 2^29 leaves room to move a segment toward
 //! the viewer by a contact tolerance of up to 2^28 units.
@@ -10,7 +10,7 @@ const Z_LIMIT: f64 = (1i64 << 29) as f64;
 /// Largest contact tolerance in grid units.
 pub const DELTA_LIMIT: f64 = (1i64 << 28) as f64;
 
-/// Where the grid lies: integer = round((coordinate - centre) * scale).
+/// Centre and scale of the grid: integer = round((coordinate - centre) * scale).
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     pub centre: [f64; 3],
@@ -33,8 +33,8 @@ fn power_of_two_scale(half: f64, limit: f64) -> f64 {
     s
 }
 
-/// The nearest integer, ties to even; beyond 32 bits the largest of these. As `round_ties_even` does, but without a call:
-/// between 2^52 and 2^53 doubles are whole, so adding 1.5 * 2^52 rounds.
+/// The nearest integer, ties to even; beyond 32 bits the largest of these. As `round_ties_even` does, but without a
+/// call: between 2^52 and 2^53 doubles are whole, so adding 1.5 * 2^52 rounds.
 #[inline]
 fn nearest(x: f64) -> i32 {
     const WHOLE: f64 = 6_755_399_441_055_744.0;
@@ -82,8 +82,8 @@ impl Grid {
         ]
     }
 
-    /// So coarse in depth that a tolerance of `depth` fits: where all depth is rounding noise, as of a plane seen face-on,
-    /// the finest grid would blow the noise up beyond it.
+    /// So coarse in depth that a tolerance of `depth` fits: where all depth is rounding noise, as of a plane seen
+    /// face-on, the finest grid would turn that noise into steps larger than the tolerance.
     pub fn with_room(self, depth: f64) -> Grid {
         let mut scale_z = self.scale_z;
         while depth * scale_z > DELTA_LIMIT {

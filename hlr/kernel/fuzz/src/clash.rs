@@ -5,8 +5,8 @@ use std::cmp::Ordering;
 use std::sync::OnceLock;
 
 use hlr_exact::snap::Grid;
-use hlr_visibility::clash::meet::{Numbered, meet};
 use hlr_visibility::clash::search::{Clash, NO_PLANE, Surfaces};
+use hlr_visibility::clash::triangle_pair::{Numbered, meet};
 use hlr_visibility::clash::weld::weld;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 

@@ -1,11 +1,11 @@
-//! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing. Step by step, and as drawings
-//! go through it.
+//! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing. Step by step, and as
+//! drawings go through it.
 
-use hlr_linework::lines::cover::{Widths, uncovered};
+use hlr_linework::lines::candidates::{About, Chains};
+use hlr_linework::lines::coincident::{Widths, uncovered};
 use hlr_linework::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
-use hlr_linework::lines::drawn::Kind;
+use hlr_linework::lines::drawing::Kind;
 use hlr_linework::lines::ends::Ends;
-use hlr_linework::lines::outlines::{About, Chains};
 use hlr_linework::lines::runs::{Geometry, Limits, Piece, cut};
 use hlr_linework::lines::simplify::simplify;
 use hlr_linework::lines::specks::drop_specks;

@@ -1,4 +1,4 @@
-//! A scene from bytes: triangles and wires in parts, and what the kernel is told of them.
+//! A scene from bytes: triangles and wires in groups, and what the kernel is told of them.
 
 use hlr_mesh::topology::topology;
 use hlr_visibility::scan::mesh::{DRAWN, OUTLINE};
@@ -13,18 +13,18 @@ const MOST_WIRES: usize = 8;
 pub struct Scene {
     pub points: Vec<[f64; 3]>,
     pub triangles: Vec<[i32; 3]>,
-    pub triangle_part: Vec<i32>,
+    pub triangle_group: Vec<i32>,
     pub edges: Vec<[i32; 2]>,
     pub offsets: Vec<i32>,
     pub incident: Vec<i32>,
-    pub edge_part: Vec<i32>,
+    pub edge_group: Vec<i32>,
     pub role: Vec<u8>,
     pub cull: Vec<bool>,
     pub sound: Vec<bool>,
     pub delta: Vec<f64>,
     pub cap: Vec<f64>,
     pub tight: Vec<bool>,
-    /// Edges know their triangles, and no edge belongs to two parts: as real scenes are made.
+    /// Edges know their triangles, and no edge belongs to two groups: as real scenes are made.
     pub proper: bool,
 }
 
@@ -34,60 +34,60 @@ impl Scene {
         let proper = !bytes.byte().is_multiple_of(8);
         let (flat, deep) = (bytes.numbers(), bytes.numbers());
         let places = 1 + bytes.below(MOST_POINTS);
-        let parts = 1 + bytes.below(3);
+        let groups = 1 + bytes.below(3);
         let mut points: Vec<[f64; 3]> =
             (0..places).map(|_| [bytes.number(flat), bytes.number(flat), bytes.number(deep)]).collect();
-        // Every part has vertices of its own, in the same places.
-        for _ in 1..parts {
+        // Every group has vertices of its own, in the same places.
+        for _ in 1..groups {
             points.extend_from_within(..places);
         }
         let mut scene = Scene {
             points,
             triangles: Vec::new(),
-            triangle_part: Vec::new(),
+            triangle_group: Vec::new(),
             edges: Vec::new(),
             offsets: Vec::new(),
             incident: Vec::new(),
-            edge_part: Vec::new(),
+            edge_group: Vec::new(),
             role: Vec::new(),
-            cull: (0..parts).map(|_| bytes.byte().is_multiple_of(4)).collect(),
-            sound: (0..parts).map(|_| bytes.bit()).collect(),
+            cull: (0..groups).map(|_| bytes.byte().is_multiple_of(4)).collect(),
+            sound: (0..groups).map(|_| bytes.bit()).collect(),
             delta: Vec::new(),
             cap: Vec::new(),
-            tight: (0..parts).map(|_| bytes.byte().is_multiple_of(4)).collect(),
+            tight: (0..groups).map(|_| bytes.byte().is_multiple_of(4)).collect(),
             proper,
         };
         let unit = scene.points.iter().map(|p| p[2].abs()).fold(0.0, f64::max) / 16.0;
-        for _ in 0..parts {
+        for _ in 0..groups {
             scene.delta.push(unit * f64::from(bytes.byte() % 4));
             scene.cap.push(unit * f64::from(bytes.byte() % 8));
         }
         for _ in 0..bytes.below(MOST_TRIANGLES + 1) {
-            let part = bytes.below(parts);
-            let own = if proper { part } else { bytes.below(parts) };
+            let group = bytes.below(groups);
+            let own = if proper { group } else { bytes.below(groups) };
             scene.triangles.push([0; 3].map(|_: i32| (own * places + bytes.below(places)) as i32));
-            scene.triangle_part.push(part as i32);
+            scene.triangle_group.push(group as i32);
         }
-        scene.connect(bytes, places, parts);
+        scene.connect(bytes, places, groups);
         scene.role = scene.edges.iter().map(|_| [DRAWN, DRAWN, OUTLINE, 0][bytes.below(4)]).collect();
         scene
     }
 
-    fn connect(&mut self, bytes: &mut Bytes, places: usize, parts: usize) {
+    fn connect(&mut self, bytes: &mut Bytes, places: usize, groups: usize) {
         let found = topology(&self.triangles, self.points.len());
         (self.edges, self.offsets, self.incident) = (found.edges, found.offsets, found.incident);
-        self.edge_part = self.edges.iter().map(|e| e[0] / places as i32).collect();
+        self.edge_group = self.edges.iter().map(|e| e[0] / places as i32).collect();
         for _ in 0..bytes.below(MOST_WIRES + 1) {
-            let part = bytes.below(parts);
-            self.edges.push([0; 2].map(|_: i32| (part * places + bytes.below(places)) as i32));
+            let group = bytes.below(groups);
+            self.edges.push([0; 2].map(|_: i32| (group * places + bytes.below(places)) as i32));
             self.offsets.push(self.incident.len() as i32);
-            self.edge_part.push(part as i32);
+            self.edge_group.push(group as i32);
         }
         if self.proper {
             return;
         }
-        for part in &mut self.edge_part {
-            *part = bytes.below(parts) as i32;
+        for group in &mut self.edge_group {
+            *group = bytes.below(groups) as i32;
         }
         if !self.triangles.is_empty() && bytes.bit() {
             for t in &mut self.incident {

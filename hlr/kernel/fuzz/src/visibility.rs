@@ -1,5 +1,5 @@
-//! The visibility pass on any scene: it ends, agrees with itself on any number of threads and, where the scene keeps the
-//! rules of the entry, with the oracle on every interval.
+//! The visibility pass on any scene: it ends, agrees with itself on any number of threads and, where the scene keeps
+//! the rules of the entry, with the oracle on every interval.
 
 use std::sync::OnceLock;
 
@@ -33,11 +33,11 @@ pub fn check(scene: &Scene) {
     let seen = Seen {
         points: &scene.points,
         triangles: &scene.triangles,
-        triangle_group: &scene.triangle_part,
+        triangle_group: &scene.triangle_group,
         edges: &scene.edges,
         offsets: &scene.offsets,
         incident: &scene.incident,
-        edge_group: &scene.edge_part,
+        edge_group: &scene.edge_group,
         role: &scene.role,
         groups: &groups,
     };
@@ -62,7 +62,7 @@ fn pools() -> &'static [ThreadPool; 2] {
 }
 
 fn listed(outcome: &Outcome) -> Vec<(u32, u64, u64, u8)> {
-    let row = |p: &hlr_visibility::scan::sweep::Piece| {
+    let row = |p: &hlr_visibility::scan::invisibility::Piece| {
         (p.edge, p.segment.start.to_bits(), p.segment.end.to_bits(), p.segment.state as u8)
     };
     outcome.pieces.iter().map(row).collect()
@@ -72,7 +72,7 @@ fn compare(mesh: &Mesh, outcome: &Outcome) {
     let corners = |t: usize| mesh.triangles[t].map(|v| mesh.points[v as usize]);
     let facing: Vec<i128> = (0..mesh.triangles.len()).map(|t| oracle::area(corners(t)).signum()).collect();
     assert!(outcome.facing.iter().zip(&facing).all(|(&a, &b)| i128::from(a) == b), "facing");
-    let counted = |t: usize| facing[t] > 0 || (facing[t] < 0 && !mesh.parts[mesh.triangle_part[t] as usize].cull);
+    let counted = |t: usize| facing[t] > 0 || (facing[t] < 0 && !mesh.groups[mesh.triangle_group[t] as usize].cull);
     let lied = unsound(mesh, &counted);
     // What the sweep finds is right by itself: the search polygon by polygon must not be what makes it so.
     assert!(outcome.counters.failed_checks == 0 || lied.contains(&true), "{:?}", outcome.counters);
@@ -84,7 +84,7 @@ fn compare(mesh: &Mesh, outcome: &Outcome) {
             // Diving, too, is within the tolerance.
             found.push((p.segment.start, p.segment.end, (p.segment.state as u8).min(oracle::WITHIN)));
         }
-        let (part, around) = (mesh.edge_part[e], mesh.incident(e));
+        let (group, around) = (mesh.edge_group[e], mesh.incident(e));
         let [a, b] = mesh.edges[e].map(|v| mesh.points[v as usize]);
         if !drawn(mesh, e, &counted) || a[..2] == b[..2] {
             assert!(found.is_empty(), "edge {e} is not to be drawn: {found:?}");
@@ -98,14 +98,14 @@ fn compare(mesh: &Mesh, outcome: &Outcome) {
         };
         let away = |&t: &i32| facing[t as usize] < 0 && !needle(t as usize);
         let turned = !around.is_empty() && around.iter().all(away);
-        let wanted = if mesh.parts[part as usize].cull && turned {
+        let wanted = if mesh.groups[group as usize].cull && turned {
             vec![(0.0, 1.0, HIDDEN)]
-        } else if lied[part as usize] {
+        } else if lied[group as usize] {
             tiled(e, &found);
             continue;
         } else {
             let shadows = |moved: bool| -> Vec<Shadow> {
-                let delta = |t: usize| if moved { delta(mesh, part, mesh.triangle_part[t]) } else { 0 };
+                let delta = |t: usize| if moved { delta(mesh, group, mesh.triangle_group[t]) } else { 0 };
                 (0..facing.len())
                     .filter(|&t| counted(t))
                     .filter_map(|t| oracle::shadow(a, b, corners(t), delta(t)))
@@ -119,19 +119,19 @@ fn compare(mesh: &Mesh, outcome: &Outcome) {
     assert!(pieces.next().is_none(), "pieces out of order");
 }
 
-/// A part told to be sound that is not: its own piercings are not looked for, and what they change is not promised.
+/// A group told to be sound that is not: its own piercings are not looked for, and what they change is not promised.
 fn unsound(mesh: &Mesh, counted: &dyn Fn(usize) -> bool) -> Vec<bool> {
     let pierces = |e: usize, t: usize| {
         let [a, b] = mesh.edges[e].map(|v| mesh.points[v as usize]);
         let corners = mesh.triangles[t].map(|v| mesh.points[v as usize]);
         oracle::shadow(a, b, corners, 0).is_some_and(|s| s.pierced)
     };
-    let own = |part: i32| {
+    let own = |group: i32| {
         (0..mesh.edges.len())
-            .filter(move |&e| mesh.edge_part[e] == part)
-            .any(|e| (0..mesh.triangles.len()).any(|t| mesh.triangle_part[t] == part && counted(t) && pierces(e, t)))
+            .filter(move |&e| mesh.edge_group[e] == group)
+            .any(|e| (0..mesh.triangles.len()).any(|t| mesh.triangle_group[t] == group && counted(t) && pierces(e, t)))
     };
-    (0..mesh.parts.len()).map(|p| mesh.parts[p].sound && own(p as i32)).collect()
+    (0..mesh.groups.len()).map(|p| mesh.groups[p].sound && own(p as i32)).collect()
 }
 
 /// An outline is drawn where the number of faces in front changes across it.
@@ -151,9 +151,9 @@ fn drawn(mesh: &Mesh, e: usize, counted: &dyn Fn(usize) -> bool) -> bool {
     mesh.incident(e).iter().map(side).sum::<i128>() != 0
 }
 
-/// How far an edge is moved before it is compared with a part.
+/// How far an edge is moved before it is compared with a group.
 fn delta(mesh: &Mesh, own: i32, other: i32) -> i64 {
-    let (a, b) = (&mesh.parts[own as usize], &mesh.parts[other as usize]);
+    let (a, b) = (&mesh.groups[own as usize], &mesh.groups[other as usize]);
     match own == other {
         true if a.sound || a.cull => 0,
         true => a.delta,

@@ -1,6 +1,6 @@
-//! From pieces of edges and from surfaces to the lines of a drawing, and to the bytes of a file.
+//! From visible and hidden pieces of edges to the lines of a drawing, on their true curves, and to the bytes of a file.
 
-pub mod ink;
+pub mod curves;
+pub mod fit;
 pub mod lines;
-pub mod paper;
 pub mod silhouette;

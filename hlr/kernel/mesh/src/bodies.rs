@@ -1,17 +1,18 @@
-//! Groups of triangles that may be treated as one surface, and what may be assumed of each.
+//! Divides the triangles into groups, each a connected surface or a closed part, and finds the properties of each
+//! group.
 
 use super::facts::Facts;
 use super::groups::{self, Edges};
-use super::passes::passes;
+use super::ray_count::passes;
 use super::tables::Tables;
 use crate::topology::components;
 
-/// Of a group's size: planar faces are flat within this share of it.
+/// Planar faces are flat within this share of their group's size.
 const ROUNDING: f64 = 1e-9;
 
 #[derive(Clone, Debug, Default)]
 pub struct Bodies {
-    /// Of each triangle its group, of each group its part.
+    /// Per triangle its group; per group its part.
     pub group_of: Vec<i32>,
     pub part_of: Vec<i32>,
     /// Every edge is used as often in one direction as in the other.
@@ -19,7 +20,7 @@ pub struct Bodies {
     /// Closed, and turned outward; or inward.
     pub cull: Vec<bool>,
     pub inward: Vec<bool>,
-    /// Nothing but planar faces.
+    /// All faces are planar.
     pub planar: Vec<bool>,
     /// Thickness, or the smallest side of the box where that is less or the group is open.
     pub extent: Vec<f64>,
@@ -27,14 +28,14 @@ pub struct Bodies {
     pub high: Vec<[f64; 3]>,
     /// Turned inside out by the source, and turned back; these are `cull` and no longer `inward`.
     pub turned: Vec<bool>,
-    /// Of a mesh without B-rep, with more than two triangles at an edge: bodies that were welded there are one connected
-    /// piece, and still touch one another as strangers do.
+    /// Of a mesh without B-rep, with more than two triangles at an edge: bodies that were welded there are one
+    /// connected piece, and still touch one another as separate bodies do.
     pub welded: Vec<bool>,
 }
 
 /// Per triangle its group, per group its part: closed B-rep parts whole, everything else by connected piece.
 ///
-/// Faces of an IGES file that nobody sewed together touch like strangers do, and need the same tolerance.
+/// Unsewn faces of an IGES file touch as separate parts do, and need the same contact tolerance.
 fn grouped(whole: &[bool], triangles: &[[i32; 3]], part_of: &[i32], n_points: usize) -> (Vec<i32>, Vec<i32>) {
     if whole.iter().all(|&w| w) {
         return (part_of.to_vec(), (0..whole.len() as i32).collect());
@@ -78,8 +79,9 @@ pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) 
     for g in 0..count {
         let (low, high, six) = (&found.low[g], &found.high[g], found.volume[g]);
         let least = (0..3).map(|k| high[k] - low[k]).fold(f64::INFINITY, f64::min);
-        // Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a cube
-        // a third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still hides.
+        // Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a
+        // cube a third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still
+        // hides.
         let thick = if out.closed[g] { 3.6 * (six / 6.0).abs() / (found.area[g] / 2.0) } else { f64::INFINITY };
         out.extent.push((if found.count[g] > 0 { least } else { 0.0 }).min(thick));
         out.cull.push(out.closed[g] && six > 0.0);

@@ -1,11 +1,11 @@
-//! Boxes where parts stand.
+//! Bounding boxes of placed parts.
 
 type Vec3 = [f64; 3];
 
 /// The eight corners of each part's box, and the lower and upper corner of the box around all of them.
 ///
-/// `boxes`: lower, then upper corner; `root`: which of them each part has; `place`: where the part stands, the rows of a
-/// matrix. A box whose lower corner lies beyond its upper one is void: its corners are 0, and do not count.
+/// `boxes`: lower, then upper corner; `root`: which of them each part has; `place`: where the part stands, the rows of
+/// a matrix. A box whose lower corner lies beyond its upper one is void: its corners are 0, and do not count.
 pub fn placed(boxes: &[[f64; 6]], root: &[i32], place: &[[f64; 16]]) -> (Vec<Vec3>, [Vec3; 2]) {
     let mut corners = vec![[0.0; 3]; 8 * root.len()];
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);

@@ -1,4 +1,4 @@
-//! Clean triangle meshes: equal corners joined, impossible triangles left out.
+//! Cleans a triangle mesh: equal corners are joined, impossible triangles are left out.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! What can be said of a mesh before any part or edge has a meaning.
+//! Edges, normals and fold angles of a triangle mesh, from its points and triangles alone.
 
 use rayon::prelude::*;
 

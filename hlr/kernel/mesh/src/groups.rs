@@ -1,4 +1,4 @@
-//! Boxes, volumes and areas of groups of triangles.
+//! Bounding boxes, volumes, areas and convexity of groups of triangles.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

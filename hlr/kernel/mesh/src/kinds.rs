@@ -1,4 +1,4 @@
-//! What the triangles at an edge say of it: border, crease, or nearly a crease.
+//! The class of a mesh edge by its triangles: border, crease, or nearly a crease.
 
 use rayon::prelude::*;
 

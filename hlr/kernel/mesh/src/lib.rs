@@ -1,18 +1,19 @@
-//! What can be said of triangles whatever the view, in one pass over arrays of millions.
+//! Triangle meshes before any view: reading, cleaning, topology, groups, edge classes. Arrays hold millions of
+//! triangles.
 
 pub mod bodies;
 pub mod boxes;
 pub mod clean;
+pub mod edge_flips;
 pub mod facts;
 pub mod groups;
 pub mod kinds;
 pub mod measure;
 pub mod meshfile;
 pub mod needles;
-pub mod passes;
+pub mod ray_count;
 pub mod scene;
 pub mod stitch;
 pub mod tables;
 pub mod topology;
-pub mod turned;
 pub mod walks;

@@ -1,4 +1,4 @@
-//! Triangles too low for their coordinates.
+//! Finds needles: triangles so thin that rounding of their coordinates decides their normal.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! All parts as one scene: edges with their kinds, walks along them, groups, and what each part is like.
+//! All parts as one scene: mesh edges with their classes, the source's edges as walks over them, groups, and reports.
 
 use hlr_brep::format::Matrix;
 use rayon::prelude::*;
@@ -158,13 +158,13 @@ fn reports(tables: &Tables, facts: &Facts, part_of: &[i32], edge_part: &[i32], b
     out
 }
 
-/// A planar face that a curved one runs into tangentially is the curved face's outline when it is seen edge-on, and rounding
-/// decides along which of its edges it folds. Inside a planar face nothing folds: needles between corners in one line are
-/// turned any way.
+/// A planar face that a curved one runs into tangentially is the curved face's outline when it is seen edge-on, and
+/// rounding decides along which of its edges it folds. Inside a planar face nothing folds: needles between corners in
+/// one line are turned any way.
 ///
-/// An edge whose two triangles lie on top of one another, folded by more than a right angle, shows none: no smooth surface
-/// does that between two chords. Where edge curve and surface differ by the file's own tolerance, the tessellation laps over
-/// itself in slivers.
+/// An edge whose two triangles lie on top of one another, folded by more than a right angle, shows none: no smooth
+/// surface does that between two chords. Where edge curve and surface differ by the file's own tolerance, the
+/// tessellation laps over itself in slivers.
 fn edge_curved(
     facts: &Facts,
     kind: &[u8],

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::clean::clean;
 
-/// Part p owns points[point_start[p]..point_start[p + 1]] and so on. Triangles, nodes of edges and corners count through
-/// all parts; faces and edges have the numbers that they have in their own part.
+/// Part p owns points[point_start[p]..point_start[p + 1]] and so on. Triangles, nodes of edges and corners count
+/// through all parts; faces and edges have the numbers that they have in their own part.
 #[derive(Clone, Debug, Default)]
 pub struct Tables {
     pub point_start: Vec<i32>,
@@ -201,8 +201,8 @@ impl Tables {
 
     /// Whether a part that is not joined may hold two points in one place: yes where it does.
     ///
-    /// A number stands for each place, so that one sort of plain numbers tells; that two different ones have the same is
-    /// a matter of 2^-64, or of coordinates made for it.
+    /// A number stands for each place, so that one sort of plain numbers tells; that two different ones have the same
+    /// is a matter of 2^-64, or of coordinates made for it.
     pub fn places_repeated(&self) -> bool {
         let ranges = self.point_start.windows(2).zip(&self.joined).filter(|(_, joined)| !**joined).map(|(w, _)| w);
         (ranges.map(|w| w[0] as usize..w[1] as usize).collect::<Vec<_>>()).into_par_iter().any(|range| {

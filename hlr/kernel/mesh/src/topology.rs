@@ -13,8 +13,8 @@ pub struct Topology {
 /// Edges (lo < hi, ascending) and the triangles incident to each, ascending. Triangles with a repeated corner
 /// contribute their remaining edge twice, which cancels in every jump.
 ///
-/// Bucketed by the lower vertex first: what is left to sort are the few edges around one vertex. Each thread has a range of
-/// vertices of its own and goes through all triangles for them.
+/// Bucketed by the lower vertex first: what is left to sort are the few edges around one vertex. Each thread has a
+/// range of vertices of its own and goes through all triangles for them.
 pub fn topology(triangles: &[[i32; 3]], n_points: usize) -> Topology {
     let mut first = vec![0u32; n_points + 1];
     for t in triangles {
@@ -89,8 +89,8 @@ fn parted<T>(mut rest: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&m
         .collect()
 }
 
-/// The sides whose lower corner is in `range`, as higher corner and triangle, sorted around each vertex; and how many edges
-/// they make.
+/// The sides whose lower corner is in `range`, as higher corner and triangle, sorted around each vertex; and how many
+/// edges they make.
 fn fans(triangles: &[[i32; 3]], first: &[u32], range: &Range<usize>, around: &mut [u64]) -> usize {
     let base = first[range.start];
     let mut next: Vec<u32> = first[range.clone()].iter().map(|f| f - base).collect();
@@ -163,8 +163,8 @@ pub fn normals(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> Vec<[f64; 3]> {
         .collect()
 }
 
-/// Cosine of the fold at every edge of two triangles: 1 flat, -1 lapped over. NaN where there are not two, or where one has
-/// no area. Triangles oriented against each other fold by the supplement.
+/// Cosine of the fold at every edge of two triangles: 1 flat, -1 lapped over. NaN where there are not two, or where one
+/// has no area. Triangles oriented against each other fold by the supplement.
 pub fn folds(normals: &[[f64; 3]], offsets: &[i32], incident: &[i32], balance: &[i32]) -> Vec<f64> {
     (0..balance.len())
         .into_par_iter()
@@ -180,7 +180,8 @@ pub fn folds(normals: &[[f64; 3]], offsets: &[i32], incident: &[i32], balance: &
         .collect()
 }
 
-/// A label per cell (edge or triangle): cells that share vertices have the same; labels count up in order of appearance.
+/// A label per cell (edge or triangle): cells that share vertices have the same; labels count up in order of
+/// appearance.
 pub fn components<const N: usize>(cells: &[[i32; N]], n_points: usize) -> Vec<i32> {
     fn root(parent: &mut [u32], mut v: u32) -> u32 {
         while parent[v as usize] != v {

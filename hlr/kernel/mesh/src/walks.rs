@@ -1,4 +1,4 @@
-//! Edges of the source as walks over edges of the mesh.
+//! Each edge of the source as a walk: the mesh edges that it runs along, in order.
 
 use super::tables::Tables;
 

@@ -2,14 +2,15 @@
 //!
 //! 1. edges that end leave before the row is drawn
 //! 2. the bucket of edges that start is merged in: both are sorted
-//! 3. x of each edge goes on by 1 / m; where edges cross, the list is nearly sorted, and insertion sort repairs it at the
-//!    cost of one swap per crossing
+//! 3. x of each edge goes on by 1 / m; where edges cross, the list is nearly sorted, and insertion sort repairs it at
+//!    the cost of one swap per crossing
 //!
-//! Where an edge starts, where it ends and where two cross, the list changes, and nowhere else: these events are counted.
+//! Where an edge starts, where it ends and where two cross, the list changes, and nowhere else: these events are
+//! counted.
 //!
 //! Done when the active list and the edge table both are empty; in a gap between rows it goes on at the next edge.
 
-use super::coverage::{Edge, insertion_sort};
+use super::edge::{Edge, insertion_sort};
 use super::edge_record::{Active, Carried};
 use super::edge_table::EdgeTable;
 use super::screen::Screen;

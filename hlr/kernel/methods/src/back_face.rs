@@ -1,11 +1,12 @@
 //! Back-face culling: the sign of C, which is that of the area in the image.
 //!
 //! With depth away from the viewer, the outward normal (A, B, C) of a face turned toward the viewer has C < 0. In
-//! perspective the sign of the plane at the eye decides; the projective map has moved the eye to infinity, before z = -inf,
-//! where that sign is the sign of -C again: one test for both.
+//! perspective the sign of the plane at the eye decides; the projective map has moved the eye to infinity, before z =
+//! -inf, where that sign is the sign of -C again: one test for both.
 //!
-//! Right for closed, consistently oriented solids only; who is one, the scene says. C = 0 is edge-on: never painted, never
-//! divided by. A polygon that crosses itself so that its lobes cancel turns neither side to the viewer, and is kept.
+//! Right for closed, consistently oriented solids only; who is one, the scene says. C = 0 is edge-on: never painted,
+//! never divided by. A polygon that crosses itself so that its lobes cancel turns neither side to the viewer, and is
+//! kept.
 
 use super::plane::Point;
 

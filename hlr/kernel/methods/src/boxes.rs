@@ -2,9 +2,9 @@
 //!
 //! S. Rubin, T. Whitted, "A 3-dimensional representation for fast rendering of complex scenes", 1980.
 
+use super::limits::Watch;
 use super::screen::Screen;
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 
 /// Columns and rows of pixel centres, end exclusive, and depths.
 #[derive(Clone, Copy, Debug)]

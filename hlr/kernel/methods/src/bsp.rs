@@ -2,8 +2,9 @@
 //!
 //! H. Fuchs, Z. Kedem, B. Naylor, "On visible surface generation by a priori tree structures", 1980.
 //!
-//! 1. the plane of some polygon divides the rest: front is the side of its normal. What it passes through is split, what
-//!    lies in it stays in the node; that polygon itself always does, however little it bends, so that the tree ends
+//! 1. the plane of some polygon divides the rest: front is the side of its normal. What it passes through is split,
+//!    what lies in it stays in the node; that polygon itself always does, however little it bends, so that the tree
+//!    ends
 //! 2. each side is divided in the same way
 //! 3. seen from anywhere: draw the side away from the viewer, then the node, then the viewer's side
 //!
@@ -14,17 +15,18 @@
 //!             |  /  --          when a part moves, its polygons are taken out and let in again
 //! ```
 //!
-//! The tree is in the model, before any rounding; pictures are made of the rounded facets, each cut by the nodes' planes.
+//! The tree is in the model, before any rounding; pictures are made of the rounded facets, each cut by the nodes'
+//! planes.
 
 use super::canvas::Canvas;
 use super::depth_sort::clip;
+use super::limits::Watch;
+use super::non_planar::{Flat, plane_of};
 use super::pieces::{Half, Painter};
 use super::scene::{Camera, Scene};
 use super::screen::Screen;
 use super::statistics::Statistics;
 use super::view::View;
-use super::warped::{Flat, plane_of};
-use super::watch::Watch;
 
 const NIL: u32 = u32::MAX;
 /// Polygons tried as a node's plane; the one that splits least is taken.

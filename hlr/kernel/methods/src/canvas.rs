@@ -28,8 +28,8 @@ pub enum Ending {
     Quartered,
 }
 
-/// An area that was looked at: columns and rows, end exclusive; how many halvings down; how many polygons were in its list and
-/// how many were passed over; what was seen in it.
+/// An area that was looked at: columns and rows, end exclusive; how many halvings down; how many polygons were in its
+/// list and how many were passed over; what was seen in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Visit {
     pub columns: [i32; 2],

@@ -1,20 +1,22 @@
 //! Clipping polygons: by the view volume before the division, or by the frame after object space.
 //!
-//! I. Sutherland, G. Hodgman, "Reentrant polygon clipping", 1974: one plane after another, each loop by itself. A concave
-//! loop may come out with edges that run there and back along the plane; they enclose nothing, under either inside rule.
+//! I. Sutherland, G. Hodgman, "Reentrant polygon clipping", 1974: one plane after another, each loop by itself. A
+//! concave loop may come out with edges that run there and back along the plane; they enclose nothing, under either
+//! inside rule.
 //!
-//! The volume is a box in parallel views and a frustum in perspective; in homogeneous coordinates both are the six planes
+//! The volume is a box in parallel views and a frustum in perspective; in homogeneous coordinates both are the six
+//! planes
 //!
 //! ```text
 //!   u >= 0    W w - u >= 0      v >= 0    H w - v >= 0      q - front w >= 0    back w - q >= 0
 //! ```
 //!
-//! What lies wholly beyond one of them is left out. What crosses front or back is cut there. What crosses a side is cut only
-//! where it reaches a guard band beyond, thousands of pixels off: a new corner would have to be rounded, and bend the edges
-//! that lead to it; the window of pixels clips by the sides without any error, for no centre lies on them.
+//! What lies wholly beyond one of them is left out. What crosses front or back is cut there. What crosses a side is cut
+//! only where it reaches a guard band beyond, thousands of pixels off: a new corner would have to be rounded, and bend
+//! the edges that lead to it; the window of pixels clips by the sides without any error, for no centre lies on them.
 //!
-//! A new corner is computed from the lower of its edge's two ends, in the order of their coordinates: both polygons at an
-//! edge get the same one, and no gap opens.
+//! A new corner is computed from the lower of its edge's two ends, in the order of their coordinates: both polygons at
+//! an edge get the same one, and no gap opens.
 
 use super::scene::Camera;
 

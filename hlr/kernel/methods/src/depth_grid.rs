@@ -50,11 +50,11 @@ impl DepthGrid {
         number * self.step + self.zero
     }
 
-    /// Depths of the corners of a polygon whose places in the image are rounded already: those of its plane *there*, not
-    /// those of the corners half a 256th of a pixel beside. So the plane is kept to a step, however it leans.
+    /// Depths of the corners of a polygon whose places in the image are rounded already: those of its plane *there*,
+    /// not those of the corners half a 256th of a pixel beside. So the plane is kept to a step, however it leans.
     ///
-    /// `best`: three of the corners that span the plane. Where a polygon is so nearly edge-on that this would take depths
-    /// far beyond its own, the corners keep theirs.
+    /// `best`: three of the corners that span the plane. Where a polygon is so nearly edge-on that this would take
+    /// depths far beyond its own, the corners keep theirs.
     pub fn lay(&self, exact: &[[f64; 3]], best: [&[f64; 3]; 3], rounded: &mut [Point]) {
         let difference = |a: &[f64; 3], b: &[f64; 3]| [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
         let (u, v) = (difference(best[0], best[1]), difference(best[0], best[2]));

@@ -2,8 +2,8 @@
 //!
 //! M. Newell, R. Newell, T. Sancha, "A solution to the hidden surface problem", 1972.
 //!
-//! The list is sorted by the farthest depth. Its farthest, P, may be drawn when each Q whose depths overlap those of P passes
-//! one of five tests:
+//! The list is sorted by the farthest depth. Its farthest, P, may be drawn when each Q whose depths overlap those of P
+//! passes one of five tests:
 //!
 //! 1. the x extents are disjoint
 //! 2. the y extents are disjoint
@@ -11,8 +11,9 @@
 //! 4. Q is wholly on the near side of P's plane
 //! 5. the projections are disjoint
 //!
-//! Otherwise 3 and 4 are tried with P and Q swapped, and Q is the new P, which is tested against all that overlap *it*. A
-//! polygon is moved up once: its mark tells that they overlap in a cycle. Then one is split by the plane of the other,
+//! Otherwise 3 and 4 are tried with P and Q swapped, and Q is the new P, which is tested against all that overlap *it*.
+//! A polygon is moved up once: its mark tells that they overlap in a cycle. Then one is split by the plane of the
+//! other,
 //!
 //! ```text
 //!      P\   /Q         P is cut where the plane of Q passes through it;
@@ -21,18 +22,18 @@
 //!        / \
 //! ```
 //!
-//! In a cycle of polygons that all lie on one side of one another pairwise, the plane of one cuts some other of them: had
-//! it not, that plane would order them.
+//! In a cycle of polygons that all lie on one side of one another pairwise, the plane of one cuts some other of them:
+//! had it not, that plane would order them.
 //!
 //! The result is a list of polygons in the order of drawing, fit for a filled vector drawing.
 
 use super::canvas::Canvas;
+use super::limits::Watch;
 use super::pieces::{Half, Painter};
-use super::plane::STEPS;
-use super::screen::{Screen, first_centre};
+use super::plane::{STEPS, first_centre};
+use super::screen::Screen;
 use super::statistics::Statistics;
 use super::stopwatch::Stopwatch;
-use super::watch::Watch;
 
 /// What cuts have left of a facet. Corners in 256ths of a pixel and steps of depth.
 #[derive(Clone, Debug)]

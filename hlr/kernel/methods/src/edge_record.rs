@@ -1,8 +1,9 @@
-//! What an active edge carries from row to row besides x: depth and colour, each with its step, as the textbook's entry of
-//! the edge table has them.
+//! What an active edge carries from row to row besides x: depth and colour, each with its step, as the textbook's entry
+//! of the edge table has them.
 //!
-//! From row y to y + 1 an edge of slope m moves by 1 / m, and the depth of its plane along it by -(A / m + B) / C. Depth is
-//! kept where it is needed, at the first centre right of the edge: with dx = s + r, s whole columns and r < 1, a row down is
+//! From row y to y + 1 an edge of slope m moves by 1 / m, and the depth of its plane along it by -(A / m + B) / C.
+//! Depth is kept where it is needed, at the first centre right of the edge: with dx = s + r, s whole columns and r < 1,
+//! a row down is
 //!
 //! ```text
 //!      o                  -(A s + B) / C   to the pixel s columns further
@@ -11,16 +12,17 @@
 //!    -----\-o-            o  the first centre right of the edge
 //! ```
 //!
-//! Steps are rounded to 2^-11 of a step of depth, so after 8192 rows with two steps each depth is off by four: less than
-//! half of `NEAR_TIE`. Nearer depths are compared exactly, from the planes: rounding decides nothing. (Whole numbers over
-//! C, which need no rounding, were tried: 128 bits wide they cost a tenth to a third of a method's time.) Where a depth in
-//! between might not fit, none is kept.
+//! Steps are rounded to 2^-11 of a step of depth, so after 8192 rows with two steps each depth is off by four: less
+//! than half of `NEAR_TIE`. Nearer depths are compared exactly, from the planes: rounding decides nothing. (Whole
+//! numbers over C, which need no rounding, were tried: 128 bits wide they cost a tenth to a third of a method's time.)
+//! Where a depth in between might not fit, none is kept.
 //!
-//! Colour has no need to be exact. It is kept where the edge crosses the row, in floating point; of two corners p and q it
-//! changes by (q - p) / (y_q - y_p). It goes from edge to edge along the row in the same way (`shading`).
+//! Colour has no need to be exact. It is kept where the edge crosses the row, in floating point; of two corners p and q
+//! it changes by (q - p) / (y_q - y_p). It goes from edge to edge along the row in the same way (`shading`).
 
-use super::coverage::Edge;
+use super::edge::Edge;
 use super::plane::{STEPS, centre};
+use super::polygon_table::Along;
 use super::screen::{Facet, STEEP, Screen};
 
 /// What is brought along by an active edge.
@@ -125,8 +127,8 @@ impl Carried for Depth {
     }
 }
 
-/// Values of the corners between which the edge runs, where it crosses the row: as they are with 1, which are linear on the
-/// screen; or, `CORRECT`, value / w with 1 / w, which are linear on the surface.
+/// Values of the corners between which the edge runs, where it crosses the row: as they are with 1, which are linear on
+/// the screen; or, `CORRECT`, value / w with 1 / w, which are linear on the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Colour<const CORRECT: bool> {
     pub value: [f64; 4],
@@ -158,11 +160,31 @@ impl<const CORRECT: bool> Carried for Colour<CORRECT> {
     }
 }
 
+impl Screen {
+    /// Depth along the row from the edge at which a facet is entered, by the edge's record; from the first column of
+    /// the frame where that is before it.
+    #[inline(always)]
+    pub fn along(&self, edge: &Edge, depth: &Depth, row: i64) -> Along {
+        let facet = &self.facets[edge.facet as usize];
+        let (column, depth) = if edge.column < 0 { (0, facet.depth_at(0, row)) } else { (edge.column, depth.get()) };
+        Along { column, depth, right: facet.right }
+    }
+
+    /// Depth where an edge crosses a row, and its change to the next, -(A / m + B) / C, in the units of the camera; for
+    /// traces.
+    pub fn crossing_depth(&self, edge: &Edge, depth: &Depth) -> [f64; 2] {
+        let facet = &self.facets[edge.facet as usize];
+        let z = depth.get() - facet.right * (edge.column as f64 + 0.5 - edge.crossing());
+        let down = facet.right * edge.slope() + facet.down;
+        [self.depths.depth(z), self.depths.depth(down) - self.depths.depth(0.0)]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plane::{Plane, Point, widest};
-    use crate::screen::{NEAR_TIE, first_centre};
+    use crate::plane::{Plane, Point, first_centre, widest};
+    use crate::screen::NEAR_TIE;
 
     #[test]
     fn depth_along_an_edge_is_off_by_less_than_half_a_tie() {

@@ -1,14 +1,16 @@
-//! The edge table: all edges that cross a row, bucket-sorted by the first row they cover; within a bucket by x, then dx.
+//! The edge table: all edges that cross a row, bucket-sorted by the first row they cover; within a bucket by x, then
+//! dx.
 //!
-//! Horizontal edges are not in it. An entry (`coverage::Edge`) holds x and dx = 1 / m as whole columns and remainders, the
-//! row where it ends and the polygon it belongs to; z and dz, colour and its step join it when it becomes active
+//! Horizontal edges are not in it. An entry (`coverage::Edge`) holds x and dx = 1 / m as whole columns and remainders,
+//! the row where it ends and the polygon it belongs to; z and dz, colour and its step join it when it becomes active
 //! (`edge_record`). Edges are entered once, before the first row: where the list of active edges changes at vertices is
 //! known from then on.
 
-use super::coverage::{Edge, edges_of};
+use super::coverage::edges_of;
+use super::edge::Edge;
+use super::limits::Watch;
 use super::screen::Screen;
 use super::statistics::bytes_of;
-use super::watch::Watch;
 
 pub struct EdgeTable {
     edges: Vec<Edge>,

@@ -1,12 +1,12 @@
-//! A uniform grid: the facets that reach into each cell. A ray passes from cell to cell and stops at the first hit before
-//! the next one.
+//! A uniform grid: the facets that reach into each cell. A ray passes from cell to cell and stops at the first hit
+//! before the next one.
 //!
 //! A. Fujimoto, T. Tanaka, K. Iwata, "ARTS: accelerated ray-tracing system", 1986.
 
 use super::boxes::Box3;
+use super::limits::Watch;
 use super::screen::{NEAR_TIE, Screen};
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 
 pub struct Grid {
     /// Cells along columns, rows and depth.

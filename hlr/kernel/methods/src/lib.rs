@@ -1,8 +1,8 @@
 //! The classic visible-surface methods, side by side on one scene and one camera.
 //!
-//! Each is its textbook form made exact: coordinates are rounded once, to a 256th of a pixel and to 2^48 steps of depth;
-//! after that coverage and depth at a pixel's centre are integer predicates. So all methods give the same picture, pixel by
-//! pixel, and differ in what they cost (`statistics`).
+//! Each is its textbook form made exact: coordinates are rounded once, to a 256th of a pixel and to 2^48 steps of
+//! depth; after that coverage and depth at a pixel's centre are integer predicates. So all methods give the same
+//! picture, pixel by pixel, and differ in what they cost (`statistics`).
 //!
 //! Shared by all:
 //! 1. `scene`       polygons as they come: loops of points, an id, an inside rule
@@ -14,14 +14,14 @@
 //!
 //! The methods:
 //! - `z_buffer` (Catmull 1974), `scan_line_z_buffer`
-//! - `edge_table`, `active_edges` with their `edge_record`s, `polygon_table`, `scan_line` (Wylie et al. 1967, Bouknight 1970,
-//!   Watkins 1970), `span_list`
+//! - `edge_table`, `active_edges` with their `edge_record`s, `polygon_table`, `scan_line` (Wylie et al. 1967, Bouknight
+//!   1970, Watkins 1970), `span_list`
 //! - `warnock` (Warnock 1969)
 //! - `depth_sort` (Newell, Newell, Sancha 1972) and `bsp` (Fuchs, Kedem, Naylor 1980), on `pieces`
 //! - `ray_casting` (Appel 1968) with `boxes`, a hierarchy of them, `grid` and an equal-count `partition`
 //!
-//! Beside them `patch`, curved patches z = f(x, y) for the z-buffer and the scan lines, `quadric`, depth of quadrics, both by
-//! forward differences, and `shading`, values along spans.
+//! Beside them `patch`, curved patches z = f(x, y) for the z-buffer and the scan lines, `quadric`, depth of quadrics,
+//! both by forward differences, and `shading`, values along spans.
 
 pub mod active_edges;
 pub mod back_face;
@@ -32,10 +32,13 @@ pub mod clip;
 pub mod coverage;
 pub mod depth_grid;
 pub mod depth_sort;
+pub mod edge;
 pub mod edge_record;
 pub mod edge_table;
 pub mod grid;
+pub mod limits;
 pub mod memory;
+pub mod non_planar;
 pub mod partition;
 pub mod patch;
 pub mod pieces;
@@ -55,8 +58,6 @@ pub mod stopwatch;
 pub mod triangulate;
 pub mod view;
 pub mod warnock;
-pub mod warped;
-pub mod watch;
 pub mod z_buffer;
 
 #[cfg(test)]

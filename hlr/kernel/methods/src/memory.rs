@@ -1,7 +1,7 @@
 //! How much memory a thread holds, so that work can be given up before there is none left.
 //!
-//! A refused allocation ends the process: Rust has no way back from it. So the system's allocator is counted here, thread by
-//! thread, and long work looks at the count as it looks at the clock (`watch`).
+//! A refused allocation ends the process: Rust has no way back from it. So the system's allocator is counted here,
+//! thread by thread, and long work looks at the count as it looks at the clock (`limits`).
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

@@ -1,12 +1,12 @@
-//! An equal-count partition: the picture and the depth are halved again and again so that both halves hold as many facets.
-//! Where a uniform grid has empty and crowded cells, these are alike.
+//! An equal-count partition: the picture and the depth are halved again and again so that both halves hold as many
+//! facets. Where a uniform grid has empty and crowded cells, these are alike.
 //!
 //! After J. Bentley's k-d tree (1975); a facet is in every leaf that it reaches into.
 
 use super::boxes::Box3;
+use super::limits::Watch;
 use super::screen::Screen;
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 
 pub struct Partition {
     nodes: Vec<Node>,
@@ -67,8 +67,8 @@ impl Partition {
         self.build(above, depth + 1, watch)
     }
 
-    /// The side of the picture along which a cut at the median leaves the fewest facets; along depth, which every ray goes
-    /// through, only where neither helps.
+    /// The side of the picture along which a cut at the median leaves the fewest facets; along depth, which every ray
+    /// goes through, only where neither helps.
     fn best(&self, here: &[u32]) -> Option<(usize, i64)> {
         let mut found: Option<(usize, usize, i64)> = None;
         for axis in 0..3 {

@@ -8,20 +8,14 @@
 //!     d2       d2 + d3       ...            d2 += d3
 //! ```
 //!
-//! In two dimensions f is a sum of differences times binomials, d_ij C(u, i) C(v, j), u columns and v rows from the patch's first
-//! pixel: forward differences at every pixel follow from sixteen numbers. These are rounded once, to so many bits that no
-//! depth is off by more than a quarter of a step; everything after that is whole numbers. So every method sees the
-//! same depth at a pixel, however it came there, and compares it exactly with that of a plane or of another patch.
+//! In two dimensions f is a sum of differences times binomials, d_ij C(u, i) C(v, j), u columns and v rows from the
+//! patch's first pixel: forward differences at every pixel follow from sixteen numbers. These are rounded once, to so
+//! many bits that no depth is off by more than a quarter of a step; everything after that is whole numbers. So every
+//! method sees the same depth at a pixel, however it came there, and compares it exactly with that of a plane or of
+//! another patch.
 
 use super::depth_grid::DepthGrid;
-
-/// c[i][j] of (x - origin[0])^i (y - origin[1])^j in pixels, and the least and greatest depth.
-#[derive(Clone, Copy, Debug)]
-pub struct Curve {
-    pub coefficients: [[f64; 4]; 4],
-    pub origin: [f64; 2],
-    pub range: [f64; 2],
-}
+use super::scene::Cubic;
 
 /// A patch over its pixels.
 #[derive(Clone, Debug)]
@@ -64,7 +58,7 @@ fn both(table: [[f64; 4]; 4], change: [&dyn Fn([f64; 4]) -> [f64; 4]; 2]) -> [[f
 
 impl Patch {
     /// Over columns and rows, end exclusive; `sign` of depth.
-    pub fn new(curve: &Curve, sign: f64, columns: [i32; 2], rows: [i32; 2], depths: &DepthGrid) -> Patch {
+    pub fn new(curve: &Cubic, sign: f64, columns: [i32; 2], rows: [i32; 2], depths: &DepthGrid) -> Patch {
         let base = [f64::from(columns[0]) + 0.5 - curve.origin[0], f64::from(rows[0]) + 0.5 - curve.origin[1]];
         let local = both(curve.coefficients, [&|c| shifted(c, base[0]), &|c| shifted(c, base[1])]);
         let mut steps = both(local, [&differences, &differences]).map(|r| r.map(|d| depths.steps(sign * d)));
@@ -156,7 +150,7 @@ mod tests {
         let mut coefficients = [[0.0; 4]; 4];
         (coefficients[0][0], coefficients[1][0], coefficients[0][1]) = (3.0, 2.0, -1.0);
         (coefficients[2][1], coefficients[3][3]) = (0.25, 1.0 / 64.0);
-        let curve = Curve { coefficients, origin: [10.0, -4.0], range: [0.0, 1.0] };
+        let curve = Cubic { coefficients, origin: [10.0, -4.0], range: [0.0, 1.0] };
         let depths = grid(1024.0);
         let patch = Patch::new(&curve, 1.0, [5, 40], [2, 30], &depths);
         for row in 2..30 {
@@ -176,7 +170,7 @@ mod tests {
         let third = |s: f64| [0.1, 0.7 * s, -0.9 * s * s, 0.3 * s * s * s];
         let (p, q) = (third(1.0 / 4000.0), third(1.0 / 3000.0));
         let coefficients = std::array::from_fn(|i| std::array::from_fn(|j| p[i] * q[j]));
-        let curve = Curve { coefficients, origin: [0.5, 0.5], range: [0.0, 1.0] };
+        let curve = Cubic { coefficients, origin: [0.5, 0.5], range: [0.0, 1.0] };
         let depths = grid(1.0);
         let patch = Patch::new(&curve, -1.0, [0, 4000], [0, 3000], &depths);
         assert!(patch.bits > 50);

@@ -1,21 +1,21 @@
 //! Pieces of polygons for the painters (depth sort and BSP tree), and how they are painted.
 //!
-//! A piece is its polygon and the half-planes of the image that cuts have left of it. Which side of a cut a pixel lies on is
-//! one evaluation of one line, for both pieces: whatever it yields, the pixel goes to exactly one of them, and no gap opens.
-//! Depth and id remain the polygon's own.
+//! A piece is its polygon and the half-planes of the image that cuts have left of it. Which side of a cut a pixel lies
+//! on is one evaluation of one line, for both pieces: whatever it yields, the pixel goes to exactly one of them, and no
+//! gap opens. Depth and id remain the polygon's own.
 //!
-//! A painter trusts his order and compares no depths. But the order comes from planes before rounding, or from corners in
-//! floating point; where two depths are closer than rounding may have moved them (`Facet::slack`) the pixel is settled by
-//! the exact comparison, and counted. That is also where ties are: the lowest id wins. An order from before rounding (that of
-//! the BSP tree) is not trusted at the borders either: there rounding may have laid two polygons over one another that were
-//! side by side.
+//! A painter trusts his order and compares no depths. But the order comes from planes before rounding, or from corners
+//! in floating point; where two depths are closer than rounding may have moved them (`Facet::slack`) the pixel is
+//! settled by the exact comparison, and counted. That is also where ties are: the lowest id wins. An order from before
+//! rounding (that of the BSP tree) is not trusted at the borders either: there rounding may have laid two polygons over
+//! one another that were side by side.
 
 use super::canvas::Canvas;
 use super::coverage::{Scratch, runs};
+use super::limits::Watch;
 use super::plane::{STEPS, centre};
 use super::screen::{Facet, NONE, Screen};
 use super::statistics::Statistics;
-use super::watch::Watch;
 use std::cmp::Ordering;
 
 /// Half of an image: pixels (column, row) where line[0] column + line[1] row + line[2] >= 0, or those where not.

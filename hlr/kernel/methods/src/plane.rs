@@ -1,10 +1,10 @@
 //! The plane of a polygon in integers, and depths compared without error.
 //!
 //! Through three of its corners: those that span the largest triangle in the image (`widest`). Then no corner lies
-//! farther from a line through two of them than the third, so that what rounding has moved one of the three by moves the
-//! plane at any other corner by no more than the three together. A sum over all corners (Newell's) has no such bound:
-//! it vanishes, but for rounding, where a loop crosses itself so that its lobes cancel. It serves for the side that
-//! the polygon turns to the viewer, which is all it is good for there.
+//! farther from a line through two of them than the third, so that what rounding has moved one of the three by moves
+//! the plane at any other corner by no more than the three together. A sum over all corners (Newell's) has no such
+//! bound: it vanishes, but for rounding, where a loop crosses itself so that its lobes cancel. It serves for the side
+//! that the polygon turns to the viewer, which is all it is good for there.
 //!
 //! Bounds: |x|, |y| <= 2^22, |z| < 2^49. Then |A|, |B| < 2^74, |C| < 2^48 and |A x + B y + D| < 2^98, however often a
 //! polygon winds; two depths are compared by products of 256 bits.
@@ -118,6 +118,11 @@ impl Plane {
     pub fn falls_behind(&self, other: &Plane) -> bool {
         cmp_products(other.a, self.c.into(), self.a, other.c.into()) == Ordering::Greater
     }
+}
+
+/// The first pixel whose centre is not before x.
+pub fn first_centre(x: i64) -> i32 {
+    ((x - STEPS / 2).div_euclid(STEPS) + i64::from((x - STEPS / 2).rem_euclid(STEPS) != 0)) as i32
 }
 
 #[cfg(test)]

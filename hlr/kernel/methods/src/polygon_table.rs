@@ -3,8 +3,8 @@
 //! Crossing an edge toggles a flag under the even-odd rule; the non-zero rule needs a counter. With it a polygon may be
 //! entered several times in one row.
 //!
-//! Depth is noted where a polygon is entered, from the record of the edge, beside those of the other polygons that are in: what
-//! is compared lies together in memory. Along the row it changes by -A / C a pixel.
+//! Depth is noted where a polygon is entered, from the record of the edge, beside those of the other polygons that are
+//! in: what is compared lies together in memory. Along the row it changes by -A / C a pixel.
 
 use super::scene::Rule;
 

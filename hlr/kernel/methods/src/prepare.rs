@@ -3,18 +3,19 @@
 use super::back_face::{Facing, facing};
 use super::clip::{Corner, Wall, clip_loop, walls};
 use super::depth_grid::{DepthGrid, Noise};
-use super::patch::{Curve, Patch};
-use super::plane::{LIMIT, Plane, Point, STEPS, centre, turn, widest};
-use super::scene::{Camera, Scene};
-use super::screen::{FAR, Facet, NEAR_TIE, NONE, STEEP, Screen, first_centre};
+use super::limits::Watch;
+use super::patch::Patch;
+use super::plane::{LIMIT, Plane, Point, STEPS, centre, first_centre, turn, widest};
+use super::scene::{Camera, Cubic, Scene};
+use super::screen::{FAR, Facet, NEAR_TIE, NONE, STEEP, Screen};
 use super::statistics::Statistics;
 use super::triangulate::triangulate;
-use super::watch::Watch;
 use std::ops::Range;
 
 /// A corner this many steps off the plane of a polygon is on it.
 const LEVEL: i128 = 4;
-/// Of the depths that a facet's plane reaches: how far off a plane a corner may be that was cut out by it, cut after cut.
+/// Of the depths that a facet's plane reaches: how far off a plane a corner may be that was cut out by it, cut after
+/// cut.
 const CUT: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// What becomes of polygons whose corners rounding has moved out of their plane.
@@ -203,7 +204,7 @@ impl Given<'_> {
 
 impl Screen {
     /// A curved patch: its outline owns the pixels, as that of a polygon does; its depth comes from its polynomial.
-    fn add_patch(&mut self, given: &Given, curve: &Curve, sign: f64, noise: &Noise, statistics: &mut Statistics) {
+    fn add_patch(&mut self, given: &Given, curve: &Cubic, sign: f64, noise: &Noise, statistics: &mut Statistics) {
         if widest(&self.points[given.corners()]).is_none() {
             statistics.edge_on += 1;
             return;
@@ -272,8 +273,8 @@ impl Screen {
         Some(())
     }
 
-    /// How far the rounded plane may lie from the true one within the polygon, in steps of depth: measured at its corners,
-    /// as they were before they were rounded; and what floating point is off by before that and after.
+    /// How far the rounded plane may lie from the true one within the polygon, in steps of depth: measured at its
+    /// corners, as they were before they were rounded; and what floating point is off by before that and after.
     fn slack(&self, given: &Given, plane: &Plane, base: &Point, reach: f64, noise: &Noise) -> f64 {
         let c = plane.c as f64;
         let (right, down) = (-(plane.a as f64) / c, -(plane.b as f64) / c);
@@ -287,7 +288,8 @@ impl Screen {
             let blurred = self.depths.steps(of_depth) + of_image * STEPS as f64 * (right.abs() + down.abs());
             worst = worst.max((self.depths.number(z) - there).abs() + blurred);
         }
-        // Twice, for the planes of two facets of one polygon that is not quite planar; without a slope nothing is trusted.
+        // Twice, for the planes of two facets of one polygon that is not quite planar; without a slope nothing is
+        // trusted.
         let slack = 2.0 * worst + NEAR_TIE + reach * CUT;
         if slack.is_finite() { slack } else { f64::INFINITY }
     }

@@ -1,14 +1,14 @@
 //! Depth of curved patches along a row by forward differences: of z^2, and without a square root.
 //!
-//! For a sphere of radius r about the origin z^2 = r^2 - x^2 - y^2, and the step from x to x + 1 changes it by -(2 x + 1): two
-//! additions. Any quadric (sphere, cylinder, cone) is, along a row,
+//! For a sphere of radius r about the origin z^2 = r^2 - x^2 - y^2, and the step from x to x + 1 changes it by -(2 x +
+//! 1): two additions. Any quadric (sphere, cylinder, cone) is, along a row,
 //!
 //! ```text
 //!     A z^2 + B(x) z + C(x) = 0     z = (-B -+ s) / 2 A,   s^2 = B^2 - 4 A C =: D(x)
 //! ```
 //!
-//! with D quadratic in x, so its second difference is constant. s comes from the s of the pixel before, corrected while the
-//! residual D - s^2 is not within [0, 2 s]: that is s = floor(sqrt(D)), exactly, in a step or two per pixel.
+//! with D quadratic in x, so its second difference is constant. s comes from the s of the pixel before, corrected while
+//! the residual D - s^2 is not within [0, 2 s]: that is s = floor(sqrt(D)), exactly, in a step or two per pixel.
 
 /// a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0.
 pub type Quadric = [i64; 10];
@@ -88,8 +88,8 @@ pub fn discriminant(q: &Quadric, x: i64, y: i64) -> (i128, i128) {
     (linear * linear - 4 * c * rest, linear)
 }
 
-/// Floors of the nearer depths of a quadric with c > 0 in the row y at x0, x0 + 1, ...; None where it is missed. And how many
-/// corrections that took.
+/// Floors of the nearer depths of a quadric with c > 0 in the row y at x0, x0 + 1, ...; None where it is missed. And
+/// how many corrections that took.
 pub fn row(q: &Quadric, x0: i64, y: i64, count: usize) -> (Vec<Option<i64>>, u64) {
     let at = |x: i64| discriminant(q, x, y).0;
     let mut root = Root::new([at(x0), at(x0 + 1), at(x0 + 2)]);

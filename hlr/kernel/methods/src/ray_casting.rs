@@ -2,21 +2,21 @@
 //!
 //! A. Appel, "Some techniques for shading machine renderings of solids", 1968.
 //!
-//! On the ray t = 0 is the eye and t = 1 the image plane; t < 0 is behind the eye, which the near cut has removed. After the
-//! projective map t grows with depth, so the nearest hit is the one of least depth.
+//! On the ray t = 0 is the eye and t = 1 the image plane; t < 0 is behind the eye, which the near cut has removed.
+//! After the projective map t grows with depth, so the nearest hit is the one of least depth.
 //!
-//! What spares tests can be switched, to show what each saves: nothing but one box per polygon (`Flat`), a hierarchy of boxes,
-//! a uniform grid, or a partition with equally many polygons in each part.
+//! What spares tests can be switched, to show what each saves: nothing but one box per polygon (`Flat`), a hierarchy of
+//! boxes, a uniform grid, or a partition with equally many polygons in each part.
 
 use super::boxes::{Box3, Hierarchy};
 use super::canvas::Canvas;
 use super::coverage::owns;
 use super::grid::Grid;
+use super::limits::Watch;
 use super::partition::Partition;
 use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
 use super::stopwatch::Stopwatch;
-use super::watch::Watch;
 use std::cmp::Ordering;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -26,11 +26,11 @@ use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
 use super::edge_record::{Active, Depth};
 use super::edge_table::EdgeTable;
+use super::limits::Watch;
 use super::patch::Walk;
 use super::polygon_table::{PolygonTable, Toggle};
 use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::Statistics;
-use super::watch::Watch;
 use std::cmp::Ordering;
 
 /// Which depths are compared. All but the first assume that no polygon passes through another.
@@ -171,8 +171,8 @@ impl Scan<'_> {
         !self.screen.patches.is_empty() && self.polygons.inside.iter().any(|&f| facets[f as usize].patch != NONE)
     }
 
-    /// The span [from, to) with a patch in it, which may change places with others any number of times: pixel by pixel, each
-    /// depth by steps.
+    /// The span [from, to) with a patch in it, which may change places with others any number of times: pixel by pixel,
+    /// each depth by steps.
     fn curved(&mut self, from: i64, to: i64, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
         let (screen, row) = (self.screen, self.row);
         let inside = &self.polygons.inside;

@@ -2,8 +2,8 @@
 //!
 //! Two equivalent ways, the same effort and the same picture:
 //! - `PerPolygon`: an active list of polygons, each with its own active edges; crossings are paired polygon by polygon
-//! - `Merged`: one list of all active edges by x, each with the number of its polygon. A pair is complete when the polygon's
-//!   flag goes out again: with a concave polygon a and a second one b
+//! - `Merged`: one list of all active edges by x, each with the number of its polygon. A pair is complete when the
+//!   polygon's flag goes out again: with a concave polygon a and a second one b
 //!
 //! ```text
 //!      crossing   1   2   3   4   5   6
@@ -12,13 +12,14 @@
 
 use super::active_edges::ActiveEdges;
 use super::canvas::{Canvas, Write};
-use super::coverage::{Edge, edges_of, insertion_sort, intervals};
+use super::coverage::{edges_of, intervals};
+use super::edge::{Edge, insertion_sort};
 use super::edge_record::{Active, Depth};
 use super::edge_table::EdgeTable;
+use super::limits::Watch;
 use super::polygon_table::{Along, PolygonTable, Toggle};
 use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 use std::cmp::Ordering;
 use std::ops::Range;
 

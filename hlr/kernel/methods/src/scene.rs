@@ -1,7 +1,5 @@
 //! Polygons as they come: loops of points in one set of arrays.
 
-use super::patch::Curve;
-
 /// What is inside where loops overlap or cross themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
@@ -21,8 +19,17 @@ impl Rule {
     }
 }
 
-/// Polygon i has the loops polygons[i]..polygons[i + 1], loop k the corners loops[k]..loops[k + 1], a corner is an index
-/// into `points`. The id of a polygon is its number.
+/// A curved surface z = f(x, y): c[i][j] of (x - origin[0])^i (y - origin[1])^j in pixels, and the least and greatest
+/// depth.
+#[derive(Clone, Copy, Debug)]
+pub struct Cubic {
+    pub coefficients: [[f64; 4]; 4],
+    pub origin: [f64; 2],
+    pub range: [f64; 2],
+}
+
+/// Polygon i has the loops polygons[i]..polygons[i + 1], loop k the corners loops[k]..loops[k + 1], a corner is an
+/// index into `points`. The id of a polygon is its number.
 pub struct Scene<'a> {
     pub points: &'a [[f64; 3]],
     pub corners: &'a [i32],
@@ -34,7 +41,7 @@ pub struct Scene<'a> {
     pub values: &'a [[f64; 3]],
     pub rule: Rule,
     /// Polygons, ascending, that are the outlines of curved patches.
-    pub patches: &'a [(u32, Curve)],
+    pub patches: &'a [(u32, Cubic)],
 }
 
 impl Scene<'_> {
@@ -47,7 +54,7 @@ impl Scene<'_> {
     }
 
     /// The patch that a polygon is the outline of.
-    pub fn patch(&self, polygon: u32) -> Option<&Curve> {
+    pub fn patch(&self, polygon: u32) -> Option<&Cubic> {
         let at = self.patches.binary_search_by_key(&polygon, |(p, _)| *p).ok()?;
         Some(&self.patches[at].1)
     }
@@ -59,9 +66,9 @@ impl Scene<'_> {
     }
 }
 
-/// From the model to the picture, as one matrix: (x, y, z, 1) -> (u, v, q, w), where u / w and v / w are pixels, right and
-/// down, and q / w is depth, away from the viewer. Parallel views have w = 1; in perspective w is the distance from the
-/// eye's plane, so that u, v and depth are all projective and planes stay planes.
+/// From the model to the picture, as one matrix: (x, y, z, 1) -> (u, v, q, w), where u / w and v / w are pixels, right
+/// and down, and q / w is depth, away from the viewer. Parallel views have w = 1; in perspective w is the distance from
+/// the eye's plane, so that u, v and depth are all projective and planes stay planes.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     pub matrix: [[f64; 4]; 4],

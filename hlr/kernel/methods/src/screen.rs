@@ -1,11 +1,8 @@
 //! Facets on the screen: what every method starts from, and their depths compared. `prepare` makes them.
 
-use super::coverage::Edge;
 use super::depth_grid::DepthGrid;
-use super::edge_record::Depth;
 use super::patch::Patch;
-use super::plane::{Plane, Point, STEPS, centre};
-use super::polygon_table::Along;
+use super::plane::{Plane, Point, centre};
 use super::scene::Rule;
 use super::statistics::Statistics;
 use hlr_exact::wide::cmp_products;
@@ -18,8 +15,8 @@ pub const NONE: u32 = u32::MAX;
 /// No depth is told as farther than that: of polygons so nearly edge-on that their planes lead nowhere.
 pub const FAR: i128 = 1 << 52;
 
-/// Two depths closer than this many steps are compared in integers. Floating point is wrong by less: below `STEEP` steps
-/// each of its six operations is off by at most a quarter of a step.
+/// Two depths closer than this many steps are compared in integers. Floating point is wrong by less: below `STEEP`
+/// steps each of its six operations is off by at most a quarter of a step.
 pub const NEAR_TIE: f64 = 16.0;
 /// Facets so steep that floating point might be off by more have no depth in floating point.
 pub const STEEP: f64 = (1u64 << 51) as f64;
@@ -56,6 +53,7 @@ impl Facet {
     pub fn flat(plane: Plane, columns: [i32; 2], rows: [i32; 2]) -> Facet {
         let over = |n: i128| n as f64 / plane.c as f64;
         let start = over(plane.depth(centre(columns[0].into()), centre(rows[0].into())));
+        use super::plane::STEPS;
         let (right, down) = (over(-plane.a) * STEPS as f64, over(-plane.b) * STEPS as f64);
         Facet { id: 0, loops: 0..0, plane, columns, rows, depth: [0, 0], start, right, down, slack: 0.0, patch: NONE }
     }
@@ -91,25 +89,8 @@ impl Screen {
             .map(|l| &self.points[l.start as usize..l.end as usize])
     }
 
-    /// Depth along the row from the edge at which a facet is entered, by the edge's record; from the first column of the
-    /// frame where that is before it.
-    #[inline(always)]
-    pub fn along(&self, edge: &Edge, depth: &Depth, row: i64) -> Along {
-        let facet = &self.facets[edge.facet as usize];
-        let (column, depth) = if edge.column < 0 { (0, facet.depth_at(0, row)) } else { (edge.column, depth.get()) };
-        Along { column, depth, right: facet.right }
-    }
-
-    /// Depth where an edge crosses a row, and its change to the next, -(A / m + B) / C, in the units of the camera; for
-    /// traces.
-    pub fn crossing_depth(&self, edge: &Edge, depth: &Depth) -> [f64; 2] {
-        let facet = &self.facets[edge.facet as usize];
-        let z = depth.get() - facet.right * (edge.column as f64 + 0.5 - edge.crossing());
-        let down = facet.right * edge.slope() + facet.down;
-        [self.depths.depth(z), self.depths.depth(down) - self.depths.depth(0.0)]
-    }
-
-    /// The corners, as indices into `points`, between which an edge of a facet runs; edges are numbered loop after loop.
+    /// The corners, as indices into `points`, between which an edge of a facet runs; edges are numbered loop after
+    /// loop.
     pub fn ends(&self, facet: u32, edge: u32) -> (usize, usize) {
         let facet = &self.facets[facet as usize];
         let mut number = edge;
@@ -183,8 +164,8 @@ impl Screen {
         a.plane.compare(&b.plane, centre(column), centre(row)).then(f.cmp(&g))
     }
 
-    /// The first column after `from`, where `first` is in front, at which `then` is; i64::MAX where that is not before the
-    /// end of the row.
+    /// The first column after `from`, where `first` is in front, at which `then` is; i64::MAX where that is not before
+    /// the end of the row.
     pub fn takes_over(&self, first: u32, then: u32, from: i64, row: i64) -> i64 {
         let (p, q) = (&self.facets[first as usize], &self.facets[then as usize]);
         if !p.plane.falls_behind(&q.plane) {
@@ -219,9 +200,4 @@ impl Screen {
         use super::statistics::bytes_of;
         bytes_of(&self.points) + bytes_of(&self.loops) + bytes_of(&self.facets)
     }
-}
-
-/// The first pixel whose centre is not before x.
-pub fn first_centre(x: i64) -> i32 {
-    ((x - STEPS / 2).div_euclid(STEPS) + i64::from((x - STEPS / 2).rem_euclid(STEPS) != 0)) as i32
 }

@@ -1,9 +1,10 @@
-//! Values along spans: colours (Gouraud 1971) or normals (Phong 1975), from the corners along the edges, from the edges along
-//! the row.
+//! Values along spans: colours (Gouraud 1971) or normals (Phong 1975), from the corners along the edges, from the edges
+//! along the row.
 //!
-//! The textbook interpolates on the screen, where equal steps are not equal steps on the surface: in perspective the far half
-//! of a polygon gets too little. Value / w and 1 / w are linear on the screen, so their quotient is right (Blinn 1992).
-//! Either way what is linear takes one addition a row along an edge (`edge_record`), and one a pixel between two edges.
+//! The textbook interpolates on the screen, where equal steps are not equal steps on the surface: in perspective the
+//! far half of a polygon gets too little. Value / w and 1 / w are linear on the screen, so their quotient is right
+//! (Blinn 1992). Either way what is linear takes one addition a row along an edge (`edge_record`), and one a pixel
+//! between two edges.
 //!
 //! ```text
 //!        1 +                row y: left = between 1 and 3, right = between 1 and 2, then from left to right
@@ -16,9 +17,9 @@
 use super::active_edges::ActiveEdges;
 use super::edge_record::{Active, Colour};
 use super::edge_table::EdgeTable;
+use super::limits::Watch;
 use super::screen::{NONE, Screen};
 use super::statistics::Statistics;
-use super::watch::Watch;
 
 /// Per pixel of `frame`, the value at its centre; NaN for the background. None where there was no time.
 pub fn shade(screen: &Screen, frame: &[u32], correct: bool, watch: &Watch) -> Option<Vec<[f64; 3]>> {

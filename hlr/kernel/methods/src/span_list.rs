@@ -1,7 +1,7 @@
 //! The active span list: the spans of a row in the order of depth. No depth buffer, and nothing is compared twice.
 //!
-//! The scan-line idea one dimension lower: in a row each polygon is a segment in (x, z). Along x there are three kinds of
-//! events; the first in the list is seen.
+//! The scan-line idea one dimension lower: in a row each polygon is a segment in (x, z). Along x there are three kinds
+//! of events; the first in the list is seen.
 //!
 //! ```text
 //!    z |   b-------.--------b         start   the span takes its place in the order
@@ -12,17 +12,18 @@
 //!        a first, then a before c, then c before a
 //! ```
 //!
-//! Only neighbours can cross (Bentley and Ottmann 1979); columns are whole numbers, and a crossing is the first column in
-//! which the farther of two neighbours is the nearer one. In one column ends come first, then crossings, then starts.
+//! Only neighbours can cross (Bentley and Ottmann 1979); columns are whole numbers, and a crossing is the first column
+//! in which the farther of two neighbours is the nearer one. In one column ends come first, then crossings, then
+//! starts.
 
 use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
 use super::edge_record::Active;
 use super::edge_table::EdgeTable;
+use super::limits::Watch;
 use super::polygon_table::{PolygonTable, Toggle};
 use super::screen::Screen;
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 

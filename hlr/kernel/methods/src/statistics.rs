@@ -31,8 +31,8 @@ pub struct Statistics {
     pub polygon_tests: u64,
     /// Changes of order: swaps in the active edge list, crossings in the active span list, reorderings in depth sort.
     pub swaps: u64,
-    /// Events of the active lists: edges that begin and end, row after row; in the active span list spans besides, column
-    /// after column. The third kind, crossings, are the `swaps`.
+    /// Events of the active lists: edges that begin and end, row after row; in the active span list spans besides,
+    /// column after column. The third kind, crossings, are the `swaps`.
     pub edge_starts: u64,
     pub edge_ends: u64,
     pub span_starts: u64,

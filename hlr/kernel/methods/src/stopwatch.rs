@@ -22,8 +22,8 @@ impl Stopwatch {
     }
 }
 
-/// Nanoseconds on the processor: the first number of the scheduler's statistics, which it brings up to date when asked to
-/// let others go first.
+/// Nanoseconds on the processor: the first number of the scheduler's statistics, which it brings up to date when asked
+/// to let others go first.
 fn worked() -> Option<u64> {
     std::thread::yield_now();
     std::fs::read_to_string("/proc/thread-self/schedstat").ok()?.split(' ').next()?.parse().ok()

@@ -2,13 +2,13 @@
 
 use super::bsp::Tree;
 use super::canvas::Canvas;
+use super::limits::{Limits, Watch};
 use super::prepare::{Bent, screen};
 use super::ray_casting::Acceleration;
 use super::scan_line::Coherence;
 use super::scan_line_z_buffer::Lists;
 use super::scene::{Camera, Rule, Scene};
 use super::statistics::Statistics;
-use super::watch::{Limits, Watch};
 use super::z_buffer::Nearer;
 use super::{bsp, depth_sort, ray_casting, scan_line, scan_line_z_buffer, span_list, warnock, z_buffer};
 

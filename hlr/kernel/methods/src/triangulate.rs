@@ -1,17 +1,17 @@
 //! Polygons that lie in no plane become triangles, which always do.
 //!
-//! Ear clipping (Meisters 1975), holes joined to the outline by bridges first (Eberly), all in integers on the image. Edges
-//! are kept, and the triangles' outlines add up to the polygon's: so the pixels of the triangles together are those of the
-//! polygon. A loop that crosses itself has no such triangulation without new corners, which are on no grid: `None`, and the
-//! polygon keeps its outline, in one plane.
+//! Ear clipping (Meisters 1975), holes joined to the outline by bridges first (Eberly), all in integers on the image.
+//! Edges are kept, and the triangles' outlines add up to the polygon's: so the pixels of the triangles together are
+//! those of the polygon. A loop that crosses itself has no such triangulation without new corners, which are on no
+//! grid: `None`, and the polygon keeps its outline, in one plane.
 
+use super::limits::Watch;
 use super::plane::{Point, turn};
 use super::scene::Rule;
-use super::watch::Watch;
 use std::ops::Range;
 
-/// Triangles as indices into the corners of all loops, one after another; None where loops cross, or touch so that no ear
-/// is left, or where there was no time.
+/// Triangles as indices into the corners of all loops, one after another; None where loops cross, or touch so that no
+/// ear is left, or where there was no time.
 pub fn triangulate(points: &[Point], loops: &[Range<usize>], rule: Rule, watch: &Watch) -> Option<Vec<[usize; 3]>> {
     if crosses(points, loops, watch) {
         return None;
@@ -145,7 +145,7 @@ fn ears(points: &[Point], mut ring: Vec<usize>, watch: &Watch) -> Option<Vec<[us
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::watch::Limits;
+    use crate::limits::Limits;
 
     fn triangles(points: &[Point], loops: &[Range<usize>], rule: Rule) -> Option<Vec<[usize; 3]>> {
         triangulate(points, loops, rule, &Watch::new(&|| false, Limits::NONE))

@@ -1,7 +1,7 @@
 //! Planes of the model as the camera sees them.
 
+use super::non_planar::Flat;
 use super::scene::Camera;
-use super::warped::Flat;
 
 /// How planes of the model look on the screen.
 pub struct View {

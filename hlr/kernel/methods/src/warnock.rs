@@ -14,9 +14,9 @@
 //! ```
 //!
 //! Done where (a) all are disjoint, (b) one remains, intersecting or contained, (c) one remains, surrounding, (d) a
-//! surrounding one is nearer than all others everywhere in the area. Else each quarter inherits the list, without what is
-//! disjoint, and without what a surrounding polygon hides; a single pixel is decided at its centre. Polygons that pass
-//! through one another subdivide by themselves.
+//! surrounding one is nearer than all others everywhere in the area. Else each quarter inherits the list, without what
+//! is disjoint, and without what a surrounding polygon hides; a single pixel is decided at its centre. Polygons that
+//! pass through one another subdivide by themselves.
 //!
 //! The list is sorted by nearest depth, once, and so is every list that is inherited. It need not be read to its end:
 //!
@@ -31,10 +31,10 @@
 
 use super::canvas::{Canvas, Ending, Visit};
 use super::coverage::{Scratch, owns, runs};
+use super::limits::Watch;
 use super::plane::{Point, centre};
 use super::screen::{FAR, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 use std::cmp::Ordering;
 
 /// Columns and rows, end exclusive.
@@ -121,8 +121,8 @@ impl Subdivision<'_> {
         Some(())
     }
 
-    /// The farthest depth of a polygon's plane in an area, rounded up: at one of the corners, for the plane falls one way
-    /// along rows and one way along columns.
+    /// The farthest depth of a polygon's plane in an area, rounded up: at one of the corners, for the plane falls one
+    /// way along rows and one way along columns.
     fn farthest(&self, f: u32, area: Area) -> i64 {
         let plane = &self.screen.facets[f as usize].plane;
         let corner = |falls: bool, [low, high]: [i32; 2]| centre(i64::from(if falls { low } else { high - 1 }));
@@ -130,8 +130,8 @@ impl Subdivision<'_> {
         -(-z).div_euclid(plane.c.into()).clamp(-FAR, FAR) as i64
     }
 
-    /// Cases (a) to (d), and the single pixel; and the polygon that is seen in all of the area or in part of it. `behind`:
-    /// there were polygons that the list was not read for.
+    /// Cases (a) to (d), and the single pixel; and the polygon that is seen in all of the area or in part of it.
+    /// `behind`: there were polygons that the list was not read for.
     fn decide(
         &mut self,
         area: Area,

@@ -2,7 +2,8 @@
 //!
 //! E. Catmull, "A subdivision algorithm for computer display of curved surfaces", 1974.
 //!
-//! 1. all depths start beyond the back plane, at +inf: started on it, with a strict <, polygons lying on it would be lost
+//! 1. all depths start beyond the back plane, at +inf: started on it, with a strict <, polygons lying on it would be
+//!    lost
 //! 2. for each polygon, for each pixel it owns: where it is nearer, write its depth and number
 //!
 //! Depth goes from pixel to pixel by -A/C, from row to row by -B/C. The literature's other convention, larger is
@@ -10,13 +11,14 @@
 
 use super::canvas::Canvas;
 use super::coverage::{Scratch, runs};
+use super::limits::Watch;
 use super::screen::{NEAR_TIE, NONE, Screen};
 use super::statistics::{Statistics, bytes_of};
-use super::watch::Watch;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Which depths are nearer: the scene's own depth always grows away from the viewer; under `Larger` its negative is stored.
+/// Which depths are nearer: the scene's own depth always grows away from the viewer; under `Larger` its negative is
+/// stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nearer {
     Smaller,

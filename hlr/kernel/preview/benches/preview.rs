@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use hlr_preview::Model;
+use hlr_preview::depth_map::seen;
 use hlr_preview::faces::faces;
 use hlr_preview::lens::Lens;
-use hlr_preview::maps::seen;
 use hlr_preview::picture::picture;
-use hlr_preview::raster::Sampling;
+use hlr_preview::sampling::Sampling;
 use hlr_preview::shade::{Light, Scene};
 use hlr_preview::workspace::Workspace;
 
@@ -82,7 +82,7 @@ fn main() {
         paint: &vec![[0; 3]; count],
         colours: &[[0.5, 0.5, 0.5, 1.0]],
         cull: &vec![true; count],
-        glass: &vec![false; count],
+        transparent: &vec![false; count],
     };
     let (d, s) = (1.0 / 3f64.sqrt(), 0.5f64.sqrt());
     let extent = 20.0 * side as f64;

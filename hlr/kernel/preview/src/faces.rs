@@ -1,75 +1,22 @@
-//! Triangles as the raster takes them: corners on the grid of 1/256 pixel, depth at each; what lies in front comes first.
+//! Triangles of the model as faces of the picture, rounded to its grid, roughly from near to far.
 
 use rayon::prelude::*;
 
 use super::Model;
+use super::face::{Chunk, Face, Vertex};
+use super::grid::GRID;
 use super::lens::Lens;
-use super::near::cut;
-use super::raster::Sampling;
+use super::near_clip::cut;
+use super::sampling::Sampling;
 use super::workspace::Workspace;
 use hlr_brep::geometry::vector::Vector;
 
-/// Steps of the grid in a pixel.
-pub const GRID: i32 = 256;
-/// Most pixels a side: the raster's integers hold tiles of faces twice as large.
-pub const MOST_PIXELS: usize = 16384;
-/// Triangles that are sorted as one, by their nearest corner. Few, so that what lies in front is drawn first; many enough
-/// that sorting them costs nothing.
+/// Triangles that are sorted as one, by their nearest corner. Few, so that what lies in front is drawn first; many
+/// enough that sorting them costs nothing.
 const CHUNK: usize = 256;
 
-/// A triangle in the picture, its corners in the order of positive area, y down.
-#[derive(Clone, Copy, Debug)]
-pub struct Face {
-    pub x: [i32; 3],
-    pub y: [i32; 3],
-    pub depth: [f32; 3],
-    pub triangle: u32,
-    /// Columns and rows of samples that it may own: first, and one after the last.
-    pub reach: [[i32; 2]; 2],
-}
-
-impl Face {
-    pub const NONE: Face = Face { x: [0; 3], y: [0; 3], depth: [0.0; 3], triangle: 0, reach: [[0; 2]; 2] };
-
-    /// `size`: of the picture, in pixels.
-    #[inline(always)]
-    pub fn new(
-        x: [i32; 3],
-        y: [i32; 3],
-        depth: [f32; 3],
-        triangle: u32,
-        sampling: &Sampling,
-        size: [usize; 2],
-    ) -> Face {
-        Face { x, y, depth, triangle, reach: [sampling.reach(&x, size[0]), sampling.reach(&y, size[1])] }
-    }
-}
-
-/// The faces of some triangles.
-#[derive(Default)]
-pub struct Chunk {
-    pub faces: Vec<Face>,
-    nearest: f32,
-}
-
-#[derive(Clone, Copy)]
-pub struct Vertex {
-    x: i32,
-    y: i32,
-    depth: f32,
-}
-
-impl Vertex {
-    /// Not on the grid: behind the near plane, or too far outside.
-    const OFF: Vertex = Vertex { x: i32::MIN, y: 0, depth: 0.0 };
-
-    fn is_off(&self) -> bool {
-        self.x == i32::MIN
-    }
-}
-
-/// All faces that own a sample of the picture, into `space.chunks`, roughly from near to far: what is seen does not depend on
-/// their order, but what is hidden is found out sooner. False when stopped.
+/// All faces that own a sample of the picture, into `space.chunks`, roughly from near to far: what is seen does not
+/// depend on their order, but what is hidden is found out sooner. False when stopped.
 pub fn faces(
     model: &Model,
     lens: &Lens,

@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! 1. `lens`       model -> view -> picture, depth that is linear in the picture
-//! 2. `near`       the six-plane cut, only of triangles that cross the near plane or leave the range of integers
+//! 2. `near_clip`       the six-plane cut, only of triangles that cross the near plane or leave the range of integers
 //! 3. `faces`      triangles as integers in 1/256 pixel, what cannot be seen left out, sorted into strips of the picture
 //! 4. `tiles`      each strip's faces sorted into tiles that stay in the first cache; one tile after another:
-//! 5. `raster`     which samples a face owns (top-left rule, exact), and which are nearer than what was there: `spans`
-//!                with one sample a pixel, `small` for narrow faces, `edges` with sixteen; `pyramid` leaves out what lies behind all that is there
-//! 6. `glass`        transparent faces: all layers before the nearest opaque one, sorted by depth
+//! 5. `raster`     which samples a face owns (top-left rule, exact), and which are nearer than what was there: `row_spans`
+//!                with one sample a pixel, `narrow_faces` for narrow faces, `edge_functions` with sixteen; `pyramid` leaves out what lies behind all that is there
+//! 6. `transparent`        transparent faces: all layers before the nearest opaque one, sorted by depth
 //! 7. `surface`      the point of the true triangle under a sample: perspective-correct, no clipping needed
 //! 8. `shade`        light
 //! 9. `resolve`      samples to a pixel, in linear light
@@ -16,34 +16,39 @@
 //! `shadow` and `occlusion` look depths up in maps that the same steps 1 to 5 made before; `stroke` draws lines on top;
 //! `normals` evaluates the true surfaces.
 //!
-//! Every tile is computed by one thread, from faces in the order of the model: the bytes do not depend on how many threads
-//! there are.
+//! Every tile is computed by one thread, from faces in the order of the model: the bytes do not depend on how many
+//! threads there are.
 
-pub mod edges;
+pub mod depth_map;
+pub mod edge_functions;
+pub mod face;
 pub mod faces;
 pub mod fill;
-pub mod glass;
-pub mod kept;
+pub mod grid;
 pub mod lens;
-pub mod maps;
-pub mod near;
+pub mod narrow_faces;
+pub mod near_clip;
 pub mod normals;
 pub mod occlusion;
 pub mod picture;
 pub mod pyramid;
 pub mod raster;
 pub mod resolve;
+pub mod row_spans;
 pub mod sampling;
 pub mod shade;
+pub mod shading_cache;
 pub mod shadow;
-pub mod small;
-pub mod spans;
+pub mod slope;
 pub mod stroke;
 pub mod surface;
+pub mod tile;
+pub mod tile_lists;
 pub mod tiles;
+pub mod transparent;
 pub mod workspace;
 
-/// What is to be shown, borrowed. Colours are linear light, premultiplied by nothing; alpha below one is glass.
+/// What is to be shown, borrowed. Colours are linear light, premultiplied by nothing; alpha below one is transparent.
 pub struct Model<'a> {
     pub points: &'a [[f64; 3]],
     /// Counter-clockwise seen from outside.
@@ -57,7 +62,7 @@ pub struct Model<'a> {
     /// Triangles that are not seen from behind.
     pub cull: &'a [bool],
     /// Triangles some of whose corners are transparent.
-    pub glass: &'a [bool],
+    pub transparent: &'a [bool],
 }
 
 /// Marks a sample that nothing covers.

@@ -1,20 +1,20 @@
 //! Ambient occlusion: how much of the sky above a point its surroundings in the picture hide.
 //!
 //! M. McGuire, B. Osman, M. Bukowski, P. Hennessy, "The Alchemy screen-space ambient obscurance algorithm", High
-//! Performance Graphics 2011: samples on a spiral around the pixel; each point v away along which something rises above the
-//! tangent plane takes
+//! Performance Graphics 2011: samples on a spiral around the pixel; each point v away along which something rises above
+//! the tangent plane takes
 //!
 //! ```text
 //!     max(0, v . n - bias) / (v . v + epsilon)
 //! ```
 //!
-//! The spiral is turned by one of sixteen angles, by the pixel's place in a square of 4 x 4; the mean over that square, of
-//! what lies about as deep, takes the pattern away. Nothing is drawn at random.
+//! The spiral is turned by one of sixteen angles, by the pixel's place in a square of 4 x 4; the mean over that square,
+//! of what lies about as deep, takes the pattern away. Nothing is drawn at random.
 
 use rayon::prelude::*;
 
+use super::depth_map::Seen;
 use super::lens::Lens;
-use super::maps::Seen;
 use super::surface::Surface;
 use super::{Model, NOTHING};
 use hlr_brep::geometry::vector::{Vector, along, dot, sub};

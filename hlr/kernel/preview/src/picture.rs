@@ -2,12 +2,13 @@
 
 use super::NOTHING;
 use super::faces::faces;
-use super::glass::{Layer, layers, over};
-use super::kept::Kept;
-use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
+use super::grid::{TILE_HEIGHT, TILE_WIDTH};
 use super::resolve::Encoder;
+use super::sampling::Sampling;
 use super::shade::{Ready, Scene};
+use super::shading_cache::ShadingCache;
 use super::tiles::{Filled, each_tile};
+use super::transparent::{Layer, layers, over};
 use super::workspace::Workspace;
 
 /// RGBA, row by row, into `out`. `background`: linear light, premultiplied. False when stopped.
@@ -24,11 +25,21 @@ pub fn picture(
     }
     let encoder = Encoder::new();
     let nothing = encoder.pixel(background);
-    let painter = || Painter { scene, sampling, background, encoder: &encoder, kept: Kept::new() };
+    let painter = || Painter { scene, sampling, background, encoder: &encoder, kept: ShadingCache::new() };
     let size = scene.lens.size;
-    each_tile(space, size, sampling, scene.model.glass, out, nothing, stopped, painter, |painter, filled, rows| {
-        painter.tile(filled, rows, size[0]);
-    })
+    each_tile(
+        space,
+        size,
+        sampling,
+        scene.model.transparent,
+        out,
+        nothing,
+        stopped,
+        painter,
+        |painter, filled, rows| {
+            painter.tile(filled, rows, size[0]);
+        },
+    )
 }
 
 struct Painter<'a> {
@@ -36,7 +47,7 @@ struct Painter<'a> {
     sampling: &'a Sampling,
     background: [f32; 4],
     encoder: &'a Encoder,
-    kept: Kept,
+    kept: ShadingCache,
 }
 
 impl Painter<'_> {
@@ -46,7 +57,7 @@ impl Painter<'_> {
         let left = filled.first[0] / side;
         let wide = (TILE_WIDTH / side).min(width - left);
         let mut found: Vec<Layer> = Vec::new();
-        layers(filled.tile, filled.glass, filled.first, self.sampling, &mut found);
+        layers(filled.tile, filled.transparent, filled.first, self.sampling, &mut found);
         for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT / side).enumerate() {
             let row = &mut row[left..left + wide];
             if side == 1 && found.is_empty() {
@@ -124,7 +135,7 @@ fn opaque(c: [f32; 4]) -> [f32; 4] {
 }
 
 fn premultiplied(c: [f32; 4]) -> [f32; 4] {
-    // Highlights lie on the glass, but here they fade with it: close enough, and never brighter than white.
+    // Highlights lie on the transparent, but here they fade with it: close enough, and never brighter than white.
     [c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]]
 }
 

@@ -1,7 +1,8 @@
 //! The farthest depth of each block of a tile: a face that begins beyond it is hidden there, whatever its shape.
 //!
-//! N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", SIGGRAPH 1993, with the two lowest levels of their
-//! pyramid only: a tile is small. A block is looked at anew only when it is asked for after something was drawn into it.
+//! N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", SIGGRAPH 1993, with the two lowest levels of
+//! their pyramid only: a tile is small. A block is looked at anew only when it is asked for after something was drawn
+//! into it.
 //!
 //! ```text
 //!   +---+---+---+--       8 x 8 samples a block: a row of it is what the raster takes at once
@@ -9,7 +10,7 @@
 //!   +---+---+---+--
 //! ```
 
-use super::raster::{LANES, TILE_HEIGHT, TILE_WIDTH};
+use super::grid::{LANES, TILE_HEIGHT, TILE_WIDTH};
 
 const ROWS: usize = 8;
 const DOWN: usize = TILE_HEIGHT / ROWS;
@@ -33,7 +34,8 @@ impl Pyramid {
         *self = Pyramid::EMPTY;
     }
 
-    /// Whether nothing beyond `nearest` can be seen in these rows and chunks of lanes. `seen`: depths, as `Tile` has them.
+    /// Whether nothing beyond `nearest` can be seen in these rows and chunks of lanes. `seen`: depths, as `Tile` has
+    /// them.
     #[inline(always)]
     pub fn hides(
         &mut self,

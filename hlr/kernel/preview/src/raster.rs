@@ -1,86 +1,23 @@
 //! Which samples a face owns, and which of those are nearer than what was there: the z-buffer of one tile.
 //!
-//! J. Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH 1988: three edge functions, each positive on the
-//! inner side, followed from sample to sample by additions.
+//! J. Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH 1988: three edge functions, each positive on
+//! the inner side, followed from sample to sample by additions.
 //!
 //! ```text
 //!   E(x, y) = (x1 - x0) (y - y0) - (y1 - y0) (x - x0)         grid of 1/256 pixel, y down, area positive
 //! ```
 //!
-//! A sample on an edge belongs to the face whose left or top edge it is, so that of two faces with a common edge exactly
-//! one owns it. All that is exact: E is an integer; samples are 2^shift steps apart, so its sign at sample (i, j) is that
-//! of floor(E(0, 0) / 2^shift) + A i + B j, which fits 32 bits within a tile.
+//! A sample on an edge belongs to the face whose left or top edge it is, so that of two faces with a common edge
+//! exactly one owns it. All that is exact: E is an integer; samples are 2^shift steps apart, so its sign at sample (i,
+//! j) is that of floor(E(0, 0) / 2^shift) + A i + B j, which fits 32 bits within a tile.
 
-use super::faces::Face;
-use super::pyramid::Pyramid;
-pub use super::sampling::Sampling;
-use super::{NOTHING, edges, small, spans};
-
-pub const TILE_WIDTH: usize = 64;
-pub const TILE_HEIGHT: usize = 64;
-pub const LANES: usize = 8;
-/// Depth 2, farther than all, and no triangle.
-const EMPTY: f64 = f64::from_bits((2f32.to_bits() as u64) << 32 | NOTHING as u64);
-/// Beyond this an edge function keeps its sign all over the tile.
-pub const FAR: i64 = 1_000_000_000;
-
-/// Depth and owner of the samples of one tile: the bits of a depth, which is not negative, above the number of a triangle.
-/// So the nearer of two is the smaller number, and of equal depths that of the first triangle. It is kept as the double of
-/// those bits, which compares alike, because processors have an instruction for the lesser of doubles.
-pub struct Tile {
-    seen: [[f64; TILE_WIDTH]; TILE_HEIGHT],
-    pyramid: Pyramid,
-}
+use super::face::Face;
+use super::sampling::Sampling;
+use super::slope::window;
+use super::tile::Tile;
+use super::{edge_functions, narrow_faces, row_spans};
 
 impl Tile {
-    pub fn new() -> Tile {
-        Tile { seen: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT], pyramid: Pyramid::EMPTY }
-    }
-
-    pub fn clear(&mut self) {
-        self.seen.as_flattened_mut().fill(EMPTY);
-        self.pyramid.clear();
-    }
-
-    /// The next run of one triangle in a row, from a column on: its first column, the one after its last, and the triangle.
-    #[inline(always)]
-    pub fn run(&self, row: usize, from: usize) -> Option<(usize, usize, u32)> {
-        let (seen, drawn) = (&self.seen[row], self.pyramid.drawn(row));
-        let mut at = from;
-        while at < TILE_WIDTH {
-            let triangle = seen[at].to_bits() as u32;
-            if triangle != NOTHING {
-                let mut to = at + 1;
-                while to < TILE_WIDTH && seen[to].to_bits() as u32 == triangle {
-                    to += 1;
-                }
-                return Some((at, to, triangle));
-            }
-            at += 1;
-            while at.is_multiple_of(LANES) && at < TILE_WIDTH && drawn >> (at / LANES) & 1 == 0 {
-                at += LANES;
-            }
-        }
-        None
-    }
-
-    /// What is seen along a row.
-    #[inline(always)]
-    pub fn row(&mut self, row: usize) -> &mut [f64; TILE_WIDTH] {
-        &mut self.seen[row]
-    }
-
-    #[inline(always)]
-    pub fn depth(&self, i: usize, j: usize) -> f32 {
-        f32::from_bits((self.seen[j][i].to_bits() >> 32) as u32)
-    }
-
-    /// NOTHING for none.
-    #[inline(always)]
-    pub fn triangle(&self, i: usize, j: usize) -> u32 {
-        self.seen[j][i].to_bits() as u32
-    }
-
     /// `first`: column and row of the tile's first sample.
     pub fn fill(&mut self, faces: &[&Face], first: [i32; 2], sampling: &Sampling) {
         #[cfg(target_arch = "x86_64")]
@@ -91,12 +28,6 @@ impl Tile {
             return;
         }
         fill_any(self, faces, first, sampling);
-    }
-}
-
-impl Default for Tile {
-    fn default() -> Tile {
-        Tile::new()
     }
 }
 
@@ -115,101 +46,24 @@ fn fill_any(tile: &mut Tile, faces: &[&Face], first: [i32; 2], sampling: &Sampli
             continue;
         }
         tile.pyramid.touch(rows, chunks);
-        if sampling.side == 1 && small::lanes(face) == 1 {
-            small::fill::<1>(&mut tile.seen, face, first, rows);
-        } else if sampling.side == 1 && small::lanes(face) == 2 {
-            small::fill::<2>(&mut tile.seen, face, first, rows);
+        if sampling.side == 1 && narrow_faces::lanes(face) == 1 {
+            narrow_faces::fill::<1>(&mut tile.seen, face, first, rows);
+        } else if sampling.side == 1 && narrow_faces::lanes(face) == 2 {
+            narrow_faces::fill::<2>(&mut tile.seen, face, first, rows);
         } else if sampling.side == 1 {
-            spans::fill(tile, face, first, sampling);
+            row_spans::fill(tile, face, first, sampling);
         } else {
-            edges::fill(tile, face, first, sampling);
+            edge_functions::fill(tile, face, first, sampling);
         }
-    }
-}
-
-/// Depth over a tile: affine, and never beyond the face's own.
-pub struct Slope {
-    start: f64,
-    dx: f64,
-    dy: f64,
-    low: f32,
-    high: f32,
-    lanes: [f32; LANES],
-}
-
-impl Slope {
-    #[inline(always)]
-    pub fn new(face: &Face, first: [i32; 2], sampling: &Sampling) -> Slope {
-        let (x1, y1) = (f64::from(face.x[1] - face.x[0]), f64::from(face.y[1] - face.y[0]));
-        let (x2, y2) = (f64::from(face.x[2] - face.x[0]), f64::from(face.y[2] - face.y[0]));
-        let z0 = f64::from(face.depth[0]);
-        let (z1, z2) = (f64::from(face.depth[1]) - z0, f64::from(face.depth[2]) - z0);
-        let step = f64::from(1i32 << sampling.shift);
-        let over = step / (x1 * y2 - x2 * y1);
-        let dx = (z1 * y2 - z2 * y1) * over;
-        let dy = (z2 * x1 - z1 * x2) * over;
-        let at = |f: i32, corner: i32| f64::from(f) + 0.5 - f64::from(corner) / step;
-        let mut lanes = [0f32; LANES];
-        for (l, v) in lanes.iter_mut().enumerate() {
-            let shear = sampling.shear[l & 3] as f32 / 64.0;
-            *v = dx as f32 * l as f32 + dy as f32 * shear;
-        }
-        Slope {
-            start: z0 + dx * at(first[0], face.x[0]) + dy * at(first[1], face.y[0]),
-            dx,
-            dy,
-            low: face.depth[0].min(face.depth[1]).min(face.depth[2]),
-            high: face.depth[0].max(face.depth[1]).max(face.depth[2]),
-            lanes,
-        }
-    }
-
-    /// At eight columns of a row; the first is a multiple of four, or samples are not sheared.
-    #[inline(always)]
-    pub fn lanes(&self, row: usize, column: usize, sampling: &Sampling) -> [f32; LANES] {
-        let shear = f64::from(sampling.shear[row & 3]) / 64.0;
-        let start = (self.start + self.dy * row as f64 + self.dx * (column as f64 + shear)) as f32;
-        let mut out = self.lanes;
-        for v in &mut out {
-            *v += start;
-        }
-        for v in &mut out {
-            *v = if *v > self.low { *v } else { self.low };
-        }
-        for v in &mut out {
-            *v = if *v < self.high { *v } else { self.high };
-        }
-        out
-    }
-}
-
-/// Rows and chunks of lanes of a tile that a face reaches.
-#[inline(always)]
-pub fn window(face: &Face, first: [i32; 2]) -> ([usize; 2], [usize; 2]) {
-    let [columns, rows] = face.reach;
-    let within = |v: i32, from: i32, most: usize| v.wrapping_sub(from).clamp(0, most as i32) as usize;
-    let chunks =
-        [within(columns[0], first[0], TILE_WIDTH) / LANES, within(columns[1], first[0], TILE_WIDTH).div_ceil(LANES)];
-    ([within(rows[0], first[1], TILE_HEIGHT), within(rows[1], first[1], TILE_HEIGHT)], chunks)
-}
-
-/// Where nothing is masked as outside, and z is less than the depth, the triangle takes its place.
-#[inline(always)]
-pub fn nearer(outside: &[i32; LANES], z: &[f32; LANES], triangle: u32, seen: &mut [f64; LANES]) {
-    for l in 0..LANES {
-        // What is outside is farther than anything, and still a number.
-        let z = z[l].to_bits() | (outside[l] as u32 & 0x7000_0000);
-        let here = f64::from_bits(u64::from(z) << 32 | u64::from(triangle));
-        seen[l] = if here < seen[l] { here } else { seen[l] };
     }
 }
 
 /// Call `found` with column, row and depth of each sample of the tile that the face owns.
 pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
     if sampling.side > 1 {
-        return edges::each(face, first, sampling, found);
+        return edge_functions::each(face, first, sampling, found);
     }
-    let mut scan = spans::Scan::new(face, first, sampling);
+    let mut scan = row_spans::Scan::new(face, first, sampling);
     while let Some((row, from, to)) = scan.next_span() {
         for column in from..to {
             found(column, row, scan.slope.lanes(row, column, sampling)[0]);
@@ -219,6 +73,7 @@ pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl 
 
 #[cfg(test)]
 mod tests {
+    use super::super::grid::{TILE_HEIGHT, TILE_WIDTH};
     use super::*;
 
     fn random(state: &mut u64, n: i32) -> i32 {

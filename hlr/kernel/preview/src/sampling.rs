@@ -7,8 +7,7 @@
 //!   +-------+
 //! ```
 
-use super::faces::GRID;
-use super::raster::TILE_HEIGHT;
+use super::grid::{GRID, TILE_HEIGHT};
 
 /// Where a pixel is looked at.
 #[derive(Clone, Copy, Debug)]

@@ -39,8 +39,8 @@ pub enum Ready {
     Any(Box<Any>),
 }
 
-/// One colour, and a normal that turns. But for its length the interpolated normal is an affine function of the place: the
-/// factor by which barycentric coordinates are off cancels.
+/// One colour, and a normal that turns. But for its length the interpolated normal is an affine function of the place:
+/// the factor by which barycentric coordinates are off cancels.
 #[derive(Clone, Debug)]
 pub struct Round {
     colour: [f32; 4],
@@ -58,8 +58,8 @@ pub struct Any {
     colours: [[f32; 4]; 3],
 }
 
-/// Pixels: a triangle lower than this is not interpolated affinely. A sample may lie a grid step outside of it, which is
-/// nothing for larger ones.
+/// Pixels: a triangle lower than this is not interpolated affinely. A sample may lie a grid step outside of it, which
+/// is nothing for larger ones.
 const LOW: f64 = 1.0 / 16.0;
 
 impl Scene<'_> {

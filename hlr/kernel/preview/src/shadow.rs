@@ -1,18 +1,19 @@
 //! Shadows: what the light sees, looked up from what the viewer sees.
 //!
 //! L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978, with the edges softened after W. T. Reeves,
-//! D. H. Salesin, R. L. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: not depths are averaged but
-//! the answers of neighbouring texels.
+//! D. H. Salesin, R. L. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: not depths are averaged
+//! but the answers of neighbouring texels.
 //!
-//! Glass takes the share of the light that its opacity says. A texel holds where its first layer lies and where its last:
-//! between them a point has the first one before it, beyond them all.
+//! Glass takes the share of the light that its opacity says. A texel holds where its first layer lies and where its
+//! last: between them a point has the first one before it, beyond them all.
 
+use super::depth_map::seen;
 use super::faces::faces;
-use super::glass::{Layer, layers};
+use super::grid::{TILE_HEIGHT, TILE_WIDTH};
 use super::lens::Lens;
-use super::maps::seen;
-use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
+use super::sampling::Sampling;
 use super::tiles::each_tile;
+use super::transparent::{Layer, layers};
 use super::workspace::Workspace;
 use super::{Model, NOTHING};
 use hlr_brep::geometry::vector::{Vector, along, dot};
@@ -22,7 +23,7 @@ const LIFT: f64 = 3.0;
 /// Texels along a side of the square over which answers are averaged: about two pixels of the picture.
 const WIDE: usize = 5;
 
-/// The layers of glass that the light goes through in a texel, before it meets what is opaque.
+/// The layers of transparent that the light goes through in a texel, before it meets what is opaque.
 #[derive(Clone, Copy)]
 struct Glass {
     /// Depth of the first layer, and of the last; 2 for none.
@@ -52,7 +53,7 @@ pub struct Shadow {
     /// Of what is opaque.
     depth: Vec<f32>,
     /// Empty where all is opaque.
-    glass: Vec<Glass>,
+    transparent: Vec<Glass>,
     /// Of a texel, in the model.
     texel: f64,
 }
@@ -66,9 +67,9 @@ impl Shadow {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Option<Shadow> {
         let texel = 1.0 / lens.scale;
-        if !model.glass.contains(&true) {
+        if !model.transparent.contains(&true) {
             let depth = seen(model, &lens, space, stopped)?.iter().map(|s| s.depth).collect();
-            return Some(Shadow { lens, depth, glass: Vec::new(), texel });
+            return Some(Shadow { lens, depth, transparent: Vec::new(), texel });
         }
         let sampling = Sampling::CENTRES;
         if !faces(model, &lens, &sampling, space, stopped) {
@@ -81,13 +82,13 @@ impl Shadow {
             space,
             lens.size,
             &sampling,
-            model.glass,
+            model.transparent,
             &mut found,
             nothing,
             stopped,
             Vec::new,
             |over: &mut Vec<Layer>, filled, rows| {
-                layers(filled.tile, filled.glass, filled.first, &sampling, over);
+                layers(filled.tile, filled.transparent, filled.first, &sampling, over);
                 let left = filled.first[0];
                 for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
                     for (i, texel) in row[left..].iter_mut().take(TILE_WIDTH).enumerate() {
@@ -102,9 +103,9 @@ impl Shadow {
                 }
             },
         );
-        let glass = found.iter().map(|f| f.1).collect();
+        let transparent = found.iter().map(|f| f.1).collect();
         let depth = found.into_iter().map(|f| f.0).collect();
-        done.then_some(Shadow { lens, depth, glass, texel })
+        done.then_some(Shadow { lens, depth, transparent, texel })
     }
 
     /// How much of the light reaches a point, 0 to 1; n is its unit normal on the viewer's side.
@@ -149,7 +150,7 @@ impl Shadow {
         if self.depth[at] < depth {
             return 0.0;
         }
-        self.glass.get(at).map_or(1.0, |g| g.through(depth))
+        self.transparent.get(at).map_or(1.0, |g| g.through(depth))
     }
 }
 

@@ -1,8 +1,8 @@
 //! Lines on top of a picture, antialiased.
 //!
-//! Coverage of a pixel is taken across the line only: the length that a box of one pixel, centred at the distance d from the
-//! axis, shares with the line's width. Where several pieces cover a pixel the greatest counts, so that a line is not darker
-//! where its pieces join.
+//! Coverage of a pixel is taken across the line only: the length that a box of one pixel, centred at the distance d
+//! from the axis, shares with the line's width. Where several pieces cover a pixel the greatest counts, so that a line
+//! is not darker where its pieces join.
 //!
 //! ```text
 //!    -h      0   d   h            shared = min(d + 1/2, h) - max(d - 1/2, -h)

@@ -1,9 +1,10 @@
-//! The point of a triangle that is seen at a place of the picture, found on the triangle as it is, not as it was snapped.
+//! The point of a triangle that is seen at a place of the picture, found on the triangle as it is, not as it was
+//! snapped.
 //!
 //! M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", Graphics Hardware 1997: with the
-//! corners' homogeneous coordinates h_i = (x w, y w, w) as columns of H, the place p = (x, y, 1) is H m, and m / sum(m) are
-//! the barycentric coordinates in the model: perspective-correct, also where a corner lies behind the eye, so that what
-//! was cut by the near plane is interpolated between its true corners.
+//! corners' homogeneous coordinates h_i = (x w, y w, w) as columns of H, the place p = (x, y, 1) is H m, and m / sum(m)
+//! are the barycentric coordinates in the model: perspective-correct, also where a corner lies behind the eye, so that
+//! what was cut by the near plane is interpolated between its true corners.
 
 use super::Model;
 use super::lens::Lens;

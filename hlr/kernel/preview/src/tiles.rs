@@ -7,8 +7,11 @@
 
 use rayon::prelude::*;
 
-use super::faces::{Chunk, Face};
-use super::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH, Tile};
+use super::face::Face;
+use super::grid::{TILE_HEIGHT, TILE_WIDTH};
+use super::sampling::Sampling;
+use super::tile::Tile;
+use super::tile_lists::List;
 use super::workspace::Workspace;
 
 /// Lists that are made side by side: enough for any machine's cores, few enough that a tile finds its faces at once.
@@ -20,18 +23,18 @@ pub struct Filled<'a> {
     /// Of the first sample: column and row.
     pub first: [usize; 2],
     /// Transparent faces, in the order of the model.
-    pub glass: &'a [&'a Face],
+    pub transparent: &'a [&'a Face],
 }
 
-/// Fill all tiles that `space.chunks` reach of a picture of `size`; `show` writes a tile into the rows of its strip, which are
-/// `size[0]` wide and hold `nothing`, and may keep what it likes in a `scratch` of its thread. `glass` tells the
-/// transparent triangles. False when stopped.
+/// Fill all tiles that `space.chunks` reach of a picture of `size`; `show` writes a tile into the rows of its strip,
+/// which are `size[0]` wide and hold `nothing`, and may keep what it likes in a `scratch` of its thread. `transparent`
+/// tells the transparent triangles. False when stopped.
 #[allow(clippy::too_many_arguments)] // what is drawn, where to, and how
 pub fn each_tile<P: Copy + Send + Sync, S>(
     space: &mut Workspace,
     size: [usize; 2],
     sampling: &Sampling,
-    glass: &[bool],
+    transparent: &[bool],
     out: &mut [P],
     nothing: P,
     stopped: &(dyn Fn() -> bool + Sync),
@@ -43,7 +46,7 @@ pub fn each_tile<P: Copy + Send + Sync, S>(
     let chunks = &space.chunks;
     let share = chunks.len().div_ceil(LISTS).max(1);
     space.lists.resize_with(chunks.len().div_ceil(share), List::default);
-    space.lists.par_iter_mut().zip(chunks.par_chunks(share)).for_each(|(l, c)| l.refill(c, tiles, glass));
+    space.lists.par_iter_mut().zip(chunks.par_chunks(share)).for_each(|(l, c)| l.refill(c, tiles, transparent));
     let faces = |tile: usize| space.lists.iter().zip(chunks.chunks(share)).flat_map(move |(l, c)| l.of(tile, c));
     out.par_chunks_mut(rows * size[0]).enumerate().with_max_len(1).for_each_init(
         || (Tile::new(), Vec::new(), Vec::new(), scratch()),
@@ -65,61 +68,9 @@ pub fn each_tile<P: Copy + Send + Sync, S>(
                 let first = [column * TILE_WIDTH, strip * TILE_HEIGHT];
                 tile.clear();
                 tile.fill(solid, first.map(|c| c as i32), sampling);
-                show(scratch, &Filled { tile, first, glass: clear }, out);
+                show(scratch, &Filled { tile, first, transparent: clear }, out);
             }
         },
     );
     !stopped()
-}
-
-/// Which of some chunks' faces reach into which tile, in their order: a counting sort by tile.
-#[derive(Default)]
-pub struct List {
-    starts: Vec<u32>,
-    /// Chunk, face, and whether it is transparent.
-    listed: Vec<(u32, u16, bool)>,
-}
-
-impl List {
-    /// `tiles`: how many, across and down.
-    fn refill(&mut self, chunks: &[Chunk], [across, down]: [usize; 2], glass: &[bool]) {
-        let reached = |face: &Face| {
-            let [columns, rows] = face.reach;
-            let of = |[first, end]: [i32; 2], side: usize| first as usize / side..(end as usize - 1) / side + 1;
-            (of(columns, TILE_WIDTH), of(rows, TILE_HEIGHT))
-        };
-        // One ahead while filling: starts[t + 1] runs from the start of t to its end.
-        let starts = &mut self.starts;
-        starts.clear();
-        starts.resize(across * down + 2, 0);
-        for face in chunks.iter().flat_map(|c| &c.faces) {
-            let (columns, rows) = reached(face);
-            for row in rows {
-                for count in &mut starts[2 + row * across..][columns.clone()] {
-                    *count += 1;
-                }
-            }
-        }
-        for t in 2..starts.len() {
-            starts[t] += starts[t - 1];
-        }
-        self.listed.resize(starts[across * down + 1] as usize, (0, 0, false));
-        for (c, chunk) in chunks.iter().enumerate() {
-            for (i, face) in chunk.faces.iter().enumerate() {
-                let (columns, rows) = reached(face);
-                let entry = (c as u32, i as u16, glass[face.triangle as usize]);
-                for row in rows {
-                    for next in &mut starts[1 + row * across..][columns.clone()] {
-                        self.listed[*next as usize] = entry;
-                        *next += 1;
-                    }
-                }
-            }
-        }
-    }
-
-    fn of<'a>(&'a self, tile: usize, chunks: &'a [Chunk]) -> impl Iterator<Item = (&'a Face, bool)> {
-        let range = self.starts[tile] as usize..self.starts[tile + 1] as usize;
-        self.listed[range].iter().map(|&(c, i, clear)| (&chunks[c as usize].faces[i as usize], clear))
-    }
 }

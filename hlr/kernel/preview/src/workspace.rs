@@ -1,8 +1,8 @@
 //! What a picture needs on its way and the next one needs again: memory, had once. A turning model is drawn many times,
 //! and fresh memory costs as much as filling it.
 
-use super::faces::{Chunk, Vertex};
-use super::tiles::List;
+use super::face::{Chunk, Vertex};
+use super::tile_lists::List;
 
 #[derive(Default)]
 pub struct Workspace {

@@ -10,13 +10,14 @@ use pyo3::prelude::*;
 use super::arrays::{expect_below, expect_len, flat, rows as rows_of};
 use super::guard::caught;
 use super::parts::PartTables;
-use super::running::{FEW, run, run_telling};
+use super::threads::{FEW, run, run_telling};
 use hlr_brep::assemble::assemble;
-use hlr_brep::geometry::flat::is_flat;
+use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
+use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
-use hlr_brep::model::{Face, Model};
-use hlr_brep::patch::{Border, Foreign, patched};
+use hlr_brep::model::Model;
+use hlr_brep::shapes::Face;
 use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
 
@@ -83,8 +84,8 @@ impl BrepModel {
         (0..).zip(&self.0.faces).filter_map(radii).collect()
     }
 
-    /// kind, range, offsets, values of the curves of edges, given as parts and numbers in their edge maps, in the frames
-    /// of their parts.
+    /// kind, range, offsets, values of the curves of edges, given as parts and numbers in their edge maps, in the
+    /// frames of their parts.
     fn edge_curves<'py>(
         &self,
         py: Python<'py>,
@@ -93,14 +94,14 @@ impl BrepModel {
     ) -> PyResult<Curves<'py>> {
         let (part, edge) = (flat(&part, "part")?, flat(&edge, "edge")?);
         expect_len("edge", edge.len(), part.len())?;
-        expect_below("part", part.iter().copied(), self.0.laid.len())?;
+        expect_below("part", part.iter().copied(), self.0.topology.len())?;
         let (mut kind, mut range, mut offsets, mut values) = (Vec::new(), Vec::new(), vec![0i32], Vec::new());
         for (&p, &e) in part.iter().zip(edge) {
-            let laid = &self.0.laid[p as usize].edges;
-            expect_below("edge", [e].into_iter(), laid.len())?;
-            let laid = &laid[e as usize];
-            let edge = &self.0.edges[laid.edge as usize];
-            kind.push(match (&edge.curve, &laid.place) {
+            let placed = &self.0.topology[p as usize].edges;
+            expect_below("edge", [e].into_iter(), placed.len())?;
+            let placed = &placed[e as usize];
+            let edge = &self.0.edges[placed.edge as usize];
+            kind.push(match (&edge.curve, &placed.place) {
                 (None, _) => 0,
                 (Some(curve), None) => curve.record(&mut values),
                 (Some(curve), Some(place)) => curve.moved(place).record(&mut values),
@@ -184,14 +185,14 @@ impl BrepMesh {
         if borders.iter().flat_map(|b| &b.0).any(|&i| i as usize >= points.len()) {
             return Err(PyValueError::new_err("borders must count points"));
         }
-        let foreign = Foreign {
+        let foreign = ForeignMesh {
             points: points.to_vec(),
             uv: uv.to_vec(),
             triangles: triangles.iter().map(|t| t.map(|i| i as u32)).collect(),
             borders: borders.into_iter().map(|(nodes, parameters)| Border { nodes, parameters }).collect(),
         };
         let mut meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = patched(&self.model, &meshed, face, foreign);
+        let found = with_foreign_mesh(&self.model, &meshed, face, foreign);
         Ok(found.map(|found| meshed.faces[face] = found).is_some())
     }
 

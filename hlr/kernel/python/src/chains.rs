@@ -8,10 +8,10 @@ use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows};
 use super::guard::caught;
-use super::held::{Groups, Mesh};
+use super::mesh_input::{Groups, Mesh};
+use hlr_linework::lines::candidates::{About, Chains as Found, Surface, add_outlines};
 use hlr_linework::lines::chain::{Straight, chain as chain_edges};
-use hlr_linework::lines::drawn::Kind;
-use hlr_linework::lines::outlines::{About, Chains as Found, Surface, add_outlines};
+use hlr_linework::lines::drawing::Kind;
 
 type ChainArrays<'py> = (Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<bool>>);
 

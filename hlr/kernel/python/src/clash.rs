@@ -8,15 +8,15 @@ use rayon::prelude::*;
 
 use super::arrays::table;
 use super::arrays::{expect_below, expect_len, flat, rows};
-use super::running::run;
+use super::threads::run;
 use super::view::{Flat, Rows};
 use hlr_exact::snap::Grid;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::Scene;
 use hlr_mesh::tables::Tables;
+use hlr_visibility::clash::contacts::real;
 use hlr_visibility::clash::depth::{Bodies, Depth};
 use hlr_visibility::clash::reach::Sheet;
-use hlr_visibility::clash::real::real;
 use hlr_visibility::clash::search::{Clash, Clashes, NO_PLANE, Surfaces};
 use hlr_visibility::clash::weld::weld;
 use hlr_visibility::scan::box_tree::{Aabb, BoxTree};
@@ -81,8 +81,8 @@ pub fn clashes<'py>(
     Ok(out)
 }
 
-/// Intersection lines of a scene: ends (n, 3), segments (m, 2) of them, groups (m, 2) of each; of every group whether it
-/// passes through itself; and how many pairs of triangles were looked at.
+/// Intersection lines of a scene: ends (n, 3), segments (m, 2) of them, groups (m, 2) of each; of every group whether
+/// it passes through itself; and how many pairs of triangles were looked at.
 pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
 
 fn widest(low: &[f64; 3], high: &[f64; 3]) -> f64 {

@@ -7,16 +7,16 @@ use pyo3::types::PyDict;
 
 use super::arrays::{expect_len, flat};
 use super::preview::{LensTuple, ShadedModel, lens_of, stopped_error};
-use super::running::run;
+use super::threads::run;
 use hlr_preview::fill::areas;
 use hlr_preview::shade::{Light, Scene};
 
-/// What `ShadedModel.picture` shows, as areas in the order of painting; `label` (t,): triangles with one number belong to
-/// one face; `fine`: pixels that a band of light is wide at least.
+/// What `ShadedModel.picture` shows, as areas in the order of painting; `label` (t,): triangles with one number belong
+/// to one face; `fine`: pixels that a band of light is wide at least.
 ///
-/// points (n, 2) pixels, y down; loops (l + 1,) into points; areas (a + 1,) into loops; colours (a, 4) sRGB and opacity;
-/// triangle (a,): one of the face; gradient (a,): -1 for none; lines (g, 4): from x, y to x, y; stops (g + 1,) into shares
-/// (s,) and shades (s, 4).
+/// points (n, 2) pixels, y down; loops (l + 1,) into points; areas (a + 1,) into loops; colours (a, 4) sRGB and
+/// opacity; triangle (a,): one of the face; gradient (a,): -1 for none; lines (g, 4): from x, y to x, y; stops (g + 1,)
+/// into shares (s,) and shades (s, 4).
 #[pyfunction]
 #[pyo3(signature = (model, lens, light, ambient, diffuse, label, fine, threads = 0))]
 #[allow(clippy::too_many_arguments)] // one argument per quantity: the stub names them

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows};
 use super::guard::caught;
-use super::running::run;
+use super::threads::run;
 use hlr_brep::geometry::curve::Curve;
 
 pub fn expect_records(kind: &[u8], offsets: &[i32], values: &[f64]) -> PyResult<()> {

@@ -1,4 +1,5 @@
-//! No panic leaves the kernel: all that it exports stands behind `hlr.common.faults.guarded`, which makes errors of them.
+//! No panic leaves the kernel: all that it exports stands behind `hlr.common.faults.guarded`, which makes errors of
+//! them.
 //!
 //! One place, the end of the module's registration, wraps every function and every method of every class, so that no
 //! binding can forget it. Constructors cannot be replaced from outside; they call `caught`.
@@ -27,7 +28,7 @@ pub fn take_fault() -> Option<String> {
 pub fn provoke_fault(py: Python<'_>, on_worker: bool) -> PyResult<usize> {
     let nothing: &[usize] = &[];
     let index = nothing.len() + 1;
-    if on_worker { super::running::run(py, 1, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
+    if on_worker { super::threads::run(py, 1, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
 }
 
 /// For constructors: a panic as the exception that `hlr.common.faults` makes of one.

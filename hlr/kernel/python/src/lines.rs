@@ -8,18 +8,18 @@ use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows, table};
 use super::chains::Chains;
-use super::drawn::Lines;
+use super::drawing::Lines;
 use super::geometry::Curves as Records;
 use super::guard::caught;
-use super::held::Mesh;
-use super::running::run;
+use super::mesh_input::Mesh;
+use super::threads::run;
+use hlr_linework::fit::routes::{Curves, Fit, Guide};
 use hlr_linework::lines::camera::Camera as Seen;
-use hlr_linework::lines::cover::Widths;
+use hlr_linework::lines::candidates::Chains as Walks;
+use hlr_linework::lines::coincident::Widths;
 use hlr_linework::lines::cut::{Cut as Found, Tolerances, Trait, cut};
 use hlr_linework::lines::finish::{finish, guide};
-use hlr_linework::lines::outlines::Chains as Walks;
 use hlr_linework::lines::runs::{Geometry, Piece};
-use hlr_linework::paper::routes::{Curves, Fit, Guide};
 use hlr_visibility::scan::invisibility::State;
 
 type Vec3 = [f64; 3];

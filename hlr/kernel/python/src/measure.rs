@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows};
-use super::running::run;
+use super::threads::run;
 use hlr_mesh::measure::nearest::{Segment, Segments};
 use hlr_mesh::measure::rays::Caster;
 

@@ -5,17 +5,17 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows, table};
-use super::running::run;
+use super::threads::run;
 use super::view::{Flat, Rows};
 use hlr_mesh::clean::clean;
+use hlr_mesh::edge_flips::without_needles as turned;
 use hlr_mesh::kinds::{Limits, kinds};
 use hlr_mesh::needles::needles as low_ones;
-use hlr_mesh::turned::without_needles as turned;
 
 type Cleaned<'py> = (Rows<'py, f64>, Rows<'py, i32>, Option<Flat<'py, u32>>, (usize, usize, usize));
 
-/// Points joined where they are equal, triangles without impossible ones, which of them were kept, and how many were left
-/// out: not finite, out of range, degenerate.
+/// Points joined where they are equal, triangles without impossible ones, which of them were kept, and how many were
+/// left out: not finite, out of range, degenerate.
 #[pyfunction]
 pub fn clean_mesh<'py>(
     py: Python<'py>,
@@ -34,8 +34,8 @@ pub fn clean_mesh<'py>(
 
 type Turned<'py> = (Flat<'py, u32>, Rows<'py, i32>, Flat<'py, u32>, Rows<'py, u32>);
 
-/// Edge flips that remove needles: which triangles changed, their corners, whose face each has now, and where each corner
-/// stood. None: there are none.
+/// Edge flips that remove needles: which triangles changed, their corners, whose face each has now, and where each
+/// corner stood. None: there are none.
 #[pyfunction]
 pub fn without_needles<'py>(
     py: Python<'py>,
@@ -73,8 +73,8 @@ pub fn needles<'py>(
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }
 
-/// Kinds of the edges of bare parts, 255 for all others; and which of those are nearly creases. Cosines of folds: sharp,
-/// near.
+/// Kinds of the edges of bare parts, 255 for all others; and which of those are nearly creases. Cosines of folds:
+/// sharp, near.
 #[pyfunction]
 pub fn edge_kinds<'py>(
     py: Python<'py>,

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use super::arrays::table;
-use super::running::run;
+use super::threads::run;
 use super::view::Rows;
 use hlr_mesh::meshfile::{Fault, MeshFile, Paint, Stop, obj, off, ply, stl};
 
@@ -13,8 +13,8 @@ const ROOM: usize = 4;
 
 type Read<'py> = (Rows<'py, f64>, Vec<(String, Rows<'py, i32>)>, Option<Rows<'py, u8>>, Option<Rows<'py, u8>>);
 
-/// Points, pieces (name, triangles), and colours of points or of triangles. EOFError: it ends too early; ValueError: it is
-/// broken; both say how.
+/// Points, pieces (name, triangles), and colours of points or of triangles. EOFError: it ends too early; ValueError: it
+/// is broken; both say how.
 #[pyfunction]
 pub fn read_mesh<'py>(py: Python<'py>, data: &Bound<'py, PyBytes>, kind: &str) -> PyResult<Read<'py>> {
     let reader: fn(&[u8], Stop) -> Result<MeshFile, Fault> = match kind {

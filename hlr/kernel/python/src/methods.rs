@@ -5,9 +5,10 @@ use std::sync::Mutex;
 use pyo3::exceptions::{PyMemoryError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
-use super::running::run;
+use super::threads::run;
 use hlr_methods::bsp::{self, Tree};
 use hlr_methods::canvas::Canvas;
+use hlr_methods::limits::{Limits, Watch, Why};
 use hlr_methods::ray_casting::Acceleration;
 use hlr_methods::scan_line::Coherence;
 use hlr_methods::scan_line_z_buffer::Lists;
@@ -15,7 +16,6 @@ use hlr_methods::scene::{Camera, Scene};
 use hlr_methods::screen::Screen;
 use hlr_methods::statistics::Statistics;
 use hlr_methods::stopwatch::Stopwatch;
-use hlr_methods::watch::{Limits, Watch, Why};
 use hlr_methods::z_buffer::Nearer;
 use hlr_methods::{depth_sort, ray_casting, scan_line, scan_line_z_buffer, span_list, warnock, z_buffer};
 

@@ -7,12 +7,12 @@ use pyo3::types::PyDict;
 
 use hlr_methods::bsp::Tree;
 use hlr_methods::clip::{Corner, clip_loop, walls};
+use hlr_methods::limits::Watch;
 use hlr_methods::plane::STEPS;
 use hlr_methods::scene::Camera;
 use hlr_methods::screen::Screen;
 use hlr_methods::statistics::Statistics;
 use hlr_methods::view::View;
-use hlr_methods::watch::Watch;
 use hlr_methods::{depth_sort, quadric};
 
 /// Polygons in the order of drawing, each with its loops in pixels.

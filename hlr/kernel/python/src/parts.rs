@@ -9,15 +9,15 @@ use pyo3::prelude::*;
 use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
 use super::guard::caught;
-use super::running::run;
+use super::threads::run;
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
 use hlr_mesh::tables::{Placed, Tables, TooMany};
 
-/// Of so many triangles or points all that is known here is found while `run` thinks of one: in a tenth of a microsecond
-/// each. Below that other threads are woken for longer than they would work.
+/// Of so many triangles or points all that is known here is found while `run` thinks of one: in a tenth of a
+/// microsecond each. Below that other threads are woken for longer than they would work.
 const CHEAP: usize = 64;
 
 fn too_many(_: TooMany) -> PyErr {

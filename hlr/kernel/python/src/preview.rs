@@ -9,16 +9,16 @@ use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows};
 use super::guard::caught;
-use super::held::Mesh;
-use super::running::run;
+use super::mesh_input::Mesh;
+use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
-use hlr_preview::faces::MOST_PIXELS;
+use hlr_preview::depth_map::seen;
+use hlr_preview::grid::MOST_PIXELS;
 use hlr_preview::lens::Lens;
-use hlr_preview::maps::seen;
 use hlr_preview::normals::{OnSurfaces, normals};
 use hlr_preview::occlusion::Occlusion;
 use hlr_preview::picture::picture;
-use hlr_preview::raster::Sampling;
+use hlr_preview::sampling::Sampling;
 use hlr_preview::shade::{Light, Scene};
 use hlr_preview::shadow::Shadow;
 use hlr_preview::stroke::{Piece, stroke};
@@ -55,7 +55,7 @@ pub struct ShadedModel {
     paint: Vec<[i32; 3]>,
     colours: Vec<[f32; 4]>,
     cull: Vec<bool>,
-    glass: Vec<bool>,
+    transparent: Vec<bool>,
     space: Mutex<Workspace>,
 }
 
@@ -77,7 +77,7 @@ impl ShadedModel {
             paint: &self.paint,
             colours: &self.colours,
             cull: &self.cull,
-            glass: &self.glass,
+            transparent: &self.transparent,
         }
     }
 }
@@ -119,7 +119,7 @@ impl ShadedModel {
                 paint: paint.to_vec(),
                 colours: colours.to_vec(),
                 cull: cull.to_vec(),
-                glass: paint.iter().map(|p| p.iter().any(|&i| colours[i as usize][3] < 1.0)).collect(),
+                transparent: paint.iter().map(|p| p.iter().any(|&i| colours[i as usize][3] < 1.0)).collect(),
                 space: Mutex::default(),
             })
         })
@@ -178,8 +178,8 @@ impl ShadedModel {
         Ok(out)
     }
 
-    /// What is seen at the centres of pixels: distance ahead (h, w) float64, infinite for nothing; triangle (h, w) int32,
-    /// -1 for none. Glass counts as solid.
+    /// What is seen at the centres of pixels: distance ahead (h, w) float64, infinite for nothing; triangle (h, w)
+    /// int32, -1 for none. Glass counts as solid.
     #[pyo3(signature = (lens, threads = 0))]
     #[allow(clippy::type_complexity)]
     fn maps<'py>(
@@ -194,7 +194,7 @@ impl ShadedModel {
             self.with_space(|space| seen(&self.model(), &lens, space, stopped))
         })?
         .ok_or_else(stopped_error)?;
-        let ahead = |s: &hlr_preview::maps::Seen| {
+        let ahead = |s: &hlr_preview::depth_map::Seen| {
             if s.triangle == NOTHING { f64::INFINITY } else { lens.ahead_at(f64::from(s.depth)) }
         };
         let depth: Vec<f64> = found.iter().map(ahead).collect();
@@ -229,7 +229,8 @@ pub fn stroke_picture(
     if done { Ok(()) } else { Err(stopped_error()) }
 }
 
-/// Unit normals (k, 3) float32 of the true surfaces at the places uv (k, 2), on the outer side; nought where there is none.
+/// Unit normals (k, 3) float32 of the true surfaces at the places uv (k, 2), on the outer side; nought where there is
+/// none.
 #[pyfunction]
 #[pyo3(signature = (mesh, on, threads = 0))]
 pub fn surface_normals<'py>(

@@ -16,15 +16,14 @@ use hlr_methods::bsp::Tree;
 use hlr_methods::canvas::{Canvas, Visit, Write};
 use hlr_methods::edge_record::{Active, Colour, Depth};
 use hlr_methods::edge_table::EdgeTable;
-use hlr_methods::patch::Curve;
+use hlr_methods::limits::Watch;
+use hlr_methods::non_planar::planar;
 use hlr_methods::polygon_table::PolygonTable;
 use hlr_methods::prepare::{Bent, screen};
-use hlr_methods::scene::{Camera, Rule, Scene};
+use hlr_methods::scene::{Camera, Cubic, Rule, Scene};
 use hlr_methods::screen::NONE;
 use hlr_methods::statistics::Statistics;
 use hlr_methods::stopwatch::Stopwatch;
-use hlr_methods::warped::planar;
-use hlr_methods::watch::Watch;
 use hlr_methods::{scan_line_z_buffer, shading};
 
 /// Of an active edge: polygon, edge; x and dx, z and dz, values and their steps, where it crosses the row.
@@ -47,7 +46,7 @@ pub struct RasterScene {
     cull: Vec<bool>,
     values: Vec<[f64; 3]>,
     rule: Rule,
-    patches: Vec<(u32, Curve)>,
+    patches: Vec<(u32, Cubic)>,
     /// The polygon as given, of each planar one; empty where they are the same.
     owner: Vec<u32>,
     tree: Mutex<Option<Tree>>,
@@ -217,7 +216,7 @@ impl RasterScene {
                 rule: if non_zero { Rule::NonZero } else { Rule::EvenOdd },
                 patches: patches
                     .into_iter()
-                    .map(|(p, c, o, r)| (p, Curve { coefficients: c, origin: o, range: r }))
+                    .map(|(p, c, o, r)| (p, Cubic { coefficients: c, origin: o, range: r }))
                     .collect(),
                 owner: Vec::new(),
                 tree: Mutex::new(None),
@@ -274,7 +273,8 @@ impl RasterScene {
         Ok(out)
     }
 
-    /// The painter's list of depth sort or of the BSP tree: ids, where each one's loops and points begin, points in pixels.
+    /// The painter's list of depth sort or of the BSP tree: ids, where each one's loops and points begin, points in
+    /// pixels.
     #[pyo3(signature = (camera, method, limits))]
     fn painters_list<'py>(
         &self,
@@ -315,8 +315,8 @@ impl RasterScene {
         Ok(out)
     }
 
-    /// One row as the scan line sees it: records of active edges (polygon, edge, (x, dx), (z, dz), values and their steps) and
-    /// spans (from, to, polygons that are in).
+    /// One row as the scan line sees it: records of active edges (polygon, edge, (x, dx), (z, dz), values and their
+    /// steps) and spans (from, to, polygons that are in).
     fn scan_row<'py>(&self, py: Python<'py>, camera: CameraTuple, row: i64, limits: LimitsTuple) -> PyResult<Row<'py>> {
         let camera = camera_of(camera);
         let found = within(py, limits, |watch| self.row(&camera, row, watch))?;

@@ -5,9 +5,9 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice};
-use super::held::Mesh;
 use super::lines::Camera;
-use super::running::run;
+use super::mesh_input::Mesh;
+use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
 use hlr_brep::geometry::curve::Curve;

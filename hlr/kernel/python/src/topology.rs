@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, rows};
-use super::running::run;
+use super::threads::run;
 use hlr_mesh::stitch;
 use hlr_mesh::topology;
 

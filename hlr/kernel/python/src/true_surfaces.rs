@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::arrays::{expect_below, expect_len, flat, rows};
 use super::geometry::expect_records;
 use super::guard::caught;
-use super::running::run;
+use super::threads::run;
 use hlr_brep::geometry::surface::Surface;
 
 /// Surfaces from packed records; None where a record makes none.

@@ -7,8 +7,8 @@ use pyo3::types::PyDict;
 
 use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, rows};
 use super::guard::caught;
-use super::held::{Groups, Mesh};
-use super::running::run;
+use super::mesh_input::{Groups, Mesh};
+use super::threads::run;
 use super::view::{Flat, arrays, flat};
 use hlr_visibility::scan::own_faces::{OwnFaces as Own, Owned};
 use hlr_visibility::scan::scene::{Numbers, Refusal, Scene, solve};

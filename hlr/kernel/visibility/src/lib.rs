@@ -1,4 +1,4 @@
-//! Which pieces of the edges are seen, and where surfaces pass through one another: decided by exact integers.
+//! Decides by exact integers which pieces of the edges are visible, and where surfaces pass through one another.
 
 pub mod clash;
 pub mod scan;

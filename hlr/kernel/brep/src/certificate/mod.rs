@@ -1,46 +1,49 @@
-//! A proof that a face's mesh keeps its chord error: the surface between the corners of each triangle, in (u, v), is no
-//! farther from it than that, along the mean of the normals at the corners, or at right angles to the triangle.
+//! A proof that the mesh of a face keeps its chord error: within each triangle in (u, v), the surface is nowhere
+//! farther from the triangle than that, measured along the mean normal of the corners or at right angles to the
+//! triangle.
 //!
-//! The error is counted between places of the surface: what a file's edges are off it is not in it.
+//! The error is measured between points of the surface. The distance of a file's edges from the surface is not part of
+//! it.
 //!
-//! With f the height of the surface above the plane through its places at a triangle's corners, times the surface's weight
-//! where it has one, and H its second derivative: f - sum l_i f(v_i) = - sum l_i H_i(v_i - x, v_i - x) / 2, with means H_i of H
-//! on the way from x to the corner v_i. H lies in a box by `bends`; in the middle of the box the sum is a quadratic form,
-//! whose extreme is exact, and what H can be beside it adds at most (dH_uu a^2 + 2 dH_uv a b + dH_vv b^2) / 8 for the
-//! triangle's width a and height b. Where a knot lets the slope jump by J along u, J a / 4 is added, and so along v. What that
-//! leaves in doubt is cut in four; the doubt shrinks by as much or more, along jumps by half.
+//! With f the height of the surface above the plane through its places at a triangle's corners, times the surface's
+//! weight where it has one, and H its second derivative: f - sum l_i f(v_i) = - sum l_i H_i(v_i - x, v_i - x) / 2, with
+//! means H_i of H on the way from x to the corner v_i. H lies in a box by `second_derivatives`; in the middle of the
+//! box the sum is a quadratic form, whose extreme is exact, and what H can be beside it adds at most (dH_uu a^2 + 2
+//! dH_uv a b + dH_vv b^2) / 8 for the triangle's width a and height b. Where a knot lets the slope jump by J along u, J
+//! a / 4 is added, and so along v. What that leaves in doubt is cut in four; the doubt shrinks by as much or more,
+//! along jumps by half.
 
-mod bends;
-mod net;
+mod control_net;
+mod second_derivatives;
 
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, add, cross, dot, sub, unit};
 use crate::mesh::FaceMesh;
-use bends::{Bends, Ranges, plus, times};
-use net::Range;
+use control_net::Range;
+use second_derivatives::{Bends, Ranges, plus, times};
 
-/// Cuts in four, one after the other.
+/// How often a triangle may be divided into four.
 const DEPTH: u32 = 7;
-/// Of the error that is there: nearer the proof need not come where it is above what was asked.
+/// Share of the actual error at which the proof stops, where that error exceeds what was asked.
 const CLOSE: f64 = 1.02;
-/// Of the deflection: rounding.
+/// Share of the deflection that is left for rounding.
 const ROUNDING: f64 = 1e-9;
-/// Between a triangle's own normal and the mean of its corners: where they differ by more it is a needle, and its own one
-/// says nothing.
+/// Between a triangle's own normal and the mean of its corners: where they differ by more it is a needle, and its own
+/// one says nothing.
 const UPRIGHT: f64 = 0.9;
 
 /// What is proved of a mesh. Errors are in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certificate {
-    /// No triangle is farther off.
+    /// Upper bound: no triangle is farther from the surface.
     pub bound: f64,
-    /// Some place is as far off as that.
+    /// Lower bound: some point of the surface is this far from its triangle.
     pub seen: f64,
     pub triangles: usize,
     /// Triangles that may be farther off than was asked, by the proof.
     pub above: usize,
-    /// Triangles of which nothing can be proved: across the ends of a period, and on surfaces that are known by their values
-    /// only.
+    /// Triangles of which nothing can be proved: across the ends of a period, and on surfaces that are known by their
+    /// values only.
     pub unproved: usize,
 }
 

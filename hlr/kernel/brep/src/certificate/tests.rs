@@ -2,9 +2,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::*;
 use crate::mesh::tests::shapes::{Random, circle, frame, loops, surface};
-use crate::mesh::{Steps, mesh_face};
+use crate::mesh::{Progress, mesh_face};
 
-/// The greatest gap at many places of each triangle: along the mean normal of its corners, or its own, whichever is less.
+/// The greatest gap at many places of each triangle: along the mean normal of its corners, or its own, whichever is
+/// less.
 fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
     const STEPS: u32 = 12;
     let of_triangle = |t: &[u32; 3]| {
@@ -70,7 +71,7 @@ fn a_bound_is_never_less_than_the_error_and_comes_near_it() {
         (patch(&mut random, 3.0), square()),
     ];
     for (surface, border) in cases {
-        let mesh = mesh_face(&surface, &loops(&surface, &[border]), deflection, 0.5, &Steps::free()).unwrap();
+        let mesh = mesh_face(&surface, &loops(&surface, &[border]), deflection, 0.5, &Progress::free()).unwrap();
         let real = sampled(&surface, &mesh);
         for asked in [deflection, 0.3 * deflection] {
             let found = certify(&surface, &mesh, asked);

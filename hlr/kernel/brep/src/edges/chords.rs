@@ -1,13 +1,13 @@
-//! Where a curve is divided into chords: as few as keep the error and the turning, each with its share of both.
+//! Divides a curve into as few chords as keep the chord error and the turning angle, each with an equal share of both.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 
-use super::hull::chord_error;
+use super::chord_error::chord_error;
 use crate::geometry::curve::Curve;
 use crate::geometry::vector::{cross, dot, length};
 use hlr_accuracy::CHORD_AIM;
 
-/// Places in a smooth stretch at which the curvature is asked for.
+/// Points of a smooth stretch at which the curvature is evaluated.
 const SAMPLES: usize = 12;
 const SAMPLES_OF_SPAN: usize = 4;
 const MOST_CHORDS: usize = 50_000;
@@ -92,7 +92,7 @@ fn stretch(curve: &Curve, low: f64, high: f64, deflection: f64, angle: f64, out:
     }
 }
 
-/// Where the curvature is asked: ends and knots among them.
+/// Parameters at which the curvature is evaluated; ends and knots are among them.
 fn places(curve: &Curve, low: f64, high: f64) -> Vec<f64> {
     let mut bounds = vec![low];
     if let Curve::Spline(n) = curve {

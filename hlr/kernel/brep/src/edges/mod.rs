@@ -1,8 +1,8 @@
-//! Edges as polylines: each underlying edge once, for all of its faces.
+//! Edges as polylines: each underlying edge once, shared by all of its faces.
 
+mod chord_error;
 mod chords;
-mod hull;
-mod of_model;
+mod polyline;
 
-pub use hull::from_chord;
-pub use of_model::{Polyline, polyline};
+pub use chord_error::from_chord;
+pub use polyline::{Polyline, polyline};

@@ -9,7 +9,8 @@ use crate::format::Orientation;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{length, sub};
 use crate::mesh::{FaceLoops, Fault, LoopPoint};
-use crate::model::{Face, Model, Use, Vertex};
+use crate::model::Model;
+use crate::shapes::{Face, Use, Vertex};
 use hlr_accuracy::CHORD_MOST;
 
 /// A place that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.

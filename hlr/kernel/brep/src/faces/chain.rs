@@ -1,11 +1,11 @@
-//! The edges of a wire put in order: each begins in the vertex where the one before it ends, and near it in (u, v).
+//! Puts the edges of a wire in order: each begins at the vertex where the one before it ends, and near it in (u, v).
 //!
-//! Wires of modellers are in no order. Where a seam, a pole or two loops meet in one vertex, (u, v) decides.
+//! Modellers write the edges of a wire in any order. Where a seam, a pole or two loops share a vertex, (u, v) decides.
 
 use super::uses::Run;
 use crate::mesh::Fault;
 
-/// Of the face's extent in (u, v): ends that are nearer than that are one.
+/// Share of the face's extent in (u, v) below which two ends count as one.
 pub const NEAR: f64 = 1e-3;
 
 /// Numbers of runs in order, and by how much each is to be moved in (u, v).

@@ -1,13 +1,14 @@
-//! Parameters of places on a surface.
+//! Point inversion: the parameters (u, v) of a point on a surface.
 
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, dot, length, sub};
 
 const MOST_STEPS: usize = 30;
-/// Places tried along each parameter where nothing is known of where to begin.
+/// Start values tried along each parameter where no guess is known.
 const GRID: usize = 12;
 
-/// The parameters near `guess` whose place is nearest to a point; None where the search leads nowhere.
+/// The parameters near `guess` of the surface's point nearest to a given point; None where the search does not
+/// converge.
 pub fn near(surface: &Surface, point: &Vector, guess: [f64; 2]) -> Option<[f64; 2]> {
     let mut uv = guess;
     let (mut place, mut du, mut dv) = surface.d1(uv);
@@ -43,7 +44,7 @@ pub fn near(surface: &Surface, point: &Vector, guess: [f64; 2]) -> Option<[f64; 
     place.iter().all(|c| c.is_finite()).then_some(uv)
 }
 
-/// The same with nothing known but the ranges of u and v.
+/// The same without a guess, from the ranges of u and v.
 pub fn anywhere(surface: &Surface, point: &Vector, [u, v]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let mut best: Option<(f64, [f64; 2])> = None;
     for i in 0..=GRID {

@@ -1,4 +1,4 @@
-//! Faces of a model: their borders from their edges' polylines.
+//! The borders of faces, made from the polylines of their edges.
 
 mod border;
 mod chain;

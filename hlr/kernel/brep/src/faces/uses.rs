@@ -1,4 +1,4 @@
-//! An edge as a wire of a face runs through it: places in space and in (u, v).
+//! One edge of a wire, in the direction in which the wire runs: its points in space and in (u, v).
 
 use super::invert::{anywhere, near};
 use crate::edges::Polyline;
@@ -7,7 +7,8 @@ use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, dot, length, sub};
 use crate::mesh::Fault;
-use crate::model::{Model, Use, Vertex};
+use crate::model::Model;
+use crate::shapes::{Use, Vertex};
 use hlr_accuracy::EDGE_IN_FACE;
 
 /// In the sense of the wire; the polyline's chords are numbered along the edge.

@@ -1,6 +1,17 @@
-//! Numbers from a dump's bytes, little-endian; each read checks that the bytes are there.
+//! Reads little-endian numbers from the bytes of a dump; each read checks that the bytes are there.
 
-use super::Damaged;
+/// What is wrong with the bytes, and where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Damaged {
+    pub what: &'static str,
+    pub at: usize,
+}
+
+impl std::fmt::Display for Damaged {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} (at byte {})", self.what, self.at)
+    }
+}
 
 pub type Read<T> = Result<T, Damaged>;
 

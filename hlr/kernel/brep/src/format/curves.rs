@@ -1,11 +1,11 @@
-//! The sections of curves, in (u, v) and in space.
+//! Reads the sections of curves, in (u, v) and in space.
 
-use super::MOST_NESTED;
 use super::bytes::{Bytes, Read};
+use super::layout::MOST_NESTED;
 use crate::geometry::curve::{Curve, Vec3};
 use crate::geometry::nurbs::{MOST_DEGREE, Nurbs};
 use crate::geometry::offset_curve::offset_curve;
-use crate::geometry::unrolled::unrolled;
+use crate::geometry::periodic::unrolled;
 use crate::geometry::vector::scaled;
 
 pub fn section(

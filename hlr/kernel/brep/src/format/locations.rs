@@ -1,4 +1,4 @@
-//! Placements of sub-shapes: composed, compared and cancelled exactly as TopLoc_Location does.
+//! Locations of sub-shapes, composed, compared and cancelled exactly as TopLoc_Location does it.
 //!
 //! OpenCASCADE says that two sub-shapes are the same when their underlying shape and their *location* agree, and a
 //! location is not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may
@@ -12,7 +12,7 @@ use super::bytes::{Bytes, Read};
 type Chain = Vec<(u32, i32)>;
 pub type Matrix = [[f64; 4]; 3];
 
-/// Of a chain, and of one power: more is damage.
+/// The longest chain and the highest power; a file with more is damaged.
 const LONGEST: usize = 1000;
 
 /// A growing table of locations; number 0 is the identity. Equal chains have equal numbers.
@@ -193,7 +193,7 @@ pub fn moved(m: &Matrix, [x, y, z]: &[f64; 3]) -> [f64; 3] {
     m.map(|[a, b, c, d]| a * x + b * y + c * z + d)
 }
 
-/// A direction, which is turned and not shifted.
+/// Transforms a direction: rotation and scale without translation.
 pub fn turned(m: &Matrix, [x, y, z]: &[f64; 3]) -> [f64; 3] {
     m.map(|[a, b, c, _]| a * x + b * y + c * z)
 }

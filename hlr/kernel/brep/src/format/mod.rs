@@ -4,16 +4,18 @@
 //! Locations, Curve2ds, Curves, Polygon3D, PolygonOnTriangulations, Surfaces, Triangulations, TShapes, root
 //! ```
 //!
-//! The bytes may be anything: what is not a dump gives an error, counts are compared with the bytes that are left before
-//! memory is taken, and nesting is bounded.
+//! The bytes may be anything: what is not a dump gives an error, counts are compared with the bytes that are left
+//! before memory is taken, and nesting is bounded.
 
 mod bytes;
 mod curves;
+mod layout;
 mod locations;
 mod shapes;
 mod surfaces;
 mod triangles;
 
+pub use bytes::Damaged;
 pub use locations::{IDENTITY, Locations, Matrix, chained, determinant, moved, turned};
 pub use shapes::{Kind, On, Orientation, Shape, Sub};
 pub use surfaces::SurfaceRecord;
@@ -21,19 +23,7 @@ pub use triangles::Triangulation;
 
 use crate::geometry::curve::Curve;
 use bytes::{Bytes, Read};
-
-/// What is wrong with the bytes, and where.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Damaged {
-    pub what: &'static str,
-    pub at: usize,
-}
-
-impl std::fmt::Display for Damaged {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} (at byte {})", self.what, self.at)
-    }
-}
+use layout::Layout;
 
 /// What a dump holds; underlying shapes stand before those that consist of them.
 pub struct Dump {
@@ -48,9 +38,6 @@ pub struct Dump {
     pub shapes: Vec<Shape>,
     pub root: Sub,
 }
-
-/// How deep curves and surfaces may be trimmed or offset, one upon the other.
-const MOST_NESTED: usize = 16;
 
 /// The shape of a dump.
 ///
@@ -87,14 +74,6 @@ pub fn read(data: &[u8]) -> Read<Dump> {
     };
     let (shapes, root) = shapes::read(&mut bytes, &limits)?;
     Ok(Dump { locations, curves2, curves, polygons, surfaces, triangulations, shapes, root })
-}
-
-#[derive(Clone, Copy)]
-struct Layout {
-    /// A curve on a surface is followed by the (u, v) of its ends.
-    ends_in_uv: bool,
-    /// A triangulation says whether it has normals.
-    normals: bool,
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! The section of underlying shapes (TShapes).
+//! Reads the section of underlying shapes (TShapes).
 
-use super::Layout;
 use super::bytes::{Bytes, Read};
+use super::layout::Layout;
 
 /// A shape inside another one: which, how it stands there, and where.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
-//! The section of surfaces.
+//! Reads the section of surfaces.
 
-use super::MOST_NESTED;
 use super::bytes::{Bytes, Read};
 use super::curves::{Axis, degree, pole, space_curve};
+use super::layout::MOST_NESTED;
 use crate::geometry::curve::Curve;
 
 /// A surface as numbers: what `Surface::read` takes, and what Python hands to other parts of the kernel.

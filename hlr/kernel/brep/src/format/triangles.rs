@@ -1,7 +1,7 @@
-//! The sections of polygons and triangulations: what a file brought where it has no surfaces.
+//! Reads the sections of polygons and triangulations, which a file may have in place of curves and surfaces.
 
-use super::Layout;
 use super::bytes::{Bytes, Read};
+use super::layout::Layout;
 
 /// A face's own triangles; uv is empty where none are known.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! Basis functions of B-splines, with first and second derivatives.
 //!
-//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.2 (basis functions), (2.7) (derivatives from those of
-//! lower degree).
+//! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.2 (basis functions), (2.7) (derivatives from
+//! those of lower degree).
 
-/// Values, first and second derivatives of the basis functions that are not zero at a parameter, and the first one's number.
-/// N: at least one more than the degree. Short arrays are much faster, and most splines are of low degree.
+/// Values, first and second derivatives of the basis functions that are not zero at a parameter, and the first one's
+/// number. N: at least one more than the degree. Short arrays are much faster, and most splines are of low degree.
 pub struct Basis<const N: usize> {
     pub first: usize,
     pub rows: [[f64; N]; 3],

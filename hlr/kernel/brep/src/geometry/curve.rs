@@ -1,4 +1,4 @@
-//! Curves in space as affine forms: a placement moves their vectors, whatever it does to lengths and angles.
+//! Curves in space, written as affine combinations of vectors: any affine placement transforms the vectors alone.
 //!
 //! ```text
 //!   line        p + t a

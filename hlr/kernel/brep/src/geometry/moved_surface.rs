@@ -1,4 +1,4 @@
-//! A surface's record where a placement puts it: turned, mirrored and moved.
+//! Transforms the record of a surface by a placement: rotation, mirror image and translation.
 
 use super::curve::Curve;
 

@@ -1,5 +1,5 @@
-//! B-splines, rational or not, in homogeneous coordinates.
-//! (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997: A2.1 find span, A2.3 basis functions and their first derivatives.)
+//! B-splines, rational or not, in homogeneous coordinates. (L. Piegl, W. Tiller, "The NURBS Book", 2nd edition, 1997:
+//! A2.1 find span, A2.3 basis functions and their first derivatives.)
 
 use super::basis::{Basis, values};
 

@@ -1,4 +1,4 @@
-//! Curves beside a curve: of lines and circles they are exact, of others splines that follow them closely.
+//! Offset curves: exact for lines and circles, close spline approximations for all others.
 
 use super::curve::{Curve, Vec3};
 use super::nurbs::Nurbs;

@@ -1,4 +1,4 @@
-//! Basis functions of a B-spline that is evaluated often: between two knots each is a polynomial, kept by its powers.
+//! Basis functions of a B-spline that is evaluated often, stored as polynomial coefficients for each knot span.
 
 use super::basis::Basis;
 

@@ -184,8 +184,8 @@ impl SplineSurface {
         (knots, [knots[p], knots[self.count[side]]], self.period[side])
     }
 
-    /// The parameter, u (0) or v (1), along which the surface is straight, if its tangent plane is the same all along: a part
-    /// of a cylinder, of a cone, or of what is like these over another curve.
+    /// The parameter, u (0) or v (1), along which the surface is straight, if its tangent plane is the same all along:
+    /// a part of a cylinder, of a cone, or of what is like these over another curve.
     pub fn unrolls_along(&self) -> Option<usize> {
         [1, 0].into_iter().find(|&side| self.degree[side] == 1 && self.count[side] == 2 && self.is_scaled(side))
     }

@@ -1,11 +1,11 @@
-//! How the normal of a surface turns along a straight line in (u, v): where it does so evenly, in closed form.
+//! The rotation of a surface's normal along a straight line in (u, v), in closed form where the rate is constant.
 
 use super::surface::Surface;
 use super::vector::{Vector, cross, scaled};
 
 impl Surface {
-    /// The axis about which the unit normal turns on the way from `uv` by `step`, its length the angle in radians: 0 where
-    /// it stays as it is. None where it does not turn evenly, or nobody says so.
+    /// The axis about which the unit normal turns on the way from `uv` by `step`, its length the angle in radians: 0
+    /// where it stays as it is. None where it does not turn evenly, or nobody says so.
     pub fn turning(&self, [u, v]: [f64; 2], [along_u, along_v]: [f64; 2]) -> Option<Vector> {
         match self {
             Surface::Plane(_) => Some([0.0; 3]),

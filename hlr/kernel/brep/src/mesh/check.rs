@@ -1,4 +1,4 @@
-//! The proof of a face's triangles in the parameter plane.
+//! Proves that the triangles of a face fill its loops in the parameter plane, once and without overlap.
 
 use rustc_hash::FxHashSet;
 
@@ -14,9 +14,9 @@ pub struct Proof {
     pub in_sense: bool,
 }
 
-/// A proof that each chord has one triangle beside it, every other edge two that run along it in opposite senses, and no
-/// triangle is turned over. The triangles then fill exactly what the loops enclose, in (u, v), by the rule of even and odd:
-/// whatever way a loop runs.
+/// A proof that each chord has one triangle beside it, every other edge two that run along it in opposite senses, and
+/// no triangle is turned over. The triangles then fill exactly what the loops enclose, in (u, v), by the rule of even
+/// and odd: whatever way a loop runs.
 ///
 /// `uv`: places of all vertices; `stand_in`: of points of the outline at one place, the one that is used.
 pub fn proof(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles: &[[u32; 3]]) -> Option<Proof> {
@@ -54,7 +54,8 @@ fn filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 
     let sound = first.windows(2).all(|w| {
         let part = &mut sorted[w[0] as usize..w[1] as usize];
         part.sort_unstable();
-        // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit, or all of a face without area.
+        // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit, or all of a face without
+        // area.
         part.chunk_by(|a, b| a.0 == b.0).all(|group| {
             in_sense &= !matches!(group, [(_, 0), (_, 3)] | [(_, 1), (_, 2)]);
             matches!(

@@ -1,4 +1,4 @@
-//! Chords that cross or touch where they should not, by exact signs. Only asked where a face has failed.
+//! Finds chords of a border that cross or touch each other, by exact signs. Used only where meshing a face has failed.
 
 use super::outline::Outline;
 use super::plane::side;

@@ -1,15 +1,15 @@
-//! Constrained Delaunay triangles of loops and inner points.
+//! The constrained Delaunay triangulation of loops and inner points.
 
 use spade::handles::DirectedEdgeHandle;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::outline::Outline;
-use super::steps::Steps;
+use super::progress::Progress;
 
 struct Corner<'a> {
     place: Point2<f64>,
     number: u32,
-    steps: &'a Steps<'a>,
+    steps: &'a Progress<'a>,
 }
 
 impl HasPosition for Corner<'_> {
@@ -34,7 +34,7 @@ type Mesh<'a> = ConstrainedDelaunayTriangulation<Corner<'a>>;
 
 impl Delaunay {
     /// Inner points are numbered after those of the outline. None where chords cross or points are out of range.
-    pub fn new(outline: &Outline, inner: &[[f64; 2]], steps: &Steps) -> Option<Delaunay> {
+    pub fn new(outline: &Outline, inner: &[[f64; 2]], steps: &Progress) -> Option<Delaunay> {
         let stand_in = stand_ins(outline);
         let count = outline.len();
         let mut corners = Vec::with_capacity(count + inner.len());

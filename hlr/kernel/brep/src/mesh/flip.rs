@@ -1,4 +1,4 @@
-//! Inner edges turned into the other diagonal of their two triangles.
+//! Edge flips: an inner edge becomes the other diagonal of its two triangles.
 
 use super::plane::{area, side};
 
@@ -37,8 +37,8 @@ pub fn flip(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], cost: &impl Fn(u32, u32
     changed
 }
 
-/// Turn edges of triangles that are turned over, where that sets them upright: a chart of (u, v) keeps the sense of its own
-/// triangles only.
+/// Turn edges of triangles that are turned over, where that sets them upright: a chart of (u, v) keeps the sense of its
+/// own triangles only.
 pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
     let over = |t: [u32; 3]| {
         let [a, b, c] = t.map(|i| &uv[i as usize]);
@@ -71,8 +71,8 @@ pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
 /// Height over length of a triangle that is no needle.
 const NEEDLE: f64 = 1e-6;
 
-/// Turn the longest sides of needles, where what comes of it is higher. In a plane corners of the border may lie in one line
-/// but for rounding; a needle between them has no normal, and the grid of an image turns it over.
+/// Turn the longest sides of needles, where what comes of it is higher. In a plane corners of the border may lie in one
+/// line but for rounding; a needle between them has no normal, and the grid of an image turns it over.
 ///
 /// ```text
 ///      p ---- q ---- r          p ---- q ---- r

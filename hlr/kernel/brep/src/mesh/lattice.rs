@@ -1,13 +1,13 @@
-//! Inner points of a bent face: rows of equilateral triangles in the chart, as wide as the field of spacings says.
+//! Inner points of a doubly curved face: rows of equilateral triangles in the chart, sized by the field of spacings.
 //!
 //! ```text
 //!      .   .   .   .      Rows are as far apart as their own spacing asks for, so that they follow a spacing that
 //!    .   .   .   .   .    changes along y. Where it changes along x as well, the chart is cut into blocks.
 //! ```
 
-use super::border::Border;
-use super::size::Field;
-use super::steps::Steps;
+use super::border_grid::BorderGrid;
+use super::progress::Progress;
+use super::spacing::Field;
 
 /// Height of an equilateral triangle.
 const HEIGHT: f64 = 0.866;
@@ -21,7 +21,7 @@ pub const MARGIN: f64 = 0.45;
 const HAIR: f64 = 0.05;
 
 /// Points inside the loops; None where they would be more than `most`.
-pub fn points(field: &Field, border: &Border, most: usize, steps: &Steps) -> Option<Vec<[f64; 2]>> {
+pub fn points(field: &Field, border: &BorderGrid, most: usize, steps: &Progress) -> Option<Vec<[f64; 2]>> {
     let mut lattice = Lattice { field, border, points: Vec::new(), crossed: Vec::new(), most, steps };
     let counts = field.counts();
     lattice.block([0, counts[0]], [0, counts[1]])?;
@@ -30,11 +30,11 @@ pub fn points(field: &Field, border: &Border, most: usize, steps: &Steps) -> Opt
 
 struct Lattice<'a> {
     field: &'a Field,
-    border: &'a Border<'a>,
+    border: &'a BorderGrid<'a>,
     points: Vec<[f64; 2]>,
     crossed: Vec<f64>,
     most: usize,
-    steps: &'a Steps<'a>,
+    steps: &'a Progress<'a>,
 }
 
 /// A row of a block of cells.

@@ -1,96 +1,52 @@
-//! The mesh of one face from its loops, in the parameter plane of its surface.
+//! The mesh of one face, made from its loops in the parameter plane of its surface.
+//!
+//! Planes and surfaces that are straight in one direction (`ruled`) need no inner points: a sweep (`sweep`) or Delaunay
+//! triangulation of the border is enough. All others (`doubly_curved`) get a lattice of inner points. Every mesh is
+//! proved to fill the loops (`check`) before it is returned.
 
-mod bent;
-mod border;
-mod bound;
+mod border_grid;
 mod check;
 mod crossing;
 mod delaunay;
+mod doubly_curved;
+mod draft;
+mod face;
 mod flip;
+mod gap;
 mod lattice;
-mod net;
 mod outline;
 mod plane;
+mod progress;
 mod ruled;
-mod size;
-mod steps;
+mod spacing;
 mod strips;
 mod sweep;
+mod triangulation;
 
 use crate::geometry::surface::Surface;
-use bound::Corner;
+use draft::Draft;
+pub use face::{FaceLoops, FaceMesh, Fault, LoopPoint};
+use gap::Corner;
 use hlr_accuracy::MESH_BORDER;
 use outline::Outline;
-pub use steps::{OF_A_FACE, Steps, Told};
-
-/// A point of a loop: a corner of an edge's polyline.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LoopPoint {
-    /// On the surface. Of a periodic surface the loop goes on without a jump; its last point may be a period away from
-    /// its first one.
-    ///
-    /// Neighbours with one node are a pole: they differ in (u, v) only, and the mesh may have points between them.
-    pub uv: [f64; 2],
-    /// In space, in the surface's frame.
-    pub point: [f64; 3],
-    /// Its number among the points of all edges: one place, one node, whatever face it is seen from.
-    pub node: u32,
-}
-
-/// The border of a face: closed loops, the first point not repeated at the end. The inside is to the left in (u, v): of a
-/// loop that runs the other way it is known which side is meant all the same, by the loops around it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FaceLoops {
-    pub loops: Vec<Vec<LoopPoint>>,
-    /// Of u and v; 0 where the surface is not periodic.
-    pub periods: [f64; 2],
-}
-
-/// Triangles of a face. The loops' points come first, in their order; inner points follow.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FaceMesh {
-    pub uv: Vec<[f64; 2]>,
-    pub points: Vec<[f64; 3]>,
-    /// Of the loops' points; and of points that were added on poles, which follow these.
-    pub nodes: Vec<u32>,
-    /// Counterclockwise in (u, v).
-    pub triangles: Vec<[u32; 3]>,
-    /// Unit normals du x dv.
-    pub normals: Vec<[f64; 3]>,
-    /// Numbers of the loops that run the wrong way. They were taken as if they did not.
-    pub turned: Vec<usize>,
-}
+pub use progress::{Done, OF_A_FACE, Progress};
 
 /// Twice the area of a triangle in (u, v), rounded.
 pub fn area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
     plane::area(a, b, c)
 }
 
-/// Why a face has no mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Fault {
-    /// Chords that cross: loop, chord, loop, chord.
-    Crossing(Vec<[usize; 4]>),
-    /// A loop that does not close in (u, v), or encloses nothing.
-    Open,
-    /// The surface has no normal, or no size, where one is needed.
-    Degenerate,
-    /// More points than fit into memory would be needed.
-    TooFine,
-    /// The chord error that could be shown, where that is above what was asked.
-    NotCertified(f64),
-}
-
-/// The mesh of a face: chord error at most `deflection` in the surface's unit. Inner points are laid out so that the surface
-/// turns by about `angle` radians from one to the next; triangles that are long beside flat directions turn by up to twice
-/// as much.
+/// The mesh of a face: chord error at most `deflection` in the surface's unit. Inner points are laid out so that the
+/// surface turns by about `angle` radians from one to the next; triangles that are long beside flat directions turn by
+/// up to twice as much.
 ///
-/// The loops' points are kept as they are. The chord error is counted from the loops' own places: what these are off the
-/// surface is not in it, and no mesh can mend it. They are off where the file's edges and vertices are, which share one place
-/// among all faces around: an edge by its tolerance, which readers that sew faces raise to hundredths of a millimetre. (The
-/// example `mesh_error` tells both apart. Of 28 models, at 5e-5 of their size, 8 have such faces, by up to 32 times the
-/// deflection; at 5e-4, one.) On a sphere it is exact, on cylinders and cones in closed form; elsewhere it follows from the second
-/// derivatives at the corners, with a margin, and is measured where these change unevenly: `certificate` proves how true that is.
+/// The loops' points are kept as they are. The chord error is counted from the loops' own places: what these are off
+/// the surface is not in it, and no mesh can mend it. They are off where the file's edges and vertices are, which share
+/// one place among all faces around: an edge by its tolerance, which readers that sew faces raise to hundredths of a
+/// millimetre. (The example `mesh_error` tells both apart. Of 28 models, at 5e-5 of their size, 8 have such faces, by
+/// up to 32 times the deflection; at 5e-4, one.) On a sphere it is exact, on cylinders and cones in closed form;
+/// elsewhere it follows from the second derivatives at the corners, with a margin, and is measured where these change
+/// unevenly: `certificate` proves how true that is.
 ///
 /// # Errors
 /// The loops cross, do not close, or the deflection cannot be shown to be kept with chords as coarse as the border's.
@@ -99,9 +55,9 @@ pub fn mesh_face(
     loops: &FaceLoops,
     deflection: f64,
     angle: f64,
-    steps: &Steps,
+    steps: &Progress,
 ) -> Result<FaceMesh, Fault> {
-    let bent = |straight| bent::triangulate(surface, loops, deflection, angle, straight, steps);
+    let bent = |straight| doubly_curved::triangulate(surface, loops, deflection, angle, straight, steps);
     let made = match (surface, ruled::straight_along(surface)) {
         (Surface::Plane(_), _) => proved(flat(surface, Outline::new(loops, |_, _, _| ())?, deflection, steps)),
         (_, Some(straight)) => {
@@ -144,7 +100,7 @@ pub fn bends_both_ways(surface: &Surface) -> bool {
 }
 
 /// With all points of the loops, and proved to fill them; the outline where that is not so.
-fn proved(made: Result<Made, Box<Outline>>) -> Result<Made, Box<Outline>> {
+fn proved(made: Result<Draft, Box<Outline>>) -> Result<Draft, Box<Outline>> {
     let mut made = made?;
     made.outline.rejoin(&mut made.triangles);
     let uv: Vec<_> = made.corners.iter().map(|c| c.uv).collect();
@@ -158,21 +114,8 @@ fn proved(made: Result<Made, Box<Outline>>) -> Result<Made, Box<Outline>> {
     Ok(made)
 }
 
-/// Triangles of a face, not yet proved.
-struct Made {
-    outline: Outline,
-    /// Points of the outline, then inner ones.
-    corners: Vec<Corner>,
-    triangles: Vec<[u32; 3]>,
-    /// Of points of the outline at one place, the one that triangles have.
-    stand_in: Vec<u32>,
-    error: f64,
-    /// Loops that run the wrong way, once that is known.
-    turned: Vec<usize>,
-}
-
 /// Without inner points. Where the loops cannot be filled, their outline.
-fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Steps) -> Result<Made, Box<Outline>> {
+fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) -> Result<Draft, Box<Outline>> {
     let Some((triangles, stand_in, error)) = ruled::triangulate(surface, &outline, deflection, steps) else {
         return Err(Box::new(outline));
     };
@@ -181,7 +124,7 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Steps) -> 
         _ => Corner { uv, point, normal: surface.normal(uv).unwrap_or_default() },
     };
     let corners = outline.uv.iter().zip(&outline.points).map(corner).collect();
-    Ok(Made { outline, corners, triangles, stand_in, error, turned: Vec::new() })
+    Ok(Draft { outline, corners, triangles, stand_in, error, turned: Vec::new() })
 }
 
 const ROUNDING: f64 = 1e-9;
@@ -201,8 +144,8 @@ fn why(outline: &Outline) -> Fault {
     Fault::Crossing(pairs.collect())
 }
 
-fn finish(surface: &Surface, made: Made) -> FaceMesh {
-    let Made { outline, mut corners, mut triangles, turned, .. } = made;
+fn finish(surface: &Surface, made: Draft) -> FaceMesh {
+    let Draft { outline, mut corners, mut triangles, turned, .. } = made;
     // At poles triangles may have two corners in one place.
     let node = |i: u32| outline.nodes.get(i as usize);
     let apart = |a: u32, b: u32| node(a).is_none() || node(a) != node(b);
@@ -235,8 +178,8 @@ fn finish(surface: &Surface, made: Made) -> FaceMesh {
     }
 }
 
-/// Without pairs of triangles between the same nodes that are turned opposite ways: they enclose nothing. Where the border
-/// comes twice through one node, at a tip or beside a seam, a narrow face folds onto itself like that.
+/// Without pairs of triangles between the same nodes that are turned opposite ways: they enclose nothing. Where the
+/// border comes twice through one node, at a tip or beside a seam, a narrow face folds onto itself like that.
 fn without_folds(nodes: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let mut sorted: Vec<(u32, u32)> = nodes.iter().copied().zip(0..).collect();
     sorted.sort_unstable();

@@ -1,6 +1,6 @@
-//! The loops of a face as one list of points.
+//! The loops of a face as one list of points with links from each to the next.
 
-use super::{FaceLoops, Fault};
+use super::face::{FaceLoops, Fault};
 
 /// Points of all loops, one loop after the other; then points that were added on poles.
 #[derive(Clone, Debug, Default)]
@@ -17,13 +17,13 @@ pub struct Outline {
 }
 
 const NONE: u32 = u32::MAX;
-/// Of the outline's extent: neighbours this close to one another in (u, v) are at one place there. What ends of edges that
-/// miss their vertex do between themselves is less than that.
+/// Of the outline's extent: neighbours this close to one another in (u, v) are at one place there. What ends of edges
+/// that miss their vertex do between themselves is less than that.
 const SAME: f64 = 1e-6;
 
 impl Outline {
-    /// Chords whose ends share a node are poles: they are one place in space, and `divide` may put points on them. It gets
-    /// the ends of such a chord and appends shares of the way, rising.
+    /// Chords whose ends share a node are poles: they are one place in space, and `divide` may put points on them. It
+    /// gets the ends of such a chord and appends shares of the way, rising.
     pub fn new(face: &FaceLoops, divide: impl Fn([f64; 2], [f64; 2], &mut Vec<f64>)) -> Result<Outline, Fault> {
         let mut out = Outline::with_capacity(face.loops.iter().map(Vec::len).sum());
         for (number, points) in face.loops.iter().enumerate() {

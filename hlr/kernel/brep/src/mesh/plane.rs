@@ -1,4 +1,4 @@
-//! Points of the parameter plane: exact signs, and plain arithmetic.
+//! Points of the parameter plane: orientation by exact signs, areas and distances in floating point.
 
 use robust::{Coord, orient2d};
 

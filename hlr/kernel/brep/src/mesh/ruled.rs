@@ -1,19 +1,20 @@
-//! Cylinders, cones, extrusions, and splines that are like these: straight along v, or along u, so that no inner points are
-//! needed.
+//! Faces that are straight along u or v (planes, cylinders, cones, extrusions, and splines like these): no inner
+//! points.
 //!
-//! The sweep goes along the other parameter; no triangle reaches farther in it than the chord whose mountain it is in. On a
-//! surface that can be unrolled the gap between surface and triangle is greatest at the triangle's edges: what holds for
-//! them holds everywhere.
+//! The sweep goes along the other parameter; no triangle reaches farther in it than the chord whose mountain it is in.
+//! On a surface that can be unrolled the gap between surface and triangle is greatest at the triangle's edges: what
+//! holds for them holds everywhere.
 
 use super::delaunay::Delaunay;
 use super::flip::{flip, without_needles};
 use super::outline::Outline;
-use super::steps::Steps;
+use super::progress::Progress;
 use super::sweep;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, from_line, sub, unit};
 
-/// Where the sweep does not get through, v is made so short that Delaunay's triangles are as narrow in u as they can be.
+/// Where the sweep does not get through, v is made so short that Delaunay's triangles are as narrow in u as they can
+/// be.
 const FLAT: f64 = 1e-3;
 /// What a parabola through three gaps along an edge may be less than the greatest one.
 const MARGIN: f64 = 1.02;
@@ -28,7 +29,7 @@ pub fn straight_along(surface: &Surface) -> Option<usize> {
 }
 
 /// Triangles and the error that is shown for them.
-pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64, steps: &Steps) -> Option<Triangles> {
+pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64, steps: &Progress) -> Option<Triangles> {
     if straight_along(surface) == Some(0) {
         let (mut triangles, stand_in, error) =
             upright(surface, &outline.mapped(|[u, v]| [v, u]), true, deflection, steps)?;
@@ -41,7 +42,13 @@ pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64, steps:
 type Triangles = (Vec<[u32; 3]>, Vec<u32>, f64);
 
 /// `swapped`: the outline has (v, u) in place of (u, v).
-fn upright(surface: &Surface, outline: &Outline, swapped: bool, deflection: f64, steps: &Steps) -> Option<Triangles> {
+fn upright(
+    surface: &Surface,
+    outline: &Outline,
+    swapped: bool,
+    deflection: f64,
+    steps: &Progress,
+) -> Option<Triangles> {
     let (mut triangles, stand_in) = match sweep::triangulate(outline, steps) {
         Some(triangles) => (triangles, (0..outline.len() as u32).collect()),
         None => {
@@ -80,8 +87,8 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
     let arc = |angle: f64| 1.0 - (0.5 * angle.min(std::f64::consts::TAU)).cos();
     match surface {
         Surface::Cylinder(_, r) => r.abs() * arc(turn),
-        // Unrolled, the line between two generators has the curvature c / x^3 at the distance x from the apex, where it is
-        // at right angles to neither; twice integrated, its height is that of 1 / x above its chord.
+        // Unrolled, the line between two generators has the curvature c / x^3 at the distance x from the apex, where it
+        // is at right angles to neither; twice integrated, its height is that of 1 / x above its chord.
         Surface::Cone(_, r, sin, cos) => {
             let [one, other] = [a, b].map(|p| (r + p[1] * sin).abs());
             let roots = one.sqrt() + other.sqrt();

@@ -1,4 +1,4 @@
-//! Faces whose border is a rectangle in the chart: rows of points as in the lattice, and triangles straight from row to row.
+//! Faces whose border is a rectangle in the chart: rows of inner points, triangulated directly from row to row.
 //!
 //! ```text
 //!    o--o---o---o--o        o  border     .  rows
@@ -11,8 +11,8 @@
 use super::lattice::{self, Level};
 use super::outline::Outline;
 use super::plane::area;
-use super::size::Field;
-use super::steps::Steps;
+use super::progress::Progress;
+use super::spacing::Field;
 
 /// Of the least spacing: points of the border may be so far off the rectangle's sides.
 const OFF: f64 = 0.02;
@@ -27,7 +27,7 @@ pub struct Strips {
 }
 
 /// None where the border is no rectangle, the spacing changes along rows, or a strip is not free.
-pub fn strips(field: &Field, chart: &Outline, most: usize, steps: &Steps) -> Option<Strips> {
+pub fn strips(field: &Field, chart: &Outline, most: usize, steps: &Progress) -> Option<Strips> {
     let counts = field.counts();
     let (i, j) = ([0, counts[0]], [0, counts[1]]);
     if lattice::is_uneven(field, i, j) {
@@ -131,13 +131,14 @@ fn sides(chart: &Outline, off: f64) -> Option<[Vec<u32>; 4]> {
 
 struct Strip<'a> {
     places: &'a [[f64; 2]],
-    steps: &'a Steps<'a>,
+    steps: &'a Progress<'a>,
     triangles: Vec<[u32; 3]>,
 }
 
 impl Strip<'_> {
-    /// Triangles between two chains, which have the strip to their left (a) and to their right (b): each the
-    /// one of the two that can come next whose circle has not the other's corner in it. None where a triangle would be turned over.
+    /// Triangles between two chains, which have the strip to their left (a) and to their right (b): each the one of the
+    /// two that can come next whose circle has not the other's corner in it. None where a triangle would be turned
+    /// over.
     fn zip(&mut self, a: &[u32], b: &[u32]) -> Option<()> {
         let at = |i: u32| &self.places[i as usize];
         let (mut i, mut j) = (0, 0);
@@ -185,7 +186,7 @@ mod tests {
     fn made(surface: &Surface, places: Vec<[f64; 2]>) -> (Outline, Option<Strips>) {
         let face = loops(surface, &[places]);
         let outline = Outline::new(&face, |_, _, _| ()).unwrap();
-        let steps = Steps::free();
+        let steps = Progress::free();
         let field = Field::new(surface, outline.bounds(), 0.01, 0.5, false, &steps).unwrap();
         let chart = outline.mapped(|uv| field.to_chart(uv));
         let strips = strips(&field, &chart, 1_000_000, &steps);

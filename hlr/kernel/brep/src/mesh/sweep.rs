@@ -1,4 +1,4 @@
-//! Triangles of loops without inner points, by a sweep from left to right.
+//! Triangulates loops without inner points, by a sweep from left to right.
 //!
 //! The trapezoids between the chords above and below each point are cut by a diagonal from their left corner to their
 //! right one, where these are not on one chord. What is left is a mountain over each chord: a chain that runs from the
@@ -16,10 +16,10 @@
 
 use super::outline::Outline;
 use super::plane::{precedes, side};
-use super::steps::Steps;
+use super::progress::Progress;
 
 /// Triangles, counterclockwise. None where chords meet outside their ends, lie upon one another, or have no length.
-pub fn triangulate(outline: &Outline, steps: &Steps) -> Option<Vec<[u32; 3]>> {
+pub fn triangulate(outline: &Outline, steps: &Progress) -> Option<Vec<[u32; 3]>> {
     let points = &outline.uv;
     let mut order = Vec::with_capacity(points.len());
     for i in outline.chords() {
@@ -61,8 +61,8 @@ const NONE: u32 = u32::MAX;
 
 struct Sweep<'a> {
     outline: &'a Outline,
-    /// Chords under the sweep line from below to above: those at even places have the inside above them. A chord has the
-    /// number of the point that it begins at in its loop.
+    /// Chords under the sweep line from below to above: those at even places have the inside above them. A chord has
+    /// the number of the point that it begins at in its loop.
     active: Vec<u32>,
     /// Per chord: the last point of its mountain's chain.
     last: Vec<u32>,

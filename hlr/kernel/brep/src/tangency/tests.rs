@@ -1,6 +1,7 @@
 //! Along an edge two faces are tangent or not: the pieces that angles make, of an edge of length 10 along x.
 
 use super::*;
+use crate::geometry::curve::Curve;
 
 fn even(count: u32) -> Vec<f64> {
     (0..=count).map(|i| f64::from(i) / f64::from(count)).collect()
@@ -145,7 +146,8 @@ fn faces_that_meet_at_hardly_an_angle_are_tangent() {
 
 #[test]
 fn elementary_faces_that_waver_about_tangency_are_tangent_where_they_mostly_are() {
-    // A cone that is nearly flat, and a plane: the angle between them goes from one's tilt less the other's to their sum.
+    // A cone that is nearly flat, and a plane: the angle between them goes from one's tilt less the other's to their
+    // sum.
     let frame = |turn: f64| {
         let (sin, cos) = f64::sin_cos(turn);
         [0.0, 0.0, 0.0, cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos]
@@ -218,7 +220,7 @@ fn a_glance_tells_what_is_far_from_every_limit_and_nothing_else() {
     ] {
         let tilted = rising(low, high);
         let sides = [&flat, &tilted].map(|surface| Side { surface, curve, place: None, reversed: false, free: true });
-        assert_eq!(glance(&sides.each_ref().map(Fixed::new), 8), told, "{low} {high}");
+        assert_eq!(clear_case(&sides.each_ref().map(Fixed::new), 8), told, "{low} {high}");
         assert!(told.is_none_or(|smooth| meeting(&sides, false) == Meeting::Whole(smooth)));
     }
 }

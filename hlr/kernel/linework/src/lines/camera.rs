@@ -1,7 +1,8 @@
-//! The camera: from model coordinates to paper.
+//! The camera: projects points of the model to paper.
 
 use super::View;
-use crate::paper::project::{Projection, Vec2};
+use crate::fit::plane::Vec2;
+use crate::fit::project::Projection;
 
 type Vec3 = [f64; 3];
 

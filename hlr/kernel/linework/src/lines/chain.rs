@@ -1,5 +1,5 @@
-//! Join edges of equal key at vertices where they go on: where exactly two of them meet, and where more do, the one pair
-//! that runs nearly straight on.
+//! Joins edges of equal key into chains: at a vertex where exactly two of them meet; where more meet, the one pair that
+//! runs nearly straight on.
 //!
 //! ```text
 //!        |                 a rib that ends on a rim does not part the rim;

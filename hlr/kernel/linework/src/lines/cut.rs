@@ -1,16 +1,16 @@
-//! From the pieces along chains to lines on paper: the steps of `lines` in their order.
+//! The steps of `lines` in their order: from the pieces along chains to lines on paper.
 
 use rayon::prelude::*;
 
-use super::cover::{Widths, uncovered};
+use super::candidates::Chains;
+use super::coincident::{Widths, uncovered};
 use super::ends::Ends;
-use super::outlines::Chains;
 use super::runs::{self, Geometry, Limits};
 use super::simplify::simplify;
 use super::specks::drop_specks;
 use super::{Polyline, View};
-use crate::paper::bezier::Chain;
-use crate::paper::smooth::smooth;
+use crate::fit::bezier::Chain;
+use crate::fit::smooth::smooth;
 
 /// Millimetres on paper, but for `space`, in model units.
 #[derive(Clone, Copy, Debug)]
@@ -122,8 +122,8 @@ pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> 
 }
 
 impl Cut {
-    /// Without the lines of chains of which nothing is visible. Hidden lines beside visible ones of the same chain stay:
-    /// both end where they meet, and that place is sought as one.
+    /// Without the lines of chains of which nothing is visible. Hidden lines beside visible ones of the same chain
+    /// stay: both end where they meet, and that place is sought as one.
     pub fn keep_sighted(&mut self, chains: usize) {
         let mut seen = vec![false; chains];
         self.lines.iter().filter(|line| line.visible).for_each(|line| seen[line.chain as usize] = true);

@@ -1,4 +1,4 @@
-//! Where lines end: what others of their vertices must not move away from.
+//! End points of lines. A line keeps its vertices at places where other lines end.
 
 use std::collections::HashMap;
 

@@ -1,17 +1,18 @@
-//! From lines on paper to those of a finished drawing: each on its curve, from the lower left corner of all, in order.
+//! Finishes the drawing: puts each line on its curve, moves the lower left corner of all to the origin, sorts the
+//! lines.
 
 use super::Polyline;
 use super::camera::Camera;
+use super::candidates::About;
 use super::cut::{Cut, Trait};
-use super::drawn::{Curve, Kind, Line, Lines};
-use super::outlines::About;
-use crate::ink::arcs::Arc;
-use crate::paper::Form;
-use crate::paper::arc::grow;
-use crate::paper::bezier::Chain;
-use crate::paper::junction::Border;
-use crate::paper::project::Vec2;
-use crate::paper::routes::{Curves, Fit, Guide, OnCurve, on_curves};
+use super::drawing::{Curve, Kind, Line, Lines};
+use crate::curves::arcs::Arc;
+use crate::fit::Form;
+use crate::fit::arc::grow;
+use crate::fit::bezier::Chain;
+use crate::fit::junction::Border;
+use crate::fit::plane::Vec2;
+use crate::fit::routes::{Curves, Fit, Guide, OnCurve, on_curves};
 
 /// A line on its way: its points, its curve, and its box.
 struct Made {

@@ -1,4 +1,4 @@
-//! What is left out of a line that others cover, and what is left of it.
+//! Cuts out of a line the stretches that other lines cover.
 
 use super::{Polyline, View, distance};
 use hlr_accuracy::{COVER_CROSSING, COVER_INK};
@@ -64,9 +64,9 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
     }
 }
 
-/// The stretches (in arc length) that are left out, ascending. Rests of less than two widths of coincidence, which are the
-/// accuracy, go with them: a line that slants off would leave dots. Longer ones, up to two widths of ink, go only where
-/// they lie under the ink themselves.
+/// The stretches (in arc length) that are left out, ascending. Rests of less than two widths of coincidence, which are
+/// the accuracy, go with them: a line that slants off would leave dots. Longer ones, up to two widths of ink, go only
+/// where they lie under the ink themselves.
 pub(super) fn gaps(
     mut covered: Vec<Covered>,
     line: &Polyline,

@@ -1,26 +1,27 @@
 //! From pieces of mesh edges to lines on paper:
 //!
 //! 1. `chain`     mesh edges that continue one another become chains (source edges come as chains already, and
-//!    `outlines` are the contours of the mesh)
+//!    `candidates` are the contours of the mesh)
 //! 2. `runs`      along a chain: equal states join, doubtful and short ones are settled, lines are cut out
-//! 3. `cover`     of lines that coincide on paper one is kept; visible beats hidden; `gaps` are what is left out
+//! 3. `coincident`     of lines that coincide on paper one is kept; visible beats hidden; `gaps` are what is left out
 //! 4. `specks`    what is shorter than the accuracy, even with all it connects to, is dropped
 //! 5. `simplify`  vertices that the accuracy does not need are left out
 //!
 //! Where others end (`ends`), creases of meshes keep their vertices. Their contours are smoothed instead
-//! (`paper::smooth`).
+//! (`fit::smooth`).
 //!
-//! `cut` goes through these steps. `finish` puts the lines on their curves: then they are those of a drawing (`drawn`).
+//! `cut` goes through these steps. `finish` puts the lines on their curves: then they are those of a drawing
+//! (`drawing`).
 
 pub mod camera;
+pub mod candidates;
 pub mod chain;
-pub mod cover;
+pub mod coincident;
 pub mod cut;
-pub mod drawn;
+pub mod drawing;
 pub mod ends;
 pub mod finish;
 mod gaps;
-pub mod outlines;
 pub mod runs;
 pub mod simplify;
 pub mod specks;

@@ -1,4 +1,5 @@
-//! Along one chain: join equal states, settle the doubtful and the too short, cut out the lines.
+//! Runs of visible and hidden pieces along one chain: joins equal states, decides doubtful and very short runs, and
+//! cuts the chain into lines.
 //!
 //! ```text
 //!   states   V V V D H H H W W W W W V     W: hidden by less than the contact tolerance; D: and diving

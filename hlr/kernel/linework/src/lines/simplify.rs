@@ -1,4 +1,4 @@
-//! Douglas and Peucker: leave out vertices closer than a tolerance to the line, on paper and in space alike.
+//! Leaves out vertices that are closer than a tolerance to the line, on paper and in space, after Douglas and Peucker.
 //! (D. Douglas, T. Peucker, "Algorithms for the reduction of the number of points required to represent a digitized
 //! line", 1973.) In space too: a line that is straight on paper may still bend along the line of sight.
 

@@ -1,4 +1,4 @@
-//! Drop what is shorter than the accuracy even together with everything it connects to.
+//! Drops figures that are shorter than the accuracy, even together with everything they connect to.
 //!
 //! An edge shorter than the accuracy may be one of a thousand that make up a long profile, so length is measured over
 //! whole connected figures: lines of one visibility whose ends meet.

@@ -6,13 +6,13 @@ use hlr_brep::geometry::curve::Curve;
 use hlr_visibility::scan::invisibility::State;
 
 use super::camera::Camera;
-use super::cover::Widths;
+use super::candidates::{About, Chains};
+use super::coincident::Widths;
 use super::cut::{Tolerances, Trait, cut};
-use super::drawn::{Curve as Shape, Kind, Lines};
+use super::drawing::{Curve as Shape, Kind, Lines};
 use super::finish::{finish, guide};
-use super::outlines::{About, Chains};
 use super::runs::{Geometry, Piece};
-use crate::paper::routes::{Curves, Fit};
+use crate::fit::routes::{Curves, Fit};
 
 /// From above, two millimetres on paper per model unit.
 const CAMERA: Camera =

@@ -1,4 +1,4 @@
-//! Where the sign of f changes along the edges of the mesh.
+//! Finds where the sign of f = N . v changes along the edges of the mesh.
 //!
 //! ```text
 //!        +                       +   crossing of face A      the two faces at an edge change sign at different
@@ -10,9 +10,10 @@
 
 use rayon::prelude::*;
 
-use super::face::{Face, Place, mean, root};
+use super::face::{Face, Place, mean};
 use super::grazing::{Grazing, grazed};
 use super::refine::{outward, rise};
+use super::side::{Side, side};
 use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub, unit};
 
@@ -53,44 +54,6 @@ pub struct Contour {
     pub crossings: Vec<Crossing>,
     pub folds: Vec<Fold>,
     pub grazing: Vec<Grazing>,
-}
-
-/// One triangle at an edge a-b: f at both, and the parameters of both.
-pub struct Side<'a> {
-    pub triangle: i32,
-    pub number: i32,
-    pub corners: [i32; 2],
-    pub uv: [[f64; 2]; 2],
-    pub f: [f64; 2],
-    /// None on planes.
-    pub face: Option<Face<'a>>,
-    pub normal: Vector,
-}
-
-impl Side<'_> {
-    fn away(&self, end: usize) -> bool {
-        self.f[end] >= -TIE
-    }
-
-    pub fn changes(&self) -> bool {
-        self.away(0) != self.away(1)
-    }
-
-    /// The parameter of the change along a-b.
-    pub fn change(&self) -> f64 {
-        let Some(face) = &self.face else { return 0.5 };
-        let back = usize::from(!self.away(0));
-        if self.f[back] <= TIE {
-            return back as f64;
-        }
-        root(face, self.uv[0], self.uv[1], self.f[0], self.f[1])
-    }
-
-    pub fn at(&self, t: f64) -> Option<Place> {
-        let uv = [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * t);
-        // At a pole the normal is that of a place close by.
-        self.face.as_ref()?.at_toward(uv, self.uv[usize::from(t < 0.5)])
-    }
 }
 
 /// f per node of the surfaces; NaN where there is no normal, and on faces that are not traced.
@@ -213,42 +176,6 @@ fn keeps_sign(model: &Model, values: &[f64], e: usize, t: i32) -> bool {
     };
     let [a, b] = model.edges[e].map(away);
     a.is_some() && a == b
-}
-
-fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Option<Side<'a>> {
-    let [a, b] = model.edges[e];
-    let corners = &model.triangles[t as usize];
-    let (i, j) = (corners.iter().position(|&c| c == a)?, corners.iter().position(|&c| c == b)?);
-    let number = model.triangle_face[t as usize];
-    let nodes = &model.corner[t as usize];
-    let record = &model.faces[number as usize];
-    if !record.curved {
-        // A plane: one normal, whichever place is asked.
-        let normal = Face::new(model, number)?.normal(model.uv[nodes[i] as usize])?;
-        let f = [a, b].map(|v| dot(&normal, &model.sight(&model.points[v as usize])));
-        return Some(Side { triangle: t, number, corners: [a, b], uv: [[0.0; 2]; 2], f, face: None, normal });
-    }
-    let face = Face::new(model, number)?;
-    let uv = nodes.map(|n| model.uv[n as usize]);
-    if uv.iter().flatten().any(|x| !x.is_finite()) {
-        return None;
-    }
-    let pole = [i, j].map(|k| values[nodes[k] as usize].is_nan());
-    let mut ends = [uv[i], uv[j]];
-    for k in 0..2 {
-        if pole[k] {
-            // The parameter that means nothing there is that of the other end.
-            let speed = face.speeds(ends[k]);
-            let idle = usize::from(speed[1] < speed[0]);
-            ends[k][idle] = ends[1 - k][idle];
-        }
-    }
-    let f = [0, 1].map(|k| {
-        if pole[k] { face.f_toward(ends[k], ends[1 - k]).unwrap_or(0.0) } else { values[nodes[[i, j][k]] as usize] }
-    });
-    let half = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
-    let normal = face.normal(half)?;
-    Some(Side { triangle: t, number, corners: [a, b], uv: ends, f, face: Some(face), normal })
 }
 
 /// The stretches of a smooth edge over which its two faces are turned differently.

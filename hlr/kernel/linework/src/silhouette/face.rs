@@ -1,4 +1,4 @@
-//! One face as the tracer sees it: f = N . v on its surface, in model coordinates.
+//! f = N . v on the surface of one face, in model coordinates, with its roots and derivatives.
 
 use super::Model;
 use hlr_accuracy::OUTLINE_CURVATURE_STEP;
@@ -105,8 +105,8 @@ impl<'a> Face<'a> {
         Some((along(&centre, &away, -dot(&arm, &arm) / dot(&away, &away)), unit(&away)?))
     }
 
-    /// How far the fold between two places rises above its chord, where that is known in closed form: on a cylinder or a
-    /// cone it is a ruling, on a sphere seen from infinitely far away a great circle.
+    /// How far the fold between two places rises above its chord, where that is known in closed form: on a cylinder or
+    /// a cone it is a ruling, on a sphere seen from infinitely far away a great circle.
     pub fn sagitta(&self, a: &Place, b: &Place) -> Option<f64> {
         match self.surface {
             Surface::Cylinder(..) | Surface::Cone(..) => (dot(&a.normal, &b.normal) > 1.0 - 1e-9).then_some(0.0),
@@ -129,8 +129,9 @@ impl<'a> Face<'a> {
         way.iter().all(|x| x.is_finite()).then_some(way)
     }
 
-    /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before and
-    /// behind, so that the sight passes over it; negative where it bends toward it and the sight lies within the body.
+    /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before
+    /// and behind, so that the sight passes over it; negative where it bends toward it and the sight lies within the
+    /// body.
     pub fn radial(&self, uv: [f64; 2]) -> f64 {
         let Some([a, b]) = self.along_sight(uv) else { return 0.0 };
         let sight = self.model.sight(&self.point(uv));
@@ -153,8 +154,8 @@ impl Model<'_> {
     }
 }
 
-/// Where f vanishes between two places of a face, one with f > 0 and one with f < 0: regula falsi (Illinois), which keeps
-/// the change of sign between its ends.
+/// Where f vanishes between two places of a face, one with f > 0 and one with f < 0: regula falsi (Illinois), which
+/// keeps the change of sign between its ends.
 pub fn root(face: &Face, a: [f64; 2], b: [f64; 2], fa: f64, fb: f64) -> f64 {
     let mix = |t: f64| [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t];
     let (mut low, mut high, mut f_low, mut f_high) = (0.0f64, 1.0f64, fa, fb);
@@ -184,8 +185,8 @@ pub fn root(face: &Face, a: [f64; 2], b: [f64; 2], fa: f64, fb: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The point of the silhouette nearest to a place of the surface, by Newton's method along the gradient of f; None where it
-/// is farther away than `reach`, in the model.
+/// The point of the silhouette nearest to a place of the surface, by Newton's method along the gradient of f; None
+/// where it is farther away than `reach`, in the model.
 pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
     let mut uv = start;
     let from = face.point(start);

@@ -1,7 +1,8 @@
-//! The borders of faces that are seen nearly edge-on, parted where a face turns over, and what the faces there do to them.
+//! Borders of faces that are seen nearly edge-on: divided where a face turns over, each stretch visible or hidden by
+//! its own faces.
 //!
-//! Right where it is, an edge of a closed body is seen if its faces let it be: one face turned toward the viewer is enough
-//! where the edge is convex, both have to be where it is concave.
+//! At an edge of a closed body its two faces decide whether they hide it: a convex edge is visible where one face is
+//! turned toward the viewer, a concave edge only where both are.
 //!
 //! ```text
 //!        \   /  sight                  sight \    /
@@ -9,15 +10,15 @@
 //!     front|  back: seen                 front ___|  back: hidden
 //! ```
 
-use super::contour::Side;
 use super::face::{Face, root};
 use super::refine::rise;
+use super::side::Side;
 use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
 use hlr_visibility::scan::own_faces::Beside;
 
-/// A stretch of the border of a face that is seen nearly edge-on there: of an edge from one parameter to another, between
-/// places where a face at this edge turns over.
+/// A stretch of the border of a face that is seen nearly edge-on there: of an edge from one parameter to another,
+/// between places where a face at this edge turns over.
 #[derive(Clone, Copy, Debug)]
 pub struct Grazing {
     pub edge: u32,
@@ -42,8 +43,8 @@ const WALL: f64 = 1e-6;
 /// Of the square of its longer side: a triangle with less area has no normal to be trusted.
 const NEEDLE: f64 = 1e-9;
 
-/// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single chord,
-/// however often the face turns over along it.
+/// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single
+/// chord, however often the face turns over along it.
 const ASKED: usize = 8;
 
 pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut Vec<Grazing>) {
@@ -86,7 +87,8 @@ fn on_edge(model: &Model, e: usize, t: f64) -> Vector {
     along(&a, &sub(&b, &a), t)
 }
 
-/// Outward unit normal of the planar face of a triangle; None where its plane is not known and the triangle is a needle.
+/// Outward unit normal of the planar face of a triangle; None where its plane is not known and the triangle is a
+/// needle.
 fn plane_normal(model: &Model, triangle: i32) -> Option<Vector> {
     let t = triangle as usize;
     let of_face = |face: Face| face.normal(model.uv[model.corner[t][0] as usize]);
@@ -126,7 +128,8 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     }
 }
 
-/// Where a face turns over along its edge, from 0 on, and the sign of f from there on: 0 where it is a wall along the sight.
+/// Where a face turns over along its edge, from 0 on, and the sign of f from there on: 0 where it is a wall along the
+/// sight.
 fn turns(side: &Side) -> Vec<(f64, f64)> {
     let Some(face) = &side.face else { return Vec::new() };
     let uv = |t: f64| [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t);

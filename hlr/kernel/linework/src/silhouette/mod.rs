@@ -1,8 +1,9 @@
 //! Silhouettes: the curves on the true surfaces where the normal is square to the line of sight, N . v = 0.
 //!
-//! After A. Hertzmann, D. Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000: the sign of f = N . v at the nodes of the
-//! tessellation, taken from the exact normals, parts the mesh in front and back; the border of the parts crosses each
-//! triangle at most once, so it never branches and never turns back on the facets, as the contour of the mesh does.
+//! After A. Hertzmann, D. Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000: the sign of f = N . v at the nodes of
+//! the tessellation, taken from the exact normals, parts the mesh in front and back; the border of the parts crosses
+//! each triangle at most once, so it never branches and never turns back on the facets, as the contour of the mesh
+//! does.
 //!
 //! ```text
 //! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
@@ -11,20 +12,22 @@
 //!               edge do not change at the same place, the edge itself folds between, so that no gap is left
 //!    `grazing`  borders of faces that are seen nearly edge-on, and what these faces do to them
 //! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
-//! 4. `trace`    joined into curves, which part where the face, the edge or the way the surface curves changes
-//! 5. `exact`    circles, and cubic pieces through the points with their tangents
+//! 4. `trace`    joined into curves, which are divided where the face, the edge or the sign of the curvature changes,
+//!    `split`    and where the image of a curve would lie on itself
+//! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
 //! ```
 //!
-//! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the surface,
-//! and in that zeros at nodes (views along an axis) count as turned away, on every face alike: a plane seen edge-on that
-//! runs into a fillet is a fold along its nearer border only.
+//! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the
+//! surface, and in that zeros at nodes (views along an axis) count as turned away, on every face alike: a plane seen
+//! edge-on that runs into a fillet is a fold along its nearer border only.
 
 pub mod contour;
-pub mod cut;
-pub mod exact;
+pub mod curve;
 pub mod face;
 pub mod grazing;
 pub mod refine;
+pub mod side;
+pub mod split;
 pub mod trace;
 pub mod wrinkle;
 

@@ -1,4 +1,4 @@
-//! Between two crossings of one triangle: more points on the surface, and cusps.
+//! Adds points on the surface between two crossings of one triangle, and finds cusps.
 
 use super::Model;
 use super::face::{Face, Place, between};

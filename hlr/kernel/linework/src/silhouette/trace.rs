@@ -1,4 +1,4 @@
-//! Crossings and folds joined into silhouettes.
+//! Joins crossings and folds into silhouettes.
 
 use std::collections::{HashMap, HashSet};
 
@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
-use super::cut::{canonical, in_order, turns_back, unwound};
-use super::exact::{circle, tangent, through};
+use super::curve::{circle, tangent, through};
 use super::face::Face;
 use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
+use super::split::{canonical, in_order, turns_back, unwound};
 use super::wrinkle::flatten;
 use hlr_accuracy::OUTLINE_GAP;
 use hlr_brep::geometry::curve::Curve;

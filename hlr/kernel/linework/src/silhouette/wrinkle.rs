@@ -1,10 +1,11 @@
 //! Wrinkles: strips and spots of a face that turn over and back without rising above the tolerance.
 //!
-//! Spline surfaces have them at their knots, where one patch dips against the next by a hair. Wherever a node of the mesh
-//! happens to lie in one, N . v changes its sign and changes back, and the drawing would show a row of dashes beside
-//! nothing. A patch of nodes is taken for its surroundings if, from each of them, the surface turns back that soon.
-//! How far it has risen over that way w along the sight is some N . v times w at most. Next to the patch's rim that is told
-//! by the mesh; from nodes amid the patch the line of sight is followed on the surface, so that a finer mesh says the same.
+//! Spline surfaces have them at their knots, where one patch dips against the next by a hair. Wherever a node of the
+//! mesh happens to lie in one, N . v changes its sign and changes back, and the drawing would show a row of dashes
+//! beside nothing. A patch of nodes is taken for its surroundings if, from each of them, the surface turns back that
+//! soon. How far it has risen over that way w along the sight is some N . v times w at most. Next to the patch's rim
+//! that is told by the mesh; from nodes amid the patch the line of sight is followed on the surface, so that a finer
+//! mesh says the same.
 //!
 //! ```text
 //!     +     +     +
@@ -89,7 +90,8 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
 /// Steps of a walk on the surface.
 const STEPS: u32 = 16;
 
-/// Whether f changes its sign on the way along the sight, ahead or back, before the surface has risen above the tolerance.
+/// Whether f changes its sign on the way along the sight, ahead or back, before the surface has risen above the
+/// tolerance.
 fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
     let step = OUTLINE_WRINKLE * model.chord / (f.abs() * f64::from(STEPS));
     [step, -step].into_iter().any(|step| {

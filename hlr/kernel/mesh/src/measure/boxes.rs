@@ -90,8 +90,8 @@ impl<const N: usize> Tree<N> {
         self.split(boxes, first + half, end);
     }
 
-    /// Items of all leaves whose boxes, and those above them, `enter` accepts; the child that it ranks lower comes first.
-    /// `enter` gives None for a box that is left out; `visit` is told items and says whether it has seen enough.
+    /// Items of all leaves whose boxes, and those above them, `enter` accepts; the child that it ranks lower comes
+    /// first. `enter` gives None for a box that is left out; `visit` is told items and says whether it has seen enough.
     pub fn walk(&self, mut enter: impl FnMut(&Bounds<N>, bool) -> Option<f64>, mut visit: impl FnMut(u32) -> bool) {
         // As deep as the number of items has bits.
         let mut stack = [0u32; 64];

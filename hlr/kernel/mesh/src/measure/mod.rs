@@ -1,6 +1,6 @@
-//! How far drawn lines are from others, and what rays meet: the yardsticks of `hlr/measure`.
+//! Nearest segments and ray casting for the measurements of `hlr/lab/measure`.
 //!
-//! Floating point, and nothing of the visibility pass: what judges the drawing is not to share its faults.
+//! All in floating point, and without code of the visibility pass: what judges a drawing must not share its faults.
 
 pub mod boxes;
 pub mod nearest;

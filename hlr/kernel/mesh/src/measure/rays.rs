@@ -1,4 +1,4 @@
-//! Whether anything of a triangle mesh lies on a ray.
+//! Tells whether a ray meets a triangle mesh.
 //!
 //! T. Moeller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997; boxes as in T. Kay, J. Kajiya,
 //! "Ray tracing complex scenes", 1986.

@@ -1,7 +1,7 @@
-//! Mesh files that need no library: STL, OBJ, PLY and OFF, from their bytes to points and triangles.
+//! Reads the mesh files STL, OBJ, PLY and OFF: from bytes to points and triangles, without a library.
 //!
-//! What a header announces is never believed: memory grows with what has been read, and what is missing is said. Faces of
-//! more than three corners become triangles here, concave ones too.
+//! Counts in a header are not trusted: memory grows with what has been read, and an error names what is missing. Faces
+//! of more than three corners become triangles here, concave ones too.
 
 pub mod obj;
 pub mod off;

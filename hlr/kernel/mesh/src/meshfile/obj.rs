@@ -1,4 +1,4 @@
-//! OBJ: vertices, faces, and the objects or groups that they belong to. Materials are in other files, which are not read.
+//! Reads OBJ: vertices, faces, and their objects or groups. Materials are in other files, which are not read.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! OFF: counts, then a row of coordinates per vertex and a row of corners per face.
+//! Reads OFF: counts, then a row of coordinates per vertex and a row of corners per face.
 
 use super::polygon::Faces;
 use super::text::{Lines, coordinates, shown, whole, words};

@@ -1,4 +1,4 @@
-//! PLY: a header that says what follows, then text or binary numbers of either order.
+//! Reads PLY: a header that names the elements, then text, or binary numbers of either byte order.
 
 use super::ply_type::Type;
 use super::polygon::Faces;

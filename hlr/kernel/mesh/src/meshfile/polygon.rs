@@ -1,7 +1,7 @@
-//! Faces of more than three corners as triangles.
+//! Triangulates faces of more than three corners.
 //!
-//! A fan where that lies within the face, else ear clipping (G. H. Meisters, "Polygons have ears", 1975). Every side of a
-//! face stays a side of its triangles, also where three corners lie on one line: the neighbours use them all.
+//! A fan where that lies within the face, else ear clipping (G. H. Meisters, "Polygons have ears", 1975). Every side of
+//! a face stays a side of its triangles, also where three corners lie on one line: the neighbours use them all.
 
 use super::{Fault, Stop};
 
@@ -94,8 +94,8 @@ fn divided(points: &[[f64; 3]], face: &[i32], out: &mut Vec<[i32; 3]>) {
     out.push([ring[0], ring[1], ring[2]].map(|i| face[i]));
 }
 
-/// The corners seen along the face's normal, so that it runs counter-clockwise; None where one does not exist or no area
-/// is left.
+/// The corners seen along the face's normal, so that it runs counter-clockwise; None where one does not exist or no
+/// area is left.
 fn flattened(points: &[[f64; 3]], face: &[i32]) -> Option<Vec<[f64; 2]>> {
     let at: Option<Vec<[f64; 3]>> = face.iter().map(|&v| points.get(usize::try_from(v).ok()?).copied()).collect();
     let at = at?;

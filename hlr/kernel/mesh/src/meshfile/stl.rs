@@ -1,4 +1,4 @@
-//! STL, binary and text: triangles that have no corner in common yet.
+//! Reads STL, binary and text: separate triangles, whose corners are not joined yet.
 
 use super::polygon::Faces;
 use super::text::{Lines, coordinates, first_word, plain, words};

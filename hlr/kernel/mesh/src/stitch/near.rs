@@ -1,8 +1,8 @@
-//! Which corners of borders become one node, and which nodes lie on which border.
+//! Decides which corners of borders become one node, and which nodes lie on which border.
 
 use std::collections::{HashMap, HashSet};
 
-use super::{Border, Vec3, along, before, distance2};
+use super::border::{Border, Vec3, along, before, distance2};
 use crate::measure::boxes::{Bounds, Tree};
 
 pub struct Near {
@@ -41,8 +41,8 @@ impl Near {
     }
 }
 
-/// Corners that lie together, the nearest pairs first: all corners of a node are within reach of one another, and no side
-/// of a triangle runs between two of them, so that no triangle falls flat.
+/// Corners that lie together, the nearest pairs first: all corners of a node are within reach of one another, and no
+/// side of a triangle runs between two of them, so that no triangle falls flat.
 fn nodes(
     points: &[Vec3],
     triangles: &[[i32; 3]],

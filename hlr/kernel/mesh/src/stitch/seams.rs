@@ -1,8 +1,8 @@
-//! Pieces of borders between neighbouring nodes that exactly two borders have.
+//! Finds seams: pieces between neighbouring nodes that exactly two borders share.
 
 use std::collections::HashMap;
 
-use super::Border;
+use super::border::Border;
 use super::near::Near;
 
 pub struct Seams {

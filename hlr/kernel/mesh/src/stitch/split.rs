@@ -1,8 +1,8 @@
-//! Triangles whose sides got more corners, cut into triangles.
+//! Divides triangles whose sides have got additional corners.
 
 use std::collections::HashMap;
 
-use super::Border;
+use super::border::Border;
 use super::seams::Seams;
 
 /// All triangles, and which one of those given each is a piece of. Neither loses its way round.

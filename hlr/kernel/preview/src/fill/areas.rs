@@ -1,7 +1,8 @@
 //! Chains become closed loops again: the areas that are painted, in their order.
 //!
-//! Large faces come first, and transparent ones that have nothing behind them last. Bands of light lie on one another: the
-//! darkest is the whole face, and each that follows is what is at least as light. So between bands nothing shines through.
+//! Large faces come first, and transparent ones that have nothing behind them last. Bands of light lie on one another:
+//! the darkest is the whole face, and each that follows is what is at least as light. So between bands nothing shines
+//! through.
 
 use super::chains::Chain;
 use super::samples::Grid;
@@ -47,7 +48,7 @@ pub fn collect(grid: &Grid, tones: &Tones, cells: &[u32], chains: &[Chain], bord
     let mut out = Areas { loops: vec![], starts: vec![0], colours: vec![], gradients: vec![], triangle: vec![] };
     for f in order {
         for cell in first[f]..first[f + 1] {
-            // Bands of glass lie side by side: on one another they would be denser.
+            // Bands of transparent lie side by side: on one another they would be denser.
             let inside = |c: u32| {
                 let c = c as usize;
                 if clear(f) { c == cell } else { c >= cell && c < first[f + 1] }

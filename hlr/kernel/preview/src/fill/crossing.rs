@@ -1,4 +1,5 @@
-//! Where the border between two areas runs between two neighbouring points of the grid: found on the triangles seen there.
+//! Where the border between two areas runs between two neighbouring points of the grid: found on the triangles seen
+//! there.
 //!
 //! ```text
 //!      p ----------|----- q       p is on triangle A, q on B, different faces.

@@ -3,25 +3,25 @@
 //! ```text
 //! 1. `samples`   what is seen at the points of a grid, by the preview's z-buffer: faces, colour, and how light it is
 //! 2. `specks`    pieces smaller than a few points go to their neighbours
-//! 3. `tone`      the paint of each face: one colour, a gradient along a line, or bands of equal light; `fan`: where their
+//! 3. `tone`      the paint of each face: one colour, a gradient along a line, or bands of equal light; `conical`: where their
 //!                borders meet in one place
 //! 4. `chains`    the borders between areas, walked from where three of them meet to the next such place
 //! 5. `crossing`  where a border really runs between two points of the grid, found on the triangles that are seen there
-//! 6. `straight`  few corners: chains become straight runs, and corners are where these meet
+//! 6. `straighten`  few corners: chains become straight runs, and corners are where these meet
 //! 7. `areas`     chains become closed loops again
 //! ```
 //!
-//! The grid decides what is found; where it runs is found on the triangles. Time and memory are bounded by the number of
-//! points of the grid, whatever the model is like: faces that pass through one another, or overlap in a ring, need no order.
-//! Two neighbours share their border: there is neither a gap nor an overlap between them.
+//! The grid decides what is found; where it runs is found on the triangles. Time and memory are bounded by the number
+//! of points of the grid, whatever the model is like: faces that pass through one another, or overlap in a ring, need
+//! no order. Two neighbours share their border: there is neither a gap nor an overlap between them.
 
 pub mod areas;
 pub mod chains;
+pub mod conical;
 pub mod crossing;
-pub mod fan;
 pub mod samples;
 pub mod specks;
-pub mod straight;
+pub mod straighten;
 pub mod tone;
 
 use crate::shade::Scene;
@@ -34,8 +34,8 @@ const SPECK: usize = 6;
 /// The same of bands of light within a face.
 const BAND_SPECK: usize = 24;
 
-/// All areas of a picture, in the order of painting. `label` tells triangles that belong to one face; `fine`: points of the
-/// grid that a band of light is wide at least. None when stopped.
+/// All areas of a picture, in the order of painting. `label` tells triangles that belong to one face; `fine`: points of
+/// the grid that a band of light is wide at least. None when stopped.
 pub fn areas(
     scene: &Scene,
     label: &[i32],
@@ -58,6 +58,6 @@ pub fn areas(
     }
     let found = chains::chains(&cells, size);
     let at = crossing::Crossing { scene, label, grid: &grid, cells: &cells, tones: &tones };
-    let borders = straight::borders(&found, &at, size, stopped)?;
+    let borders = straighten::borders(&found, &at, size, stopped)?;
     Some(areas::collect(&grid, &tones, &cells, &found, borders))
 }

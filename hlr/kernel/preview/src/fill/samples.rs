@@ -1,15 +1,17 @@
-//! What is seen at the points of a grid, one for each pixel: which faces lie above one another, and their colour together.
+//! What is seen at the points of a grid, one for each pixel: which faces lie above one another, and their colour
+//! together.
 
 use std::collections::HashMap;
 
 use crate::NOTHING;
 use crate::faces::faces;
-use crate::glass::{Layer, layers, over};
-use crate::kept::Kept;
-use crate::raster::{Sampling, TILE_HEIGHT, TILE_WIDTH};
+use crate::grid::{TILE_HEIGHT, TILE_WIDTH};
 use crate::resolve::Encoder;
+use crate::sampling::Sampling;
 use crate::shade::Scene;
+use crate::shading_cache::ShadingCache;
 use crate::tiles::{Filled, each_tile};
+use crate::transparent::{Layer, layers, over};
 use crate::workspace::Workspace;
 
 /// What is seen at a point.
@@ -46,10 +48,20 @@ pub fn grid(scene: &Scene, label: &[i32], space: &mut Workspace, stopped: &(dyn 
     let size = scene.lens.size;
     let mut samples = vec![NONE; size[0] * size[1]];
     let encoder = Encoder::new();
-    let looker = || Looker { scene, label, encoder: &encoder, kept: Kept::new() };
-    if !each_tile(space, size, &sampling, scene.model.glass, &mut samples, NONE, stopped, looker, |l, filled, rows| {
-        l.tile(filled, rows, size[0]);
-    }) {
+    let looker = || Looker { scene, label, encoder: &encoder, kept: ShadingCache::new() };
+    if !each_tile(
+        space,
+        size,
+        &sampling,
+        scene.model.transparent,
+        &mut samples,
+        NONE,
+        stopped,
+        looker,
+        |l, filled, rows| {
+            l.tile(filled, rows, size[0]);
+        },
+    ) {
         return None;
     }
     let mut number: HashMap<u64, u32> = HashMap::from([(0, 0)]);
@@ -75,7 +87,7 @@ struct Looker<'a> {
     scene: &'a Scene<'a>,
     label: &'a [i32],
     encoder: &'a Encoder,
-    kept: Kept,
+    kept: ShadingCache,
 }
 
 impl Looker<'_> {
@@ -85,7 +97,7 @@ impl Looker<'_> {
         let wide = TILE_WIDTH.min(width - left);
         let sampling = Sampling::CENTRES;
         let mut found: Vec<Layer> = Vec::new();
-        layers(filled.tile, filled.glass, filled.first, &sampling, &mut found);
+        layers(filled.tile, filled.transparent, filled.first, &sampling, &mut found);
         for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
             for (i, sample) in row[left..left + wide].iter_mut().enumerate() {
                 let place = sampling.place(left + i, filled.first[1] + j);

@@ -1,7 +1,7 @@
 //! Pieces of a map that are too small to be seen go to a neighbour.
 
-/// `map`: row by row, 0 for nothing. Pieces of fewer than `least` places that hang together side by side become part of the
-/// largest piece beside them, of those that are most `alike`; of nothing only where there is nothing else.
+/// `map`: row by row, 0 for nothing. Pieces of fewer than `least` places that hang together side by side become part of
+/// the largest piece beside them, of those that are most `alike`; of nothing only where there is nothing else.
 pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: impl Fn(u32, u32) -> u32) {
     let piece = pieces(map, width, height);
     let count = piece.iter().max().map_or(0, |&m| m as usize + 1);

@@ -1,12 +1,12 @@
 //! The paint of each face: one colour, a gradient along a straight line, or bands of equal light.
 //!
-//! A cylinder or a swept face in a parallel view is equally light along its straight lines: its light is a function of one
-//! coordinate of the picture. Which one is looked for among all directions: the one along which points that lie equally far
-//! differ least.
+//! A cylinder or a swept face in a parallel view is equally light along its straight lines: its light is a function of
+//! one coordinate of the picture. Which one is looked for among all directions: the one along which points that lie
+//! equally far differ least.
 
 use rayon::prelude::*;
 
-use super::fan::{Fan, place};
+use super::conical::{Fan, place};
 use super::samples::{Grid, Sample};
 
 /// Of 255: what differs by less has one colour.

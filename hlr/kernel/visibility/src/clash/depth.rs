@@ -1,4 +1,4 @@
-//! How deep two triangles that cross go through one another's surfaces, and whether that is more than a contact.
+//! Measures how deep two crossing triangles go through each other's surfaces, and whether that is more than a contact.
 //!
 //! ```text
 //!           |                         |
@@ -94,9 +94,9 @@ impl Bodies<'_> {
         Depth { touch, beyond, reach }
     }
 
-    /// How far each of two triangles, with those beyond its edges, reaches beyond the other's plane on its shallower side,
-    /// the lesser of both; and how far the other triangle reaches beyond the plane of each, with no more than what goes on
-    /// in its own plane beyond an edge along the crossing.
+    /// How far each of two triangles, with those beyond its edges, reaches beyond the other's plane on its shallower
+    /// side, the lesser of both; and how far the other triangle reaches beyond the plane of each, with no more than
+    /// what goes on in its own plane beyond an edge along the crossing.
     fn corners_beyond(&self, clash: &Clash) -> (f64, [f64; 2]) {
         let around = clash.triangles.map(|t| self.around(t));
         let (mut every, mut level) = (f64::INFINITY, [0.0; 2]);

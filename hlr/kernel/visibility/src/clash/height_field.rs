@@ -1,8 +1,10 @@
-//! Pieces of a surface that are height fields: seen along one axis, their triangles lie side by side. No two of these meet.
+//! Finds pieces of a surface that are height fields: along one axis their triangles lie side by side, so no two of them
+//! meet.
 //!
-//! How many triangles, all turned one way, cover a place is the winding number of their common border around it: what two
-//! share cancels. Where the border touches itself nowhere, and goes once around what it encloses, that is 1 within and 0
-//! without. So only the border has to be looked at: of a smooth surface, a few hundred sides for thousands of triangles.
+//! How many triangles, all turned one way, cover a place is the winding number of their common border around it: what
+//! two share cancels. Where the border touches itself nowhere, and goes once around what it encloses, that is 1 within
+//! and 0 without. So only the border has to be looked at: of a smooth surface, a few hundred sides for thousands of
+//! triangles.
 //!
 //! ```text
 //!      ______            Two triangles have nothing in common then but corners and sides that they share: within, a
@@ -181,8 +183,8 @@ fn touch(s: &Side, t: &Side) -> bool {
     !beside(s, t) && !beside(t, s)
 }
 
-/// Whether two triangles that have a corner in common certainly meet in nothing else: seen along the axis along which the
-/// narrower of them is widest, a side of one of them at the corner parts them. Whichever comes first.
+/// Whether two triangles that have a corner in common certainly meet in nothing else: seen along the axis along which
+/// the narrower of them is widest, a side of one of them at the corner parts them. Whichever comes first.
 pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> bool {
     let others = |t: &[i32; 3]| {
         let k = t.iter().position(|&v| v == corner).unwrap_or(0);
@@ -211,7 +213,7 @@ pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> boo
 
 #[cfg(test)]
 mod tests {
-    use super::super::meet::{Numbered, meet};
+    use super::super::triangle_pair::{Numbered, meet};
     use super::*;
 
     fn told(points: &[Point], triangles: &[[i32; 3]]) -> bool {

@@ -1,4 +1,4 @@
-//! How far a surface goes beyond a triangle that it crosses, right there.
+//! Measures how far a surface goes beyond a triangle that it crosses, near the crossing.
 //!
 //! ```text
 //!            surface        From the middle of the common segment the section across it is walked both ways, over edges

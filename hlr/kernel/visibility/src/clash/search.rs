@@ -1,10 +1,10 @@
-//! Which triangles may meet: those whose boxes overlap, of groups whose boxes overlap, and of one group where asked for.
+//! Finds triangles that may meet: their boxes and those of their groups overlap. Within one group only where asked for.
 
 use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
-use super::meet::{Meeting, Numbered, apart, meet};
 use super::tree::{Found, Item, Tree};
+use super::triangle_pair::{Meeting, Numbered, apart, meet};
 use crate::scan::box_tree::{Aabb, BoxTree};
 use hlr_exact::Point;
 

@@ -1,8 +1,9 @@
-//! Boxes in a hierarchy that is searched against itself or another: all pairs that overlap, each once.
+//! A bounding volume hierarchy that is searched against itself or another: finds all pairs of overlapping boxes, each
+//! once.
 //!
-//! Two hierarchies are gone down side by side, so what lies near one another is found together: per item that takes a few
-//! comparisons, where each item alone would begin at the root. Items lie in the order of the curve that G. Morton put
-//! through space ("A computer oriented geodetic data base", 1966): one sort makes the hierarchy.
+//! Two hierarchies are gone down side by side, so what lies near one another is found together: per item that takes a
+//! few comparisons, where each item alone would begin at the root. Items lie in the order of the curve that G. Morton
+//! put through space ("A computer oriented geodetic data base", 1966): one sort makes the hierarchy.
 
 use rayon::prelude::*;
 

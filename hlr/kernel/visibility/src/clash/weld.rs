@@ -1,4 +1,4 @@
-//! Ends that fall on one grid point are one point.
+//! Joins ends of segments that fall on one grid point.
 
 use super::search::Clash;
 use hlr_exact::Point;

@@ -1,4 +1,4 @@
-//! Where drawn edges pass behind contour edges.
+//! Finds where drawn edges pass behind contour edges.
 //!
 //! Within one band the active edge list moves right: an edge enters at the left end of its part in this band and leaves
 //! at the right end; an entering drawn edge meets the active contours, an entering contour the active drawn edges.
@@ -149,7 +149,7 @@ impl<A: Arithmetic> Sweep<'_, A> {
                 return;
             }
         }
-        let delta = self.mesh.delta(self.mesh.edge_part[drawn], self.mesh.edge_part[contour.edge as usize]);
+        let delta = self.mesh.delta(self.mesh.edge_group[drawn], self.mesh.edge_group[contour.edge as usize]);
         let jump = contour.jump * hit.to_left;
         self.events.push(Event {
             drawn: f.item,

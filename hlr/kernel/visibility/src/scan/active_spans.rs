@@ -1,9 +1,9 @@
-//! Seeds: how many polygons lie in front of an end point of a drawn edge.
+//! Counts how many polygons lie in front of each end point of a drawn edge: the seeds of the counts along the edges.
 //!
 //! Within one band the asked points are sorted by x, and each polygon looks at those from its left to its right end in
-//! this band; depth is compared only where it covers the point. A point is asked once, however many edges end there: what
-//! is strictly decided holds for all of them, and only the ties (the faces around the vertex itself, mostly) are decided
-//! per edge, by the direction in which it leaves.
+//! this band; depth is compared only where it covers the point. A point is asked once, however many edges end there:
+//! what is strictly decided holds for all of them, and only the ties (the faces around the vertex itself, mostly) are
+//! decided per edge, by the direction in which it leaves.
 //!
 //! ```text
 //!   band ________________________________________________
@@ -58,7 +58,7 @@ impl Seeds {
             for v in mesh.edges[e as usize] {
                 if slot[v as usize] == u32::MAX {
                     slot[v as usize] = asked.len() as u32;
-                    asked.push((v as u32, mesh.edge_part[e as usize]));
+                    asked.push((v as u32, mesh.edge_group[e as usize]));
                 }
             }
         }
@@ -100,7 +100,7 @@ impl Seeds {
     }
 
     /// The count at the inward-moved end `here` of the drawn edge here -> there.
-    pub fn at<A: Arithmetic>(&self, mesh: &Mesh, part: i32, here: i32, there: i32) -> Count {
+    pub fn at<A: Arithmetic>(&self, mesh: &Mesh, group: i32, here: i32, there: i32) -> Count {
         let s = self.slot[here as usize] as usize;
         let mut count = self.strict[s];
         let (h, o) = (&mesh.points[here as usize], &mesh.points[there as usize]);
@@ -111,7 +111,7 @@ impl Seeds {
                 continue;
             }
             let Some(cover) = mesh.cover::<A>(t) else { continue };
-            let (plain, moved) = cover.hides_end(h, o, mesh.delta(part, mesh.triangle_part[t]));
+            let (plain, moved) = cover.hides_end(h, o, mesh.delta(group, mesh.triangle_group[t]));
             count.plain += i32::from(plain);
             count.moved += i32::from(moved);
         }
@@ -165,7 +165,7 @@ fn sweep_band<A: Arithmetic>(
                 found.ties.push((stop.slot, triangle));
                 continue;
             }
-            let delta = mesh.delta(stop.part, mesh.triangle_part[triangle as usize]);
+            let delta = mesh.delta(stop.group, mesh.triangle_group[triangle as usize]);
             if i64::from(zmax) + delta < i64::from(v[2]) {
                 count.plain += 1;
                 count.moved += 1;
@@ -186,7 +186,7 @@ fn sweep_band<A: Arithmetic>(
     found
 }
 
-/// x extent of the part of a triangle between y0 and y1, never too small.
+/// x extent of the piece of a triangle between y0 and y1, never too small.
 fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
     let (mut left, mut right) = (i32::MAX, i32::MIN);
     for (a, b) in [(p, q), (q, r), (r, p)] {
@@ -204,12 +204,12 @@ fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
 struct Stop {
     at: Point,
     slot: u32,
-    part: i32,
+    group: i32,
 }
 
 impl Stop {
-    fn new(mesh: &Mesh, slot: u32, (vertex, part): (u32, i32)) -> Stop {
-        Stop { at: mesh.points[vertex as usize], slot, part }
+    fn new(mesh: &Mesh, slot: u32, (vertex, group): (u32, i32)) -> Stop {
+        Stop { at: mesh.points[vertex as usize], slot, group }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Horizontal bands of the image: coherence for the searches, nothing else.
+//! Divides the image into horizontal bands, in which the searches for crossings and seeds run side by side.
 //!
 //! ```text
 //!   band k:  y0 + k 2^shift <= y < y0 + (k + 1) 2^shift

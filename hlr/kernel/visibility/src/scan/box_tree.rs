@@ -1,4 +1,4 @@
-//! A hierarchy of axis-aligned boxes: median split along the longest side, eight boxes a leaf.
+//! A bounding volume hierarchy of axis-aligned boxes: median split along the longest side, eight boxes per leaf.
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Aabb {

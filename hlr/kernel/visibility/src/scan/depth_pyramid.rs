@@ -1,10 +1,11 @@
-//! What surely lies behind something, before anything exact is asked: N. Greene, M. Kass, G. Miller, "Hierarchical
-//! Z-buffer visibility", SIGGRAPH 1993, made conservative and kept to whole cells.
+//! Finds edges that are certainly hidden before any exact test: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer
+//! visibility", SIGGRAPH 1993, made conservative and limited to whole cells.
 //!
-//! 1. The image is laid out in square cells. A part covers a cell wholly where it covers its middle, and none of its
+//! 1. The image is laid out in square cells. A group covers a cell wholly where it covers its middle, and none of its
 //!    contours enters the cell: how many polygons cover a place changes at contours only. So no polygon is looked at;
 //!    along a row, the contours that cross the line through its middles tell what is covered, like a scan line does.
-//! 2. A cell keeps the depth of the nearest part that covers it wholly: behind the part's farthest polygon, all is hidden.
+//! 2. A cell keeps the depth of the nearest group that covers it wholly: behind the group's farthest polygon, all is
+//!    hidden.
 //! 3. Each level of the pyramid keeps the farther depth of two by two cells below.
 //! 4. A drawn edge that lies behind all cells that it touches by more than any contact tolerance is hidden, from end to
 //!    end: the exact pass would say the same, and need not be asked.
@@ -17,8 +18,8 @@
 //!    . + + + + .
 //! ```
 //!
-//! It departs from the paper in that it holds parts instead of polygons, which are smaller than a cell mostly, and that
-//! it discards edges, not the contours and polygons that the others are compared with: those must stay complete.
+//! It departs from the paper in that it holds groups instead of polygons, which are smaller than a cell mostly, and
+//! that it discards edges, not the contours and polygons that the others are compared with: those must stay complete.
 
 use std::sync::atomic::{AtomicI32, Ordering};
 
@@ -30,8 +31,8 @@ use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use hlr_exact::Point;
 
-/// Cells a part of usual size is wide; fewer are hardly ever covered wholly, more cost more than they find.
-const CELLS_A_PART: f64 = 8.0;
+/// Width in cells of a group of median size: fewer cells are hardly ever covered wholly, more cost more than they save.
+const CELLS_A_GROUP: f64 = 8.0;
 const LEAST_CELLS: f64 = 64.0;
 const MOST_CELLS: f64 = 2048.0;
 
@@ -42,13 +43,13 @@ pub struct DepthPyramid {
     /// Cells a row, and rows, per level; level 0 is the finest.
     sizes: Vec<[usize; 2]>,
     levels: Vec<Vec<i32>>,
-    /// Added to a part's depth: no contact reaches beyond.
+    /// Added to a group's depth: no contact reaches beyond.
     margin: i64,
     /// Parts that cover at least one cell wholly.
-    pub parts: usize,
+    pub groups: usize,
 }
 
-/// The cells that a part's contours may reach.
+/// The cells that a group's contours may reach.
 struct Window {
     column: usize,
     row: usize,
@@ -68,7 +69,7 @@ impl DepthPyramid {
         let low = if mesh.points.is_empty() { [0, 0] } else { low };
         let size = [0, 1].map(|k| (i64::from(high[k]) - i64::from(low[k])).max(0) + 1);
         let side = size[0].max(size[1]);
-        let wanted = (CELLS_A_PART * (mesh.parts.len() as f64).sqrt()).clamp(LEAST_CELLS, MOST_CELLS);
+        let wanted = (CELLS_A_GROUP * (mesh.groups.len() as f64).sqrt()).clamp(LEAST_CELLS, MOST_CELLS);
         let mut shift = 1;
         while (side >> shift) as f64 >= wanted {
             shift += 1;
@@ -80,36 +81,36 @@ impl DepthPyramid {
             shift,
             sizes: vec![cells],
             levels: Vec::new(),
-            margin: mesh.parts.iter().map(|p| p.delta).max().unwrap_or(0),
-            parts: 0,
+            margin: mesh.groups.iter().map(|p| p.delta).max().unwrap_or(0),
+            groups: 0,
         };
-        let (nearest, parts) = out.nearest(mesh, table, contours);
+        let (nearest, groups) = out.nearest(mesh, table, contours);
         out.levels.push(nearest);
-        out.parts = parts;
+        out.groups = groups;
         out.raise();
         out
     }
 
-    /// 1. and 2.: the finest level, and how many parts cover something.
+    /// 1. and 2.: the finest level, and how many groups cover something.
     fn nearest(&self, mesh: &Mesh, table: &PolygonTable, contours: &[Contour]) -> (Vec<i32>, usize) {
         let farthest = farthest(mesh, table);
-        let mut first = vec![0u32; mesh.parts.len() + 1];
+        let mut first = vec![0u32; mesh.groups.len() + 1];
         for c in contours {
-            first[mesh.edge_part[c.edge as usize] as usize + 1] += 1;
+            first[mesh.edge_group[c.edge as usize] as usize + 1] += 1;
         }
-        for p in 0..mesh.parts.len() {
+        for p in 0..mesh.groups.len() {
             first[p + 1] += first[p];
         }
         let mut at = first.clone();
         let mut own = vec![Contour { edge: 0, jump: 0 }; contours.len()];
         for c in contours {
-            let slot = &mut at[mesh.edge_part[c.edge as usize] as usize];
+            let slot = &mut at[mesh.edge_group[c.edge as usize] as usize];
             own[*slot as usize] = *c;
             *slot += 1;
         }
         let [columns, rows] = self.sizes[0];
         let cells: Vec<AtomicI32> = (0..columns * rows).map(|_| AtomicI32::new(i32::MAX)).collect();
-        let parts = (0..mesh.parts.len())
+        let groups = (0..mesh.groups.len())
             .into_par_iter()
             .filter(|&p| {
                 let own = &own[first[p] as usize..first[p + 1] as usize];
@@ -121,10 +122,10 @@ impl DepthPyramid {
                 covers
             })
             .count();
-        (cells.into_iter().map(AtomicI32::into_inner).collect(), parts)
+        (cells.into_iter().map(AtomicI32::into_inner).collect(), groups)
     }
 
-    /// Call `visit` for every cell that the polygons within these contours, all of one part, cover wholly.
+    /// Call `visit` for every cell that the polygons within these contours, all of one group, cover wholly.
     fn covered(&self, mesh: &Mesh, contours: &[Contour], mut visit: impl FnMut(usize)) {
         let Some(window) = self.window(mesh, contours) else { return };
         // Per cell: the change of the count where the row's middle passes into it, and whether a contour enters it.
@@ -234,13 +235,13 @@ impl DepthPyramid {
     }
 }
 
-/// Per part the depth of its farthest counted polygon.
+/// Per group the depth of its farthest counted polygon.
 fn farthest(mesh: &Mesh, table: &PolygonTable) -> Vec<i32> {
-    let mut out = vec![i32::MIN; mesh.parts.len()];
-    for (t, &part) in mesh.triangle_part.iter().enumerate() {
+    let mut out = vec![i32::MIN; mesh.groups.len()];
+    for (t, &group) in mesh.triangle_group.iter().enumerate() {
         if table.counted(mesh, t) {
             let (p, q, r) = mesh.corners(t);
-            let depth = &mut out[part as usize];
+            let depth = &mut out[group as usize];
             *depth = (*depth).max(p[2]).max(q[2]).max(r[2]);
         }
     }

@@ -17,7 +17,7 @@ pub struct EdgeTable {
     pub contours: Vec<Contour>,
     /// Edges whose visibility has to be found.
     pub drawn: Vec<u32>,
-    /// Edges of closed parts with nothing but faces turned away: hidden by their own part, without any search.
+    /// Edges of closed groups with nothing but faces turned away: hidden by their own group, without any search.
     pub hidden: Vec<u32>,
     /// Drawn edges seen end-on: points in the image.
     pub projecting: usize,
@@ -91,7 +91,7 @@ fn fate(mesh: &Mesh, table: &PolygonTable, edge: usize, jump: i32) -> Fate {
     if a[0] == b[0] && a[1] == b[1] {
         return Fate::Projecting;
     }
-    if mesh.parts[mesh.edge_part[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge)) {
+    if mesh.groups[mesh.edge_group[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge)) {
         return Fate::Hidden;
     }
     Fate::Drawn

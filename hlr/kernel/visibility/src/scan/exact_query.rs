@@ -1,4 +1,4 @@
-//! The slow, certain way: one drawn edge against every polygon by itself, no assumption on how polygons join.
+//! The slow, certain test: one drawn edge against every polygon separately, without assuming how polygons join.
 //!
 //! Used only where the count of the fast way failed its check. Each polygon is its own closed story (covered and in
 //! front at the start, three borders, one plane), so the sum over all polygons cannot be inconsistent.
@@ -42,14 +42,14 @@ impl<'a> ExactQuery<'a> {
     /// Segments of one drawn edge; false if even these counts contradict each other.
     pub fn decide<A: Arithmetic>(&self, edge: usize, out: &mut Vec<Segment>) -> bool {
         let (a, b) = self.mesh.ends(edge);
-        self.decide_by::<A>(self.mesh.edge_part[edge], Aabb::of(&[a, b]), |_| Some((a, b)), out)
+        self.decide_by::<A>(self.mesh.edge_group[edge], Aabb::of(&[a, b]), |_| Some((a, b)), out)
     }
 
-    /// The same where a segment is elsewhere for some polygons, or not compared with them at all: `ends` tells where for
-    /// each; reach: around all these places.
+    /// The same where a segment is elsewhere for some polygons, or not compared with them at all: `ends` tells where
+    /// for each; reach: around all these places.
     pub fn decide_by<'p, A: Arithmetic>(
         &self,
-        part: i32,
+        group: i32,
         mut reach: Aabb,
         ends: impl Fn(usize) -> Option<(&'p Point, &'p Point)>,
         out: &mut Vec<Segment>,
@@ -62,7 +62,7 @@ impl<'a> ExactQuery<'a> {
             let t = t as usize;
             let Some((a, b)) = ends(t) else { return };
             let Some(cover) = mesh.cover::<A>(t) else { return };
-            let delta = mesh.delta(part, mesh.triangle_part[t]);
+            let delta = mesh.delta(group, mesh.triangle_group[t]);
             let (plain, moved) = cover.hides_end(a, b, delta);
             start.plain += i32::from(plain);
             start.moved += i32::from(moved);

@@ -1,4 +1,4 @@
-//! Quantitative invisibility along a drawn edge: the count at its start and the jumps, in exact order.
+//! Quantitative invisibility along a drawn edge: the count at its start, then its changes in exact order.
 
 use std::cmp::Ordering;
 
@@ -30,6 +30,13 @@ pub enum State {
     ///                   \ delta   \
     /// ```
     Diving = 3,
+}
+
+/// One piece of one edge; parameters run from the edge's first to its second vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    pub edge: u32,
+    pub segment: Segment,
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -1,4 +1,4 @@
-//! What the pass works on: borrowed topology, snapped points, and per part what may be assumed of it.
+//! The input of the pass: borrowed topology, snapped points, and the properties of each group.
 
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
@@ -10,31 +10,31 @@ pub const DRAWN: u8 = 1;
 pub const OUTLINE: u8 = 2;
 
 #[derive(Clone, Copy, Debug)]
-pub struct Part {
+pub struct SnappedGroup {
     /// Closed and consistently oriented: polygons facing away need not be counted.
     pub cull: bool,
-    /// Does not pass through itself: drawn edges need no piercing search against their own part.
+    /// Does not pass through itself: drawn edges need no piercing search against their own group.
     pub sound: bool,
     /// Contact tolerance in depth units of the grid.
     pub delta: i64,
-    /// The most that anything may be moved before it is compared with this part: less than its thickness, or what
+    /// The most that anything may be moved before it is compared with this group: less than its thickness, or what
     /// lies behind it would show through.
     pub cap: i64,
-    /// Lines that lie exactly on other parts' polygons, by construction: only their own tolerance counts.
+    /// Lines that lie exactly on other groups' polygons, by construction: only their own tolerance counts.
     pub tight: bool,
 }
 
 pub struct Mesh<'a> {
     pub points: Vec<Point>,
     pub triangles: &'a [[i32; 3]],
-    pub triangle_part: &'a [i32],
+    pub triangle_group: &'a [i32],
     pub edges: &'a [[i32; 2]],
     /// Triangles incident to edge e: incident[offsets[e]..offsets[e + 1]].
     pub offsets: &'a [i32],
     pub incident: &'a [i32],
-    pub edge_part: &'a [i32],
+    pub edge_group: &'a [i32],
     pub role: &'a [u8],
-    pub parts: Vec<Part>,
+    pub groups: Vec<SnappedGroup>,
 }
 
 impl Mesh<'_> {
@@ -60,18 +60,18 @@ impl Mesh<'_> {
         &self.incident[self.offsets[edge] as usize..self.offsets[edge + 1] as usize]
     }
 
-    /// How far a drawn edge is moved toward the viewer before it is compared with another part.
+    /// How far a drawn edge is moved toward the viewer before it is compared with another group.
     ///
-    /// Contacts between parts are equal only up to snapping and tessellation. Inside one sound part neighbours share
+    /// Contacts between groups are equal only up to snapping and tessellation. Inside one sound group neighbours share
     /// their vertices, ties are exact, and nothing is moved: so no stub appears where an edge dives behind its own
-    /// face. One constant per pair of parts keeps the counts consistent.
+    /// face. One constant per pair of groups keeps the counts consistent.
     #[inline(always)]
-    pub fn delta(&self, drawn_part: i32, polygon_part: i32) -> i64 {
-        let own = &self.parts[drawn_part as usize];
-        if drawn_part == polygon_part {
+    pub fn delta(&self, drawn_group: i32, polygon_group: i32) -> i64 {
+        let own = &self.groups[drawn_group as usize];
+        if drawn_group == polygon_group {
             return if own.sound || own.cull { 0 } else { own.delta };
         }
-        let other = &self.parts[polygon_part as usize];
+        let other = &self.groups[polygon_group as usize];
         let delta = if own.tight { own.delta } else { own.delta.max(other.delta) };
         delta.min(other.cap)
     }

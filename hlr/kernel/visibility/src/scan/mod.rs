@@ -1,20 +1,20 @@
 //! The object-space scan-line pass: which pieces of the drawn edges are hidden.
 //!
 //! A. Appel, "The notion of quantitative invisibility and the machine rendering of solids", ACM 1967, for the
-//! counting; the edge, polygon and active tables after Bouknight and Watkins, turned from pixels to exact bands:
+//! counting; the edge, polygon and active tables after Bouknight and Watkins, with exact bands in place of pixel rows:
 //!
-//! 1. `mesh`           snapped points, parts and what may be assumed of them
+//! 1. `mesh`           snapped points, and the properties of each group
 //! 2. `polygon_table`  which way each triangle faces and whether it is counted
 //! 3. `edge_table`     contour edges with their jumps, drawn edges, and the edges that culling alone decides
 //! 4. `active_spans`   how many polygons lie in front of each end point (the seeds and the checks)
 //! 5. `active_edges`   where drawn edges pass behind contour edges
-//! 6. `piercing`       where drawn edges pass through polygons of other, or of unsound, parts
+//! 6. `piercing`       where drawn edges pierce polygons of other groups, or of groups that pass through themselves
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
-//! 9. `own_faces`      the same for edges whose own faces are seen nearly edge-on: these hide them only if they turn over
+//! 9. `own_faces`      the same for edges whose own faces are seen nearly edge-on: hidden only if these turn over
 //!
-//! Two shortcuts, taken where the scene calls for them, with the same result: `one_sheet` (a convex body: culling alone
-//! decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
+//! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
+//! alone decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
 //!
 //! It departs from Appel in that nothing is carried from edge to edge: every drawn edge has its own two counts, so an
 //! error cannot spread, and from the classic scan line in that bands are coherence only: parameters are global to
@@ -29,9 +29,9 @@ pub mod edge_table;
 pub mod exact_query;
 pub mod invisibility;
 pub mod mesh;
-pub mod one_sheet;
 pub mod own_faces;
 pub mod piercing;
 pub mod polygon_table;
 pub mod scene;
+pub mod single_layer;
 pub mod sweep;

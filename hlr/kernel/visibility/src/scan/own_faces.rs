@@ -1,10 +1,10 @@
-//! Edges against the faces they bound, where these are seen nearly edge-on.
+//! Visibility of edges against the faces they bound, where these are seen nearly edge-on.
 //!
-//! The edge's chords lie on the true face, its triangles beside it by their deflection. Seen openly that matters little;
-//! seen edge-on a triangle that is off by a hair comes in front of the edge over a length that has no limit. So there the
-//! edge is compared with the triangles of its own face as if it lay off the face by more than they do, on the side that
-//! is seen: they hide it only if the face really turns in front of it. Where the face turns over on the way, at the end of
-//! its outline, the side changes: beyond that the edge lies behind the face, however its triangles go.
+//! The edge's chords lie on the true face, its triangles beside it by their deflection. Seen openly that matters
+//! little; seen edge-on a triangle that is off by a hair comes in front of the edge over a length that has no limit. So
+//! there the edge is compared with the triangles of its own face as if it lay off the face by more than they do, on the
+//! side that is seen: they hide it only if the face really turns in front of it. Where the face turns over on the way,
+//! at the end of its outline, the side changes: beyond that the edge lies behind the face, however its triangles go.
 //!
 //! ```text
 //!      sight  ----------------->     the face F, its triangles /\ and its border o, looked at along F
@@ -20,15 +20,14 @@ use rayon::prelude::*;
 
 use super::box_tree::Aabb;
 use super::exact_query::ExactQuery;
-use super::invisibility::{Segment, State};
+use super::invisibility::{Piece, Segment, State};
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
-use super::sweep::Piece;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 
-/// What the faces at an edge of a closed body do to it themselves, right where it is: seen is a convex edge of which any
-/// face is turned toward the viewer, and a concave one of which all are.
+/// What the faces at an edge of a closed body do to it themselves, right where it is: seen is a convex edge of which
+/// any face is turned toward the viewer, and a concave one of which all are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Beside {
@@ -38,7 +37,8 @@ pub enum Beside {
     Hidden = 2,
 }
 
-/// Edges, or stretches of them, whose own faces are seen nearly edge-on; edges ascend, and the stretches of one make it up.
+/// Edges, or stretches of them, whose own faces are seen nearly edge-on; edges ascend, and the stretches of one make it
+/// up.
 pub struct OwnFaces<'a> {
     /// Of every stretch the edge, and its parameters there.
     pub edge: &'a [i32],
@@ -49,8 +49,8 @@ pub struct OwnFaces<'a> {
     pub beside: &'a [u8],
     /// Whether its own triangles fold over there, so that even those seen openly may be off in front of it.
     pub dented: &'a [bool],
-    /// Of the faces of stretch s, offsets[s]..offsets[s + 1]: the number, and the edge without triangles that is the stretch
-    /// off that face.
+    /// Of the faces of stretch s, offsets[s]..offsets[s + 1]: the number, and the edge without triangles that is the
+    /// stretch off that face.
     pub offsets: &'a [i32],
     pub face: &'a [i32],
     pub off: &'a [i32],
@@ -94,8 +94,8 @@ impl Owned {
     }
 }
 
-/// |N . v|: triangles seen at more are compared with the edge as it lies. They do not come in front of it by being off; where
-/// they do, far from the edge, they are what hides it.
+/// |N . v|: triangles seen at more are compared with the edge as it lies. They do not come in front of it by being off;
+/// where they do, far from the edge, they are what hides it.
 const EDGE_ON: f64 = 0.5;
 
 const SEEN: u8 = Beside::Seen as u8;
@@ -121,8 +121,8 @@ impl OwnFaces<'_> {
         depth_scale: 1.0,
     };
 
-    /// The pieces (ascending by edge), those of these edges as their own faces leave them; and of how many edges they are
-    /// others now.
+    /// The pieces (ascending by edge), those of these edges as their own faces leave them; and of how many edges they
+    /// are others now.
     pub fn applied<A: Arithmetic>(
         &self,
         mesh: &Mesh,
@@ -175,7 +175,7 @@ impl OwnFaces<'_> {
         stretches: &[usize],
     ) -> Option<Vec<Segment>> {
         let edge = self.edge[stretches[0]] as usize;
-        let culled = mesh.parts[mesh.edge_part[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge));
+        let culled = mesh.groups[mesh.edge_group[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge));
         let (mut one, mut two) = (Vec::new(), Vec::new());
         let hidden = |s: usize| match self.beside[s] {
             HIDDEN => true,
@@ -259,7 +259,7 @@ impl OwnFaces<'_> {
             }
             (Asked::Own | Asked::OwnAsTheyLie, None) => None,
         };
-        exact.decide_by::<A>(mesh.edge_part[edge], reach, ends, out)
+        exact.decide_by::<A>(mesh.edge_group[edge], reach, ends, out)
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {
@@ -314,8 +314,9 @@ fn merged(one: &[Segment], two: &[Segment], pick: fn(State, State) -> State) -> 
 enum Asked {
     /// All polygons, own ones that are seen edge-on from off their faces.
     All,
-    /// All polygons, all own ones from off their faces. Behind a face that turns in front of it, an edge comes from under
-    /// polygons that are seen openly under others that are not: one of the two answers has a gap there, the other has none.
+    /// All polygons, all own ones from off their faces. Behind a face that turns in front of it, an edge comes from
+    /// under polygons that are seen openly under others that are not: one of the two answers has a gap there, the other
+    /// has none.
     AllWhole,
     /// Own polygons alone, from off their faces.
     Own,

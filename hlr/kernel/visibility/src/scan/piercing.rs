@@ -1,7 +1,7 @@
-//! Where drawn edges pass through the inside of polygons: clashing parts, soups, self-intersections, contacts.
+//! Finds where drawn edges pierce polygons: clashing groups, triangle soups, self-intersections, contacts.
 //!
-//! A sound part never pierces itself, so the search is made only where boxes of different parts overlap, or against
-//! a part that is not sound.
+//! A sound group never pierces itself, so the search is made only where boxes of different groups overlap, or against
+//! a group that is not sound.
 //!
 //! ```text
 //!        f  a \        z
@@ -22,14 +22,14 @@ use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::{Cover, shifted_side};
 
-/// Other parts around one, beyond which their boxes are not told apart.
+/// Other groups around one, beyond which their boxes are not told apart.
 const MANY_AROUND: usize = 32;
 
 pub struct Piercings<P> {
     pub events: Vec<Vec<Event<P>>>,
     pub tests: u64,
     /// Parts for which a search was needed at all.
-    pub parts: usize,
+    pub groups: usize,
 }
 
 pub fn piercings<A: Arithmetic>(
@@ -39,18 +39,18 @@ pub fn piercings<A: Arithmetic>(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Piercings<A::Parameter> {
     let boxes = part_boxes(mesh);
-    let sought = sought_parts(mesh, &boxes);
+    let sought = sought_groups(mesh, &boxes);
     let searched = sought.iter().filter(|&&s| s).count();
     if searched == 0 {
-        return Piercings { events: Vec::new(), tests: 0, parts: 0 };
+        return Piercings { events: Vec::new(), tests: 0, groups: 0 };
     }
-    let largest = mesh.parts.iter().map(|p| p.delta).max().unwrap_or(0);
-    let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.parts.len()];
+    let largest = mesh.groups.iter().map(|p| p.delta).max().unwrap_or(0);
+    let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.groups.len()];
     for (reach, t) in reached(mesh, table, &boxes, &sought, largest) {
-        members[mesh.triangle_part[t as usize] as usize].push((reach, t));
+        members[mesh.triangle_group[t as usize] as usize].push((reach, t));
     }
     let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::new).collect();
-    let parts = BoxTree::new((0..mesh.parts.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
+    let groups = BoxTree::new((0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
     let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
         .par_chunks(256)
         .enumerate()
@@ -61,14 +61,14 @@ pub fn piercings<A: Arithmetic>(
                 return (events, tests);
             }
             for (i, &e) in edges.iter().enumerate() {
-                let own = mesh.edge_part[e as usize];
+                let own = mesh.edge_group[e as usize];
                 if !sought[own as usize] {
                     continue;
                 }
                 let (a, b) = mesh.ends(e as usize);
                 let reach = Aabb::of(&[a, b]).toward_viewer(largest);
-                parts.query(&reach, |other| {
-                    if other as i32 == own && mesh.parts[own as usize].sound {
+                groups.query(&reach, |other| {
+                    if other as i32 == own && mesh.groups[own as usize].sound {
                         return;
                     }
                     let delta = mesh.delta(own, other as i32);
@@ -86,7 +86,7 @@ pub fn piercings<A: Arithmetic>(
         })
         .collect();
     let tests = found.iter().map(|f| f.1).sum();
-    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, parts: searched }
+    Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched }
 }
 
 /// Report where a -> b passes through the polygon: as it lies, and moved toward the viewer by `delta`.
@@ -152,13 +152,13 @@ fn through<A: Arithmetic>(
     Some((A::piercing(ga, ga - gb), if gb > zero { 1 } else { -1 }))
 }
 
-/// Polygons that edges of other parts may reach, with their boxes; all of parts that are not sound.
+/// Polygons that edges of other groups may reach, with their boxes; all of groups that are not sound.
 fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], largest: i64) -> Vec<(Aabb, u32)> {
     let live = || (0..boxes.len()).filter(|&p| sought[p]);
     let tree = BoxTree::new(live().map(|p| (boxes[p].toward_viewer(largest), p as u32)).collect());
-    // None: with so many parts around it all are taken.
+    // None: with so many groups around it all are taken.
     let mut near: Vec<Option<Vec<Aabb>>> = vec![None; boxes.len()];
-    for p in live().filter(|&p| mesh.parts[p].sound) {
+    for p in live().filter(|&p| mesh.groups[p].sound) {
         let mut around = Vec::new();
         tree.query(&boxes[p], |other| {
             if other as usize != p && around.len() <= MANY_AROUND {
@@ -171,56 +171,56 @@ fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], l
         .into_par_iter()
         .with_min_len(1 << 12)
         .filter_map(|t| {
-            let part = mesh.triangle_part[t as usize] as usize;
-            if !sought[part] || !table.counted(mesh, t as usize) {
+            let group = mesh.triangle_group[t as usize] as usize;
+            if !sought[group] || !table.counted(mesh, t as usize) {
                 return None;
             }
             let (p, q, r) = mesh.corners(t as usize);
             let own = Aabb::of(&[p, q, r]);
-            let asked = near[part].as_ref().is_none_or(|near| near.iter().any(|other| other.overlaps(&own)));
+            let asked = near[group].as_ref().is_none_or(|near| near.iter().any(|other| other.overlaps(&own)));
             asked.then_some((own, t))
         })
         .collect()
 }
 
 fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
-    let of = |triangles: &[[i32; 3]], parts: &[i32]| {
-        let mut boxes = vec![Aabb::EMPTY; mesh.parts.len()];
-        for (t, &part) in triangles.iter().zip(parts) {
+    let of = |triangles: &[[i32; 3]], groups: &[i32]| {
+        let mut boxes = vec![Aabb::EMPTY; mesh.groups.len()];
+        for (t, &group) in triangles.iter().zip(groups) {
             let [p, q, r] = t.map(|v| &mesh.points[v as usize]);
-            let b = &mut boxes[part as usize];
+            let b = &mut boxes[group as usize];
             *b = b.union(&Aabb::of(&[p, q, r]));
         }
         boxes
     };
-    // A table for each thread, where there are few parts.
+    // A table for each thread, where there are few groups.
     let count = mesh.triangles.len();
-    let threads = if mesh.parts.len() < count / 64 { rayon::current_num_threads() } else { 1 };
+    let threads = if mesh.groups.len() < count / 64 { rayon::current_num_threads() } else { 1 };
     let chunk = count.div_ceil(threads).max(1);
     let tables: Vec<Vec<Aabb>> =
-        mesh.triangles.par_chunks(chunk).zip(mesh.triangle_part.par_chunks(chunk)).map(|(t, p)| of(t, p)).collect();
-    let mut boxes = vec![Aabb::EMPTY; mesh.parts.len()];
+        mesh.triangles.par_chunks(chunk).zip(mesh.triangle_group.par_chunks(chunk)).map(|(t, p)| of(t, p)).collect();
+    let mut boxes = vec![Aabb::EMPTY; mesh.groups.len()];
     for table in tables {
         boxes.iter_mut().zip(table).for_each(|(b, own)| *b = b.union(&own));
     }
-    for (e, &part) in mesh.edge_part.iter().enumerate() {
+    for (e, &group) in mesh.edge_group.iter().enumerate() {
         if mesh.incident(e).is_empty() {
             let (p, q) = mesh.ends(e);
-            let b = &mut boxes[part as usize];
+            let b = &mut boxes[group as usize];
             *b = b.union(&Aabb::of(&[p, q]));
         }
     }
     boxes
 }
 
-/// Parts whose box, grown by the contact tolerance, meets another's, and parts that are not sound.
-fn sought_parts(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
+/// Parts whose box, grown by the contact tolerance, meets another's, and groups that are not sound.
+fn sought_groups(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
     let live: Vec<usize> = (0..boxes.len()).filter(|&p| boxes[p] != Aabb::EMPTY).collect();
-    let largest = live.iter().map(|&p| mesh.parts[p].delta).max().unwrap_or(0);
+    let largest = live.iter().map(|&p| mesh.groups[p].delta).max().unwrap_or(0);
     let tree = BoxTree::new(live.iter().map(|&p| (boxes[p].toward_viewer(largest), p as u32)).collect());
     let mut sought = vec![false; boxes.len()];
     for p in live {
-        let mut meets = !mesh.parts[p].sound;
+        let mut meets = !mesh.groups[p].sound;
         tree.query(&boxes[p].toward_viewer(largest), |other| {
             let delta = mesh.delta(p as i32, other as i32).max(mesh.delta(other as i32, p as i32));
             let (a, b) = (boxes[p].toward_viewer(delta), boxes[other as usize].toward_viewer(delta));

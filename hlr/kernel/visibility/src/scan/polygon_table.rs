@@ -1,4 +1,4 @@
-//! Which way each triangle faces, and whether it is counted.
+//! The polygon table: which way each triangle faces, and whether it is counted.
 
 use rayon::prelude::*;
 
@@ -10,8 +10,8 @@ use hlr_exact::predicates::orient2d;
 /// Radians to the line of sight up to which a triangle is seen edge-on but for what its file has rounded.
 const ALMOST: f64 = 2e-5;
 
-/// Height in the image over the wider side of the longest side's box, in units of the grid, up to which rounding the corners
-/// may have turned a triangle over.
+/// Height in the image over the wider side of the longest side's box, in units of the grid, up to which rounding the
+/// corners may have turned a triangle over.
 const NEEDLE: i128 = 2;
 
 pub struct PolygonTable {
@@ -33,8 +33,11 @@ impl PolygonTable {
                 (facing, facing != 0 && almost_edge_on((p, q, r)))
             })
             .unzip_into_vecs(&mut facing, &mut almost);
-        let culled =
-            facing.par_iter().zip(mesh.triangle_part).filter(|&(&f, &p)| f < 0 && mesh.parts[p as usize].cull).count();
+        let culled = facing
+            .par_iter()
+            .zip(mesh.triangle_group)
+            .filter(|&(&f, &p)| f < 0 && mesh.groups[p as usize].cull)
+            .count();
         PolygonTable { facing, almost, culled }
     }
 
@@ -45,13 +48,13 @@ impl PolygonTable {
         !triangles.is_empty() && triangles.iter().all(away)
     }
 
-    /// Counted in front of others: not edge-on, and facing the viewer where its part allows culling. A line of sight
+    /// Counted in front of others: not edge-on, and facing the viewer where its group allows culling. A line of sight
     /// that meets a closed solid from outside meets a face toward the viewer first, so the others add nothing to
     /// the question whether anything is in front.
     #[inline(always)]
     pub fn counted(&self, mesh: &Mesh, triangle: usize) -> bool {
         let f = self.facing[triangle];
-        f > 0 || (f < 0 && !mesh.parts[mesh.triangle_part[triangle] as usize].cull)
+        f > 0 || (f < 0 && !mesh.groups[mesh.triangle_group[triangle] as usize].cull)
     }
 }
 

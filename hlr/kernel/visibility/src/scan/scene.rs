@@ -1,14 +1,14 @@
-//! The scene as it is seen, before anything is rounded: from here the pass is one call.
+//! The scene in view coordinates before rounding; `solve` runs the whole pass on it.
 
 use hlr_exact::arithmetic::{Double, Exact, Single};
 use hlr_exact::snap::Grid;
 use rayon::prelude::*;
 
-use super::mesh::{Mesh, Part};
+use super::mesh::{Mesh, SnappedGroup};
 use super::own_faces::OwnFaces;
 use super::sweep::{Outcome, Steps, visibility_by};
 
-/// A part of the pass, and what may be assumed of it: see `Part`. Lengths in depth units of the view.
+/// A group of the pass, and what may be assumed of it: see `SnappedGroup`. Lengths in depth units of the view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {
     pub cull: bool,
@@ -53,7 +53,7 @@ impl<'a> Scene<'a> {
     pub fn snapped(&self) -> Option<(Mesh<'a>, Grid)> {
         let room = self.groups.iter().map(|group| group.delta).fold(0.0, f64::max);
         let grid = Grid::around(self.points)?.with_room(room);
-        let part = |group: &Group| Part {
+        let snapped = |group: &Group| SnappedGroup {
             cull: group.cull,
             sound: group.sound,
             delta: grid.delta(group.delta),
@@ -63,13 +63,13 @@ impl<'a> Scene<'a> {
         let mesh = Mesh {
             points: self.points.par_iter().with_min_len(1 << 13).map(|p| grid.snap(p)).collect(),
             triangles: self.triangles,
-            triangle_part: self.triangle_group,
+            triangle_group: self.triangle_group,
             edges: self.edges,
             offsets: self.offsets,
             incident: self.incident,
-            edge_part: self.edge_group,
+            edge_group: self.edge_group,
             role: self.role,
-            parts: self.groups.iter().map(part).collect(),
+            groups: self.groups.iter().map(snapped).collect(),
         };
         Some((mesh, grid))
     }

@@ -1,4 +1,4 @@
-//! The pass as a whole: the numbered steps of `scan`, one after another.
+//! The visibility pass as a whole: the numbered steps of `scan`, one after another.
 
 use std::time::Instant;
 
@@ -9,20 +9,13 @@ use super::active_spans::Seeds;
 use super::depth_pyramid::DepthPyramid;
 use super::edge_table::EdgeTable;
 use super::exact_query::ExactQuery;
-use super::invisibility::{Event, Segment, State, walk};
+use super::invisibility::{Event, Piece, Segment, State, walk};
 use super::mesh::Mesh;
-use super::one_sheet::one_sheet;
 use super::own_faces::OwnFaces;
 use super::piercing::{Piercings, piercings};
 use super::polygon_table::PolygonTable;
+use super::single_layer::is_single_layer;
 use hlr_exact::arithmetic::Arithmetic;
-
-/// One piece of one edge; parameters run from the edge's first to its second vertex.
-#[derive(Clone, Copy, Debug)]
-pub struct Piece {
-    pub edge: u32,
-    pub segment: Segment,
-}
 
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Counters {
@@ -71,10 +64,11 @@ pub struct Outcome {
 /// Which steps this scene calls for. Whatever is chosen within the conditions, the pieces are the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps {
-    /// Seeds and crossings; may be left out for a scene of one convex body. Where that turns out to overlap itself in the
-    /// image, nothing is left out.
+    /// Seeds and crossings; may be left out for a scene of one convex body. Where that turns out to overlap itself in
+    /// the image, nothing is left out.
     pub crossings: bool,
-    /// May be left out where no edge comes within the contact tolerance of a polygon of another part, and all are sound.
+    /// May be left out where no edge comes within the contact tolerance of a polygon of another group, and all are
+    /// sound.
     pub piercings: bool,
     pub pyramid: bool,
 }
@@ -107,7 +101,7 @@ pub fn visibility_by<A: Arithmetic>(
     };
     let exact = ExactQuery::new(mesh, &table);
     seconds.tables = clock.lap();
-    if !steps.crossings && one_sheet(mesh, &edges.contours) {
+    if !steps.crossings && is_single_layer(mesh, &edges.contours) {
         let walked = alone::<A>(mesh, &table, &edges.drawn, &exact, stopped);
         counters.by_culling_alone = edges.drawn.len() as u64;
         seconds.counting = clock.lap();
@@ -121,7 +115,7 @@ pub fn visibility_by<A: Arithmetic>(
     // 2. edges that surely lie behind something need no search
     if steps.pyramid {
         let pyramid = DepthPyramid::new(mesh, &table, &edges.contours);
-        counters.pyramid_parts = pyramid.parts as u64;
+        counters.pyramid_parts = pyramid.groups as u64;
         counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
         seconds.pyramid = clock.lap();
     }
@@ -134,7 +128,7 @@ pub fn visibility_by<A: Arithmetic>(
     let pierced = if piercing {
         piercings::<A>(mesh, &table, &edges.drawn, stopped)
     } else {
-        Piercings { events: Vec::new(), tests: 0, parts: 0 }
+        Piercings { events: Vec::new(), tests: 0, groups: 0 }
     };
     seconds.piercings = clock.lap();
     if stopped() {
@@ -151,7 +145,7 @@ pub fn visibility_by<A: Arithmetic>(
         seeds: seeds.asked as u64,
         crossing_tests: crossed.tests,
         crossings: crossed.events.iter().map(|e| e.len() as u64).sum(),
-        piercing_parts: pierced.parts as u64,
+        piercing_parts: pierced.groups as u64,
         piercing_tests: pierced.tests,
         piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
         ..counters
@@ -205,8 +199,8 @@ fn discard(mesh: &Mesh, pyramid: &DepthPyramid, edges: &mut EdgeTable) -> usize 
     gone.len()
 }
 
-/// Of polygons that lie side by side none hides another's edge. What belongs to none, or only to such as are turned away
-/// or seen edge-on, is asked for by itself.
+/// Of polygons that lie side by side none hides another's edge. What belongs to none, or only to such as are turned
+/// away or seen edge-on, is asked for by itself.
 fn alone<A: Arithmetic>(
     mesh: &Mesh,
     table: &PolygonTable,
@@ -316,10 +310,10 @@ fn walk_all<A: Arithmetic>(
             let mut segments = Vec::new();
             for i in first..(first + CHUNK).min(drawn.len()) {
                 let edge = drawn[i];
-                let part = mesh.edge_part[edge as usize];
+                let group = mesh.edge_group[edge as usize];
                 let [a, b] = mesh.edges[edge as usize];
                 let own = &mut run[(offsets[i] - base) as usize..(offsets[i + 1] - base) as usize];
-                let (start, end) = (seeds.at::<A>(mesh, part, a, b), seeds.at::<A>(mesh, part, b, a));
+                let (start, end) = (seeds.at::<A>(mesh, group, a, b), seeds.at::<A>(mesh, group, b, a));
                 if !walk(start, own, end, &mut segments) {
                     out.failed += 1;
                     if !exact.decide::<A>(edge as usize, &mut segments) {

@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use super::shapes::*;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{cross, dot, sub, unit};
-use crate::mesh::{FaceMesh, Steps, mesh_face};
+use crate::mesh::{FaceMesh, Progress, mesh_face};
 
 /// Chords of an arc at half the deflection.
 fn chords(radius: f64, angle: f64, deflection: f64) -> usize {
@@ -16,7 +16,7 @@ fn chords(radius: f64, angle: f64, deflection: f64) -> usize {
 
 fn meshed(surface: &Surface, places: &[Vec<[f64; 2]>], deflection: f64, most: f64) -> FaceMesh {
     let face = loops(surface, places);
-    let mesh = mesh_face(surface, &face, deflection, 0.5, &Steps::free()).unwrap();
+    let mesh = mesh_face(surface, &face, deflection, 0.5, &Progress::free()).unwrap();
     let error = chord_error(surface, &mesh);
     println!("{} triangles, error {:.3} deflections", mesh.triangles.len(), error / deflection);
     assert!(error <= deflection, "{error}");

@@ -4,11 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use super::shapes::*;
 use crate::geometry::surface::Surface;
-use crate::mesh::{FaceMesh, Fault, Steps, mesh_face};
+use crate::mesh::{FaceMesh, Fault, Progress, mesh_face};
 
 fn meshed(surface: &Surface, places: &[Vec<[f64; 2]>], deflection: f64) -> FaceMesh {
     let face = loops(surface, places);
-    let mesh = mesh_face(surface, &face, deflection, 0.5, &Steps::free()).unwrap();
+    let mesh = mesh_face(surface, &face, deflection, 0.5, &Progress::free()).unwrap();
     assert!((area(&mesh) - enclosed(&face)).abs() < 1e-9 * enclosed(&face).abs(), "{}", area(&mesh));
     mesh
 }
@@ -42,7 +42,7 @@ fn loops_that_run_the_wrong_way_are_named_and_change_nothing() {
         let [rim, hole, island] = forward;
         let places =
             [circle([0.0, 0.0], 5.0, 40, rim), circle([0.0, 0.0], 3.0, 20, hole), circle([0.0, 0.0], 1.0, 12, island)];
-        let mesh = mesh_face(&plane, &loops(&plane, &places), 0.1, 0.5, &Steps::free()).unwrap();
+        let mesh = mesh_face(&plane, &loops(&plane, &places), 0.1, 0.5, &Progress::free()).unwrap();
         (area(&mesh), mesh.turned)
     };
     let (right, none) = round([true, false, true]);
@@ -64,7 +64,7 @@ fn a_bent_face_with_a_hole_that_runs_the_wrong_way() {
     let torus = surface(5, &[5.0, 2.0]);
     let round = |hole| {
         let places = [frame([0.0, 0.0], [2.0, 2.0], 8, 8), circle([1.0, 1.0], 0.4, 20, hole)];
-        mesh_face(&torus, &loops(&torus, &places), 0.05, 0.5, &Steps::free()).unwrap()
+        mesh_face(&torus, &loops(&torus, &places), 0.05, 0.5, &Progress::free()).unwrap()
     };
     let (right, wrong) = (round(false), round(true));
     assert!(right.turned.is_empty());
@@ -129,7 +129,7 @@ fn a_cone_to_its_apex() {
     places.push([0.0, 3.0]);
     let face = loops(&cone, &[places]);
     assert_eq!(face.loops[0][0].node, face.loops[0][1].node);
-    let mesh = mesh_face(&cone, &face, 0.01, 0.5, &Steps::free()).unwrap();
+    let mesh = mesh_face(&cone, &face, 0.01, 0.5, &Progress::free()).unwrap();
     assert_eq!(mesh.triangles.len(), 80);
     let radius = 2.0 + 3.0 * half.sin();
     let (error, bound) = (chord_error(&cone, &mesh), radius * (1.0 - (PI / 80.0).cos()));
@@ -198,16 +198,16 @@ fn loops_that_cross() {
     let hole = vec![[8.0, 8.0], [8.0, 9.0], [11.0, 9.0], [11.0, 8.0]];
     let face = loops(&plane, &[outer.clone(), hole]);
     assert_eq!(
-        mesh_face(&plane, &face, 0.1, 0.5, &Steps::free()),
+        mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()),
         Err(Fault::Crossing(vec![[0, 1, 1, 1], [0, 1, 1, 3]]))
     );
     let eight = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]];
     let face = loops(&plane, &[eight]);
-    assert_eq!(mesh_face(&plane, &face, 0.1, 0.5, &Steps::free()), Err(Fault::Crossing(vec![[0, 1, 0, 3]])));
+    assert_eq!(mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()), Err(Fault::Crossing(vec![[0, 1, 0, 3]])));
     // A corner on a chord.
     let hole = vec![[8.0, 8.0], [8.0, 9.0], [10.0, 8.5]];
     let face = loops(&plane, &[outer, hole]);
-    assert!(matches!(mesh_face(&plane, &face, 0.1, 0.5, &Steps::free()), Err(Fault::Crossing(_))));
+    assert!(matches!(mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()), Err(Fault::Crossing(_))));
 }
 
 /// Ends of edges that miss their vertex: points in nearly one place, in an order that crosses itself.
@@ -217,7 +217,7 @@ fn neighbours_in_nearly_one_place() {
     let places =
         vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0 + 1e-7], [4.0 + 1e-8, 3.0], [3.0, 3.0], [0.0, 3.0], [1e-8, 3.0]];
     let face = loops(&plane, std::slice::from_ref(&places));
-    let mesh = mesh_face(&plane, &face, 0.1, 0.5, &Steps::free()).unwrap();
+    let mesh = mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()).unwrap();
     // Each is a node of its own, so each has its place in the mesh.
     assert_eq!(mesh.triangles.len(), places.len() - 2);
     assert_eq!(mesh.points, face.loops[0].iter().map(|p| p.point).collect::<Vec<_>>());
@@ -258,7 +258,7 @@ fn random_polygons() {
             continue;
         }
         let face = loops(&plane, &[places]);
-        match mesh_face(&plane, &face, 0.1, 0.5, &Steps::free()) {
+        match mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()) {
             Ok(_) => sound += 1,
             Err(Fault::Crossing(_)) => crossed += 1,
             Err(_) => open += 1,
@@ -307,7 +307,7 @@ fn splines_that_unroll() {
         for (data, frame_of) in [(along_v, [20, 1]), (along_u, [1, 20])] {
             let s = Surface::read(8, &data).unwrap();
             let face = loops(&s, &[frame([0.0, 0.0], [1.0, 1.0], frame_of[0], frame_of[1])]);
-            let mesh = mesh_face(&s, &face, 0.02, 0.5, &Steps::free()).unwrap();
+            let mesh = mesh_face(&s, &face, 0.02, 0.5, &Progress::free()).unwrap();
             // To an apex only every other one has an area.
             assert_eq!(mesh.triangles.len(), if top == 0.0 { 20 } else { 40 });
             assert!(chord_error(&s, &mesh) < 0.02);

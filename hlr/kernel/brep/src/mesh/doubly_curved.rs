@@ -1,0 +1,266 @@
+//! The mesh of a face that curves in both directions.
+//!
+//! 1. a lattice of inner points in a chart of (u, v)
+//! 2. constrained Delaunay triangles in the chart
+//! 3. more points, until every triangle keeps the chord error
+
+use super::border_grid::BorderGrid;
+use super::delaunay::Delaunay;
+use super::draft::Draft;
+use super::face::{FaceLoops, Fault};
+use super::gap::{Bend, Corner, Gap, corner, gap};
+use super::lattice;
+use super::outline::Outline;
+use super::plane::distance2;
+use super::progress::Progress;
+use super::spacing::Field;
+use super::strips::{Strips, strips};
+use super::sweep;
+use super::triangulation::Triangulation;
+use crate::geometry::surface::Surface;
+use hlr_accuracy::MESH_BESIDE_BORDER;
+
+/// Rounds of more points.
+const ROUNDS: usize = 16;
+/// Points inside one face.
+const MOST: usize = 8_000_000;
+/// Of the length of a chord: new points are kept so far off it in the chart; nearer only where there is no other way.
+const OFF: [f64; 2] = [0.2, 0.02];
+
+/// `straight`: with a chart that is slower to be filled and never wrong. Faults of the loops as None beside their
+/// outline: whoever asks finds out why.
+pub fn triangulate(
+    surface: &Surface,
+    loops: &FaceLoops,
+    deflection: f64,
+    angle: f64,
+    straight: bool,
+    steps: &Progress,
+) -> Result<Result<Draft, Box<Outline>>, Fault> {
+    let bounds = Outline::new(loops, |_, _, _| ())?.bounds();
+    if !(0..2).all(|k| bounds[0][k] < bounds[1][k]) {
+        return Err(Fault::Open);
+    }
+    let field = Field::new(surface, bounds, deflection, angle, straight, steps).ok_or(Fault::Degenerate)?;
+    let outline = Outline::new(loops, |from, to, shares| {
+        let (a, b) = (field.to_chart(from), field.to_chart(to));
+        let middle = [0, 1].map(|k| 0.5 * (a[k] + b[k]));
+        let count = ((b[0] - a[0]).hypot(b[1] - a[1]) / field.at(middle)).ceil().min(1000.0) as usize;
+        shares.extend((1..count).map(|k| k as f64 / count as f64));
+    })?;
+    let chart = outline.mapped(|uv| field.to_chart(uv));
+    let Some(Filled { inner, net, stand_in }) = filled(&field, &chart, steps)? else {
+        return Ok(Err(Box::new(outline)));
+    };
+    let mut work = Work::new(surface, &field, &chart, deflection, net, steps);
+    steps.reached(DONE[1]);
+    work.evaluate(&outline, &inner);
+    let error = work.refine();
+    let Work { corners, net, .. } = work;
+    Ok(Ok(Draft { outline, corners, triangles: net.into_triangles(), stand_in, error, turned: Vec::new() }))
+}
+
+/// Of the work on a face, about: when its inner points are known, when they are joined, when they are judged once.
+const DONE: [f64; 3] = [0.2, 0.6, 0.8];
+
+struct Filled {
+    inner: Vec<[f64; 2]>,
+    net: Triangulation,
+    stand_in: Vec<u32>,
+}
+
+/// Points inside the loops, and triangles; None where the loops cannot be filled.
+fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Filled>, Fault> {
+    let own = || (0..chart.len() as u32).collect();
+    if let Some(Strips { inner, triangles, loose }) = strips(field, chart, MOST, steps) {
+        let mut net = Triangulation::new(chart.len() + inner.len(), triangles, |_, _| false);
+        let places: Vec<_> = chart.uv.iter().chain(&inner).copied().collect();
+        if net.settle(&places, loose, steps) {
+            return Ok(Some(Filled { inner, net, stand_in: own() }));
+        }
+    }
+    let mut inner = lattice::points(field, &BorderGrid::new(chart), MOST, steps).ok_or(Fault::TooFine)?;
+    steps.reached(DONE[0]);
+    if let Some(triangles) = sweep::triangulate(chart, steps) {
+        let mut net = Triangulation::new(chart.len(), triangles, |_, _| false);
+        let mut places = chart.uv.clone();
+        places.reserve(inner.len());
+        if net.settle(&places, net.triangles().len(), steps) {
+            inner.retain(|&p| {
+                steps.step();
+                places.push(p);
+                let new = net.insert(&places, places.len() as u32 - 2);
+                if !new {
+                    places.pop();
+                }
+                new
+            });
+            return Ok(Some(Filled { inner, net, stand_in: own() }));
+        }
+    }
+    let Some(Delaunay { triangles, stand_in }) = Delaunay::new(chart, &inner, steps) else { return Ok(None) };
+    let mut chords: Vec<_> =
+        chart.chords().map(|c| ordered(stand_in[c as usize], stand_in[chart.after(c) as usize])).collect();
+    chords.sort_unstable();
+    let net =
+        Triangulation::new(chart.len() + inner.len(), triangles, |a, b| chords.binary_search(&ordered(a, b)).is_ok());
+    Ok(Some(Filled { inner, net, stand_in }))
+}
+
+fn ordered(a: u32, b: u32) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+struct Work<'a> {
+    surface: &'a Surface,
+    field: &'a Field,
+    chart: &'a Outline,
+    corners: Vec<Corner>,
+    bends: Vec<Bend>,
+    /// Between which knots the corners are.
+    spans: Vec<[u32; 2]>,
+    /// Of the corners, in the chart.
+    places: Vec<[f64; 2]>,
+    deflection: f64,
+    net: Triangulation,
+    steps: &'a Progress<'a>,
+}
+
+/// A triangle that does not keep the deflection, with its number: it is still there if it still has these corners.
+struct Coarse {
+    gap: Gap,
+    corners: [u32; 3],
+    number: usize,
+}
+
+impl<'a> Work<'a> {
+    fn new(
+        surface: &'a Surface,
+        field: &'a Field,
+        chart: &'a Outline,
+        deflection: f64,
+        net: Triangulation,
+        steps: &'a Progress,
+    ) -> Work<'a> {
+        let (corners, bends, spans) = (Vec::new(), Vec::new(), Vec::new());
+        Work { surface, field, chart, corners, bends, spans, places: chart.uv.clone(), deflection, net, steps }
+    }
+
+    /// The points of the outline, then those inside.
+    fn evaluate(&mut self, outline: &Outline, inner: &[[f64; 2]]) {
+        let count = outline.len() + inner.len();
+        self.corners.reserve(count);
+        self.bends.reserve(count);
+        self.spans.reserve(count);
+        for (&uv, &point) in outline.uv.iter().zip(&outline.points) {
+            self.add(uv, Some(point));
+        }
+        // In a row all have one v.
+        let mut row = [f64::NAN; 2];
+        for &[x, y] in inner {
+            if y != row[0] {
+                row = [y, self.field.parameter(1, y)];
+            }
+            self.add([self.field.parameter(0, x), row[1]], None);
+        }
+        self.places.extend(inner);
+    }
+
+    fn add(&mut self, uv: [f64; 2], point: Option<[f64; 3]>) {
+        self.steps.step();
+        let (corner, bend) = corner(self.surface, uv, point);
+        self.corners.push(corner);
+        self.bends.push(bend);
+        self.spans.push(self.field.span(uv));
+    }
+
+    /// The greatest error that remains.
+    fn refine(&mut self) -> f64 {
+        let (mut worst, mut coarse) = (0.0f64, Vec::new());
+        (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
+        self.steps.reached(DONE[2]);
+        for _ in 0..ROUNDS {
+            let known = self.corners.len();
+            if coarse.is_empty() || known > MOST || !self.divide(&mut coarse) {
+                break;
+            }
+            coarse.retain(|c| self.net.triangles()[c.number] == c.corners);
+            // All triangles that were not there have a new point.
+            for point in known as u32..self.corners.len() as u32 {
+                for number in self.net.around(point) {
+                    if self.net.triangles()[number].iter().all(|&i| i >= point || i < known as u32) {
+                        self.judge(number, &mut worst, &mut coarse);
+                    }
+                }
+            }
+        }
+        coarse.iter().fold(worst, |w, c| w.max(c.gap.whole))
+    }
+
+    /// Whether a triangle keeps the deflection, or is as good as the border lets it be.
+    fn judge(&self, number: usize, worst: &mut f64, coarse: &mut Vec<Coarse>) {
+        self.steps.step();
+        let t = self.net.triangles()[number];
+        let at = t.map(|i| i as usize);
+        let (corners, bends) = (at.map(|i| &self.corners[i]), at.map(|i| &self.bends[i]));
+        let spans = at.map(|i| self.spans[i]);
+        let kinked = spans[0] != spans[1] || spans[1] != spans[2];
+        let gap = gap(self.surface, corners, bends, kinked, self.deflection);
+        if gap.whole > self.deflection {
+            let beside = (0..3).filter(|&k| self.is_chord(t[k], t[(k + 1) % 3])).map(|k| gap.edges[k]);
+            if gap.whole > MESH_BESIDE_BORDER * beside.fold(0.0, f64::max) {
+                coarse.push(Coarse { gap, corners: t, number });
+            }
+        } else {
+            *worst = worst.max(gap.whole);
+        }
+    }
+
+    fn is_chord(&self, a: u32, b: u32) -> bool {
+        let count = self.chart.len() as u32;
+        a < count && b < count && (self.chart.after(a) == b || self.chart.after(b) == a)
+    }
+
+    /// One more point for each coarse triangle that has no neighbour with a new one. Whether there was any.
+    fn divide(&mut self, coarse: &mut [Coarse]) -> bool {
+        coarse.sort_by(|a, b| b.gap.whole.total_cmp(&a.gap.whole).then(a.corners.cmp(&b.corners)));
+        let mut touched = vec![false; self.corners.len()];
+        let mut any = false;
+        for Coarse { gap, corners: t, .. } in coarse {
+            if t.iter().filter(|&&i| touched[i as usize]).count() >= 2 {
+                continue;
+            }
+            let Some(place) = self.place(gap, *t) else { continue };
+            self.places.push(place);
+            if self.net.insert(&self.places, t[0]) {
+                t.iter().for_each(|&i| touched[i as usize] = true);
+                self.add(self.field.on_surface(place), None);
+                any = true;
+            } else {
+                self.places.pop();
+            }
+        }
+        any
+    }
+
+    /// Amid the edge with the greatest error, or amid the triangle where that is too near the border.
+    fn place(&self, gap: &Gap, t: [u32; 3]) -> Option<[f64; 2]> {
+        let [a, b, c] = t.map(|i| self.places[i as usize]);
+        let ends = [(a, b), (b, c), (c, a)];
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| gap.edges[j].total_cmp(&gap.edges[i]));
+        let clear = |p: &[f64; 2], off: f64| {
+            (0..3).all(|k| {
+                let (from, to) = ends[k];
+                let length = (to[0] - from[0]).powi(2) + (to[1] - from[1]).powi(2);
+                !self.is_chord(t[k], t[(k + 1) % 3]) || distance2(p, &from, &to) > off * off * length
+            })
+        };
+        let middle = |k: usize| [0, 1].map(|i| 0.5 * (ends[k].0[i] + ends[k].1[i]));
+        OFF.iter().find_map(|&off| {
+            let inner = order.iter().filter(|&&k| !self.is_chord(t[k], t[(k + 1) % 3]));
+            let split = inner.map(|&k| middle(k)).find(|p| clear(p, off));
+            split.or_else(|| Some([0, 1].map(|k| (a[k] + b[k] + c[k]) / 3.0)).filter(|p| clear(p, off)))
+        })
+    }
+}

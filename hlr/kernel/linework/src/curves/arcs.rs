@@ -1,0 +1,325 @@
+//! Arcs of circles and ellipses as SVG writes them: two end points, two radii and a rotation, all of them rounded.
+//!
+//! A renderer finds the centre from these. The nearer an arc is to half a turn, the more the centre moves by what the
+//! radii were rounded, and radii that are too small for the ends are stretched. So each arc is drawn as the standard
+//! says (SVG 2, appendix B.2.4) and measured; an arc that is off by too much gets more digits or is divided.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::strokes::{ARC, CONTROL, CUBIC, START, Shape, WHOLE};
+use crate::fit::plane::{Vec2, length, minus};
+use hlr_accuracy::{ARC_CUBIC, ARC_FIT, ARC_ROUND};
+
+/// Decimals that radii may have beyond those of points.
+pub const EXTRA: usize = 2;
+/// Decimals of a rotation in degrees.
+pub const ROTATION: usize = 6;
+
+const MOST_PIECES: usize = 12;
+/// Points at which a drawn arc is measured, and points of the true arc that it is compared with.
+const MEASURED: usize = 7;
+const TRUE_PLACES: usize = 64;
+/// Share of a full turn from which an arc counts as a whole ellipse.
+const WHOLE_TURN: f64 = 1.0 - 1e-9;
+
+/// centre + cos t axes[0] + sin t axes[1] for t between the angles, y up.
+#[derive(Clone, Copy, Debug)]
+pub struct Arc {
+    pub centre: Vec2,
+    pub axes: [Vec2; 2],
+    pub angles: [f64; 2],
+}
+
+/// Rows of strokes.
+#[derive(Clone, Debug, Default)]
+pub struct Rows {
+    pub points: Vec<[i64; 2]>,
+    pub op: Vec<u8>,
+    pub arc: Vec<i32>,
+    pub shapes: Vec<Shape>,
+}
+
+impl Rows {
+    pub fn push(&mut self, point: [i64; 2], op: u8, shape: Option<Shape>) {
+        self.points.push(point);
+        self.op.push(op);
+        self.arc.push(shape.map_or(-1, |_| self.shapes.len() as i32));
+        self.shapes.extend(shape);
+    }
+
+    /// Those of `more` after these.
+    pub fn append(&mut self, more: &Rows) {
+        let before = self.shapes.len() as i32;
+        self.points.extend(&more.points);
+        self.op.extend(&more.op);
+        self.arc.extend(more.arc.iter().map(|&i| if i < 0 { -1 } else { i + before }));
+        self.shapes.extend(&more.shapes);
+    }
+}
+
+impl Arc {
+    pub fn at(&self, t: f64) -> Vec2 {
+        let (s, c) = t.sin_cos();
+        [0, 1].map(|k| self.centre[k] + c * self.axes[0][k] + s * self.axes[1][k])
+    }
+
+    fn radii(&self) -> [f64; 2] {
+        self.axes.map(|a| length(&a))
+    }
+
+    fn whole(&self) -> bool {
+        (self.angles[1] - self.angles[0]).abs() >= WHOLE_TURN * TAU
+    }
+
+    /// Rotation of the first axis in degrees, within a quarter turn of none.
+    fn rotation(&self) -> f64 {
+        let degrees = self.axes[0][1].atan2(self.axes[0][0]).to_degrees();
+        degrees - (degrees / 180.0).round() * 180.0
+    }
+
+    /// Whether angles that rise run counter-clockwise.
+    fn upright(&self) -> bool {
+        self.axes[0][0] * self.axes[1][1] > self.axes[0][1] * self.axes[1][0]
+    }
+
+    /// A whole one as renderers draw the `<circle>` or `<ellipse>` of `rows`: from the end of its first axis on the
+    /// right, clockwise. So its dashes fall on the same places.
+    fn as_element(&self, scale: f64, accuracy: f64) -> Self {
+        let [major, minor] = self.radii();
+        let turned = shape(self, scale, EXTRA, accuracy).rotation as f64 * 10f64.powi(-(ROTATION as i32));
+        let (s, c) = turned.to_radians().sin_cos();
+        Self { centre: self.centre, axes: [[major * c, major * s], [-minor * s, minor * c]], angles: [0.0, -TAU] }
+    }
+
+    /// Distance of a point near this arc.
+    fn distance(&self, p: &Vec2) -> f64 {
+        let [major, minor] = self.radii();
+        let d = minus(p, &self.centre);
+        if minor > 0.3 * major {
+            let along = |k: usize, r: f64| (d[0] * self.axes[k][0] + d[1] * self.axes[k][1]) / (r * r);
+            let t = along(1, minor).atan2(along(0, major));
+            return length(&minus(p, &self.at(t)));
+        }
+        // Of a flat one the angle of a nearby point tells little.
+        let place =
+            |i: usize| self.at(self.angles[0] + (self.angles[1] - self.angles[0]) * (i as f64 / TRUE_PLACES as f64));
+        (0..TRUE_PLACES)
+            .map(|i| {
+                let (a, b) = (place(i), place(i + 1));
+                let (way, d) = (minus(&b, &a), minus(p, &a));
+                let size = way[0] * way[0] + way[1] * way[1];
+                let s = if size > 0.0 { ((d[0] * way[0] + d[1] * way[1]) / size).clamp(0.0, 1.0) } else { 0.0 };
+                length(&minus(&d, &way.map(|c| c * s)))
+            })
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// An arc as rows for SVG. `ends` are its ends on paper, which it shares with what goes on from there.
+pub fn rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out: &mut Rows) {
+    let scale = 10f64.powi(places as i32);
+    let grid = |p: &Vec2| p.map(|c| (c * scale).round() as i64);
+    if arc.whole() {
+        out.push(grid(&arc.centre), WHOLE, Some(shape(arc, scale, EXTRA, accuracy)));
+        return;
+    }
+    out.push(grid(&ends[0]), START, None);
+    let turned = arc.angles[1] - arc.angles[0];
+    let fewest = (turned.abs() / (0.999 * TAU)).ceil().max(1.0) as usize;
+    for pieces in fewest..=MOST_PIECES {
+        for extra in 0..=EXTRA {
+            let mut shape = shape(arc, scale, extra, accuracy);
+            shape.large = turned.abs() / pieces as f64 > PI;
+            shape.rising = (turned > 0.0) == arc.upright();
+            let angle = |i: usize| arc.angles[0] + turned * (i as f64 / pieces as f64);
+            let mut stops: Vec<[i64; 2]> = (0..=pieces).map(|i| grid(&arc.at(angle(i)))).collect();
+            (stops[0], stops[pieces]) = (grid(&ends[0]), grid(&ends[1]));
+            let fits = (0..pieces).all(|i| {
+                let part = Arc { angles: [angle(i), angle(i + 1)], ..*arc };
+                let [a, b] = [stops[i], stops[i + 1]].map(|p| p.map(|c| c as f64 / scale));
+                strays(&shape, &a, &b, scale, &part) <= ARC_FIT * accuracy
+            });
+            if fits || (pieces, extra) == (MOST_PIECES, EXTRA) {
+                stops[1..].iter().for_each(|p| out.push(*p, ARC, Some(shape)));
+                return;
+            }
+        }
+    }
+}
+
+fn shape(arc: &Arc, scale: f64, extra: usize, accuracy: f64) -> Shape {
+    let coarse = 10i64.pow((EXTRA - extra) as u32);
+    let fine = scale * 10f64.powi(EXTRA as i32);
+    let [major, minor] = arc.radii();
+    let mut radii = [major, minor].map(|r| ((r * fine / coarse as f64).round() as i64).max(1) * coarse);
+    // What no one sees would only cost digits: a circle seen from very nearly above is one.
+    if major - minor < ARC_ROUND * accuracy {
+        radii[1] = radii[0];
+        return Shape { radii, ..Shape::default() };
+    }
+    let off = ARC_ROUND * accuracy / (major - minor);
+    let digits = (-off.to_degrees().log10()).ceil().clamp(0.0, ROTATION as f64) as i32;
+    let unit = 10f64.powi(ROTATION as i32 - digits);
+    Shape { radii, rotation: ((arc.rotation() * 10f64.powi(digits)).round() * unit) as i64, ..Shape::default() }
+}
+
+/// An arc as a renderer draws it: millimetres, y up.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    centre: Vec2,
+    radii: [f64; 2],
+    /// Cosine and sine of the rotation of the first radius.
+    turned: [f64; 2],
+    start: f64,
+    turn: f64,
+}
+
+impl Drawn {
+    /// From two end points and a shape (SVG 2, appendix B.2.4); None where nothing is drawn. unit: of the grid, mm.
+    pub fn between(shape: &Shape, a: &Vec2, b: &Vec2, unit: f64) -> Option<Self> {
+        let [mut rx, mut ry] = shape.radii.map(|r| r as f64 * unit / 10f64.powi(EXTRA as i32));
+        let (sin, cos) = (shape.rotation as f64 * 10f64.powi(-(ROTATION as i32))).to_radians().sin_cos();
+        let (dx, dy) = (0.5 * (a[0] - b[0]), 0.5 * (a[1] - b[1]));
+        let (x, y) = (cos * dx + sin * dy, cos * dy - sin * dx);
+        let lambda = x * x / (rx * rx) + y * y / (ry * ry);
+        if lambda == 0.0 {
+            return None; // too short to be drawn
+        }
+        if lambda > 1.0 {
+            rx *= lambda.sqrt();
+            ry *= lambda.sqrt();
+        }
+        let root = (1.0 / lambda.min(1.0) - 1.0).max(0.0).sqrt() * if shape.large == shape.rising { -1.0 } else { 1.0 };
+        let (cx, cy) = (root * rx * y / ry, -root * ry * x / rx);
+        let centre = [cos * cx - sin * cy + 0.5 * (a[0] + b[0]), sin * cx + cos * cy + 0.5 * (a[1] + b[1])];
+        let start = ((y - cy) / ry).atan2((x - cx) / rx);
+        let mut turn = ((-y - cy) / ry).atan2((-x - cx) / rx) - start;
+        if shape.rising && turn < 0.0 {
+            turn += TAU;
+        } else if !shape.rising && turn > 0.0 {
+            turn -= TAU;
+        }
+        Some(Self { centre, radii: [rx, ry], turned: [cos, sin], start, turn })
+    }
+
+    /// A quarter of a whole ellipse whose first axis is level.
+    pub fn quarter(centre: Vec2, radii: [f64; 2], which: usize) -> Self {
+        Self { centre, radii, turned: [1.0, 0.0], start: which as f64 * FRAC_PI_2, turn: FRAC_PI_2 }
+    }
+
+    /// A point for s in 0..1.
+    pub fn at(&self, s: f64) -> Vec2 {
+        let (sin, cos) = (self.start + s * self.turn).sin_cos();
+        let (u, v) = (cos * self.radii[0], sin * self.radii[1]);
+        let [c, d] = self.turned;
+        [self.centre[0] + c * u - d * v, self.centre[1] + d * u + c * v]
+    }
+}
+
+/// How far from the true arc a renderer draws a shape between two points.
+fn strays(shape: &Shape, a: &Vec2, b: &Vec2, scale: f64, truth: &Arc) -> f64 {
+    let Some(drawn) = Drawn::between(shape, a, b, 1.0 / scale) else { return 0.0 };
+    // Off the true curve, and, at the middle, elsewhere on it.
+    let worst = (1..=MEASURED).map(|i| truth.distance(&drawn.at(i as f64 / (MEASURED + 1) as f64))).fold(0.0, f64::max);
+    let middle = truth.at(0.5 * (truth.angles[0] + truth.angles[1]));
+    let astray = length(&minus(&middle, &drawn.at(0.5)));
+    if astray > truth.radii()[0] { astray } else { worst }
+}
+
+/// An arc as rows of cubic Bezier curves, for PDF.
+pub fn cubic_rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out: &mut Rows) {
+    let scale = 10f64.powi(places as i32);
+    let grid = |p: &Vec2| p.map(|c| (c * scale).round() as i64);
+    let begun = arc.whole().then(|| arc.as_element(scale, accuracy));
+    let (arc, ends) = match &begun {
+        Some(whole) => (whole, &[whole.at(0.0); 2]),
+        None => (arc, ends),
+    };
+    let turned = arc.angles[1] - arc.angles[0];
+    // A quarter of a circle is off by 2.8e-4 of its radius, and the error falls with the sixth power of the angle.
+    let share = (2.8e-4 * arc.radii()[0] / (ARC_CUBIC * accuracy)).max(1e-12).powf(1.0 / 6.0);
+    let pieces = ((turned.abs() / FRAC_PI_2 * share.max(1.0)).ceil()).max(1.0);
+    let step = turned / pieces;
+    let arm = 4.0 / 3.0 * (0.25 * step).tan();
+    let along = |t: f64, by: f64| {
+        let (s, c) = t.sin_cos();
+        [0, 1].map(|k| arc.centre[k] + (c - by * s) * arc.axes[0][k] + (s + by * c) * arc.axes[1][k])
+    };
+    out.push(grid(&ends[0]), START, None);
+    for i in 0..pieces as usize {
+        let (a, b) = (arc.angles[0] + step * i as f64, arc.angles[0] + step * (i + 1) as f64);
+        let end = if i + 1 == pieces as usize { ends[1] } else { arc.at(b) };
+        out.push(grid(&along(a, arm)), CONTROL, None);
+        out.push(grid(&along(b, -arm)), CONTROL, None);
+        out.push(grid(&end), CUBIC, None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All arcs of many kinds stay within their share when drawn from what is written.
+    #[test]
+    fn what_is_written_draws_the_arc() {
+        let mut pieces = 0;
+        for (major, minor) in [(1000.0, 999.0), (300.0, 3.0), (50.0, 50.0), (10.0, 0.02), (3.0, 2.0), (0.06, 0.05)] {
+            for turned in [1e-3, 0.1, 1.0, 3.0, PI, 3.2, 6.0, 6.2] {
+                for (turn, begin, sign) in [(0.0f64, 0.3, 1.0), (0.7, 2.0, -1.0), (2.5, -1.0, 1.0), (0.0, 0.0, -1.0)] {
+                    let (s, c) = turn.sin_cos();
+                    let arc = Arc {
+                        centre: [123.4567, -0.98765],
+                        axes: [[major * c, major * s], [-minor * s, minor * c]],
+                        angles: [begin, begin + sign * turned],
+                    };
+                    let ends = arc.angles.map(|t| arc.at(t));
+                    let mut out = Rows::default();
+                    rows(&arc, &ends, 3, 0.05, &mut out);
+                    pieces += out.shapes.len();
+                    let n = out.shapes.len() as f64;
+                    for (i, shape) in out.shapes.iter().enumerate() {
+                        let [a, b] = [out.points[i], out.points[i + 1]].map(|p| p.map(|c| c as f64 / 1000.0));
+                        let angle = |k: f64| begin + sign * turned * k / n;
+                        let part = Arc { angles: [angle(i as f64), angle(i as f64 + 1.0)], ..arc };
+                        assert!(strays(shape, &a, &b, 1000.0, &part) <= 0.2 * 0.05, "{arc:?} {shape:?}");
+                    }
+                }
+            }
+        }
+        assert!(pieces < 2 * 6 * 8 * 4, "{pieces}");
+    }
+
+    #[test]
+    fn a_radius_rounded_like_a_point_would_stray_near_half_a_turn() {
+        let arc = Arc { centre: [0.0; 2], axes: [[10.004_9, 0.0], [0.0, 10.004_9]], angles: [0.0, 3.1] };
+        let ends = arc.angles.map(|t| arc.at(t));
+        let coarse = Shape { radii: [1_001_000; 2], rotation: 0, large: false, rising: true };
+        assert!(strays(&coarse, &ends[0], &ends[1], 1000.0, &arc) > 0.05);
+        let mut out = Rows::default();
+        rows(&arc, &ends, 2, 0.05, &mut out);
+        assert!(out.op.len() > 2 || out.shapes[0] != coarse);
+    }
+
+    #[test]
+    fn a_full_turn_is_whole() {
+        let arc = Arc { centre: [1.0, 2.0], axes: [[3.0, 0.0], [0.0, 2.0]], angles: [0.5, 0.5 + TAU] };
+        let mut out = Rows::default();
+        rows(&arc, &[arc.at(0.5); 2], 2, 0.05, &mut out);
+        assert_eq!((out.op, out.points), (vec![WHOLE], vec![[100, 200]]));
+        assert_eq!(out.shapes[0].radii, [30000, 20000]);
+    }
+
+    #[test]
+    fn cubic_curves_along_a_large_arc() {
+        let arc = Arc { centre: [0.0; 2], axes: [[2000.0, 0.0], [0.0, 2000.0]], angles: [0.0, 6.0] };
+        let mut out = Rows::default();
+        cubic_rows(&arc, &arc.angles.map(|t| arc.at(t)), 4, 0.05, &mut out);
+        for w in out.points.windows(4).step_by(3) {
+            let piece: Vec<Vec2> = w.iter().map(|p| p.map(|c| c as f64 / 1e4)).collect();
+            for i in 0..=10 {
+                let p = crate::fit::bezier::at(&piece, f64::from(i) * 0.1);
+                assert!((length(&p) - 2000.0).abs() < 0.006);
+            }
+        }
+    }
+}

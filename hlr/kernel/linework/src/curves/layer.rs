@@ -1,0 +1,144 @@
+//! Layers of pen strokes: the lines of one class and visibility, joined where one ends and the next begins.
+
+use rayon::prelude::*;
+
+use super::arcs::Rows;
+use super::rows::rows_of;
+use super::strokes::{ARC, LINE, START, Shape, Strokes, WHOLE};
+use crate::lines::drawing::{Kind, Line, Lines};
+
+/// All strokes of one line class and visibility, in grid steps of 10^-places millimetres, y up.
+#[derive(Clone, Debug)]
+pub struct Layer {
+    pub kind: Kind,
+    pub visible: bool,
+    pub places: usize,
+    /// A line leads somewhere else; the last point of a loop of lines is left out.
+    pub rows: Rows,
+    /// (strokes + 1) into the rows; each stroke but a whole circle has at least two.
+    pub starts: Vec<i64>,
+    pub closed: Vec<bool>,
+    /// Per stroke.
+    pub ties: Vec<Tie>,
+}
+
+/// Part, edge and second part of a stroke; -1 for none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tie {
+    pub part: i32,
+    pub edge: i32,
+    pub other: i32,
+}
+
+/// The layers of a drawing: hidden ones first, so that visible lines lie on top, of each the kinds in this order.
+/// Those with nothing left are left out.
+pub fn layers(lines: &Lines, order: &[Kind], places: usize, accuracy: f64, cubic: bool) -> Vec<Layer> {
+    let rows: Vec<Rows> = lines.0.par_iter().map(|line| rows_of(line, places, accuracy, cubic)).collect();
+    let mut out = Vec::new();
+    for visible in [false, true] {
+        for &kind in order {
+            let of = |line: &Line| line.visible == visible && line.kind == kind;
+            let some: Vec<(&Line, &Rows)> = lines.0.iter().zip(&rows).filter(|(line, _)| of(line)).collect();
+            let mut layer = Layer {
+                kind,
+                visible,
+                places,
+                rows: Rows::default(),
+                starts: vec![0],
+                closed: Vec::new(),
+                ties: Vec::new(),
+            };
+            layer.draw(&some);
+            if !layer.closed.is_empty() {
+                out.push(layer);
+            }
+        }
+    }
+    out
+}
+
+impl Layer {
+    pub fn strokes(&self) -> Strokes<'_> {
+        Strokes {
+            points: &self.rows.points,
+            op: &self.rows.op,
+            arc: &self.rows.arc,
+            arcs: &self.rows.shapes,
+            starts: &self.starts,
+            closed: &self.closed,
+            places: self.places,
+        }
+    }
+
+    /// Drop points that coincide on the grid, join lines that follow one another, find closed strokes.
+    fn draw(&mut self, lines: &[(&Line, &Rows)]) {
+        let mut open: Option<Rows> = None;
+        let mut tie = Tie { part: -1, edge: -1, other: -1 };
+        let mut before: Option<(Tie, [i64; 2], bool)> = None;
+        for (line, rows) in lines {
+            let (Some(first), Some(last)) = (rows.points.first(), rows.points.last()) else { continue };
+            let own = Tie { part: line.part, edge: line.edge, other: line.other };
+            // A line joins the one before it where it starts on its end, on the same edge of the same part.
+            let (begin, end, loops) = (*first, *last, first == last);
+            let joins = before.is_some_and(|(tie, end, looped)| tie == own && end == begin && !looped && !loops);
+            before = Some((own, end, loops));
+            if !joins {
+                self.close(open.take(), tie);
+                tie = own;
+            }
+            let stroke = open.get_or_insert_default();
+            let mut last = None;
+            if joins {
+                // What it starts with is the point that the line before has ended on.
+                last = Some(begin);
+            }
+            for (i, (&p, &op)) in rows.points.iter().zip(&rows.op).enumerate() {
+                let op = if op == START && joins { LINE } else { op };
+                let still = matches!(op, LINE | ARC) && last == Some(p);
+                if !still {
+                    let shape = usize::try_from(rows.arc[i]).ok().map(|k| rows.shapes[k]);
+                    stroke.push(p, op, shape);
+                }
+                last = Some(p);
+            }
+        }
+        self.close(open, tie);
+    }
+
+    /// The end of a stroke. What has shrunk to a single point is below the rounding and is not drawn.
+    fn close(&mut self, stroke: Option<Rows>, tie: Tie) {
+        let Some(mut stroke) = stroke else { return };
+        let n = stroke.op.len();
+        if n == 0 || (n == 1 && stroke.op[0] != WHOLE) {
+            return;
+        }
+        // There and back along lines is no loop; along a curve it is.
+        let curved = stroke.op.iter().any(|&op| op > LINE);
+        let closed = stroke.points[0] == stroke.points[n - 1] && (n > 3 || (curved && n > 1));
+        if closed && stroke.op[n - 1] == LINE {
+            stroke.points.pop();
+            stroke.op.pop();
+            stroke.arc.pop();
+        }
+        self.rows.append(&stroke);
+        self.starts.push(self.rows.op.len() as i64);
+        self.closed.push(closed);
+        self.ties.push(tie);
+    }
+
+    /// The same, moved by so many grid steps.
+    pub fn moved(&self, by: [i64; 2]) -> Layer {
+        let mut out = self.clone();
+        out.rows.points.iter_mut().for_each(|p| *p = [p[0] + by[0], p[1] + by[1]]);
+        out
+    }
+
+    /// The same with y turned around: arcs turn the other way.
+    pub fn mirrored(&self) -> Layer {
+        let mut out = self.clone();
+        out.rows.points.iter_mut().for_each(|p| p[1] = -p[1]);
+        let turned = |s: &Shape| Shape { rotation: -s.rotation, rising: !s.rising, ..*s };
+        out.rows.shapes.iter_mut().for_each(|s| *s = turned(s));
+        out
+    }
+}

@@ -1,0 +1,327 @@
+//! T-junctions: a hidden line ends exactly where the covering line crosses it, computed from the true curves of both.
+//!
+//! ```text
+//!     visible      |            the change was found where the tessellations cross (x);
+//!   ------------x- | - - - -    it moves along its own curve to the other's (|)
+//!                  | hidden
+//! ```
+//!
+//! Where two lines touch, as an outline does the rim at which its face ends, the change is where they touch; and an
+//! outline of which the last bit was left out because it coincides with the rim goes on to that place.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::Placed;
+use super::plane::{Vec2, length, minus, to_segment};
+use crate::lines::View;
+use hlr_accuracy::{JUNCTION_ALONG, JUNCTION_EDGE, JUNCTION_MET, JUNCTION_OUTLINE, JUNCTION_TOUCH};
+use hlr_brep::geometry::curve::Vec3;
+
+/// Sine of the angle below which two lines touch rather than cross.
+const GRAZING: f64 = 0.1;
+/// Sine of the angle between lines that run the same way.
+const ALIKE: f64 = 1e-6;
+const STEPS: usize = 12;
+
+/// Whether a surface may end at a line in the image, and hide what goes on behind it. Where surfaces meet, and along
+/// smooth edges, none does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Border {
+    None,
+    Edge,
+    Outline,
+}
+
+/// A line with its curve, if it has one, and the curve's parameters at its points.
+pub struct Route<'a> {
+    pub chain: i32,
+    pub visible: bool,
+    pub border: Border,
+    pub flat: &'a [Vec2],
+    pub space: &'a [Vec3],
+    pub curve: Option<(&'a Placed, Vec<f64>)>,
+    /// How far its curve rises above the chords that the change was found on.
+    pub bulge: f64,
+}
+
+impl Route<'_> {
+    fn parameter(&self, i: usize, s: f64) -> f64 {
+        match &self.curve {
+            Some((_, t)) => t[i] + (t[i + 1] - t[i]) * s,
+            None => i as f64 + s,
+        }
+    }
+
+    fn segment(&self, t: f64) -> (usize, f64) {
+        let i = t.floor().clamp(0.0, (self.flat.len() - 2) as f64) as usize;
+        (i, t - i as f64)
+    }
+
+    /// Point and derivative; a polyline goes straight on beyond its ends.
+    pub fn at(&self, t: f64) -> [Vec2; 2] {
+        if let Some((placed, _)) = &self.curve {
+            return placed.on_paper(t);
+        }
+        let (i, s) = self.segment(t);
+        let way = minus(&self.flat[i + 1], &self.flat[i]);
+        [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
+    }
+
+    /// The parameter t for a line that ended at `start`: a curve does not go on beyond its own end, and a closed one
+    /// not a turn further.
+    fn ending(&self, t: f64, start: f64) -> Option<f64> {
+        self.curve.as_ref().map_or(Some(t), |(placed, _)| placed.track.ending(start, t))
+    }
+
+    /// The point in space that `at` is the image of.
+    pub fn in_space(&self, t: f64, view: &View) -> Vec3 {
+        if let Some((placed, _)) = &self.curve {
+            return placed.curve.point(placed.track.wrapped(t));
+        }
+        let (i, s) = self.segment(t);
+        let (a, b) = (&self.space[i], &self.space[i + 1]);
+        let s = view.in_space(s, view.depth(a), view.depth(b));
+        [0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * s)
+    }
+}
+
+/// An end that moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Move {
+    pub line: usize,
+    /// 0 for the line's start, 1 for its end.
+    pub end: usize,
+    pub to: Goal,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub enum Goal {
+    /// A parameter of the line's curve.
+    Parameter(f64),
+    /// For polylines: all that meet there go to one point, on paper and in space.
+    Point(Vec2, Vec3),
+}
+
+/// A place where lines of one chain end: a visible and a hidden one, or an outline alone.
+struct Change {
+    at: Vec2,
+    /// (line, end)
+    ends: Vec<(usize, usize)>,
+}
+
+/// Changes of visibility that move, and outlines that go on. What lies less than `contact` behind may still hide.
+pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
+    let changes = changes(routes);
+    let near = near(routes, &changes, JUNCTION_OUTLINE * accuracy);
+    near.chunk_by(|a, b| a.0 == b.0)
+        .flat_map(|group| {
+            let Change { at, ends } = &changes[group[0].0];
+            let (i, end) = ends[0];
+            let own = &routes[i];
+            let start = own.parameter(end * (own.flat.len() - 2), end as f64);
+            let mut best = (f64::INFINITY, None);
+            for &(_, j, k) in group {
+                let other = &routes[j];
+                if other.chain == own.chain {
+                    continue;
+                }
+                let (away, s) = to_segment(at, &other.flat[k], &other.flat[k + 1]);
+                let lifted = own.border == Border::Outline || other.border == Border::Outline;
+                let reach = if lifted { JUNCTION_OUTLINE } else { JUNCTION_EDGE } * accuracy;
+                if away > reach + own.bulge + other.bulge {
+                    continue;
+                }
+                let from = (start, other.parameter(k, s));
+                let crossed = if ends.len() > 1 { crossing(own, other, from, away, accuracy) } else { None };
+                let found = crossed.or_else(|| if lifted { touching(own, other, from, accuracy) } else { None });
+                let Some((t, u)) = found else { continue };
+                // An outline that is touched beyond its end goes on to there itself.
+                let reach = if crossed.is_none() && other.border == Border::Outline {
+                    JUNCTION_ALONG
+                } else {
+                    JUNCTION_OUTLINE
+                };
+                let Some(t) = own.ending(t, start) else { continue };
+                let moved = length(&minus(&own.at(t)[0], &own.at(start)[0]));
+                let before = view.depth(&other.in_space(u, view)) <= view.depth(&own.in_space(t, view)) + contact;
+                if moved < best.0 && before && within(other, u, reach * accuracy) {
+                    best = (moved, Some(t));
+                }
+            }
+            // All lines of one edge count its parameter alike, up to turns; polylines do from their own beginnings.
+            let alike = ends.iter().all(|e| routes[e.0].curve.is_some() == own.curve.is_some());
+            let target = best.1.filter(|_| alike);
+            ends.iter()
+                .filter_map(move |&(line, end)| {
+                    let (route, t) = (&routes[line], target?);
+                    let to = if route.curve.is_some() {
+                        let last = route.parameter(end * (route.flat.len() - 2), end as f64);
+                        Goal::Parameter(last + (t - start))
+                    } else {
+                        Goal::Point(own.at(t)[0], own.in_space(t, view))
+                    };
+                    Some(Move { line, end, to })
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+fn changes(routes: &[Route]) -> Vec<Change> {
+    let mut meeting: HashMap<(i32, u64, u64), Vec<(usize, usize)>> = HashMap::new();
+    for (i, route) in routes.iter().enumerate().filter(|(_, r)| r.flat.len() > 1) {
+        for end in [0, 1] {
+            let p = route.flat[end * (route.flat.len() - 1)];
+            meeting.entry((route.chain, p[0].to_bits(), p[1].to_bits())).or_default().push((i, end));
+        }
+    }
+    // Where a visible and a hidden line of one edge meet, both move alike.
+    let mut out: Vec<Change> = meeting
+        .into_values()
+        .filter(|ends| {
+            let alone = ends.len() == 1 && routes[ends[0].0].border == Border::Outline;
+            let seen = |visible| ends.iter().any(|e| routes[e.0].visible == visible);
+            (alone || seen(false)) && seen(true)
+        })
+        .map(|ends| {
+            let (i, end) = ends[0];
+            Change { at: routes[i].flat[end * (routes[i].flat.len() - 1)], ends }
+        })
+        .collect();
+    out.sort_by(|a, b| a.at[0].total_cmp(&b.at[0]).then(a.at[1].total_cmp(&b.at[1])).then(a.ends.cmp(&b.ends)));
+    out
+}
+
+/// (change, line, segment): visible borders near changes.
+fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, usize)> {
+    let mut out: Vec<(usize, usize, usize)> = routes
+        .par_iter()
+        .enumerate()
+        .filter(|(_, route)| route.visible && route.border != Border::None)
+        .flat_map_iter(|(j, route)| {
+            route.flat.windows(2).enumerate().flat_map(move |(k, w)| {
+                let from = changes.partition_point(|c| c.at[0] < w[0][0].min(w[1][0]) - reach);
+                let to = changes.partition_point(|c| c.at[0] <= w[0][0].max(w[1][0]) + reach);
+                (from..to).filter(move |&c| to_segment(&changes[c].at, &w[0], &w[1]).0 <= reach).map(move |c| (c, j, k))
+            })
+        })
+        .collect();
+    out.sort_unstable();
+    out
+}
+
+/// Newton's method for own(t) = other(u), which lies `away` from where the search begins.
+fn crossing(own: &Route, other: &Route, (start, u): (f64, f64), away: f64, accuracy: f64) -> Option<(f64, f64)> {
+    let (mut t, mut u) = (start, u);
+    for _ in 0..STEPS {
+        let ([p, a], [q, b]) = (own.at(t), other.at(u));
+        let d = minus(&q, &p);
+        let cross = a[0] * b[1] - a[1] * b[0];
+        let sine = cross.abs() / (length(&a) * length(&b));
+        if sine.is_nan() || sine <= GRAZING {
+            return None;
+        }
+        if length(&d) <= JUNCTION_MET * accuracy {
+            // The flatter the angle, the farther along its own line may a change move.
+            let most = (away.max(JUNCTION_EDGE * accuracy) / sine).min(JUNCTION_ALONG * accuracy);
+            return (length(&minus(&p, &own.at(start)[0])) <= most).then_some((t, u));
+        }
+        t += (d[0] * b[1] - d[1] * b[0]) / cross;
+        u += (d[0] * a[1] - d[1] * a[0]) / cross;
+    }
+    None
+}
+
+/// Where own and other run the same way, side by side: two straight lines do nowhere, or everywhere.
+///
+/// ```text
+///    own     --------------o- - - -        sought is the place where the tangents' angle vanishes,
+///   other         .  -  ~ ~ ~ -  .         by the secant method along other
+/// ```
+fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -> Option<(f64, f64)> {
+    // The foot point on own of a place of other, and the sine of the angle between them there.
+    let look = |mut t: f64, u: f64| {
+        let [q, b] = other.at(u);
+        for _ in 0..STEPS {
+            let [p, a] = own.at(t);
+            let d = minus(&q, &p);
+            t += (d[0] * a[0] + d[1] * a[1]) / (a[0] * a[0] + a[1] * a[1]);
+        }
+        let [p, a] = own.at(t);
+        (t, length(&minus(&q, &p)), (a[0] * b[1] - a[1] * b[0]) / (length(&a) * length(&b)))
+    };
+    let speed = length(&other.at(u)[1]);
+    let (mut u0, mut u1) = (u, u + accuracy / speed);
+    let (t0, _, mut g0) = look(start, u0);
+    let mut t = t0;
+    if g0.abs() > 2.0 * GRAZING {
+        return None;
+    }
+    for _ in 0..STEPS {
+        let (foot, away, g1) = look(t, u1);
+        t = foot;
+        if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > JUNCTION_ALONG * accuracy {
+            return None;
+        }
+        // At a seam the angle may not vanish entirely, and go no further.
+        if g1.abs() < ALIKE || (g1 == g0 && g1.abs() < 1e3 * ALIKE) {
+            return (away <= JUNCTION_TOUCH * accuracy).then_some((t, u1));
+        }
+        if g1 == g0 {
+            return None;
+        }
+        (u0, u1, g0) = (u1, u1 - g1 * (u1 - u0) / (g1 - g0), g1);
+    }
+    None
+}
+
+/// Whether a parameter lies on the line itself, or on from its end by less than `reach`.
+fn within(route: &Route, u: f64, reach: f64) -> bool {
+    let (first, last) = (route.parameter(0, 0.0), route.parameter(route.flat.len() - 2, 1.0));
+    let (low, high) = (first.min(last), first.max(last));
+    if (low..=high).contains(&u) {
+        return true;
+    }
+    let end = if u < low { low } else { high };
+    length(&minus(&route.at(u)[0], &route.at(end)[0])) <= reach
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn straight<'a>(chain: i32, visible: bool, flat: &'a [Vec2], space: &'a [Vec3]) -> Route<'a> {
+        Route { chain, visible, border: Border::Edge, flat, space, curve: None, bulge: 0.0 }
+    }
+
+    #[test]
+    fn a_change_moves_onto_the_line_that_hides() {
+        let deep = [[0.0, 0.0, 5.0]; 2];
+        let (seen, hidden) = ([[0.0, 0.0], [1.02, 0.0]], [[1.02, 0.0], [3.0, 0.0]]);
+        let wall = [[1.0, -1.0], [1.0, 1.0]];
+        let mut routes = vec![
+            straight(0, true, &seen, &deep),
+            straight(0, false, &hidden, &deep),
+            straight(1, true, &wall, &[[0.0; 3]; 2]),
+        ];
+        let view = View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
+        let found = junctions(&routes, 0.05, 0.1, &view);
+        assert_eq!(found.len(), 2);
+        for step in found {
+            let Goal::Point(flat, space) = step.to else { panic!() };
+            assert!((flat[0] - 1.0).abs() < 1e-12 && space == deep[0]);
+        }
+        // Too far, no border of a surface, behind, or of the same edge: nothing moves.
+        assert!(junctions(&routes, 0.01, 0.1, &view).is_empty());
+        routes[2].border = Border::None;
+        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+        routes[2].border = Border::Edge;
+        routes[2].space = &[[0.0, 0.0, 9.0]; 2];
+        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+        routes[2].space = &[[0.0; 3]; 2];
+        routes[2].chain = 0;
+        assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());
+    }
+}

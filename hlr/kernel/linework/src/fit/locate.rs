@@ -1,0 +1,84 @@
+//! Finds the interval of a curve along which a polyline runs.
+
+use super::placed::Placed;
+use super::plane::{Vec2, dot, length, minus};
+use hlr_accuracy::{CURVE_BETWEEN, CURVE_END};
+use hlr_brep::geometry::curve::Vec3;
+
+/// Share of a period by which rounding may turn a step back.
+const BACKLASH: f64 = 1e-7;
+
+/// The parameters of a line's points on the curve along which it runs, rising or falling.
+pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulge: f64) -> Option<Vec<f64>> {
+    let found: Vec<f64> = space.iter().map(|p| placed.track.nearest(&placed.curve, p)).collect();
+    if !found.iter().all(|t| t.is_finite()) {
+        return None;
+    }
+    // Polygons of edges run the way of their curve; a line runs back only where it was turned round.
+    [1.0, -1.0].into_iter().find_map(|sign| {
+        let mut t = unrolled(&found, placed.track.period, sign)?;
+        snap(placed, &mut t, accuracy);
+        follows(placed, &t, flat, accuracy, bulge).then_some(t)
+    })
+}
+
+/// Parameters one after another in one direction, or None where they are not.
+fn unrolled(found: &[f64], period: Option<f64>, sign: f64) -> Option<Vec<f64>> {
+    let mut out = vec![found[0]];
+    let mut total = 0.0;
+    let extent = found.iter().fold(0.0, |m: f64, t| m.max((t - found[0]).abs()));
+    for w in found.windows(2) {
+        let mut step = sign * (w[1] - w[0]);
+        if let Some(period) = period {
+            step = step.rem_euclid(period);
+            if step > (1.0 - BACKLASH) * period {
+                step -= period;
+            }
+        } else if step < -BACKLASH * extent {
+            return None;
+        }
+        total += step;
+        out.push(out[0] + sign * total);
+    }
+    match period {
+        // From a point all round to itself.
+        Some(period) if total <= BACKLASH * period && found.len() > 2 => None,
+        Some(period) if total > (1.0 + BACKLASH) * period => None,
+        _ => (total > 0.0).then_some(out),
+    }
+}
+
+/// Ends that are the curve's own ends become exactly those.
+fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
+    let last = t.len() - 1;
+    let whole = placed.range[1] - placed.range[0];
+    for i in [0, last] {
+        for end in placed.range {
+            let turns = placed.track.period.map_or(0.0, |p| ((t[i] - end) / p).round() * p);
+            let goal = end + turns;
+            let apart = length(&minus(&placed.on_paper(t[i])[0], &placed.on_paper(goal)[0]));
+            if (goal - t[i]).abs() < 0.05 * whole && apart <= CURVE_END * accuracy {
+                t[i] = goal;
+                break;
+            }
+        }
+    }
+}
+
+/// Whether the curve passes the line's vertices within the accuracy, and stays near it in between. Its ends may be cut
+/// out of the middle of a chord, and are as far off as that.
+fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64, bulge: f64) -> bool {
+    let near = |t: f64, a: &Vec2, b: &Vec2, most: f64| {
+        let p = placed.on_paper(t)[0];
+        let (d, way) = (minus(&p, a), minus(b, a));
+        let s = if way == [0.0; 2] { 0.0 } else { (dot(&d, &way) / dot(&way, &way)).clamp(0.0, 1.0) };
+        length(&minus(&d, &way.map(|c| c * s))) <= most
+    };
+    (0..flat.len()).all(|i| near(t[i], &flat[i], &flat[i], accuracy + bulge))
+        && (1..flat.len()).all(|i| {
+            let (a, b) = (&flat[i - 1], &flat[i]);
+            [0.25, 0.5, 0.75]
+                .iter()
+                .all(|s| near(t[i - 1] + (t[i] - t[i - 1]) * s, a, b, CURVE_BETWEEN * accuracy + bulge))
+        })
+}

@@ -1,0 +1,94 @@
+//! Replaces polylines along mesh edges by intervals of the true curves on paper:
+//!
+//! 1. `locate`   the parameters of a line's vertices on its edge's curve in space, checked against the line
+//! 2. `project`  the curve on paper
+//! 3. `junction`  ends where another line hides this one, moved to the crossing of the two curves
+//! 4. `straight`, `arc`, `bezier`, `cubic`  the first of these that is exact, or within its share of the accuracy
+//! 5. `shared_end`  ends of one edge's lines that met before meet again, bit by bit
+//!
+//! Contours of meshes have no such curve: `smooth` makes one within the accuracy of the polyline.
+//!
+//! A curve that is farther from its line than the accuracy is rejected: the line stays a polyline.
+
+pub mod arc;
+pub mod bezier;
+pub mod contour_fit;
+pub mod cubic;
+pub mod junction;
+pub mod locate;
+pub mod placed;
+pub mod plane;
+pub mod project;
+pub mod routes;
+pub mod shared_end;
+pub mod smooth;
+pub mod straight;
+pub mod track;
+
+use arc::grow;
+use bezier::Chain;
+use hlr_accuracy::CURVE_FIT;
+use hlr_brep::geometry::curve::Vec3;
+pub use placed::{Drawn, Form, Placed};
+use plane::Vec2;
+use project::Paper;
+
+/// The parameters of a line's points (on paper and in space) on its curve, or None where it does not run along it.
+/// `bulge`: how far the curve is known to rise above the line's chords.
+pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulge: f64) -> Option<Vec<f64>> {
+    if flat.len() < 2 || matches!(placed.paper, Paper::Line) {
+        return None;
+    }
+    locate::along(placed, flat, space, accuracy, bulge)
+}
+
+/// What is drawn of an interval of a curve; it may run backward, and on beyond the seam of a closed one.
+pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
+    let ends = |range: [f64; 2]| {
+        let (mut flat, mut space) =
+            (range.map(|t| placed.on_paper(t)[0]), range.map(|t| placed.curve.point(placed.track.wrapped(t))));
+        if placed.track.closes(range) {
+            (flat[1], space[1]) = (flat[0], space[0]);
+        }
+        (flat, space)
+    };
+    if let Some(extremes) = straight::straight(placed, range, accuracy) {
+        let (flat, space) = ends(extremes);
+        let mut bounds = [flat[0], flat[0]];
+        grow(&mut bounds, &flat[1]);
+        return Some(Drawn { form: Form::Straight, range: extremes, flat, space, bounds });
+    }
+    let (flat, space) = ends(range);
+    if !flat.iter().flatten().all(|c| c.is_finite()) {
+        return None;
+    }
+    if let Some(ellipse) = &placed.ellipse {
+        let angles = range.map(|t| ellipse.angle(t));
+        let bounds = ellipse.bounds(angles[0], angles[1]);
+        return Some(Drawn { form: Form::Arc(*ellipse, angles), range, flat, space, bounds });
+    }
+    let (low, high) = (range[0].min(range[1]), range[0].max(range[1]));
+    let mut chain: Option<Chain> = None;
+    // Beyond the seam of a closed curve its beginning goes on.
+    for [a, b] in placed.track.unbroken(low, high) {
+        let mut next = bezier::exact(&placed.paper, a, b).unwrap_or_else(|| {
+            let (corners, spans) = (placed.paper.corners(a, b), placed.paper.spans(a, b));
+            cubic::fit(&|t| placed.paper.at(t), a, b, &corners, spans, CURVE_FIT * accuracy)
+        });
+        match &mut chain {
+            Some(chain) => chain.points.extend(next.points.drain(1..)),
+            None => chain = Some(next),
+        }
+    }
+    let mut chain = chain?;
+    if range[0] > range[1] {
+        chain.points.reverse();
+    }
+    let last = chain.points.len() - 1;
+    (chain.points[0], chain.points[last]) = (flat[0], flat[1]);
+    if !chain.points.iter().flatten().all(|c| c.is_finite()) {
+        return None;
+    }
+    let bounds = chain.bounds();
+    Some(Drawn { form: Form::Chain(chain), range, flat, space, bounds })
+}

@@ -1,0 +1,122 @@
+//! Projects curves to paper: the same affine forms with homogeneous plane vectors. Parallel and central projection
+//! differ only in the third coordinate, which is constant for parallel projection.
+
+use super::plane::Vec2;
+use hlr_brep::geometry::curve::{Curve, Vec3};
+use hlr_brep::geometry::nurbs::{MOST_DEGREE, basis, find_span};
+
+/// (x w, y w, w) on paper from (x, y, z, 1) in the model.
+#[derive(Clone, Copy, Debug)]
+pub struct Projection(pub [[f64; 4]; 3]);
+
+impl Projection {
+    fn homogeneous(&self, v: &Vec3, w: f64) -> Vec3 {
+        self.0.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * w)
+    }
+
+    pub fn point(&self, v: &Vec3) -> Vec2 {
+        let [x, y, w] = self.homogeneous(v, 1.0);
+        [x / w, y / w]
+    }
+
+    /// Parallel: the third coordinate is that of the model.
+    pub fn parallel(&self) -> bool {
+        self.0[2] == [0.0, 0.0, 0.0, 1.0]
+    }
+}
+
+/// A curve on paper. Vectors are (x w, y w, w).
+#[derive(Clone, Debug)]
+pub enum Paper {
+    Line,
+    Ellipse { p: Vec3, a: Vec3, b: Vec3 },
+    Parabola { p: Vec3, a: Vec3, b: Vec3 },
+    Hyperbola { p: Vec3, a: Vec3, b: Vec3 },
+    Spline { degree: usize, rational: bool, knots: Vec<f64>, poles: Vec<Vec3> },
+}
+
+impl Paper {
+    pub fn of(curve: &Curve, projection: &Projection) -> Paper {
+        let three = |p: &Vec3, a: &Vec3, b: &Vec3| {
+            (projection.homogeneous(p, 1.0), projection.homogeneous(a, 0.0), projection.homogeneous(b, 0.0))
+        };
+        match curve {
+            Curve::Line { .. } => Paper::Line,
+            Curve::Ellipse { p, a, b } => {
+                let (p, a, b) = three(p, a, b);
+                Paper::Ellipse { p, a, b }
+            }
+            Curve::Parabola { p, a, b } => {
+                let (p, a, b) = three(p, a, b);
+                Paper::Parabola { p, a, b }
+            }
+            Curve::Hyperbola { p, a, b } => {
+                let (p, a, b) = three(p, a, b);
+                Paper::Hyperbola { p, a, b }
+            }
+            Curve::Spline(n) => Paper::Spline {
+                degree: n.degree,
+                rational: n.rational || n.sampled || !projection.parallel(),
+                knots: n.knots.clone(),
+                poles: n.poles.iter().map(|q| projection.homogeneous(&[q[0], q[1], q[2]], q[3])).collect(),
+            },
+        }
+    }
+
+    /// Point and first derivative at a parameter.
+    pub fn at(&self, t: f64) -> [Vec2; 2] {
+        let form = |p: &Vec3, a: &Vec3, b: &Vec3, f: [[f64; 2]; 2]| {
+            let sum = |k: usize| [0, 1, 2].map(|i| f[k][0] * a[i] + f[k][1] * b[i]);
+            let q = sum(0);
+            plain(&[p[0] + q[0], p[1] + q[1], p[2] + q[2]], &sum(1))
+        };
+        match self {
+            Paper::Line => [[f64::NAN; 2]; 2],
+            Paper::Ellipse { p, a, b } => {
+                let (s, c) = t.sin_cos();
+                form(p, a, b, [[c, s], [-s, c]])
+            }
+            Paper::Parabola { p, a, b } => form(p, a, b, [[t * t, t], [2.0 * t, 1.0]]),
+            Paper::Hyperbola { p, a, b } => {
+                let (s, c) = (t.sinh(), t.cosh());
+                form(p, a, b, [[c, s], [s, c]])
+            }
+            Paper::Spline { degree: degree @ 0..=3, knots, poles, .. } => on_spline::<4>(*degree, knots, poles, t),
+            Paper::Spline { degree: degree @ 4..=7, knots, poles, .. } => on_spline::<8>(*degree, knots, poles, t),
+            Paper::Spline { degree, knots, poles, .. } => on_spline::<{ MOST_DEGREE + 1 }>(*degree, knots, poles, t),
+        }
+    }
+
+    /// Parameters inside (a, b) where the tangent may jump.
+    pub fn corners(&self, a: f64, b: f64) -> Vec<f64> {
+        let Paper::Spline { degree, knots, .. } = self else { return Vec::new() };
+        let mut out: Vec<f64> = knots.windows(*degree).filter(|w| w[0] == w[degree - 1]).map(|w| w[0]).collect();
+        out.retain(|&t| t > a && t < b);
+        out.dedup();
+        out
+    }
+
+    /// How many pieces of one formula lie between two parameters.
+    pub fn spans(&self, a: f64, b: f64) -> usize {
+        let Paper::Spline { knots, .. } = self else { return 4 };
+        1 + knots.windows(2).filter(|w| w[0] < w[1] && w[1] > a && w[1] < b).count()
+    }
+}
+
+fn on_spline<const N: usize>(degree: usize, knots: &[f64], poles: &[Vec3], t: f64) -> [Vec2; 2] {
+    let span = find_span(knots, degree, poles.len(), t);
+    let mut sums = [[0.0; 3]; 2];
+    for (row, value) in sums.iter_mut().zip(&basis::<N>(knots, degree, span, t)) {
+        for (pole, v) in poles[span - degree..=span].iter().zip(value) {
+            for (sum, c) in row.iter_mut().zip(pole) {
+                *sum += c * v;
+            }
+        }
+    }
+    plain(&sums[0], &sums[1])
+}
+
+fn plain(v: &Vec3, d: &Vec3) -> [Vec2; 2] {
+    let (x, y) = (v[0] / v[2], v[1] / v[2]);
+    [[x, y], [(d[0] - d[2] * x) / v[2], (d[1] - d[2] * y) / v[2]]]
+}

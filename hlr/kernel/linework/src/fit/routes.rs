@@ -1,0 +1,155 @@
+//! Puts all lines of a drawing on their curves, and moves ends at other lines to the crossing of the two curves.
+
+use rayon::prelude::*;
+
+use super::arc::grow;
+use super::junction::{Border, Goal, Move, Route, junctions};
+use super::plane::Vec2;
+use super::shared_end::share_ends;
+use super::{Drawn, Form, Placed, located, piece};
+use crate::lines::Polyline;
+use crate::lines::camera::Camera;
+use hlr_brep::geometry::curve::{Curve, Vec3};
+
+/// Curves in space, their ranges, and where they may stand: rows of matrices into the model.
+pub struct Curves {
+    /// Whether there may be any: without them no line ends on another's curve.
+    pub known: bool,
+    pub curves: Vec<Option<Curve>>,
+    pub ranges: Vec<[f64; 2]>,
+    pub places: Vec<[[f64; 4]; 3]>,
+}
+
+/// Millimetres on paper, but for `closed` and `contact`, in model units.
+#[derive(Clone, Copy, Debug)]
+pub struct Fit {
+    pub accuracy: f64,
+    /// Share of the accuracy that chords between points along a circle of a mesh may be off it.
+    pub chord: f64,
+    /// Ends of a curve nearer than this are one.
+    pub closed: f64,
+    /// The depth within which curves touch.
+    pub contact: f64,
+}
+
+/// The curve along which a line runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Guide {
+    /// In `Curves`; None where it is not known.
+    pub curve: Option<u32>,
+    pub place: u32,
+    pub border: Border,
+    /// How far the curve rises above the chords it was found on, millimetres on paper.
+    pub bulge: f64,
+    /// The contour of a mesh: it was moved on paper.
+    pub smoothed: bool,
+}
+
+/// What a line became: its true ends, the points between that are kept, and its form; None: it stays a polyline.
+pub struct OnCurve {
+    pub form: Option<Form>,
+    pub range: [f64; 2],
+    pub flat: [Vec2; 2],
+    pub space: [Vec3; 2],
+    pub inner: std::ops::Range<usize>,
+    pub bounds: [Vec2; 2],
+}
+
+/// Lines along their guides.
+pub fn on_curves(lines: &[Polyline], guides: &[Guide], curves: &Curves, camera: &Camera, fit: &Fit) -> Vec<OnCurve> {
+    let (projection, view, accuracy) = (camera.projection(), camera.view(), fit.accuracy);
+    let n = lines.len();
+    // Lines of one curve in one place share its search table.
+    let key = |i: u32| guides[i as usize].curve.map(|c| (c, guides[i as usize].place));
+    let mut order: Vec<u32> = (0..n as u32).filter(|&i| key(i).is_some()).collect();
+    order.sort_by_key(|&i| (key(i), i));
+    let groups: Vec<&[u32]> = order.chunk_by(|&a, &b| key(a) == key(b)).collect();
+    let stand: Vec<Option<Placed>> = groups
+        .par_iter()
+        .map(|group| {
+            let (c, p) = key(group[0])?;
+            let curve = curves.curves[c as usize].as_ref()?.moved(&curves.places[p as usize]);
+            Some(Placed::new(curve, curves.ranges[c as usize], &projection, fit.closed))
+        })
+        .collect();
+    let mut placed: Vec<Option<&Placed>> = vec![None; n];
+    for (group, stand) in groups.iter().zip(&stand) {
+        group.iter().for_each(|&i| placed[i as usize] = stand.as_ref());
+    }
+    let mut routes: Vec<Route> = (0..n)
+        .into_par_iter()
+        .map(|i| {
+            let (line, guide) = (&lines[i], &guides[i]);
+            let curve = placed[i].and_then(|p| Some((p, located(p, &line.flat, &line.space, accuracy, guide.bulge)?)));
+            Route {
+                chain: line.chain as i32,
+                visible: line.visible,
+                border: guide.border,
+                flat: &line.flat,
+                space: &line.space,
+                bulge: if curve.is_some() { guide.bulge } else { 0.0 },
+                curve,
+            }
+        })
+        .collect();
+    let moves = junctions(&routes, accuracy, fit.contact, &view);
+    // Ends of polylines that move; those of curves move with their interval.
+    let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
+    for Move { line, end, to } in moves {
+        match (&mut routes[line].curve, to) {
+            (Some((_, ts)), Goal::Parameter(t)) => {
+                let at = end * (ts.len() - 1);
+                let rest = ts[ts.len() - 1 - at];
+                // Never past the other end.
+                if (ts[at] - rest) * (t - rest) > 0.0 {
+                    ts[at] = t;
+                }
+            }
+            (None, Goal::Point(flat, space)) => moved[line][end] = Some((flat, space)),
+            _ => {}
+        }
+    }
+    let mut drawn: Vec<Option<Drawn>> = routes
+        .par_iter()
+        .map(|route| {
+            let (p, ts) = route.curve.as_ref()?;
+            piece(p, [ts[0], ts[ts.len() - 1]], accuracy)
+        })
+        .collect();
+    share_ends(&routes, &mut drawn, accuracy);
+    routes
+        .into_iter()
+        .zip(drawn)
+        .zip(moved)
+        .map(|((route, drawn), moved)| match (drawn, &route.curve) {
+            (Some(drawn), Some((_, ts))) => along(drawn, ts),
+            _ => as_it_was(&route, moved),
+        })
+        .collect()
+}
+
+/// A line that turns back over itself on paper is drawn between its extremes, without the points beyond them.
+fn along(drawn: Drawn, ts: &[f64]) -> OnCurve {
+    let (low, high) = (drawn.range[0].min(drawn.range[1]), drawn.range[0].max(drawn.range[1]));
+    let inside = |t: &f64| *t > low && *t < high;
+    let first = ts.iter().position(inside).unwrap_or(0);
+    let inner = first..ts.iter().rposition(inside).map_or(first, |k| k + 1);
+    let Drawn { form, range, flat, space, bounds } = drawn;
+    OnCurve { form: Some(form), range, flat, space, inner, bounds }
+}
+
+fn as_it_was(route: &Route, moved: [Option<(Vec2, Vec3)>; 2]) -> OnCurve {
+    let last = route.flat.len() - 1;
+    let ends = [0, 1].map(|k| moved[k].unwrap_or((route.flat[k * last], route.space[k * last])));
+    let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    route.flat.iter().for_each(|p| grow(&mut bounds, p));
+    ends.iter().for_each(|(p, _)| grow(&mut bounds, p));
+    OnCurve {
+        form: None,
+        range: [f64::NAN; 2],
+        flat: ends.map(|e| e.0),
+        space: ends.map(|e| e.1),
+        inner: 0..last + 1,
+        bounds,
+    }
+}

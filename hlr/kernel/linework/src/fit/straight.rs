@@ -1,0 +1,63 @@
+//! Finds pieces of curves that are straight on paper: short, flat, or planar and seen edge-on, where they may run back
+//! over themselves.
+
+use super::placed::Placed;
+use super::plane::{Vec2, dot, length, minus};
+use super::project::Paper;
+use hlr_accuracy::CURVE_STRAIGHT;
+
+const PLACES: usize = 8;
+/// Halvings of the interval around a turning point.
+const NARROWING: usize = 60;
+
+/// The parameters of the two ends of the straight line that is all of a piece, in the order of its range.
+pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64; 2]> {
+    let (a, b) = (range[0].min(range[1]), range[0].max(range[1]));
+    let places = PLACES.max(4 * placed.paper.spans(a, b)).max((2.0 * (b - a)) as usize * usize::from(turning(placed)));
+    let t = |i: usize| range[0] + (range[1] - range[0]) * (i as f64 / places as f64);
+    let points: Vec<Vec2> = (0..=places).map(|i| placed.on_paper(t(i))[0]).collect();
+    let far = |from: &Vec2| -> usize {
+        let mut best = (0, -1.0);
+        for (i, p) in points.iter().enumerate() {
+            let d = length(&minus(p, from));
+            if d > best.1 {
+                best = (i, d);
+            }
+        }
+        best.0
+    };
+    let one = far(&points[0]);
+    let other = far(&points[one]);
+    let way = minus(&points[one], &points[other]);
+    let size = length(&way);
+    if size <= 0.0 {
+        return None;
+    }
+    let way = way.map(|c| c / size);
+    let off = |p: &Vec2| {
+        let d = minus(p, &points[other]);
+        (d[0] * way[1] - d[1] * way[0]).abs()
+    };
+    if !points.iter().all(|p| off(p) <= CURVE_STRAIGHT * accuracy) {
+        return None;
+    }
+    // Extremes inside the piece are turning points: narrowed down from the neighbouring places.
+    let along = |t: f64| dot(&placed.on_paper(t)[0], &way);
+    let refine = |i: usize, sign: f64| {
+        if i == 0 || i == places {
+            return t(i);
+        }
+        let (mut low, mut high) = (t(i - 1), t(i + 1));
+        for _ in 0..NARROWING {
+            let (u, v) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+            if sign * along(u) < sign * along(v) { low = u } else { high = v }
+        }
+        0.5 * (low + high)
+    };
+    let (one, other) = (refine(one, 1.0), refine(other, -1.0));
+    Some(if (one < other) == (range[0] < range[1]) { [one, other] } else { [other, one] })
+}
+
+fn turning(placed: &Placed) -> bool {
+    matches!(placed.paper, Paper::Ellipse { .. })
+}

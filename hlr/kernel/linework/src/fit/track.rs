@@ -1,0 +1,166 @@
+//! The parameters of a curve: its period if it is closed, start values for a search, the nearest point to a given one.
+
+use hlr_brep::geometry::curve::{Curve, Vec3};
+
+/// Places looked at per span of a B-spline before Newton's method begins.
+const PLACES: usize = 8;
+const STEPS: usize = 20;
+
+/// The period of a curve, if it is closed, and points to begin a search from.
+pub struct Track {
+    pub period: Option<f64>,
+    /// A closed B-spline has parameters only inside its range.
+    bounded: Option<[f64; 2]>,
+    places: Vec<(f64, Vec3)>,
+}
+
+impl Track {
+    /// model: a length in the model below which two ends are one.
+    pub fn new(curve: &Curve, range: [f64; 2], model: f64) -> Track {
+        match curve {
+            Curve::Ellipse { .. } => Track { period: Some(std::f64::consts::TAU), bounded: None, places: Vec::new() },
+            Curve::Spline(n) => {
+                let (low, high) = n.domain();
+                let range = [range[0].max(low), range[1].min(high)];
+                let gap = distance(&curve.point(range[0]), &curve.point(range[1]));
+                let period = (gap <= model).then_some(range[1] - range[0]);
+                let mut places = Vec::new();
+                let mut stops = vec![range[0]];
+                stops.extend(n.knots.iter().copied().filter(|&u| u > range[0] && u < range[1]));
+                stops.push(range[1]);
+                stops.dedup();
+                // Short cubic pieces hold no surprise between their ends.
+                let count = if n.sampled { 1 } else { PLACES };
+                for w in stops.windows(2) {
+                    places.extend((0..count).map(|i| w[0] + (w[1] - w[0]) * (i as f64 / count as f64)));
+                }
+                places.push(range[1]);
+                let places = places.into_iter().map(|t| (t, curve.point(t))).collect();
+                Track { period, bounded: Some(range), places }
+            }
+            _ => Track { period: None, bounded: None, places: Vec::new() },
+        }
+    }
+
+    /// A parameter that the curve can be evaluated at.
+    pub fn wrapped(&self, t: f64) -> f64 {
+        match (self.bounded, self.period) {
+            (Some([low, high]), Some(period)) if t > high || t < low => low + (t - low).rem_euclid(period),
+            (Some([low, high]), None) => t.clamp(low, high),
+            _ => t,
+        }
+    }
+
+    /// A parameter near `from` as one of the curve: it stops at its ends, and a closed one goes on for half a turn.
+    pub fn ending(&self, from: f64, to: f64) -> Option<f64> {
+        match (self.period, self.bounded) {
+            (Some(period), _) => ((to - from).abs() <= 0.5 * period).then_some(to),
+            (None, Some([low, high])) => Some(to.clamp(low, high)),
+            _ => Some(to),
+        }
+    }
+
+    /// Whether an interval is all of a closed curve.
+    pub fn closes(&self, range: [f64; 2]) -> bool {
+        self.period.is_some_and(|p| (range[1] - range[0]).abs() >= (1.0 - 1e-12) * p)
+    }
+
+    /// An interval as pieces that do not cross the seam, each inside the range.
+    pub fn unbroken(&self, from: f64, to: f64) -> Vec<[f64; 2]> {
+        let (Some([low, high]), Some(period)) = (self.bounded, self.period) else { return vec![[from, to]] };
+        let mut out = Vec::new();
+        let turn = ((from - low) / period).floor();
+        let mut start = from - turn * period;
+        let mut left = to - from;
+        while left > 0.0 && out.len() < 3 {
+            let end = (start + left).min(high);
+            if end > start {
+                out.push([start, end]);
+            }
+            left -= end - start;
+            if end < high {
+                break;
+            }
+            start = low;
+        }
+        out
+    }
+
+    /// The parameter of the point of the curve nearest to p.
+    pub fn nearest(&self, curve: &Curve, p: &Vec3) -> f64 {
+        let start = match curve {
+            Curve::Ellipse { p: centre, a, b }
+            | Curve::Hyperbola { p: centre, a, b }
+            | Curve::Parabola { p: centre, a, b } => {
+                // Coordinates of the foot point in the plane of the curve.
+                let d = [0, 1, 2].map(|k| p[k] - centre[k]);
+                let (aa, ab, bb) = (dot3(a, a), dot3(a, b), dot3(b, b));
+                let (ad, bd) = (dot3(a, &d), dot3(b, &d));
+                let det = aa * bb - ab * ab;
+                let (x, y) = ((ad * bb - bd * ab) / det, (bd * aa - ad * ab) / det);
+                match curve {
+                    Curve::Ellipse { .. } => y.atan2(x),
+                    Curve::Hyperbola { .. } => y.asinh(),
+                    _ => y,
+                }
+            }
+            Curve::Line { p: origin, a } => {
+                return dot3(&[0, 1, 2].map(|k| p[k] - origin[k]), a) / dot3(a, a);
+            }
+            Curve::Spline(_) => {
+                let mut best = (f64::INFINITY, 0.0);
+                for (t, place) in &self.places {
+                    let d = distance(place, p);
+                    if d < best.0 {
+                        best = (d, *t);
+                    }
+                }
+                best.1
+            }
+        };
+        self.descend(curve, p, start)
+    }
+
+    /// Newton's method for the foot point, never farther away than it began.
+    fn descend(&self, curve: &Curve, p: &Vec3, start: f64) -> f64 {
+        let mut best = (f64::INFINITY, start);
+        let mut t = start;
+        for _ in 0..STEPS {
+            // From one side of a seam the way may lead to the other.
+            let [q, d1, d2] = curve.derivatives(self.wrapped(t));
+            let away = [0, 1, 2].map(|k| q[k] - p[k]);
+            let far = dot3(&away, &away);
+            if far < best.0 {
+                best = (far, t);
+            } else {
+                // Halfway back to the best.
+                if (t - best.1).abs() <= 1e-12 * (1.0 + t.abs()) {
+                    break;
+                }
+                t = 0.5 * (t + best.1);
+                continue;
+            }
+            let speed = dot3(&d1, &d1);
+            let slope = speed + dot3(&away, &d2);
+            let step = dot3(&away, &d1) / if slope > 0.1 * speed { slope } else { speed.max(f64::MIN_POSITIVE) };
+            let mut next = t - step;
+            if let (Some([low, high]), None) = (self.bounded, self.period) {
+                next = next.clamp(low, high);
+            }
+            if (next - t).abs() <= 1e-14 * (1.0 + t.abs()) {
+                break;
+            }
+            t = next;
+        }
+        self.wrapped(best.1)
+    }
+}
+
+fn dot3(a: &Vec3, b: &Vec3) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn distance(a: &Vec3, b: &Vec3) -> f64 {
+    let d = [0, 1, 2].map(|k| a[k] - b[k]);
+    dot3(&d, &d).sqrt()
+}

@@ -1,0 +1,351 @@
+//! Edge flips that remove needles: triangles whose three corners lie in one line but for rounding.
+//!
+//! Exporters put them where a vertex of a neighbour lies on an edge. The longest side of a needle a b c becomes the
+//! other diagonal of its two triangles; the surface moves by no more than the needle is high, whatever the fold there:
+//!
+//! ```text
+//!        d                     d
+//!      /   \                 / | \
+//!    /       \      ->     /   |   \
+//!   c --------- a         c ---|--- a
+//!     `-. b .-'             `- b -'
+//! ```
+
+use rayon::prelude::*;
+use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
+
+/// Of its longest side: what is lower is a needle however exact the coordinates are.
+const ROUNDING: f64 = 1e-6;
+
+/// Of its longest side: what is higher is none, however coarse they are.
+const SLENDER: f64 = 1e-3;
+
+/// The lower of the two new triangles is so many times as high as the lower of the two old ones.
+const HIGHER: f64 = 2.0;
+
+/// Turns per needle, on average: rows of needles on one side take several each.
+const ROUNDS: usize = 16;
+
+/// The triangles that changed, ascending.
+#[derive(Debug, Default, PartialEq)]
+pub struct Turned {
+    pub triangle: Vec<u32>,
+    pub corners: Vec<[i32; 3]>,
+    /// The triangle before, whose face and colour each has now: a needle takes those of its neighbour.
+    pub like: Vec<u32>,
+    /// Where each corner stood before: three times a triangle, plus 0..3.
+    pub stood: Vec<[u32; 3]>,
+}
+
+/// Turns needles; `low`: what is lower than this has no normal that the coordinates support.
+///
+/// Only where the longest side has two triangles, oppositely oriented, and the other diagonal is no edge yet.
+pub fn without_needles(points: &[[f64; 3]], triangles: &[[i32; 3]], low: f64) -> Turned {
+    let shapes = Shapes { points, low };
+    let needles: Vec<u32> = (0..triangles.len() as u32)
+        .into_par_iter()
+        .with_min_len(1 << 10)
+        .filter(|&t| shapes.is_needle(triangles[t as usize]))
+        .collect();
+    if needles.is_empty() {
+        return Turned::default();
+    }
+    let mut work = Work::new(shapes, triangles, &needles);
+    work.run(&needles);
+    let mut turned = Turned::default();
+    for (t, now) in work.changed {
+        turned.triangle.push(t);
+        turned.corners.push(now.corners);
+        turned.like.push(now.like);
+        turned.stood.push(now.stood);
+    }
+    turned
+}
+
+struct Shapes<'a> {
+    points: &'a [[f64; 3]],
+    low: f64,
+}
+
+impl Shapes<'_> {
+    fn square(&self, a: i32, b: i32) -> f64 {
+        let (p, q) = (&self.points[a as usize], &self.points[b as usize]);
+        (0..3).map(|c| (q[c] - p[c]) * (q[c] - p[c])).sum()
+    }
+
+    /// Squares of the height over the longest side and of that side, and its number.
+    fn measures(&self, t: [i32; 3]) -> (f64, f64, usize) {
+        let squares = [0, 1, 2].map(|k| self.square(t[k], t[(k + 1) % 3]));
+        let longest = (1..3).fold(0, |best, k| if squares[k] > squares[best] { k } else { best });
+        // From the corner that lies opposite: its sides are the short ones, their cross product the most exact.
+        let [o, p, q] = [2, 0, 1].map(|k| &self.points[t[(longest + k) % 3] as usize]);
+        let [u, v] = [p, q].map(|p| [0, 1, 2].map(|c| p[c] - o[c]));
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let area = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        (area / squares[longest], squares[longest], longest)
+    }
+
+    fn height(&self, t: [i32; 3]) -> f64 {
+        self.measures(t).0
+    }
+
+    /// Of every triangle this is asked: no divisions, no roots.
+    fn is_needle(&self, t: [i32; 3]) -> bool {
+        let [p, q, r] = t.map(|v| &self.points[v as usize]);
+        let (u, v) = ([q[0] - p[0], q[1] - p[1], q[2] - p[2]], [r[0] - p[0], r[1] - p[1], r[2] - p[2]]);
+        let w = [r[0] - q[0], r[1] - q[1], r[2] - q[2]];
+        let dot = |s: &[f64; 3]| s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+        let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+        let longest = dot(&u).max(dot(&v)).max(dot(&w));
+        let least = (self.low * self.low).min(SLENDER * SLENDER * longest).max(ROUNDING * ROUNDING * longest);
+        dot(&n) <= least * longest
+    }
+}
+
+/// What has become of a triangle.
+#[derive(Clone, Copy)]
+struct Now {
+    corners: [i32; 3],
+    like: u32,
+    stood: [u32; 3],
+}
+
+/// The first two triangles at an edge, and how many there are.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    triangles: [u32; 2],
+    count: u32,
+}
+
+struct Work<'a> {
+    shapes: Shapes<'a>,
+    triangles: &'a [[i32; 3]],
+    changed: BTreeMap<u32, Now>,
+    /// Corners of needles, and all edges that end there.
+    near: HashSet<i32>,
+    edges: HashMap<(i32, i32), Edge>,
+}
+
+fn key(a: i32, b: i32) -> (i32, i32) {
+    (a.min(b), a.max(b))
+}
+
+impl<'a> Work<'a> {
+    fn new(shapes: Shapes<'a>, triangles: &'a [[i32; 3]], needles: &[u32]) -> Self {
+        let near: HashSet<i32> = needles.iter().flat_map(|&t| triangles[t as usize]).collect();
+        let mut is_near = vec![false; shapes.points.len()];
+        near.iter().for_each(|&v| is_near[v as usize] = true);
+        let mut edges: HashMap<(i32, i32), Edge> = HashMap::new();
+        for (t, corners) in triangles.iter().enumerate() {
+            for k in 0..3 {
+                let (a, b) = (corners[k], corners[(k + 1) % 3]);
+                if is_near[a as usize] || is_near[b as usize] {
+                    let edge = edges.entry(key(a, b)).or_default();
+                    if let Some(place) = edge.triangles.get_mut(edge.count as usize) {
+                        *place = t as u32;
+                    }
+                    edge.count += 1;
+                }
+            }
+        }
+        Work { shapes, triangles, changed: BTreeMap::new(), near, edges }
+    }
+
+    fn now(&self, t: u32) -> Now {
+        let first = Now { corners: self.triangles[t as usize], like: t, stood: [3 * t, 3 * t + 1, 3 * t + 2] };
+        self.changed.get(&t).copied().unwrap_or(first)
+    }
+
+    /// First needles beside what is none, then those that lie against one another.
+    fn run(&mut self, needles: &[u32]) {
+        let mut next: VecDeque<u32> = needles.iter().copied().collect();
+        let mut against: VecDeque<u32> = VecDeque::new();
+        for _ in 0..ROUNDS * needles.len() {
+            let turned = loop {
+                let (t, pairs) = match (next.pop_front(), against.front()) {
+                    (Some(t), _) => (t, false),
+                    (None, Some(&t)) => {
+                        against.pop_front();
+                        (t, true)
+                    }
+                    (None, None) => return,
+                };
+                match self.turn(t, pairs) {
+                    Found::Turned(touched) => break touched,
+                    Found::Needle => against.push_back(t),
+                    Found::Nothing => {}
+                }
+            };
+            next.extend(turned);
+        }
+    }
+
+    /// Turn the longest side of triangle t, if it is a needle. Beside another needle only where `pairs`.
+    fn turn(&mut self, t: u32, pairs: bool) -> Found {
+        let needle = self.now(t);
+        if !self.shapes.is_needle(needle.corners) {
+            return Found::Nothing;
+        }
+        let longest = self.shapes.measures(needle.corners).2;
+        let [c, a, b] = [0, 1, 2].map(|k| needle.corners[(longest + k) % 3]);
+        let from_b = needle.stood[(longest + 2) % 3];
+        let Some(&Edge { triangles: [one, two], count: 2 }) = self.edges.get(&key(a, c)) else {
+            return Found::Nothing;
+        };
+        let u = if one == t { two } else { one };
+        let neighbour = self.now(u);
+        let Some(k) = (0..3).find(|&k| neighbour.corners[k] == a && neighbour.corners[(k + 1) % 3] == c) else {
+            return Found::Nothing;
+        };
+        let d = neighbour.corners[(k + 2) % 3];
+        let known = self.near.contains(&b) || self.near.contains(&d);
+        if d == b || !known || self.edges.contains_key(&key(b, d)) {
+            return Found::Nothing;
+        }
+        let (first, second) = ([a, b, d], [b, c, d]);
+        // Heights that are rounding alone are equal.
+        let (before, after) = (self.shapes.square(a, c), self.shapes.square(b, d));
+        let noise = ROUNDING * ROUNDING * before;
+        let lower = |s: [i32; 3], t: [i32; 3]| self.shapes.height(s).min(self.shapes.height(t)).max(noise);
+        let (old, new) = (lower(needle.corners, neighbour.corners), lower(first, second));
+        let mut better = new > HIGHER * HIGHER * old;
+        if self.shapes.is_needle(neighbour.corners) {
+            if !pairs {
+                return Found::Needle;
+            }
+            // Four corners in one line, none of them higher: a shorter side may have a higher triangle beyond it.
+            better |= after < before && HIGHER * HIGHER * new >= old;
+        }
+        if !better {
+            return Found::Nothing;
+        }
+        let like = neighbour.like;
+        let [from_a, from_c, from_d] = [0, 1, 2].map(|j| neighbour.stood[(k + j) % 3]);
+        self.changed.insert(t, Now { corners: first, like, stood: [from_a, from_b, from_d] });
+        self.changed.insert(u, Now { corners: second, like, stood: [from_b, from_c, from_d] });
+        self.edges.remove(&key(a, c));
+        self.edges.insert(key(b, d), Edge { triangles: [t, u], count: 2 });
+        self.hand_over(key(b, c), t, u);
+        self.hand_over(key(d, a), u, t);
+        // Both, and those beyond their other sides: these may have waited for this one.
+        let mut touched = vec![t, u];
+        for edge in [key(a, b), key(b, c), key(c, d), key(d, a)] {
+            if let Some(Edge { triangles, count: 2 }) = self.edges.get(&edge) {
+                touched.extend(triangles.iter().filter(|&&s| s != t && s != u));
+            }
+        }
+        Found::Turned(touched)
+    }
+
+    fn hand_over(&mut self, edge: (i32, i32), from: u32, to: u32) {
+        if let Some(edge) = self.edges.get_mut(&edge) {
+            edge.triangles.iter_mut().filter(|t| **t == from).for_each(|t| *t = to);
+        }
+    }
+}
+
+enum Found {
+    Turned(Vec<u32>),
+    /// Another one beyond the longest side.
+    Needle,
+    Nothing,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn after(points: &[[f64; 3]], triangles: &[[i32; 3]], low: f64) -> Vec<[i32; 3]> {
+        let turned = without_needles(points, triangles, low);
+        let mut now = triangles.to_vec();
+        for (t, corners) in turned.triangle.iter().zip(&turned.corners) {
+            now[*t as usize] = *corners;
+        }
+        now
+    }
+
+    fn area(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> f64 {
+        let part = |t: &[i32; 3]| {
+            let [p, q, r] = t.map(|v| points[v as usize]);
+            ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / 2.0
+        };
+        triangles.iter().map(part).sum()
+    }
+
+    fn needles(points: &[[f64; 3]], triangles: &[[i32; 3]], low: f64) -> usize {
+        triangles.iter().filter(|&&t| Shapes { points, low }.is_needle(t)).count()
+    }
+
+    /// Ten vertices of a neighbour on one side of a triangle, all in one line but for rounding.
+    fn chain() -> (Vec<[f64; 3]>, Vec<[i32; 3]>) {
+        let mut points: Vec<[f64; 3]> = (0..12).map(|i| [f64::from(i), 1e-9 * f64::from(i * 7 % 5), 0.0]).collect();
+        points.extend([[5.0, 8.0, 0.0], [5.0, -8.0, 0.0]]);
+        let mut triangles: Vec<[i32; 3]> = (0..10).map(|i| [i, i + 1, 11]).collect();
+        triangles.push([0, 11, 12]);
+        triangles.extend((0..11).map(|i| [i + 1, i, 13]));
+        (points, triangles)
+    }
+
+    #[test]
+    fn a_chain_of_needles_on_one_side() {
+        let (points, mut triangles) = chain();
+        for low in [0.0, 1e-7] {
+            assert_eq!(needles(&points, &triangles, low), 10);
+            let now = after(&points, &triangles, low);
+            assert_eq!(needles(&points, &now, low), 0);
+            assert!((area(&points, &now) - area(&points, &triangles)).abs() < 1e-6);
+            assert!(now.iter().filter(|t| t.contains(&12)).count() == 11);
+        }
+        triangles.reverse();
+        assert_eq!(needles(&points, &after(&points, &triangles, 0.0), 0.0), 0);
+    }
+
+    #[test]
+    fn needles_against_one_another() {
+        let points =
+            [[0.0; 3], [1.0, 1e-12, 0.0], [3.0, 0.0, 0.0], [2.0, -1e-12, 0.0], [1.5, 4.0, 0.0], [1.5, -4.0, 0.0]];
+        // On either side of 0-2 one with a corner on it.
+        let triangles = [[0, 2, 1], [2, 0, 3], [0, 1, 4], [1, 2, 4], [0, 5, 3], [3, 5, 2]];
+        let now = after(&points, &triangles, 0.0);
+        assert_eq!(needles(&points, &now, 0.0), 0);
+        assert!((area(&points, &now) - area(&points, &triangles)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_cannot_be_turned_stays() {
+        let points = [[0.0; 3], [2.0, 1e-12, 0.0], [4.0, 0.0, 0.0], [2.0, 4.0, 0.0], [2.0, -4.0, 3.0]];
+        let whole = [[0, 1, 2], [0, 2, 3]];
+        assert_eq!(after(&points, &whole, 0.0), [[0, 1, 3], [1, 2, 3]]);
+        for stays in [
+            // The other diagonal is an edge already; an open border; the same way round; three triangles at the side.
+            &[[0, 1, 2], [0, 2, 3], [1, 3, 4]][..],
+            &[[0, 1, 2]],
+            &[[0, 1, 2], [2, 0, 3]],
+            &[[0, 1, 2], [0, 2, 3], [0, 2, 4]],
+            // Slender, but none for exact coordinates.
+            &[[0, 1, 3], [1, 2, 3]],
+        ] {
+            assert_eq!(without_needles(&points, stays, 0.0), Turned::default());
+        }
+    }
+
+    #[test]
+    fn colours_are_those_of_the_neighbour() {
+        let points = [[0.0; 3], [2.0, 1e-12, 0.0], [4.0, 0.0, 0.0], [2.0, 4.0, 0.0]];
+        let turned = without_needles(&points, &[[2, 3, 0], [1, 2, 0]], 0.0);
+        assert_eq!((turned.triangle, turned.like), (vec![0, 1], vec![0, 0]));
+        assert_eq!(turned.corners, [[1, 2, 3], [0, 1, 3]]);
+        assert_eq!(turned.stood, [[3, 0, 1], [2, 3, 1]]);
+    }
+
+    #[test]
+    fn coarse_coordinates_make_needles_higher() {
+        let points = [[0.0; 3], [2.0, 1e-3, 0.0], [4.0, 0.0, 0.0], [2.0, 4.0, 0.0]];
+        let triangles = [[0, 1, 2], [0, 2, 3]];
+        assert_eq!(after(&points, &triangles, 1e-4), triangles);
+        assert_eq!(after(&points, &triangles, 2e-3), [[0, 1, 3], [1, 2, 3]]);
+        // A short triangle is no needle, however coarse they are.
+        let short = points.map(|p| [p[0], p[1] * 20.0, p[2]]);
+        assert_eq!(after(&short, &triangles, 1.0), triangles);
+    }
+}

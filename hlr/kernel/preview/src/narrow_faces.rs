@@ -1,0 +1,95 @@
+//! One sample a pixel, of faces so narrow that a row or two of lanes hold them: the three edge functions at their
+//! columns, and one addition each from row to row. Most faces of a fine mesh are like that, and finding the span of
+//! each row (`row_spans`) would cost more than looking at a few columns too many.
+//!
+//! ```text
+//!            columns at .. at + 7
+//!          +---------------+
+//!   row 0  |     . x       |        a column is owned where no edge function is negative: their sign bits, or-ed
+//!   row 1  |   . x x x     |
+//!   row 2  | x x x x x x x |
+//!          +---------------+
+//! ```
+
+use super::face::Face;
+use super::grid::{GRID, LANES, TILE_HEIGHT, TILE_WIDTH};
+use super::sampling::Sampling;
+use super::slope::nearer;
+
+/// How many rows of lanes side by side hold the face; 0: it is too large.
+#[inline(always)]
+pub fn lanes(face: &Face) -> usize {
+    let [columns, rows] = face.reach.map(|r| r[1].wrapping_sub(r[0]));
+    let extent = |c: &[i32; 3]| c[0].max(c[1]).max(c[2]).wrapping_sub(c[0].min(c[1]).min(c[2]));
+    let narrow = extent(&face.x) <= 2 * LANES as i32 * GRID && extent(&face.y) <= TILE_HEIGHT as i32 * GRID;
+    if !narrow || rows > TILE_HEIGHT as i32 || columns > 2 * LANES as i32 {
+        return 0;
+    }
+    if columns <= LANES as i32 { 1 } else { 2 }
+}
+
+/// `rows`: of the tile, that the face reaches.
+#[inline(always)]
+pub fn fill<const N: usize>(
+    seen: &mut [[f64; TILE_WIDTH]; TILE_HEIGHT],
+    face: &Face,
+    first: [i32; 2],
+    rows: [usize; 2],
+) {
+    const HALF: i32 = GRID / 2;
+    const SHIFT: u32 = Sampling::CENTRES.shift;
+    let at = face.reach[0][0].wrapping_sub(first[0]).clamp(0, (TILE_WIDTH - N * LANES) as i32);
+    let x = (first[0].wrapping_add(at) << SHIFT).wrapping_add(HALF);
+    let y = (first[1].wrapping_add(rows[0] as i32) << SHIFT).wrapping_add(HALF);
+    let along = [0, 1, 2].map(|k: usize| x.wrapping_sub(face.x[k]));
+    let down = [0, 1, 2].map(|k: usize| y.wrapping_sub(face.y[k]));
+    // Distances are below 2^15 across and 2^16 down, growths below 2^14: nothing here leaves 32 bits.
+    let edge = |k: usize, n: usize| {
+        let (a, b) = (face.y[k].wrapping_sub(face.y[n]), face.x[n].wrapping_sub(face.x[k]));
+        let value = a.wrapping_mul(along[k]).wrapping_add(b.wrapping_mul(down[k]));
+        // Left and top edges own what lies on them.
+        let value = value.wrapping_sub(i32::from(!(a > 0 || (a == 0 && b > 0)))) >> SHIFT;
+        let mut lanes = [[value; LANES]; N];
+        for (l, v) in lanes.as_flattened_mut().iter_mut().enumerate() {
+            *v = v.wrapping_add(a.wrapping_mul(l as i32));
+        }
+        (lanes, b)
+    };
+    let ((mut one, b1), (mut two, b2), (mut three, b3)) = (edge(0, 1), edge(1, 2), edge(2, 0));
+
+    let [x1, x2] = [1, 2].map(|k: usize| face.x[k].wrapping_sub(face.x[0]));
+    let [y1, y2] = [1, 2].map(|k: usize| face.y[k].wrapping_sub(face.y[0]));
+    let over = 1.0 / x1.wrapping_mul(y2).wrapping_sub(x2.wrapping_mul(y1)) as f32;
+    let [z1, z2] = [face.depth[1] - face.depth[0], face.depth[2] - face.depth[0]];
+    let dx = (z1 * y2 as f32 - z2 * y1 as f32) * over;
+    let dy = (z2 * x1 as f32 - z1 * x2 as f32) * over;
+    let low = face.depth[0].min(face.depth[1]).min(face.depth[2]);
+    let high = face.depth[0].max(face.depth[1]).max(face.depth[2]);
+    let start = face.depth[0] + (dx * along[0] as f32 + dy * down[0] as f32);
+    let (dx, dy) = (dx * GRID as f32, dy * GRID as f32);
+    let mut depth = [[start; LANES]; N];
+    for (l, v) in depth.as_flattened_mut().iter_mut().enumerate() {
+        *v += dx * l as f32;
+    }
+
+    let at = at as usize;
+    for (row, seen) in seen[rows[0]..rows[1]].iter_mut().enumerate() {
+        let fall = dy * row as f32;
+        let (lanes, _) = seen[at..].as_chunks_mut::<LANES>();
+        for (n, seen) in lanes.iter_mut().take(N).enumerate() {
+            let (mut outside, mut z) = ([0i32; LANES], depth[n]);
+            for l in 0..LANES {
+                outside[l] = (one[n][l] | two[n][l] | three[n][l]) >> 31;
+                one[n][l] = one[n][l].wrapping_add(b1);
+                two[n][l] = two[n][l].wrapping_add(b2);
+                three[n][l] = three[n][l].wrapping_add(b3);
+            }
+            for v in &mut z {
+                let v2 = *v + fall;
+                let v2 = if v2 > low { v2 } else { low };
+                *v = if v2 < high { v2 } else { high };
+            }
+            nearer(&outside, &z, face.triangle, seen);
+        }
+    }
+}

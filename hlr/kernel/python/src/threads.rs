@@ -1,0 +1,123 @@
+//! Run Rust without the interpreter lock, on so many threads, and stop when Python has been interrupted.
+//!
+//! Starting threads takes a fifth of a millisecond, more than many a call on a small model: pools are kept, and what is
+//! done within about a millisecond is done where it is called.
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Triangles, points or what else a call goes through: so many take about a millisecond at most.
+pub const FEW: usize = 1000;
+
+/// By number of threads, of the process with this number: a fork has none of its parent's threads.
+static POOLS: Mutex<(u32, BTreeMap<usize, Arc<ThreadPool>>)> = Mutex::new((0, BTreeMap::new()));
+
+thread_local! {
+    /// The calling thread itself as a pool.
+    static HERE: OnceCell<ThreadPool> = const { OnceCell::new() };
+}
+
+/// `work` is called on a pool of `threads` (0: all cores) and polls the function it is given; KeyboardInterrupt and
+/// other signals' exceptions stop it within milliseconds. Where it goes through a `size` of FEW at most it is called
+/// here, and only asked afterwards.
+pub fn run<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    size: usize,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+) -> PyResult<T> {
+    run_telling(py, threads, size, |_| Ok(()), work)
+}
+
+/// The same; what waits calls `tell` every few milliseconds, and stops the work where that fails.
+pub fn run_telling<T: Send>(
+    py: Python<'_>,
+    threads: usize,
+    size: usize,
+    tell: impl Fn(Python<'_>) -> PyResult<()> + Send + Sync,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+) -> PyResult<T> {
+    if size > FEW {
+        let pool = pool(threads).map_err(not_started)?;
+        return waited(py, &pool, tell, work);
+    }
+    let result = py.detach(|| {
+        HERE.with(|here| {
+            let pool = match here.get() {
+                Some(pool) => pool,
+                None => {
+                    let own = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+                    here.get_or_init(|| own.expect("the calling thread belongs to no other pool"))
+                }
+            };
+            pool.install(|| work(&|| false))
+        })
+    });
+    py.check_signals()?;
+    Ok(result)
+}
+
+fn not_started(error: rayon::ThreadPoolBuildError) -> PyErr {
+    PyRuntimeError::new_err(format!("cannot start threads: {error}"))
+}
+
+fn pool(threads: usize) -> Result<Arc<ThreadPool>, rayon::ThreadPoolBuildError> {
+    let mut kept = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if kept.0 != process {
+        // The threads of the parent's pools cannot be waited for here.
+        std::mem::forget(std::mem::take(&mut kept.1));
+        kept.0 = process;
+    }
+    if let Some(pool) = kept.1.get(&threads) {
+        return Ok(pool.clone());
+    }
+    let made = Arc::new(ThreadPoolBuilder::new().num_threads(threads).build()?);
+    kept.1.insert(threads, made.clone());
+    Ok(made)
+}
+
+fn waited<T: Send>(
+    py: Python<'_>,
+    pool: &ThreadPool,
+    tell: impl Fn(Python<'_>) -> PyResult<()> + Send + Sync,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
+) -> PyResult<T> {
+    let stop = AtomicBool::new(false);
+    py.detach(|| {
+        let (sender, receiver) = channel();
+        pool.in_place_scope(|scope| {
+            let stop_flag = &stop;
+            scope.spawn(move |_| {
+                let stopped = || stop_flag.load(Ordering::Relaxed);
+                // The receiver waits until this arrives or the work has failed.
+                let _ = sender.send(work(&stopped));
+            });
+            let mut failure = None;
+            loop {
+                match receiver.recv_timeout(Duration::from_millis(20)) {
+                    Ok(result) => return failure.map_or(Ok(result), Err),
+                    Err(RecvTimeoutError::Timeout) => {
+                        if failure.is_none()
+                            && let Err(error) = Python::attach(|py| py.check_signals().and_then(|()| tell(py)))
+                        {
+                            stop.store(true, Ordering::Relaxed);
+                            failure = Some(error);
+                        }
+                    }
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return Err(PyRuntimeError::new_err("the kernel stopped unexpectedly"));
+                    }
+                }
+            }
+        })
+    })
+}

@@ -1,0 +1,184 @@
+//! Separates real intersections from contacts, where surfaces only touch.
+//!
+//! What is neither deep nor steep is a contact, unless it closes a gap: where surfaces that cross are tangent at a
+//! point.
+
+use super::depth::{Bodies, Depth, SLIGHT_ANGLE};
+use super::reach::{Vec3, minus};
+use super::search::Clash;
+use hlr_accuracy::CONTACT_REAL;
+use hlr_mesh::topology::components;
+
+/// In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point
+/// differ by less than the tolerance over 2.8 of these.
+const BRIDGE: f64 = 4.0;
+/// In the sizes of its triangles: a figure where a curved face meets itself, as all triangles around a point do that
+/// cross one another there, is hardly larger, and is the tessellation's, not the shape's.
+const SMALL: f64 = 2.0;
+
+/// A segment of an intersection line: the numbers of its ends, and of its groups, the lower first.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment {
+    pub ends: [i32; 2],
+    pub groups: [usize; 2],
+}
+
+/// One of several triangles that meet along one segment, as an edge in a plane has them.
+struct Candidate {
+    segment: Segment,
+    clash: Clash,
+    depth: Depth,
+    sine: f64,
+}
+
+/// found: sorted by groups; ends, depth: of each; points: those that the ends are numbers of; width: of each group the
+/// longest side of its box.
+///
+/// The real ones by the numbers of their ends, not by those of groups, which follow the order of triangles in the file.
+/// And which groups pass through themselves.
+pub fn real(
+    bodies: &Bodies,
+    found: &[Clash],
+    ends: &[[i32; 2]],
+    depth: &[Depth],
+    points: &[Vec3],
+    width: &[f64],
+) -> (Vec<Segment>, Vec<bool>) {
+    let all = candidates(bodies, found, ends, depth);
+    let nodes = nodes(&all);
+    let keep = crossing(bodies, &all, &nodes, points, width);
+    let kept: Vec<usize> = (0..all.len()).filter(|&i| keep[i]).collect();
+    let mut through = vec![false; bodies.touch.len()];
+    for &i in &kept {
+        let [a, b] = all[i].segment.groups;
+        through[a] |= a == b;
+    }
+    let small = small(bodies, &all, &kept, &nodes, points);
+    let mut out: Vec<Segment> =
+        kept.iter().zip(small).filter(|(_, small)| !small).map(|(&i, _)| all[i].segment).collect();
+    out.sort_by_key(|segment| segment.ends);
+    (out, through)
+}
+
+/// Sorted by groups, then ends. Of several that are the same segment the first, with the most that is said of any.
+fn candidates(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], depth: &[Depth]) -> Vec<Candidate> {
+    let mut order: Vec<usize> = (0..found.len()).collect();
+    let key = |i: &usize| (bodies.groups(&found[*i]), ends[*i]);
+    order.sort_by_key(key);
+    let one = |same: &[usize]| {
+        let most = |of: &dyn Fn(usize) -> f64| same.iter().map(|&i| of(i)).fold(f64::NEG_INFINITY, f64::max);
+        let first = same[0];
+        Candidate {
+            segment: Segment { ends: ends[first], groups: bodies.groups(&found[first]) },
+            clash: found[first],
+            depth: Depth {
+                touch: depth[first].touch,
+                beyond: most(&|i| depth[i].beyond),
+                reach: most(&|i| depth[i].reach),
+            },
+            sine: most(&|i| found[i].meeting.sine),
+        }
+    };
+    order.chunk_by(|a, b| key(a) == key(b)).map(one).collect()
+}
+
+/// Numbers of ends, told apart by pair of groups.
+struct Nodes {
+    of: Vec<[i32; 2]>,
+    count: usize,
+}
+
+fn nodes(all: &[Candidate]) -> Nodes {
+    let mut nodes = Nodes { of: Vec::with_capacity(all.len()), count: 0 };
+    for of_pair in all.chunk_by(|a, b| a.segment.groups == b.segment.groups) {
+        let mut ends: Vec<i32> = of_pair.iter().flat_map(|c| c.segment.ends).collect();
+        ends.sort_unstable();
+        ends.dedup();
+        let number = |end: i32| (nodes.count + ends.partition_point(|&e| e < end)) as i32;
+        nodes.of.extend(of_pair.iter().map(|c| c.segment.ends.map(number)));
+        nodes.count += ends.len();
+    }
+    nodes
+}
+
+/// A number per connected figure of the chosen segments, and how many figures there are.
+fn figures(nodes: &Nodes, chosen: &[usize]) -> (Vec<usize>, usize) {
+    let edges: Vec<[i32; 2]> = chosen.iter().map(|&i| nodes.of[i]).collect();
+    let found: Vec<usize> = components(&edges, nodes.count).into_iter().map(|label| label as usize).collect();
+    let figures = found.iter().max().map_or(0, |&last| last + 1);
+    (found, figures)
+}
+
+/// Which are neither contacts nor flush.
+fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], width: &[f64]) -> Vec<bool> {
+    let clear = |i: &usize| all[*i].depth.beyond >= 0.0 || all[*i].sine >= SLIGHT_ANGLE;
+    let (sure, slight): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(clear);
+    let mut out = vec![false; all.len()];
+    let (figure, count) = figures(nodes, &sure);
+    let mut deepest = vec![-1.0f64; count];
+    for (&i, &f) in sure.iter().zip(&figure) {
+        deepest[f] = deepest[f].max(all[i].depth.beyond);
+    }
+    let mut held = vec![false; nodes.count];
+    for (&i, _) in sure.iter().zip(&figure).filter(|(_, f)| deepest[**f] >= 0.0) {
+        out[i] = true;
+        nodes.of[i].iter().for_each(|&n| held[n as usize] = true);
+    }
+    let (bridge, count) = figures(nodes, &slight);
+    let extent = extents(all, &slight, &bridge, count, points);
+    let (mut holds, mut deepest) = (vec![0; count], vec![0.0f64; count]);
+    for (&i, &f) in slight.iter().zip(&bridge) {
+        for &n in &nodes.of[i] {
+            // Once per node: a node is of one figure.
+            holds[f] += u32::from(std::mem::take(&mut held[n as usize]));
+        }
+        // Faces in one plane cross all over by what was rounded: that joins lines over any distance, and is nowhere
+        // deep.
+        deepest[f] = deepest[f].max(all[i].depth.beyond / all[i].depth.touch + 1.0);
+    }
+    for (&i, &f) in slight.iter().zip(&bridge) {
+        let size = all[i].segment.groups.iter().map(|&g| width[g]).fold(f64::INFINITY, f64::min);
+        let gap = BRIDGE * (all[i].depth.touch * size).sqrt();
+        out[i] = holds[f] > 1 && deepest[f] >= CONTACT_REAL && extent[f] < gap;
+    }
+    all.iter().zip(&mut out).for_each(|(c, out)| *out &= !c.depth.flush(c.sine, bodies.deflection));
+    out
+}
+
+/// Of each figure of the chosen segments the longest side of its box.
+fn extents(all: &[Candidate], chosen: &[usize], figure: &[usize], count: usize, points: &[Vec3]) -> Vec<f64> {
+    let mut boxes = vec![([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]); count];
+    for (&i, &f) in chosen.iter().zip(figure) {
+        let (low, high) = &mut boxes[f];
+        for &end in &all[i].segment.ends {
+            for k in 0..3 {
+                let x = points[end as usize][k];
+                (low[k], high[k]) = (low[k].min(x), high[k].max(x));
+            }
+        }
+    }
+    boxes.iter().map(|(low, high)| minus(high, low).into_iter().fold(0.0, f64::max)).collect()
+}
+
+/// Of the kept ones those of solids that meet themselves in figures hardly larger than the triangles they lie on.
+fn small(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes, points: &[Vec3]) -> Vec<bool> {
+    let (figure, count) = figures(nodes, kept);
+    let extent = extents(all, kept, &figure, count, points);
+    let mut largest = vec![0.0f64; count];
+    for (&i, &f) in kept.iter().zip(&figure) {
+        for t in all[i].clash.triangles {
+            let corners = bodies.sheet.triangles[t as usize].map(|v| &bodies.sheet.points[v as usize]);
+            for k in 0..3 {
+                let side = corners.map(|p| p[k]);
+                let spread =
+                    side.into_iter().fold(f64::NEG_INFINITY, f64::max) - side.into_iter().fold(f64::INFINITY, f64::min);
+                largest[f] = largest[f].max(spread);
+            }
+        }
+    }
+    let of_one_solid = |i: usize| {
+        let [a, b] = all[i].segment.groups;
+        a == b && !bodies.bare[a]
+    };
+    kept.iter().zip(&figure).map(|(&i, &f)| of_one_solid(i) && extent[f] < SMALL * largest[f]).collect()
+}
