@@ -19,6 +19,8 @@ from pathlib import Path
 import numpy as np
 from bench.table import Table
 
+from support.programs import environment
+
 RINGS, SIDES = 293, 23
 """A torus of 13,478 triangles."""
 FINE = (202, 200)
@@ -144,9 +146,8 @@ def commands(repeat: int, model: Path | None = None) -> Table:
 
 ARRAYS = """
 import json, resource, sys, time
-sys.path.insert(0, sys.argv[1])
 from bench.loads import tori
-points, triangles = tori(int(sys.argv[2]))
+points, triangles = tori(int(sys.argv[1]))
 import hlr
 began, used = time.perf_counter(), time.process_time()
 drawing = hlr.draw((points, triangles))
@@ -159,8 +160,9 @@ print(json.dumps({"triangles": len(triangles), "seconds": time.perf_counter() - 
 
 def arrays(count: int) -> Table:
     """`hlr.draw` of so many tori as a pair of arrays, with the share of each stage."""
-    command = [sys.executable, "-c", ARRAYS, str(Path(__file__).parents[1]), str(count)]
-    found = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    command = [sys.executable, "-c", ARRAYS, str(count)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment())
+    found = json.loads(done.stdout)
     stages = ", ".join(f"{name} {seconds:.2f}" for name, seconds in found["stages"].items() if seconds >= 0.01)
     row = [f"{found['triangles']:,}", f"{found['seconds']:.1f} s", f"{found['processor']:.1f} s"]
     headings = ["triangles", "time", "processor time", "memory", "stages, s"]

@@ -16,8 +16,6 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
 from bench import occt, ours, scenes
 
 from hlr.lab.rivals.opencascade import ExactAlgo, HiddenLines, PolyAlgo, forget_mesh, triangle_count

@@ -12,6 +12,8 @@ from typing import Any
 
 from bench.table import Table, geometric_mean
 
+from support.programs import environment
+
 WITHOUT_PEER = {"tori250"}
 SLOW = {("asm16000", "poly"), ("asm16000", "exact"), ("asm4000", "exact")}
 Result = dict[str, Any]
@@ -19,10 +21,19 @@ Result = dict[str, Any]
 
 def measured(scene: str, who: Sequence[str], given: Namespace, repeat: int) -> list[Result]:
     """In turns, in one process. A failure is a result too: the table says so instead of lacking a row."""
-    script = Path(__file__).with_name("measure.py")
-    command = [sys.executable, str(script), scene, ",".join(who), f"--repeat={repeat}", f"--budget={given.budget}"]
+    command = [
+        sys.executable,
+        "-m",
+        "bench.measure",
+        scene,
+        ",".join(who),
+        f"--repeat={repeat}",
+        f"--budget={given.budget}",
+    ]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=given.timeout, check=False)
+        done = subprocess.run(
+            command, capture_output=True, text=True, timeout=given.timeout, check=False, env=environment()
+        )
     except subprocess.TimeoutExpired:
         return _failed(scene, who, f"> {given.timeout:.0f} s")
     if done.returncode:

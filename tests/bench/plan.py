@@ -21,10 +21,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
 from bench.scenes import SCENES
-from peers.report import markdown
 
 import hlr
 import hlr.common.clock
@@ -34,6 +31,7 @@ import hlr.request.effect
 from hlr.drawing.saving import render
 from hlr.request.effect import PLAN, SCENE, everything_on
 from hlr.source import ENDINGS, open_source
+from support.markdown import markdown
 
 for module in (hlr.common.clock, hlr.pipeline.finish, hlr.pipeline.session, hlr.request.effect):
     vars(module)["perf_counter"] = time.process_time  # the stages' stopwatch

@@ -28,8 +28,6 @@ from typing import Any
 
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
 SIZE = (1920, 1080)
 Arrays = dict[str, np.ndarray]
 Run = Callable[[int], tuple[np.ndarray, float]]

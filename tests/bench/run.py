@@ -21,11 +21,8 @@ import argparse
 import json
 import os
 import platform
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from bench import brepmesh, loads, scenes
 from bench.pairs import kernel_table, svg_table

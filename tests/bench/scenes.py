@@ -146,7 +146,7 @@ def make(name: str) -> Any:
     """A scene by name, or the shape of a STEP or BREP file."""
     if name in SCENES:
         return SCENES[name]()
-    from peers.reference import read_shape
+    from support.referee.reference import read_shape
 
     return read_shape(name)
 

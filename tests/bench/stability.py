@@ -22,12 +22,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
 from bench import stability_plot
 from bench.stability_child import DRAWERS
-from peers.report import markdown
+
+from support.markdown import markdown
+from support.programs import environment
 
 AMOUNTS = np.logspace(-9, -3, 13)
 COLUMNS = (
@@ -53,14 +52,14 @@ class Child:
     """A drawer in a process of its own; it may crash, and it is ended when a drawing takes too long."""
 
     def __init__(self, drawer: str, path: Path, limit: int) -> None:
-        script = Path(__file__).with_name("stability_child.py")
         self._limit = limit
         self._process = subprocess.Popen(
-            [sys.executable, str(script), drawer, str(path), str(limit)],
+            [sys.executable, "-m", "bench.stability_child", drawer, str(path), str(limit)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
+            env=environment(),
         )
 
     def answer(self, ask: str = "") -> Row:

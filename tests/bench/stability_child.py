@@ -13,10 +13,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
+from bench.stability_hlr import Model
+from bench.stability_measure import STEP, change
 
-from bench.stability_hlr import Model, strokes
-from bench.stability_measure import STEP, Ink, Stroke, change, ink
+from support.ink import Ink, Stroke, ink, strokes
 
 Drawer = Callable[[float, int], list[Stroke]]
 

@@ -6,18 +6,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
-from unittest import mock
 
 import numpy as np
 import numpy.typing as npt
-from bench.stability_measure import Stroke
 
 from hlr import Options
 from hlr.drawing.drawing import Drawing
-from hlr.pipeline import session
-from hlr.pipeline.draw import draw_views
 from hlr.source import open_source
 from hlr.source.model import PartMesh, Source, Tessellation
+from support.stand_ins import draw_source
 
 Floats = npt.NDArray[np.float64]
 
@@ -71,12 +68,6 @@ class Disturbed:
         return self._meshed
 
 
-def draw(source: Source, view: Any, options: Options) -> Drawing:
-    """`hlr.draw_views` on a source that is open already: all stages but reading."""
-    with mock.patch.object(session, "open_chosen", lambda opened, _: opened):
-        return draw_views(source, [view], options)[0]
-
-
 class Model:
     """A model opened and meshed once, for one view and one scale.
 
@@ -89,7 +80,7 @@ class Model:
     def __init__(self, thing: Any, view: Any = "iso", fit: tuple[float, float] | None = FIT) -> None:
         self.source = open_source(str(thing) if isinstance(thing, Path) else thing)
         self._view = view
-        first = draw(self.source, view, Options(fit=fit))
+        first = draw_source(self.source, view, Options(fit=fit))
         self._options = Options(scale=first.scale)
         self.view, self.scale = first.view, first.scale
         self.per_model = first.scale * first.unit
@@ -124,9 +115,4 @@ class Model:
         return self.drawn([(points - self.centre) @ rotation.T + self.centre for points in self.points])
 
     def drawn(self, points: Sequence[Floats]) -> Drawing:
-        return draw(Disturbed(self.source, self.meshed, points), self._view, self._options)
-
-
-def strokes(drawing: Drawing) -> list[Stroke]:
-    """Lines on paper about a fixed origin: a drawing's own is its lower left corner, which moves with the model."""
-    return [(line.visible, line.points + np.asarray(drawing.origin)) for line in drawing.lines]
+        return draw_source(Disturbed(self.source, self.meshed, points), self._view, self._options)

@@ -15,12 +15,10 @@ import numpy as np
 import numpy.typing as npt
 from bench.scenes import compound
 from bench.stability_hlr import Model, nodes, turn
-from bench.stability_measure import Stroke
-from peers import occt
-from peers.exchange import Camera
-from peers.reference import BREP, read_shape
 
-from hlr.lab.rivals.opencascade import FaceMesh, PolyAlgo, face_meshes, mesh, subshapes
+from hlr.lab.rivals.opencascade import ExactAlgo, FaceMesh, PolyAlgo, face_meshes, mesh, subshapes
+from support.ink import Stroke
+from support.referee.reference import BREP, FINENESS, read_shape, shape_diagonal
 
 Floats = npt.NDArray[np.float64]
 
@@ -28,11 +26,6 @@ ANGLE = 0.5
 """Radians: of the polygonal algorithm's mesh."""
 WELD = 1e-9
 """Of the model's size: nodes of neighbouring faces this near are one, and move together."""
-
-
-def camera_of(model: Model) -> Camera:
-    view = model.view
-    return Camera(view.name, np.array(view.direction), np.array(view.right), np.array(view.up))
 
 
 def shape_of(model: Model, path: Path, crease: float = 30.0) -> Any:
@@ -92,7 +85,7 @@ class Poly:
     def __init__(self, model: Model, path: Path) -> None:
         from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
 
-        self._model, self._camera = model, camera_of(model)
+        self._model = model
         pieces = [BRepBuilderAPI_Copy(piece, True, False).Shape() for piece in _pieces(shape_of(model, path))]
         self._shape = compound(pieces)
         mesh(self._shape, model.deflection, ANGLE)
@@ -131,10 +124,8 @@ class Poly:
         return self._draw()
 
     def _draw(self) -> list[Stroke]:
-        rival = PolyAlgo(self._shape, self._camera.direction, self._camera.right)
-        rival.hide()
-        rival.extract()
-        found = rival.lines(rival.compounds())
+        view = self._model.view
+        found = PolyAlgo(self._shape, view.direction, view.right).drawn()
         return [(visible, points * self._model.per_model) for _, visible, points in found]
 
 
@@ -142,24 +133,17 @@ class Exact:
     """HLRBRep_Algo; the view is turned the other way round, and its lines are laid back before the first camera."""
 
     def __init__(self, model: Model, path: Path) -> None:
-        self._model, self._camera = model, camera_of(model)
-        self._shape = shape_of(model, path)
+        self._model, self._shape = model, shape_of(model, path)
+        self._chord = shape_diagonal(self._shape) / FINENESS
 
     def __call__(self, amount: float, seed: int) -> list[Stroke]:
-        camera, model = self._camera, self._model
+        model = self._model
         rotation = turn(amount * model.size, model.size, seed)
-        turned = Camera(
-            camera.name, *(axis @ rotation if amount else axis for axis in (camera.direction, camera.right, camera.up))
-        )
-        document = occt.draw(self._shape, "exact", turned)
-        axes = np.stack([camera.right, camera.up], axis=1) * model.per_model
-        return [
-            (
-                line["visible"],
-                ((np.array(line["points3"]) - model.centre) @ rotation.T + model.centre) @ axes,
-            )
-            for line in document["lines"]
-        ]
+        axes = model.view.direction, model.view.right
+        turned = (np.array(axis) @ rotation if amount else np.array(axis) for axis in axes)
+        found = ExactAlgo(self._shape, *turned).drawn(self._chord)
+        flat = np.stack([model.view.right, model.view.up], axis=1) * model.per_model
+        return [(visible, ((points - model.centre) @ rotation.T + model.centre) @ flat) for _, visible, points in found]
 
 
 def _pieces(shape: Any) -> Iterator[Any]:

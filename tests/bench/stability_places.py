@@ -6,33 +6,29 @@ python tests/bench/stability_places.py MODEL --amount 1e-7 --seed 0 [--turned]
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
 from bench.stability_child import REACH
-from bench.stability_hlr import Model, strokes
-from bench.stability_measure import COVER, NEAR, STEP, Ink, covered, ink, unmatched
+from bench.stability_hlr import Model
+from bench.stability_measure import COVER, NEAR, STEP, covered
 
 from hlr.drawing.drawing import Drawing
+from support.ink import Ink, ink, stretches, strokes, unmatched
 
 
 def places(these: Ink, others: Ink, near: float) -> Iterator[np.ndarray]:
     """Runs of neighbouring samples of one line without a match, the longest first."""
-    alone = np.flatnonzero(unmatched(these, others, near))
-    breaks = np.flatnonzero((np.diff(alone) > 1) | (np.diff(these.stroke[alone]) != 0)) + 1
-    yield from sorted((run for run in np.split(alone, breaks) if len(run)), key=lambda run: -these.length[run].sum())
+    alone = stretches(these, unmatched(these, others, near))
+    yield from sorted(alone, key=lambda run: -these.length[run].sum())
 
 
 def describe(drawing: Drawing, these: Ink, run: np.ndarray, under: bool) -> str:
-    line = drawing.lines[these.stroke[run[0]]]
+    line = drawing.lines[these.line[run[0]]]
     what = f"{'visible' if line.visible else 'hidden'} {line.kind}"
     which = f"edge {line.edge}" if line.edge is not None else f"face {line.face}"
-    start, end = (f"({x:.3f}, {y:.3f})" for x, y in these.places[[run[0], run[-1]]])
+    start, end = (f"({x:.3f}, {y:.3f})" for x, y in these.points[[run[0], run[-1]]])
     where = f"{drawing.parts[line.part].name} (part {line.part}) {which}"
     return (
         f"{these.length[run].sum():8.3f} mm {what}, {where}, {start} to {end}{', under visible ink' if under else ''}"
@@ -58,7 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if number == given.most:
                 break
             hidden = not these.visible[run[0]]
-            under = covered(these.places[run], before, after, COVER * model.accuracy + reach)
+            under = covered(these.points[run], before, after, COVER * model.accuracy + reach)
             print("  " + describe(drawing, these, run, hidden and bool(under.all())))
     return 0
 

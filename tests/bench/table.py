@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from math import exp, log
 from typing import Any
 
-from peers.report import markdown
+from support.markdown import markdown
 
 
 @dataclass

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 from bench import stability, stability_plot
 from bench.stability_child import Measurement
-from bench.stability_hlr import Model, nodes, strokes, turn
-from bench.stability_measure import COVER, NEAR, STEP, Change, change, ink
+from bench.stability_hlr import Model, nodes, turn
+from bench.stability_measure import COVER, NEAR, STEP, Change, change
+
+from support.ink import ink, strokes
 
 ACCURACY = 0.05
 NOTHING = Change(0.0, 0.0, 0.0, 0.0, 0.0)
@@ -22,7 +24,7 @@ def test_samples_stand_for_the_length_of_the_lines() -> None:
     assert found.total(True) == pytest.approx(5.5) and found.total(False) == pytest.approx(2.0)
     assert found.length.max() <= 0.3
     # The longer side is cut into 17 parts; the first sample is the middle of the first.
-    assert found.places[0] == pytest.approx(np.array([0.6, 0.8]) * 5.0 / 17 / 2)
+    assert found.points[0] == pytest.approx(np.array([0.6, 0.8]) * 5.0 / 17 / 2)
 
 
 def test_a_line_that_turns_hidden_is_lost_and_gained() -> None:

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from peers import exchange, judge, referee, reference
 
 from hlr import Drawing
 from support.expected import Edge3, Ink, differences, doubled, expect, ink
+from support.referee import exchange, judge, referee, reference
 
 Floats = npt.NDArray[np.float64]
 

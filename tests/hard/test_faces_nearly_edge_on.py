@@ -10,9 +10,9 @@ Judged by dense rays against the faces sampled far finer (`peers/edge_on.py`), b
 from __future__ import annotations
 
 import pytest
-from peers import edge_on, sheets
 
 import hlr
+from support import edge_on, sheets
 
 CASES = [
     ("twisted", 0.05, (0.8190332625407435, 0.5737153309804119, -0.0059358108041117075)),
@@ -32,7 +32,7 @@ def test_what_is_seen_is_drawn_and_nothing_else(name, accuracy, view, picture):
     shape = sheets.SHEETS[name]()
     truth = edge_on.Truth(shape, grid=200)
     drawing = hlr.draw(shape, view, accuracy=accuracy)
-    found = edge_on.judge(drawing, truth)
+    found = truth.judge(drawing)
     assert found.seen > 200 and found.judged > 50
     assert not found.gaps, found.gaps[:5]
     assert not found.wrong, found.wrong[:5]
@@ -47,9 +47,9 @@ def test_the_judge_can_find_both_faults():
     shape = sheets.SHEETS["cylinder of 150 degrees"]()
     truth = edge_on.Truth(shape, grid=200)
     drawing = hlr.draw(shape, (1.0, 0.2, 0.3), accuracy=0.1)
-    found = edge_on.judge(drawing, truth)
+    found = truth.judge(drawing)
     assert not found.gaps and not found.wrong
     seen = [line for line in drawing.lines if line.visible]
-    assert edge_on.judge(replace(drawing, lines=tuple(seen[1:])), truth).gaps
+    assert truth.judge(replace(drawing, lines=tuple(seen[1:]))).gaps
     assert any(not line.visible for line in drawing.lines)
-    assert edge_on.judge(replace(drawing, lines=tuple(replace(x, visible=True) for x in drawing.lines)), truth).wrong
+    assert truth.judge(replace(drawing, lines=tuple(replace(x, visible=True) for x in drawing.lines))).wrong

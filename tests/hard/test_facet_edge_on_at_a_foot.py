@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import trimesh
 from hard.brep import same
-from peers import exchange, referee, reference
 
 import hlr
 from hlr.drawing.saving import render
 from support.models import turned
+from support.referee import exchange, referee, reference
 
 FACETS = 5
 """Of a corner: 18 degrees from one to the next."""

@@ -11,11 +11,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from peers import exchange, referee, reference
 
 import hlr
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.saving import render
+from support.referee import exchange, referee, reference
 
 SIDES = 24
 INNER, RADIUS, OUTER = 14.0, 16.0, 28.0

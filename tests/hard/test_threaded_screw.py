@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hard.brep import faultless
-from peers import reference
 
 import hlr
+from support.referee import reference
 
 UNDER_THE_HEAD = 16
 """The edge at which the cone of the head meets the flank of the thread."""

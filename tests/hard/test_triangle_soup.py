@@ -9,10 +9,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from peers import reference
 
 import hlr
 from support.expected import by_oracle, defects, ink, wrong_by_rays
+from support.referee import reference
 
 SOUP = Path(__file__).parents[1] / "data" / "soup.stl"
 

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from peers.curves import DENSE, distance, measured, on_paper, samples, true_curves
 
 import hlr
 from hlr.drawing.curve import Arc, Bezier, arc_bounds, bezier_bounds, raised
 from hlr.drawing.saving import render
 from hlr.source import open_source
+from support.true_curves import DENSE, distance, measured, on_paper, samples, true_curves
 
 cq = pytest.importorskip("cadquery")
 DATA = Path(__file__).parents[1] / "data"

@@ -1,11 +1,11 @@
 """Each class of error: kept by what is drawn, and found where a drawing is spoiled by a known amount."""
 
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from measure.models import pierced
 
 import hlr
 from hlr.drawing.curve import Arc, Bezier
@@ -16,10 +16,6 @@ from hlr.lab.measure.meshes import mesh_errors
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import written
 from hlr.source import open_source
-
-sys.path.append(str(Path(__file__).parent))
-
-from models import pierced
 
 ACCURACY = 0.05
 

@@ -1,17 +1,13 @@
 """The promise at other scales, views and accuracies: small stand-ins for `tests/bench/promise.py`."""
 
-import sys
 from pathlib import Path
 
 import pytest
+from measure.models import frame, pierced
 
 import hlr
 from hlr.lab.measure import measured
 from hlr.source import open_source
-
-sys.path.append(str(Path(__file__).parent))
-
-from models import frame, pierced
 
 DATA = Path(__file__).parents[1] / "data"
 

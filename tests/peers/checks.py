@@ -11,11 +11,8 @@ Exit code 1 if a model without defects has a failed check.
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 from pathlib import Path
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
 
 from peers.referee import files, random_views
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections import defaultdict
 
 import numpy as np
-from peers.exchange import Camera
-from peers.reference import Floats, Reference
+
+from support.referee.exchange import Camera
+from support.referee.reference import Floats, Reference
 
 CELLS = 200
 """Cells of the search grid along the longer side of the image."""

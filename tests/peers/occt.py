@@ -8,21 +8,17 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
-from peers.exchange import Camera
 from peers.lift import Lifter
-from peers.reference import FINENESS, Floats, from_shape, read_shape, shape_diagonal
 
 from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, mark_tangent_edges
+from support.referee.exchange import Camera
+from support.referee.reference import FINENESS, Floats, from_shape, read_shape, shape_diagonal
 
 DIRECTIONS: dict[str, tuple[float, float, float]] = {
     "front": (0, -1, 0),

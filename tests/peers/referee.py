@@ -18,21 +18,20 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
-from peers import exchange, picture, reference, report
-from peers.depth import PIXELS
-from peers.judge import RayCaster, Verdict, judge, offenders
-from peers.off_curve import Off, file_curves, off_curve
-from peers.seen import Seen, look
+from support.markdown import markdown
+from support.programs import environment
+from support.referee import exchange, reference, report
+from support.referee.depth import PIXELS
+from support.referee.off_curve import file_curves
+from support.referee.referee import Curves, Judged, Referee
 
 VIEWS = "front,top,right,iso"
 NAMED = ("front", "back", "left", "right", "top", "bottom", "iso", "iso-sw", "iso-ne", "iso-nw")
@@ -40,8 +39,6 @@ PEERS = ("hlr", "occt-exact", "occt-poly")
 SHEET = 300.0
 """Millimetres on paper of every model's diagonal: about A4."""
 View = str | tuple[float, float, float]
-Curves = tuple[Callable[[str, int], Any], Callable[[str, int], float]]
-"""What `off_curve` asks for: curves of edges, and their tolerances."""
 
 
 @dataclass(frozen=True)
@@ -55,63 +52,6 @@ class Drawn:
     drawing: exchange.Exchange | str
     seconds: float
     own: reference.Reference | None = None
-
-
-@dataclass(frozen=True)
-class Judged:
-    """One drawing and all that is known of it; only the row where there is no drawing."""
-
-    row: report.Row
-    drawing: exchange.Exchange | None = None
-    verdict: Verdict | None = None
-    seen: Seen | None = None
-    off: list[Off] = field(default_factory=list)
-
-    def why(self) -> Iterator[str]:
-        """The wrong lines, worst first, and then where lines are missing, off their curve, and faces lost."""
-        if self.drawing is not None and self.verdict is not None:
-            yield from offenders(self.drawing, self.verdict)
-        if self.drawing is not None and self.seen is not None:
-            yield from self.seen.why()
-            for off in self.off:
-                line, (x, y) = self.drawing.lines[off.line], off.at
-                yield (
-                    f"off its curve by {off.accuracies:.3g} accuracies at ({x:.2f}, {y:.2f}) on paper: {line.kind} of "
-                    f"part {line.part} {self.drawing.parts[line.part]!r} edge {line.edge}"
-                )
-
-    def save_picture(self, path: Path) -> None:
-        """Everything marked on the depth image, as PNG."""
-        if self.drawing is None or self.verdict is None or self.seen is None:
-            return
-        wrong = self.drawing.on_paper(self.verdict.samples.points[self.verdict.wrong_visible])
-        seen = self.seen
-        picture.save(path, self.drawing, seen.sheet, seen.image, seen.gaps, wrong=wrong, off=self.off, lost=seen.lost)
-
-
-class Referee:
-    """An independent mesh of one model, ready to judge drawings of it; with its curves, where lines lie as well."""
-
-    def __init__(self, model: reference.Reference, curves: Curves | None = None, pixels: int = PIXELS) -> None:
-        self._caster = RayCaster(model)
-        self._curves, self._pixels = curves, pixels
-
-    def judge(
-        self,
-        file: str,
-        drawer: str,
-        drawing: exchange.Exchange,
-        seconds: float = 0.0,
-        own: reference.Reference | None = None,
-    ) -> Judged:
-        """Everything that can be held against one drawing; `own`: the triangles that it was made from."""
-        start = time.perf_counter()
-        verdict = judge(drawing, self._caster)
-        seen = look(drawing, self._caster, own, self._pixels)
-        off = off_curve(drawing, *self._curves) if self._curves else []
-        spent = time.perf_counter() - start
-        row = report.row(file, drawer, drawing, verdict, seen, off=len(off), draw=seconds, judge=spent)
-        return Judged(row, drawing, verdict, seen, off)
 
 
 def random_views(count: int, seed: int = 1) -> list[View]:
@@ -178,14 +118,18 @@ def own_triangles(found: list[reference.Reference]) -> Iterator[None]:
 
 def draw_with_occt(path: Path, views: Sequence[View], method: str, timeout: float) -> Iterator[Drawn]:
     """One child process per view: some models keep the exact algorithm busy for ever, or crash it."""
-    script = Path(__file__).with_name("occt.py")
     for view in views:
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "drawing.json"
-            command = [sys.executable, str(script), str(path), f"--method={method}", f"--view={view_name(view)}"]
+            command = [sys.executable, "-m", "peers.occt", str(path), f"--method={method}", f"--view={view_name(view)}"]
             try:
                 done = subprocess.run(
-                    [*command, f"--out={out}"], timeout=timeout, capture_output=True, text=True, check=False
+                    [*command, f"--out={out}"],
+                    timeout=timeout,
+                    capture_output=True,
+                    text=True,
+                    check=False,
+                    env=environment(),
                 )
             except subprocess.TimeoutExpired:
                 yield Drawn(view_name(view), f"no end within {timeout:.0f} s", timeout)
@@ -310,7 +254,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if not rows:
         print("no model files found", file=sys.stderr)
         return 2
-    table = report.markdown(report.HEADINGS, [row.cells() for row in [*rows, report.total(rows)]])
+    table = markdown(report.HEADINGS, [row.cells() for row in [*rows, report.total(rows)]])
     print(table)
     if given.table:
         given.table.write_text(table + "\n")

@@ -23,9 +23,9 @@ from typing import Any
 import numpy as np
 
 import hlr
-from hlr.drawing.curve import Arc
 from hlr.drawing.drawing import Drawing
-from hlr.drawing.line import Line
+from support.ink import flat
+from support.programs import environment
 
 SHEET = (277, 190)
 NAMES = {"exact": "HLRBRep_Algo", "poly": "HLRBRep_PolyAlgo", "hlr": "hlr"}
@@ -46,27 +46,16 @@ def ours(drawing: Drawing) -> Panel:
     return Panel(f"hlr: {seconds:.2g} s, {len(lines)} lines", lines)
 
 
-def flat(line: Line) -> np.ndarray:
-    """A line's curve as a fine polyline."""
-    if line.curve is None:
-        return line.points
-    if isinstance(line.curve, Arc):
-        return line.curve.at(np.linspace(*line.curve.angles, 200))
-    pieces = (len(line.curve.points) - 1) // line.curve.degree
-    return line.curve.at(np.linspace(0.0, pieces, 40 * pieces + 1))
-
-
 def theirs(path: Path, drawing: Drawing, method: str, limit: float) -> Panel:
     """OpenCASCADE's lines of the same view, in the same place."""
     per_model = drawing.scale * drawing.unit
     deflection = drawing.accuracy.deflection / drawing.unit
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "drawing.json"
-        script = Path(__file__).with_name("occt.py")
-        command = [sys.executable, str(script), str(path), f"--method={method}", f"--view={drawing.view.name}"]
+        command = [sys.executable, "-m", "peers.occt", str(path), f"--method={method}", f"--view={drawing.view.name}"]
         command += [f"--out={out}", f"--deflection={deflection}", "--flat"]
         try:
-            subprocess.run(command, timeout=limit, check=True, capture_output=True)
+            subprocess.run(command, timeout=limit, check=True, capture_output=True, env=environment())
         except subprocess.TimeoutExpired:
             return Panel(f"{NAMES[method]}: not finished in {limit:.0f} s", [])
         except subprocess.CalledProcessError as error:

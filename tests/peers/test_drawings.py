@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from peers import exchange, models, referee, reference
-from peers.judge import RayCaster, judge, offenders
+from peers import models, referee
 
 import hlr
+from support.referee import exchange, reference
+from support.referee.judge import RayCaster, judge, offenders
 
 QUICK = 4000
 """Fineness of the tests: the same rules at five times the lengths. The command line judges at the full one."""

@@ -12,9 +12,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from peers import exchange, models, occt, referee, reference
-from peers.judge import FRACTIONS, RayCaster, judge, offenders
+from peers import models, occt, referee
 from PIL import Image
+
+from support.programs import environment
+from support.referee import exchange, reference
+from support.referee.judge import FRACTIONS, RayCaster, judge, offenders
 
 
 def wall_document(lines: list[dict[str, Any]], eye: list[float] | None = None) -> dict[str, Any]:
@@ -166,10 +169,13 @@ def test_reference_of_a_far_away_model_is_as_good(tmp_path: Path) -> None:
 def test_command_judges_a_peer_and_writes_the_table(tmp_path: Path) -> None:
     path = models.save("box", tmp_path)
     table = tmp_path / "table.md"
-    script = Path(referee.__file__)
-    command = [sys.executable, script, path, "--views=iso", "--peer=occt-exact", "--peer=occt-poly"]
+    command = [sys.executable, "-m", "peers.referee", path, "--views=iso", "--peer=occt-exact", "--peer=occt-poly"]
     done = subprocess.run(
-        [*command, f"--table={table}", f"--png={tmp_path}"], capture_output=True, text=True, check=False
+        [*command, f"--table={table}", f"--png={tmp_path}"],
+        capture_output=True,
+        text=True,
+        check=False,
+        env=environment(),
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert table.read_text().count("| box.brep") == 2

@@ -11,13 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from peers import exchange, models, referee, reference
-from peers.judge import RayCaster
-from peers.seen import look
+from peers import models, referee
 
 import hlr
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.saving import render
+from support.referee import exchange, reference
+from support.referee.judge import RayCaster
+from support.referee.seen import look
 
 QUICK = 4000
 """Fineness of the reference mesh, diagonals per deflection."""

@@ -101,7 +101,7 @@ def test_a_file_in_metres_with_y_up(tmp_path):
 
 def test_several_views_read_and_mesh_once(monkeypatch):
     seen = {"open": 0, "mesh": 0, "build": 0}
-    real_open, real_build = session.open_chosen, session.build
+    real_open, real_build = session.open_selected, session.build
 
     def opening(thing, options):
         seen["open"] += 1
@@ -119,7 +119,7 @@ def test_several_views_read_and_mesh_once(monkeypatch):
         seen["build"] += 1
         return real_build(*arguments)
 
-    monkeypatch.setattr(session, "open_chosen", opening)
+    monkeypatch.setattr(session, "open_selected", opening)
     monkeypatch.setattr(session, "build", building)
     drawings = hlr.draw_views(bracket(), ["front", "top", "right", "iso"])
     assert [d.view.name for d in drawings] == ["front", "top", "right", "iso"]

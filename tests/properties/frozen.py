@@ -9,15 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 
 from hlr import Drawing, Options
-from hlr.pipeline import session
-from hlr.pipeline.draw import draw_views
 from hlr.source import open_source
 from hlr.source.model import Frame, PartInfo, PartMesh, Tessellation
+from support.stand_ins import draw_source
 
 BREP = ("step", "iges", "brep", "script", "object")
 ANGLE = 0.5
@@ -78,5 +76,4 @@ def freeze(thing: Any, fineness: float) -> Frozen:
 
 def draw(model: Frozen, view: str | Sequence[float], accuracy: float, **options: Any) -> Drawing:
     """The accuracy is always given: by default it follows from the model's upright box, which turning changes."""
-    with patch.object(session, "open_chosen", lambda thing, _: thing):
-        return draw_views(model, [view], Options(accuracy=accuracy, **options))[0]
+    return draw_source(model, view, Options(accuracy=accuracy, **options))

@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from hlr import Drawing
+from support.ink import Ink, beside, ink, stretches, strokes
 
 Map = Callable[[np.ndarray], np.ndarray]
 STEP = 2.0
@@ -28,15 +28,6 @@ LONGEST = 2.0 * STUB + 1.0
 """Accuracies that may change class at a stretch where something is decided by rounding alone: a hidden piece too short
 to be drawn comes and goes, and with it the doubtful ones on both its sides. Whole edges of the scenes here are longer,
 so an edge that changes as a whole is always noticed."""
-
-
-@dataclass(frozen=True)
-class Ink:
-    """points (n, 2) on paper, before the drawing was moved to its origin; line (n,) they lie on; weight (n,) mm."""
-
-    points: np.ndarray
-    line: np.ndarray
-    weight: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -55,48 +46,32 @@ class Change:
         return f"{self.longest:.1f} at a stretch, {self.total:.1f} in all accuracies ({self.share:.2%}): {self.where}"
 
 
-def ink(drawing: Drawing, visible: bool, step: float, moved: Map = lambda p: p) -> Ink:
-    """Samples at most `step` apart, corners among them."""
-    lines = [line for line in drawing.lines if line.visible == visible]
-    ends = [np.stack([p[:-1], p[1:]], axis=1) for p in (moved(line.points + drawing.origin) for line in lines)]
-    pieces = np.concatenate([np.zeros((0, 2, 2)), *ends])
-    owner = np.repeat(np.arange(len(lines)), [len(e) for e in ends])
-    size = np.hypot(*(pieces[:, 1] - pieces[:, 0]).T)
-    count = np.ceil(size / step).astype(int) + 1
-    which = np.repeat(np.arange(len(pieces)), count)
-    first = np.cumsum(count) - count
-    t = (np.arange(len(which)) - first[which]) / np.maximum(count - 1, 1)[which]
-    points = pieces[which, 0] + (pieces[which, 1] - pieces[which, 0]) * t[:, None]
-    return Ink(points, owner[which], (size / count)[which])
-
-
-def _away(points: np.ndarray, other: Ink) -> np.ndarray:
-    if not len(other.points):
-        return np.full(len(points), np.inf)
-    return np.asarray(cKDTree(other.points).query(points)[0])
+def _moved(drawing: Drawing, step: float, moved: Map) -> Ink:
+    return ink([(visible, moved(points)) for visible, points in strokes(drawing)], step, ends=True)
 
 
 def _missing(one: Drawing, other: Drawing, reach: float, visible: bool, a: Map, b: Map) -> tuple[float, float, str]:
     """What ink of one class the first has and the second has not: longest stretch, all of it, and where."""
     accuracy = one.accuracy.used
     step = STEP * accuracy
-    mine, same = ink(one, visible, step, a), ink(other, visible, step, b)
+    mine, theirs = _moved(one, step, a), _moved(other, step, b)
     slack = 0.5 * step
-    lacking = _away(mine.points, same) > np.hypot(reach * accuracy, slack)
-    if not visible and lacking.any():
+    lacking = np.flatnonzero(mine.visible == visible)
+    lacking = lacking[~beside(mine.points[lacking], theirs, visible, np.hypot(reach * accuracy, slack))]
+    if not visible:
         # Under the ink of a visible line a hidden one may be drawn or not.
-        over = ink(other, True, step, b)
-        lacking[lacking] = _away(mine.points[lacking], over) > np.hypot((reach + UNDER) * accuracy, slack)
-    if not lacking.any():
+        under = np.hypot((reach + UNDER) * accuracy, slack)
+        lacking = lacking[~beside(mine.points[lacking], theirs, True, under)]
+    if not len(lacking):
         return 0.0, 0.0, ""
-    starts = np.flatnonzero(np.diff(lacking.astype(int), prepend=0) > 0)
-    starts = np.union1d(starts, np.flatnonzero(lacking & (np.diff(mine.line, prepend=-1) != 0)))
-    runs = np.add.reduceat(np.where(lacking, mine.weight, 0.0), starts)
-    worst = int(starts[np.argmax(runs)])
+    chosen = np.zeros(len(mine.points), bool)
+    chosen[lacking] = True
+    runs = stretches(mine, chosen)
+    lengths = [float(mine.length[run].sum()) for run in runs]
+    worst = int(runs[int(np.argmax(lengths))][0])
     x, y = mine.points[worst]
-    kinds = [line.kind for line in one.lines if line.visible == visible]
-    text = f"{'visible' if visible else 'hidden'} {kinds[mine.line[worst]]} at {x:.4f}, {y:.4f}"
-    return float(runs.max()) / accuracy, float(runs.sum()) / accuracy, text
+    text = f"{'visible' if visible else 'hidden'} {one.lines[mine.line[worst]].kind} at {x:.4f}, {y:.4f}"
+    return max(lengths) / accuracy, sum(lengths) / accuracy, text
 
 
 def change(before: Drawing, after: Drawing, reach: float = 1.0, back: Map = lambda p: p, hidden: bool = True) -> Change:

@@ -18,16 +18,12 @@ Exit code 1 where bytes differ. Models that cannot be read are reported and pass
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-
 from properties import changes
 from properties.assemblies import rotation
 from properties.frozen import Frozen, draw, freeze

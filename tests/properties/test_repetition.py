@@ -7,10 +7,8 @@ MAY MOVE   nothing.
 from __future__ import annotations
 
 import hashlib
-import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +20,7 @@ from properties.frozen import draw
 from properties.identity import everything
 
 from hlr import Perspective
+from support.programs import environment
 
 ACCURACY = 0.01
 THREADS = (1, 2, 4)
@@ -81,8 +80,6 @@ def drawn_here():
 
 
 PROGRAM = """
-import sys
-sys.path.insert(0, sys.argv[1])
 from properties.test_repetition import drawn_here
 print(*drawn_here(), sep="\\n")
 """
@@ -91,10 +88,9 @@ print(*drawn_here(), sep="\\n")
 @pytest.mark.slow
 def test_another_process_meshes_and_draws_the_same():
     """Also where sets and dictionaries run in another order, and the machine seems to have another number of cores."""
-    tests = str(Path(__file__).resolve().parents[1])
-    environment = os.environ | {"PYTHONHASHSEED": "2", "RAYON_NUM_THREADS": "3"}
-    command = [sys.executable, "-P", "-c", PROGRAM, tests]
-    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    command = [sys.executable, "-P", "-c", PROGRAM]
+    other = environment(PYTHONHASHSEED="2", RAYON_NUM_THREADS="3")
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=other)
     assert done.stdout.splitlines() == list(drawn_here())
 
 

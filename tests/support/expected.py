@@ -294,9 +294,8 @@ def wrong_by_rays(drawing: Drawing, points: npt.ArrayLike, triangles: npt.ArrayL
 
     Give points and triangles in the coordinates of the model that was drawn.
     """
-    from peers import exchange, judge, reference
-
     from hlr.drawing.saving import render
+    from support.referee import exchange, judge, reference
 
     verdict = judge.judge(
         exchange.parse(render(drawing, "json")), judge.RayCaster(reference.from_arrays(points, triangles))

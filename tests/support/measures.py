@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from hlr import Drawing, Line
+from hlr.lab.sampling import with_ends
 
 DIGITS = 6
 
@@ -46,11 +47,7 @@ def segments(drawing: Drawing, visible: bool | None = None) -> np.ndarray:
 
 def samples(pieces: np.ndarray, step: float) -> np.ndarray:
     """(m, 2) points along pieces, at most `step` apart."""
-    out = [np.zeros((0, 2))]
-    for a, b in pieces:
-        n = int(np.ceil(np.hypot(*(b - a)) / step)) + 1
-        out.append(a + (b - a) * np.linspace(0.0, 1.0, n)[:, None])
-    return np.concatenate(out)
+    return with_ends(pieces.reshape(-1, 4), step).points
 
 
 def distances(points: np.ndarray, pieces: np.ndarray) -> np.ndarray:

@@ -80,6 +80,12 @@ class HiddenLines(ABC):
                     found.append((name, visible, points))
         return found
 
+    def drawn(self, chord: float = 0.0) -> list[Line]:
+        """All three steps."""
+        self.hide()
+        self.extract()
+        return self.lines(self.compounds(), chord)
+
     @abstractmethod
     def _run(self, projector: Any) -> Any: ...
 

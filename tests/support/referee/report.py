@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from peers.exchange import Exchange
-from peers.judge import Verdict
-from peers.seen import Seen
+from support.referee.exchange import Exchange
+from support.referee.judge import Verdict
+from support.referee.seen import Seen
 
 HEADINGS = (
     "file",
@@ -140,13 +140,3 @@ def total(rows: Sequence[Row]) -> Row:
 
 def _percent(part: int, whole: int) -> str:
     return f"{100 * part / whole:.2f}" if whole else "-"
-
-
-def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table that reads well as text too."""
-    table = [list(headings), *map(list, rows)]
-    widths = [max(len(line[column]) for line in table) for column in range(len(headings))]
-    lines = [
-        "| " + " | ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)) + " |" for line in table
-    ]
-    return "\n".join([lines[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *lines[1:]])

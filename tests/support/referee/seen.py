@@ -9,12 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from peers.depth import PIXELS, Depths, Hits, Sheet
-from peers.exchange import Exchange
-from peers.judge import RayCaster
-from peers.lost import Lost, lost
-from peers.missing import Missing, missing
-from peers.reference import Reference
+from support.referee.depth import PIXELS, Depths, Hits, Sheet
+from support.referee.exchange import Exchange
+from support.referee.judge import RayCaster
+from support.referee.lost import Lost, lost
+from support.referee.missing import Missing, missing
+from support.referee.reference import Reference
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,9 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from peers.exchange import Exchange, Floats
-from peers.judge import RayCaster
+
+from support.referee.exchange import Exchange, Floats
+from support.referee.judge import RayCaster
 
 PIXELS = 1000
 """Along the longer side of the paper."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from peers.depth import Hits, Sheet
-from peers.exchange import Exchange, Floats
-from peers.lost import Lost
-from peers.missing import Missing
-from peers.off_curve import Off
+
+from support.referee.depth import Hits, Sheet
+from support.referee.exchange import Exchange, Floats
+from support.referee.lost import Lost
+from support.referee.missing import Missing
+from support.referee.off_curve import Off
 
 ZOOM = 2
 RING = 14

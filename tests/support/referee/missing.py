@@ -14,10 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from peers.depth import Depths, Hits, Sheet
-from peers.exchange import Exchange, Floats
 from scipy.ndimage import label
 from scipy.spatial import cKDTree
+
+from support.referee.depth import Depths, Hits, Sheet
+from support.referee.exchange import Exchange, Floats
 
 NEAR = 2.5
 """A visible line this many pixels away will do."""

@@ -14,8 +14,9 @@ import numpy as np
 import numpy.typing as npt
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
-from peers.exchange import Camera, DrawnLine, Exchange
-from peers.reference import FINENESS, Floats, Reference
+
+from support.referee.exchange import Camera, DrawnLine, Exchange
+from support.referee.reference import FINENESS, Floats, Reference
 
 FRACTIONS = (0.1, 0.3, 0.5, 0.7, 0.9)
 SHORTEST = 1 / 1000

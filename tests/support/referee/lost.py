@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from peers.depth import Hits, Sheet
 from scipy.ndimage import binary_opening, label
+
+from support.referee.depth import Hits, Sheet
 
 BROAD = 5
 """Pixels: an area is at least this wide both ways. Borders, which differ by a tessellation, are not."""

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from peers.exchange import Exchange, Floats
 from scipy.spatial import cKDTree
+
+from support.referee.exchange import Exchange, Floats
 
 SAMPLES = 60
 """Per line."""
@@ -77,9 +78,9 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
-    from peers.curves import true_curves
 
     from hlr.source.cad.shapes import sub_shapes
+    from support.true_curves import true_curves
 
     curves = true_curves(source)
     edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]

@@ -1,0 +1,100 @@
+"""How far the curves of a drawing's edges are from OpenCASCADE's own evaluation of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from hlr.drawing.curve import Arc
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Line
+from hlr.lab.sampling import bezier_pieces, evenly
+from hlr.source.cad.shapes import sub_shapes
+from hlr.source.transforms import transform_points
+
+DENSE = 600
+"""Samples per edge, and per line a tenth of that."""
+
+
+def true_curves(source: Any) -> dict[tuple[str, int], Any]:
+    """A function from a part's name and an edge's index to (n, 3) points of OpenCASCADE's curve; None: it has none."""
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.GeomAbs import GeomAbs_CurveType
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopoDS import TopoDS
+
+    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    parts = {part.name: part for part in source.parts}
+    known: dict[tuple[str, int], Any] = {}
+
+    def at(name: str, edge: int) -> Any:
+        if (name, edge) not in known:
+            part = parts[name]
+            curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.root][edge]))
+            spline = curve.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve
+            # A helix of many turns is one B-spline.
+            count = 8 * DENSE if spline else DENSE
+            places = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
+            values = [curve.Value(float(t)) for t in places]
+            known[name, edge] = transform_points(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
+        return known[name, edge]
+
+    return at
+
+
+def on_paper(drawing: Drawing, points: np.ndarray) -> np.ndarray:
+    """As the exchange format describes it."""
+    view, origin = drawing.view, np.array(drawing.origin)
+    axes = np.array([view.right, view.up]).T
+    factor = drawing.unit * drawing.scale
+    if view.eye is None:
+        return points @ axes * factor - origin
+    away = points - np.array(view.eye)
+    depth = -(away @ np.array(view.direction))
+    with np.errstate(all="ignore"):
+        return away @ axes * (view.distance / depth)[:, None] * factor - origin
+
+
+def samples(line: Line, count: int = DENSE // 10) -> np.ndarray:
+    """Points along what is drawn."""
+    if line.curve is None:
+        t = np.linspace(0.0, 1.0, max(2, count // len(line.points)))[:, None]
+        return np.concatenate([a + (b - a) * t for a, b in zip(line.points, line.points[1:], strict=False)])
+    return evenly(line.curve, count if isinstance(line.curve, Arc) else max(count, 8 * bezier_pieces(line.curve)))
+
+
+def distance(points: np.ndarray, path: np.ndarray) -> float:
+    """Largest distance of points to a polyline."""
+    a, way = path[:-1], np.diff(path, axis=0)
+    d = points[:, None] - a
+    size = np.maximum((way * way).sum(axis=1), 1e-300)
+    t = np.clip((d * way).sum(axis=2) / size, 0.0, 1.0)[..., None]
+    return float(np.sqrt(((d - way * t) ** 2).sum(axis=2)).min(axis=1).max())
+
+
+def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], str]:
+    """Largest distance of curves and of polylines, in accuracies; how many lines of each form; which was the worst."""
+    accuracy = drawing.accuracy.used
+    worst = {"curve": 0.0, "polyline": 0.0}
+    forms: Counter[str] = Counter()
+    where = ""
+    for line in drawing.lines:
+        if line.edge is None:
+            continue
+        straight = line.curve is None and len(line.points) == 2
+        forms["straight" if straight else type(line.curve).__name__.replace("NoneType", "polyline")] += 1
+        try:
+            path = on_paper(drawing, true(drawing.parts[line.part].name, line.edge))
+        except Exception:  # no curve in space
+            forms["without curve"] += 1
+            continue
+        path = path[np.isfinite(path).all(axis=1)]
+        off = distance(samples(line), path) / accuracy
+        key = "polyline" if line.curve is None and not straight else "curve"
+        if off > worst[key]:
+            worst[key] = off
+            if key == "curve":
+                where = f"{drawing.parts[line.part].name} {line.edge}"
+    return worst["curve"], worst["polyline"], forms, where
