@@ -7,8 +7,12 @@ from typing import Any
 
 import click
 
+from hlr.tables.entry import listed
+from hlr.tables.readers import file_titles
+from hlr.tables.writers import PICTURE, WRITERS, titles
+
 VERBS = {
-    "draw": "Draw a model as SVG, PDF or JSON.",
+    "draw": f"Draw a model as {titles('or')}.",
     "plan": "Which effects a drawing needs, and why, without drawing it.",
     "preview": "Shaded picture of a model as PNG.",
     "methods": "Time the visible-surface methods side by side.",
@@ -47,16 +51,18 @@ def _version(ctx: click.Context, parameter: click.Parameter, wanted: Any) -> Non
     ctx.exit()
 
 
-@click.group(cls=Verbs, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+_HELP = f"""Hidden-line drawings of CAD models.
+
+\b
+  hlr draw motor.step -o motor.svg
+  hlr preview motor.step -o motor.png --edges
+  hlr info motor.step
+
+Reads {file_titles()}. Writes {listed((*map(str.upper, WRITERS), PICTURE.name.upper()), "and")}.
+"""
+
+
+@click.group(cls=Verbs, help=_HELP, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.option("--version", is_flag=True, expose_value=False, is_eager=True, callback=_version, help="Show the version.")
 def command() -> None:
-    """Hidden-line drawings of CAD models.
-
-    \b
-      hlr draw motor.step -o motor.svg
-      hlr preview motor.step -o motor.png --edges
-      hlr info motor.step
-
-    Reads STEP, IGES, BREP, CadQuery and build123d scripts, STL, OBJ, PLY, OFF, 3MF and GLB. Writes SVG, PDF, JSON and
-    PNG.
-    """
+    """Hidden-line drawings of CAD models."""

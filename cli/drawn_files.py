@@ -73,9 +73,10 @@ def _column(output: str | None, source: str, names: Sequence[str], format: str |
 
 def _format(path: Path, format: str | None) -> str:
     """What the name says, else the option; raises WriteError where neither does."""
-    from hlr.drawing.saving import FORMATS, format_of
+    from hlr.drawing.saving import format_of
+    from hlr.tables.writers import WRITERS
 
-    known = path.suffix.lower().removeprefix(".") in FORMATS
+    known = path.suffix.lower().removeprefix(".") in WRITERS
     return format_of(path) if known or format is None else format
 
 

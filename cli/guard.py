@@ -27,6 +27,7 @@ from typing import NoReturn
 
 from hlr.common.process import claim
 from hlr.errors import SourceError
+from hlr.tables.readers import of_ending
 
 from .signals import STOPPING, Stopped, hang_up_ignored
 
@@ -47,8 +48,6 @@ CRASHES = {
 
 _READING = ("", "source", "tessellate")
 """Stages in which OpenCASCADE, or a script, is at work; the others are ours alone."""
-
-_CAD = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 
 _PATIENCE = 2.0
 """Seconds for the progress bar of a worker that crashed to clear its line, and for a stopped one to tidy up."""
@@ -138,9 +137,9 @@ def _wait(worker: int, reading: int, source: Path) -> NoReturn:
     stage, _, done = notes.last().partition(" ")
     if stage == "done":  # whatever became of it after that
         os._exit(int(done))
-    kind = source.suffix.lower()
+    reader = of_ending(source.suffix)
     if code >= 0:
-        if kind == ".py":
+        if reader is not None and reader.kind == "script":
             raise SourceError(
                 f"{source.name} ended the program (exit code {code}) before anything was drawn; nothing was written; "
                 "take os._exit out of it"
@@ -151,14 +150,9 @@ def _wait(worker: int, reading: int, source: Path) -> NoReturn:
     if -code not in CRASHES:
         raise Stopped(-code)
     reason = CRASHES[signal.Signals(-code)]
-    if stage in _READING and kind == ".py":
-        raise SourceError(f"{source.name} crashed ({reason}) in compiled code that it uses; nothing was written")
-    if stage in _READING and kind in _CAD:
+    if stage in _READING and reader is not None and reader.crash:
         doing = "meshed" if stage == "tessellate" else "read"
-        raise SourceError(
-            f"{source.name} crashed OpenCASCADE ({reason}) while it was {doing}; nothing was written; the file is "
-            "probably broken: export it again, or in another format"
-        )
+        raise SourceError(reader.crash.format(name=source.name, reason=reason, doing=doing))
     raise CrashError(f"{reason} while drawing {source.name}; nothing was written")
 
 

@@ -9,6 +9,7 @@ import click
 
 from hlr.errors import OptionError
 from hlr.request.directions import EYE
+from hlr.tables.readers import file_titles
 
 from .parameters import Scale, Size, Vector, Vector3, ViewName, Window
 
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
     from hlr.request.options import Perspective, View
 
 Command = Callable[..., Any]
+
+_ANNOTATED = file_titles(lambda reader: "annotations" in reader.takes)
+_CACHED = file_titles(lambda reader: reader.cached)
 
 VIEW = click.option(
     "--view",
@@ -45,7 +49,7 @@ WINDOW = click.option(
 )
 
 ANNOTATIONS = click.option(
-    "--annotations", is_flag=True, help="STEP: also faces of annotation, hidden or supplemental in the file."
+    "--annotations", is_flag=True, help=f"{_ANNOTATED}: also faces of annotation, hidden or supplemental in the file."
 )
 
 
@@ -61,7 +65,7 @@ NO_CACHE = click.option(
     is_flag=True,
     expose_value=False,
     callback=_uncached,
-    help="STEP, IGES and BREP: read the file, even where it was read before, and keep nothing.",
+    help=f"{_CACHED}: read the file, even where it was read before, and keep nothing.",
 )
 
 CHOICE = (

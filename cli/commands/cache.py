@@ -6,19 +6,26 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hlr.tables.readers import file_titles
+
 if TYPE_CHECKING:
     from hlr.cache.store import Store
 
 
-@click.group()
-def cache() -> None:
-    """STEP, IGES and BREP files that were read before need not be read again: what they hold is kept.
+_FILES = file_titles(lambda reader: reader.cached)
 
-    \b
-      HLR_CACHE=DIR        the folder, instead of the usual one for such files
-      HLR_CACHE=off        nothing is kept, and nothing of it used; --no-cache does so once
-      HLR_CACHE_SIZE=1GB   how large it may become; what was not used for longest goes first
-    """
+_HELP = f"""{_FILES} files that were read before need not be read again: what they hold is kept.
+
+\b
+  HLR_CACHE=DIR        the folder, instead of the usual one for such files
+  HLR_CACHE=off        nothing is kept, and nothing of it used; --no-cache does so once
+  HLR_CACHE_SIZE=1GB   how large it may become; what was not used for longest goes first
+"""
+
+
+@click.group(help=_HELP)
+def cache() -> None:
+    """The cache of models."""
 
 
 @cache.command()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from hlr.errors import OptionError
+from hlr.tables.line_classes import optional
+from hlr.tables.writers import WRITERS, formats
 
 from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
@@ -17,7 +19,7 @@ from ..parameters import Duration, Vector3
 from ..streams import Output, result_only
 from ..telling import summary, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, names_of, options, perspective_of
+from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, Command, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
@@ -26,15 +28,22 @@ if TYPE_CHECKING:
     from ..meter import Progress
 
 
-LINES = (
+def _asked_for() -> Iterator[Callable[[Command], Command]]:
+    """The options that ask for lines of a class, or for none of them."""
+    known = set()
+    for row in optional():
+        if row.option not in known:  # classes may share one
+            name = row.option
+            known.add(name)
+            if row.by_default:
+                yield click.option(f"--{name}/--no-{name}", default=True, help=row.help)
+            else:
+                yield click.option(f"--{name}", is_flag=True, help=row.help)
+
+
+LINES: tuple[Callable[[Command], Command], ...] = (
     click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on."),
-    click.option("--smooth", is_flag=True, help="Also tangent edges, thin."),
-    click.option("--seam", is_flag=True, help="Also the seams of closed surfaces."),
-    click.option(
-        "--intersections/--no-intersections",
-        default=True,
-        help="Lines where surfaces pass through each other. Default: on.",
-    ),
+    *_asked_for(),
     click.option("--see-through", is_flag=True, help="Parts that are transparent in the file hide nothing."),
     click.option("--fill", is_flag=True, help="Paint the visible faces under the lines."),
 )
@@ -49,7 +58,7 @@ LINES = (
     "outputs",
     metavar="FILE",
     multiple=True,
-    help="Where to write: .svg, .pdf or .json; a folder/; - for standard output. May be repeated. {stem}, {view} and "
+    help=f"Where to write: {formats('.')}; a folder/; - for standard output. May be repeated. {{stem}}, {{view}} and "
     "{n} stand for the source, the view and its number. Default: {stem}.svg in this folder.",
 )
 @VIEW
@@ -69,7 +78,7 @@ LINES = (
 )
 @click.option("--report", is_flag=True, help="Measure what accuracy was reached; takes longer than the drawing.")
 @options(*CAMERA, *RUN)
-@click.option("--format", type=click.Choice(["svg", "pdf", "json"]), help="Format, where the name does not say it.")
+@click.option("--format", type=click.Choice(list(WRITERS)), help="Format, where the name does not say it.")
 @click.option("--explain", is_flag=True, help="Say what the scene and the request called for, why, and what it cost.")
 @click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")

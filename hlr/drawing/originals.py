@@ -8,9 +8,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from hlr.errors import WriteError
-from hlr.tables.readers import BESIDE, ENDINGS
-
-_MODELS = frozenset((*ENDINGS, *BESIDE))
+from hlr.tables.readers import is_model
 
 _HEAD = 1 << 20
 """Bytes: an OBJ file names its materials at its beginning."""
@@ -28,7 +26,7 @@ def check_model(path: Path) -> None:
     """Raise WriteError where `path` is there and is a model, by its ending or by that of what it is a link to."""
     names = [str(path), os.path.realpath(path)] if os.path.islink(path) else [str(path)]
     for name in names:
-        if os.path.splitext(name)[1].lower() in _MODELS and path.is_file():
+        if is_model(name) and path.is_file():
             raise WriteError(f"cannot write {path}: it is a model, and a drawing would destroy it; give another name")
 
 

@@ -11,12 +11,10 @@ from typing import Any, Literal
 
 from hlr.drawing import files
 from hlr.errors import WriteError
-from hlr.tables.writers import DEPTH, FACES, PICTURE, WRITERS
+from hlr.tables.writers import DEPTH, FACES, PICTURE, WRITERS, formats
 
 Format = Literal["svg", "pdf", "json"]
-"""What a drawing is written as, for type checkers; `FORMATS` is what there is."""
-
-FORMATS = tuple(WRITERS)
+"""What a drawing is written as, for type checkers; `hlr.tables.writers.WRITERS` is what there is."""
 
 
 def format_of(path: str | Path) -> str:
@@ -25,24 +23,18 @@ def format_of(path: str | Path) -> str:
     if ending in WRITERS:
         return ending
     has = f"the ending .{ending} is unknown" if ending else "the name has no ending"
-    raise WriteError(f"cannot tell the format of {path}: {has}; use {_listed('.')}")
+    raise WriteError(f"cannot tell the format of {path}: {has}; use {formats('.')}")
 
 
 def checked_format(format: Any) -> str:
     """The format; raises WriteError for what is none."""
     if isinstance(format, str) and format in WRITERS:
         return format
-    raise WriteError(f"unknown format {format!r}; use {_listed()}")
-
-
-def _listed(before: str = "", around: str = "") -> str:
-    """All formats, for people: svg, pdf or json."""
-    *first, last = (f"{around}{before}{name}{around}" for name in WRITERS)
-    return f"{', '.join(first)} or {last}"
+    raise WriteError(f"unknown format {format!r}; use {formats()}")
 
 
 def render(drawing: object, format: str) -> bytes:
-    """The drawing as a file's content; format is one of FORMATS. Raises WriteError for any other."""
+    """The drawing as a file's content; format is the name of a writer. Raises WriteError for any other."""
     return WRITERS[checked_format(format)].render(drawing)
 
 
@@ -55,7 +47,7 @@ def write(drawing: object, file: Any, format: Any = None) -> Path | None:
     """
     if hasattr(file, "write"):
         if format is None:
-            raise WriteError(f"a file object has no ending that names the format: give format={_listed(around=_QUOTE)}")
+            raise WriteError(f"a file object has no ending that names the format: give format={formats(around=_QUOTE)}")
         files.put(file, render(drawing, checked_format(format)))
         return None
     path = files.path_of(file)

@@ -15,6 +15,7 @@ from hlr.image.strays import stray_note
 from hlr.request.accuracy import CURVE_BULGE, Tolerances, choose, derive
 from hlr.request.options import Options
 from hlr.source.model import Source
+from hlr.tables.readers import is_brep
 
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
@@ -77,7 +78,7 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
         raise SourceError(f"{source.name} has no size: all of it lies in one point")
     aspect = options.fit[0] / options.fit[1] if options.fit else ASPECT
     width, height = _extent(camera, corners, aspect)
-    brep = source.kind in ("step", "iges", "brep", "script", "object")
+    brep = is_brep(source.kind)
     magnified = _magnified(camera, corners)
     placed = _sized(width, height, options, source.frame.unit, brep, aspect, magnified)
     stray = stray_note(source, camera)

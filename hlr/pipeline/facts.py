@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from hlr.request.drawing_effects import BREP_KINDS
 from hlr.request.effect import Facts, Planner
 from hlr.scene.scene import Scene
 from hlr.source.model import Source, Tessellation
+from hlr.tables.readers import is_brep
 
 
 def note_reading(planner: Planner, source: Source) -> None:
     """Decide on the readers, and state what reading took."""
-    brep = source.kind in BREP_KINDS
+    brep = is_brep(source.kind)
     facts, count = Facts(kind=source.kind), len(source.names())
     planner.on("B-rep reader", facts)
     planner.on("mesh reader", facts)

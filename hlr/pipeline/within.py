@@ -35,6 +35,7 @@ from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View
 from hlr.source.model import Source
 from hlr.source.selection import open_selected
+from hlr.tables.readers import is_brep
 
 COARSE = 10.0
 """How much coarser than usual the first drawing is: 0.5 mm, the width of a line, where 0.05 is usual."""
@@ -90,7 +91,7 @@ def draw_within(
         return []
     opened = open_selected(source, options)
     first, goal = _range(opened, views, options)
-    guess = FIRST_GROWTH if hasattr(opened, "edge_shape") else MESH_GROWTH
+    guess = FIRST_GROWTH if is_brep(opened.kind) else MESH_GROWTH
     request = replace(options, within=None, report=False)
     best: list[Drawing] = []
     passes: list[tuple[float, float, dict[str, float]]] = []

@@ -8,19 +8,12 @@ from __future__ import annotations
 from hlr.request.effect import ASKED, SCENE, Effect, Facts
 from hlr.request.options import Options
 from hlr.tables.line_classes import LineClass, counted
-
-BREP_KINDS = ("step", "iges", "brep", "script", "object")
+from hlr.tables.readers import is_brep, of_kind
 
 DEEP_GROUPS, DEEP_EDGES = 400, 8000
 """Below, the pyramid costs more than it saves: measured (`hlr/request/README.md`)."""
 
 Answer = tuple[bool, str]
-
-
-def _a(word: str) -> str:
-    """A word with its article."""
-    named = {"step": "a STEP file", "iges": "an IGES file", "brep": "a BREP file", "script": "a script"}
-    return named.get(word, f"{'an' if word[:1] in 'aeiou' else 'a'} {word}")
 
 
 def _count(number: int, what: str, plural: str = "") -> str:
@@ -44,14 +37,18 @@ def _lines_of(row: LineClass) -> Effect:
     return Effect(row.title, ASKED, lambda _facts, _options: (True, "drawn in every drawing"), (counter,))
 
 
+def _noun(kind: str) -> str:
+    """A source of this kind, for people."""
+    reader = of_kind(kind)
+    return reader.noun if reader is not None and reader.noun else f"a mesh ({kind})"
+
+
 def _brep(f: Facts, _o: Options) -> Answer:
-    on = f.kind in BREP_KINDS
-    return on, f"the source is {_a(f.kind)}" if on else f"the source is a mesh ({f.kind})"
+    return is_brep(f.kind), f"the source is {_noun(f.kind)}"
 
 
 def _mesh(f: Facts, _o: Options) -> Answer:
-    on = f.kind not in BREP_KINDS
-    return on, f"the source is a mesh ({f.kind})" if on else f"the source is {_a(f.kind)}"
+    return not is_brep(f.kind), f"the source is {_noun(f.kind)}"
 
 
 def _curved(f: Facts, _o: Options) -> Answer:

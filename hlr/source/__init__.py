@@ -4,25 +4,26 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from hlr.errors import OptionError, SourceError
-from hlr.source.model import Source
-from hlr.tables.readers import ENDINGS
+from hlr.source.model import Source, missing_of_source
+from hlr.tables.entry import listed
+from hlr.tables.readers import READERS, Reader, endings, of_ending, what_to_pass
 
 if TYPE_CHECKING:
     from hlr.source.cad.brep_source import BrepSource
 
-__all__ = ["ENDINGS", "open_source"]
+__all__ = ["open_source"]
 
 
 def open_source(thing: Any, var: str | None = None, annotations: bool = False) -> Source:
-    """Open anything that can be drawn.
+    """Open anything that can be drawn: with the reader in `hlr.tables.readers` that it fits.
 
     Args:
-        thing: the name of a file (see `ENDINGS`), a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a
-            list of CAD objects, or a pair (vertices (n, 3), faces (m, 3)). A source that is open already stays as it
-            is.
+        thing: the name of a file, a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a list of CAD
+            objects, or a pair (vertices (n, 3), faces (m, 3)). Whatever follows the protocol `Source` is open already
+            and stays as it is.
         var: the variable of a script to draw, instead of what it shows.
         annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
 
@@ -32,84 +33,57 @@ def open_source(thing: Any, var: str | None = None, annotations: bool = False) -
     """
     if isinstance(thing, str | os.PathLike):
         return _open_path(Path(os.fspath(thing)), var, annotations)
-    from hlr.source.cad.objects import package_of
-
-    if type(thing).__module__.startswith("hlr.source."):
+    missing = missing_of_source(thing)
+    if not missing:
         opened: Source = thing
         return opened
     if var is not None:
         raise OptionError("var names a variable of a script, and an object is no script: leave it out.")
-    root = package_of(thing)
-    if root == "trimesh":
-        from hlr.source.mesh.objects import open_trimesh
-
-        return open_trimesh(thing)
-    if root == "manifold3d":
-        from hlr.source.mesh.objects import open_manifold
-
-        return open_manifold(thing)
-    if _is_arrays(thing):
-        from hlr.source.mesh.objects import open_arrays
-
-        return open_arrays(*thing)
-    from hlr.source.cad.objects import is_shape_like, open_object
-
-    if is_shape_like(thing):
-        return open_object(thing)
-    raise SourceError(
-        f"An object of type {type(thing).__name__} cannot be drawn: pass a CadQuery, build123d, OpenCASCADE, trimesh "
-        "or manifold3d object, (vertices, faces), or the name of a file."
-    )
+    reader = next((reader for reader in READERS.values() if reader.opens(thing)), None)
+    if reader is not None:
+        return _opened(reader, thing, type(thing).__name__, var, annotations)
+    raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: {_cure(missing)}.")
 
 
-def _is_arrays(thing: Any) -> bool:
-    """Whether this is a pair of number tables, without asking CAD objects to become arrays."""
-    if not isinstance(thing, tuple | list) or len(thing) != 2:
-        return False
-    return all(hasattr(item, "dtype") or (isinstance(item, list | tuple) and _is_rows(item)) for item in thing)
+def _cure(missing: list[str]) -> str:
+    """What to pass instead of an object that nothing opens; missing: what it lacks of a source."""
+    if len(missing) <= FEW:
+        return f"as a source (hlr.source.model.Source) it lacks {listed(missing, 'and')}"
+    return f"pass {what_to_pass()}"
 
 
-def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
-    return bool(item) and all(isinstance(row, list | tuple) or hasattr(row, "dtype") for row in item)
+FEW = 4
+"""An object that lacks no more of the protocol is meant to be a source."""
 
 
 def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
     from hlr.source.file_checks import check_readable
 
-    kind = ENDINGS.get(path.suffix.lower())
+    reader = of_ending(path.suffix)
     check_readable(path)
-    if kind is None:
-        known = " ".join(ENDINGS)
+    if reader is None:
         ending = f'the ending "{path.suffix}"' if path.suffix else "no ending"
-        raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {known}.")
-    if kind == "script":
-        from hlr.source.cad.script import open_script
-
-        return open_script(path, var)
-    if var is not None:
+        raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {' '.join(endings())}.")
+    if var is not None and "var" not in reader.takes:
         raise OptionError(f"var names a variable of a script, and {path.name} is no script: leave it out.")
-    if kind in ("step", "iges", "brep"):
-        from hlr.source.cad.cached_files import read_through_cache
+    if not reader.cached:
+        return _opened(reader, path, path.name, var, annotations)
+    from hlr.source.cad.cached_files import read_through_cache
 
-        return read_through_cache(
-            path, kind, annotations and kind == "step", lambda: _read_cad(path, kind, annotations)
-        )
-    if kind in ("3mf", "glb"):
-        from hlr.source.mesh.glb_3mf import open_glb_or_3mf
-
-        return open_glb_or_3mf(path, kind)
-    from hlr.source.mesh.mesh_file import open_mesh_file
-
-    return open_mesh_file(path, kind)
+    matter = annotations and "annotations" in reader.takes
+    return read_through_cache(
+        path, reader.kind, matter, lambda: cast("BrepSource", _opened(reader, path, path.name, var, annotations))
+    )
 
 
-def _read_cad(path: Path, kind: str, annotations: bool) -> BrepSource:
-    """A STEP, IGES or BREP file as OpenCASCADE reads it."""
-    if kind == "brep":
-        from hlr.source.cad.brep_file import open_brep
-
-        return open_brep(path)
-    from hlr.source.cad.iges import open_iges
-    from hlr.source.cad.step import open_step
-
-    return open_step(path, annotations) if kind == "step" else open_iges(path)
+def _opened(reader: Reader, thing: Any, name: str, var: str | None, annotations: bool) -> Source:
+    """What the reader opens; a package that it needs and does not find is an error in one sentence."""
+    try:
+        source: Source = reader.open(thing, kind=reader.kind, var=var, annotations=annotations)
+    except ModuleNotFoundError as error:
+        if not reader.needs or error.name != reader.needs:
+            raise
+        raise SourceError(
+            f"{name} cannot be read: {reader.title} needs the Python package {reader.needs}; install it."
+        ) from None
+    return source

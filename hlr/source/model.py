@@ -183,7 +183,10 @@ Choice = tuple[tuple[str, ...], tuple[str, ...]]
 
 
 class Source(Protocol):
-    """An opened source: read once, meshed as finely as each request needs."""
+    """An opened source: read once, meshed as finely as each request needs.
+
+    Any object that follows this protocol can be drawn.
+    """
 
     @property
     def name(self) -> str:
@@ -191,7 +194,8 @@ class Source(Protocol):
 
     @property
     def kind(self) -> str:
-        """step, iges, brep, script, object, stl, obj, ply, off, 3mf, glb, mesh."""
+        """As `hlr.tables.readers` has it: step, iges, brep, script, stl, obj, ply, off, 3mf or glb; object for other
+        B-reps, mesh for other triangles. A kind that no reader has counts as a mesh."""
 
     @property
     def frame(self) -> Frame:
@@ -224,3 +228,11 @@ class Source(Protocol):
 
     def looks(self) -> Mapping[str, Appearance]:
         """How the parts look, by name; gathered when it is asked for, for a drawing has no use of it."""
+
+
+def missing_of_source(thing: object) -> list[str]:
+    """What an object lacks of the protocol `Source`, by name; nothing is called, and no property read."""
+    found = {name for cls in type(thing).__mro__ for name in vars(cls)} | set(getattr(thing, "__dict__", ()))
+    missing = [name for name in vars(Source) if not name.startswith("_") and name not in found]
+    # What stands for another object passes on what it does not have.
+    return [name for name in missing if not hasattr(type(thing), "__getattr__") or not hasattr(thing, name)]

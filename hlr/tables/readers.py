@@ -1,23 +1,152 @@
-"""File endings: what is read, and what else belongs to a model."""
+"""Readers: a row for each kind of source that can be opened, a file or an object in memory.
+
+A new reader is a new row. What it returns follows the protocol `hlr.source.model.Source`. An object that follows it
+already needs no row: `hlr.draw` takes it as it is.
+"""
 
 from __future__ import annotations
 
-ENDINGS = {
-    ".step": "step",
-    ".stp": "step",
-    ".iges": "iges",
-    ".igs": "iges",
-    ".brep": "brep",
-    ".brp": "brep",
-    ".py": "script",
-    ".stl": "stl",
-    ".obj": "obj",
-    ".ply": "ply",
-    ".off": "off",
-    ".3mf": "3mf",
-    ".glb": "glb",
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hlr.tables.entry import called, listed
+
+BROKEN_FILE = (
+    "{name} crashed OpenCASCADE ({reason}) while it was {doing}; nothing was written; the file is probably broken: "
+    "export it again, or in another format"
+)
+BROKEN_SCRIPT = "{name} crashed ({reason}) in compiled code that it uses; nothing was written"
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """A row of the table.
+
+    title     what it reads, for help texts
+    kind      of the sources that it opens: `Source.kind`
+    entry     "module:function": opens a file, given by its path, or an object. The module is imported when it is used
+    endings   of the files that it reads, in small letters; none for objects in memory
+    fits      "module:function": of objects in memory, whether it opens this one
+    takes     what the entry is given besides, by name: kind; var, the variable of a script; annotations, whether faces
+              of annotation are read
+    brep      sources have surfaces and edges, not only triangles
+    noun      one such source, for people: "a STEP file"
+    cached    what was read is kept, and is not read again (of a `hlr.source.cad.brep_source.BrepSource` alone)
+    needs     the Python package that must be installed, where hlr itself does not
+    crash     what the command line says where reading or meshing ends the process by a signal: {name} of the file,
+              {reason}, what it was {doing}; empty where that is a fault of hlr
+    """
+
+    title: str
+    kind: str
+    entry: str
+    endings: tuple[str, ...] = ()
+    fits: str = ""
+    takes: tuple[str, ...] = ()
+    brep: bool = False
+    noun: str = ""
+    cached: bool = False
+    needs: str = ""
+    crash: str = ""
+
+    def open(self, thing: Any, **given: Any) -> Any:
+        """The opened source; given: values of all that a reader may take."""
+        return called(self.entry)(thing, **{name: given[name] for name in self.takes})
+
+    def opens(self, thing: Any) -> bool:
+        """Whether it opens this object in memory."""
+        return bool(self.fits) and bool(called(self.fits)(thing))
+
+
+def _cad_file(title: str, kind: str, entry: str, endings: tuple[str, ...], takes: tuple[str, ...] = ()) -> Reader:
+    noun = f"{'an' if title[0] in 'AEIO' else 'a'} {title} file"
+    return Reader(title, kind, entry, endings, takes=takes, brep=True, noun=noun, cached=True, crash=BROKEN_FILE)
+
+
+def _mesh_file(title: str, entry: str, needs: str = "") -> Reader:
+    kind = title.lower()
+    return Reader(title, kind, entry, (f".{kind}",), takes=("kind",), needs=needs)
+
+
+_MESHES = "hlr.source.mesh.mesh_file:open_mesh_file"
+_OBJECTS = "hlr.source.mesh.objects"
+_PACKED = "hlr.source.mesh.glb_3mf:open_glb_or_3mf"
+
+READERS: dict[str, Reader] = {
+    reader.title: reader
+    for reader in (
+        _cad_file("STEP", "step", "hlr.source.cad.step:open_step", (".step", ".stp"), takes=("annotations",)),
+        _cad_file("IGES", "iges", "hlr.source.cad.iges:open_iges", (".iges", ".igs")),
+        _cad_file("BREP", "brep", "hlr.source.cad.brep_file:open_brep", (".brep", ".brp")),
+        Reader(
+            "CadQuery and build123d scripts",
+            "script",
+            "hlr.source.cad.script:open_script",
+            (".py",),
+            takes=("var",),
+            brep=True,
+            noun="a script",
+            crash=BROKEN_SCRIPT,
+        ),
+        _mesh_file("STL", _MESHES),
+        _mesh_file("OBJ", _MESHES),
+        _mesh_file("PLY", _MESHES),
+        _mesh_file("OFF", _MESHES),
+        _mesh_file("3MF", _PACKED, needs="trimesh"),
+        _mesh_file("GLB", _PACKED, needs="trimesh"),
+        Reader(
+            "a CadQuery, build123d or OpenCASCADE object",
+            "object",
+            "hlr.source.cad.objects:open_object",
+            fits="hlr.source.cad.objects:is_shape_like",
+            brep=True,
+            noun="an object",
+        ),
+        Reader("a trimesh object", "mesh", f"{_OBJECTS}:open_trimesh", fits=f"{_OBJECTS}:is_trimesh"),
+        Reader("a manifold3d object", "mesh", f"{_OBJECTS}:open_manifold", fits=f"{_OBJECTS}:is_manifold"),
+        Reader("(vertices, faces)", "mesh", f"{_OBJECTS}:open_pair", fits=f"{_OBJECTS}:is_pair"),
+    )
 }
-"""What is read, by file ending."""
+"""All readers, by title."""
 
 BESIDE = (".mtl", ".gltf")
 """What models refer to, or are kept in, without being read."""
+
+
+def of_ending(ending: str) -> Reader | None:
+    """The reader of files with this ending, of any case; None: there is none."""
+    return next((reader for reader in READERS.values() if ending.lower() in reader.endings), None)
+
+
+def endings() -> list[str]:
+    """Of all files that are read."""
+    return [ending for reader in READERS.values() for ending in reader.endings]
+
+
+def of_kind(kind: str) -> Reader | None:
+    """A reader that opens sources of this kind; None: there is none."""
+    return next((reader for reader in READERS.values() if reader.kind == kind), None)
+
+
+def is_brep(kind: str) -> bool:
+    """Whether sources of this kind have surfaces and edges; those of an unknown kind count as meshes."""
+    reader = of_kind(kind)
+    return reader is not None and reader.brep
+
+
+def file_titles(fits: Callable[[Reader], bool] = lambda _: True) -> str:
+    """What is read from files, for help texts; fits: only of such readers."""
+    return listed((reader.title for reader in READERS.values() if reader.endings and fits(reader)), "and")
+
+
+def what_to_pass() -> str:
+    """What can be drawn, for errors: every kind of object in memory, and files."""
+    return listed((*(reader.title for reader in READERS.values() if reader.fits), "the name of a file"), "or")
+
+
+def is_model(path: Path | str) -> bool:
+    """Whether a file is a model, or a part of one, by its ending."""
+    ending = Path(path).suffix.lower()
+    return ending in BESIDE or of_ending(ending) is not None

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any
+
+from hlr.tables.entry import called, listed
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,8 +41,11 @@ FACES = Writer("png", "hlr.writers.png:ids_png")
 """Files of a shaded picture: itself, its depth map, its map of faces."""
 
 
-def called(entry: str) -> Callable[..., Any]:
-    """The function that "module:function" names."""
-    module, _, name = entry.partition(":")
-    found: Callable[..., Any] = getattr(import_module(module), name)
-    return found
+def formats(before: str = "", around: str = "") -> str:
+    """All formats of drawings, for people: svg, pdf or json. before: put before each name; around: on both sides."""
+    return listed((f"{around}{before}{name}{around}" for name in WRITERS), "or")
+
+
+def titles(last: str) -> str:
+    """All formats of drawings, for help texts: SVG, PDF and JSON. last: the word before the last one."""
+    return listed((name.upper() for name in WRITERS), last)

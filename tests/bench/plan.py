@@ -30,7 +30,8 @@ import hlr.pipeline.session
 import hlr.request.effect
 from hlr.drawing.saving import render
 from hlr.request.effect import PLAN, SCENE, everything_on
-from hlr.source import ENDINGS, open_source
+from hlr.source import open_source
+from hlr.tables.readers import endings
 from support.markdown import markdown
 
 for module in (hlr.common.clock, hlr.pipeline.finish, hlr.pipeline.session, hlr.request.effect):
@@ -91,7 +92,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = parser.parse_args(arguments)
     things: list[tuple[str, Any]] = [(name, SCENES[name]) for name in given.scenes]
     if given.folder:
-        files = sorted(p for p in given.folder.iterdir() if p.suffix.lower() in ENDINGS)
+        files = sorted(p for p in given.folder.iterdir() if p.suffix.lower() in endings())
         things += [(p.name, lambda p=p: p) for p in files if p.stat().st_size < given.most * 1e6]
     headings = ["model", "triangles", "scene", "plan", "visibility", "linework", "after meshing", "whole", "deciding"]
     rows, results = [], {}

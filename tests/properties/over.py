@@ -31,7 +31,7 @@ from properties.identity import everything, ownerless, renumbered
 from properties.ink import change
 
 import hlr
-from hlr.source import ENDINGS
+from hlr.tables.readers import endings
 
 THREADS = (2, 4, 1)
 JIGGLE = 5e-4
@@ -116,7 +116,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     files: list[Path] = []
     for path in given.paths:
         inside = sorted(path.rglob("*"), key=lambda each: each.name.lower()) if path.is_dir() else [path]
-        files += [each for each in inside if each.suffix.lower() in ENDINGS and each.suffix.lower() != ".py"]
+        files += [each for each in inside if each.suffix.lower() in endings() and each.suffix.lower() != ".py"]
     heads = ["file", "view", "of parts", "of triangles", *IDENTITY, *(INK if given.ink else ()), "seconds"]
     lines = ["| " + " | ".join(heads) + " |", "|" + " --- |" * len(heads)]
     print("\n".join(lines), flush=True)

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from hlr.errors import SourceError
-from hlr.source import ENDINGS, open_source
+from hlr.source import open_source
+from hlr.tables.readers import endings
 
 cq = pytest.importorskip("cadquery")
 
@@ -182,7 +183,7 @@ def test_paths_that_are_no_files(tmp_path):
 
 
 def test_every_ending_is_dispatched(tmp_path):
-    for ending in ENDINGS:
+    for ending in endings():
         path = tmp_path / f"thing{ending.upper()}"
         path.write_bytes(b"%PDF-1.7 nothing of the kind")
         with pytest.raises(SourceError):

@@ -13,6 +13,8 @@ from hlr.source.cad.colors import color_of_wrapper
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
+from hlr.source.packages import package_of
+from hlr.tables.readers import what_to_pass
 
 
 def open_object(thing: Any, name: str = "") -> BrepSource:
@@ -41,15 +43,6 @@ def is_shape_like(thing: Any) -> bool:
     return isinstance(thing, list | tuple) and len(thing) > 0 and all(is_shape_like(item) for item in thing)
 
 
-def package_of(thing: Any) -> str:
-    """The top-level package that some class of the object's ancestry comes from, CAD packages first."""
-    roots = [cls.__module__.split(".")[0] for cls in type(thing).__mro__]
-    return next((root for root in roots if root in _FAMILIES), roots[0])
-
-
-_FAMILIES = {"cadquery", "build123d", "OCP", "trimesh", "manifold3d"}
-
-
 def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float = 1.0) -> list[Leaf]:
     """Leaves of any supported object; name, colour and opacity are used where it brings none.
 
@@ -67,10 +60,7 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
         return _build123d(thing, getattr(thing, "label", "") or name, color, opacity)
     if isinstance(thing, Iterable) and not isinstance(thing, str | bytes | dict):
         return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
-    raise SourceError(
-        f"An object of type {type(thing).__name__} cannot be drawn: pass a CadQuery, build123d, OpenCASCADE, trimesh "
-        "or manifold3d object, (vertices, faces), or the name of a file."
-    )
+    raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: pass {what_to_pass()}.")
 
 
 def _cadquery(thing: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:

@@ -12,6 +12,7 @@ from hlr.common.types import Color, Floats, Ints
 from hlr.errors import SourceError
 from hlr.source.mesh.mesh_source import Instance, MeshSource
 from hlr.source.model import Frame
+from hlr.source.packages import package_of
 
 MM_PER_UNIT = {
     "micron": 1e-3,
@@ -38,6 +39,27 @@ MM_PER_UNIT = {
 
 Y_UP = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
 """glTF: y points up and z toward the viewer; world = unit * up * model."""
+
+
+def is_trimesh(thing: Any) -> bool:
+    """Whether `open_trimesh` opens it; nothing is imported."""
+    return package_of(thing) == "trimesh"
+
+
+def is_manifold(thing: Any) -> bool:
+    """Whether `open_manifold` opens it; nothing is imported."""
+    return package_of(thing) == "manifold3d"
+
+
+def is_pair(thing: Any) -> bool:
+    """Whether this is a pair of number tables, without asking CAD objects to become arrays."""
+    if not isinstance(thing, tuple | list) or len(thing) != 2:
+        return False
+    return all(hasattr(item, "dtype") or (isinstance(item, list | tuple) and _is_rows(item)) for item in thing)
+
+
+def _is_rows(item: list[Any] | tuple[Any, ...]) -> bool:
+    return bool(item) and all(isinstance(row, list | tuple) or hasattr(row, "dtype") for row in item)
 
 
 def open_trimesh(thing: Any) -> MeshSource:
@@ -153,6 +175,12 @@ def open_manifold(thing: Any) -> MeshSource:
     points = np.asarray(mesh.vert_properties)[:, :3]
     whole = Instance("part", 0, np.eye(4), None)
     return MeshSource("Manifold", "mesh", [(points, np.asarray(mesh.tri_verts))], [whole])
+
+
+def open_pair(thing: Any) -> MeshSource:
+    """(vertices, faces), as `open_arrays` takes them."""
+    vertices, faces = thing
+    return open_arrays(vertices, faces)
 
 
 def open_arrays(vertices: Any, faces: Any) -> MeshSource:

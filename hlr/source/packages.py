@@ -1,0 +1,13 @@
+"""Which package an object in memory comes from, without importing it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+_KNOWN = {"cadquery", "build123d", "OCP", "trimesh", "manifold3d"}
+
+
+def package_of(thing: Any) -> str:
+    """The top-level package that some class of the object's ancestry comes from, those that hlr knows first."""
+    roots = [cls.__module__.split(".")[0] for cls in type(thing).__mro__]
+    return next((root for root in roots if root in _KNOWN), roots[0])
