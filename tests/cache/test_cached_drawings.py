@@ -91,6 +91,7 @@ def test_a_choice_of_parts_is_the_same_out_of_the_cache(models, monkeypatch, own
             assert found.to_svg() == without.to_svg()
 
 
+@pytest.mark.slow
 def test_what_is_measured_of_a_drawing_is_the_same_out_of_the_cache(models):
     once, again = (hlr.draw(models[0], report=True).reached for _ in range(2))
     assert once == again
@@ -305,6 +306,7 @@ def OTHER_DUMP():  # noqa: N802
     return open_source(SCREW).roots.dump
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hostile", HOSTILE)
 def test_an_entry_with_a_good_checksum_is_not_trusted(hostile, own_cache):
     source = open_source(ASSEMBLY)

@@ -116,6 +116,7 @@ def test_what_crashes_opencascade_is_refused_in_a_sentence(tmp_path: Path, name:
     assert {path.name for path in tmp_path.iterdir()} == {name, "out.svg"}
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_a_file_that_opencascade_never_finishes(tmp_path: Path) -> None:
     process = hlr(tmp_path, "draw", str(CORPUS / "endless" / "curve-without-end.brep"), "-o", "out.svg")
     time.sleep(2.0)

@@ -35,6 +35,7 @@ def visible_edges(sunk, view):
     return seen + bottom + arc((BESIDE, 0, HIGH - sunk), (SIDE, 0, 0), (0, SIDE, 0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize("view", [(0, -1, 1), (0.1, -1, 0.4), (0.1, -1, 0.15), (0.1, -0.4, 1)], ids=str)
 def test_there_is_a_line_around_its_foot_however_deep(share, view, picture):

@@ -62,6 +62,7 @@ def test_a_box_three_times_is_twelve_edges(view):
     like(drawing, expect(drawing, *box_edges((0, 0, 0), (30, 20, 10), drawing.view.direction)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
 @pytest.mark.parametrize(
     "model", [in_an_assembly, one_shape_twice, built_twice, turned_over, faces_of_both, shells_of_both]

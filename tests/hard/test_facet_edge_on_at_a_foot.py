@@ -55,6 +55,7 @@ def block(tilt: float, lid: bool = True) -> trimesh.Trimesh:
     return trimesh.Trimesh(points, faces, process=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", "iso-sw", "iso-ne", "iso-nw", "front"])
 @pytest.mark.parametrize("tilt", TILTS)
 def test_its_outline_is_whole(tilt, view):

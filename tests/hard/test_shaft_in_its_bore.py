@@ -64,6 +64,7 @@ def expect_few_changes(turned, view):
     assert len([line for line in drawing.lines if line.kind != "outline"]) <= 15 + 4 * 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", (1, 2, 0.3), (-0.5, 0.4, -1)], ids=str)
 @pytest.mark.parametrize("turned", [0, 17.3, 90])
 def test_no_rim_breaks_up(turned, view):

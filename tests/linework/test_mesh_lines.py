@@ -190,6 +190,7 @@ def test_where_edges_are_drawn_at_every_corner_there_is_no_circle() -> None:
     assert not arcs(hlr.draw(prism(ring(regular(16))), "iso", circles=True, crease=20))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective()])
 @pytest.mark.parametrize("n", [13, 16, 64])
 def test_a_rim_is_a_circle(n: int, perspective: Any) -> None:

@@ -50,12 +50,14 @@ def expect_turned(model, view, turn, accuracy, **options):
     expect_same_ink(before, draw(changes.moved(model, turn), direction, accuracy, up=up, **options))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, axes, degrees)
 def test_an_assembly_turned_with_the_camera(pieces, brep, view, axis, angle):
     expect_turned(assembly(pieces, brep), view, rotation(axis, angle), ACCURACY, **PLAIN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.SOLIDS)
 @pytest.mark.parametrize("view", ["front", "iso"])
 def test_a_model_turned_with_the_camera(name, view):
@@ -87,6 +89,7 @@ def expect_shifted(model, view, offset, accuracy, **options):
 far = st.tuples(*[st.floats(-1e6, 1e6)] * 3)
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, far)
 def test_an_assembly_moved_by_a_million_times_its_size(pieces, brep, view, offset):
@@ -100,6 +103,7 @@ def test_a_model_moved_by_a_million_times_its_size(name):
     expect_shifted(model, "iso", 1e6 * model.diagonal * np.array([1.0, 0.7, -0.3]), models.accuracy(model))
 
 
+@pytest.mark.slow
 @few
 @given(
     assemblies(upright),
@@ -147,12 +151,14 @@ def _scaled(perspective, factor):
     return replace(perspective, eye=eye, target=perspective.target and tuple(factor * c for c in perspective.target))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, st.integers(-29, 29))
 def test_an_assembly_scaled_by_a_power_of_two(pieces, brep, view, power):
     expect_doubled(assembly(pieces, brep), view, power, ACCURACY)
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, st.integers(-29, 29))
 def test_in_perspective_too(pieces, brep, power):

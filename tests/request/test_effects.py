@@ -207,6 +207,7 @@ def test_straight_edges_that_a_file_writes_as_splines():
 directions = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda a: np.linalg.norm(a) > 0.1)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 2**32), directions, st.booleans(), st.sampled_from([None, Perspective()]))
 @settings(max_examples=15, deadline=None)
 def test_forcing_changes_nothing_of_random_boxes(seed, view, hidden, perspective):
@@ -363,6 +364,7 @@ def test_effects_of_a_preview():
     assert (asked["shadows"].origin, asked["transparency"].origin) == ("asked", SCENE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["as1-oc-214.stp", "nist_ctc_01_asme1_ap242-e1.stp", "cube_gears.3mf"])
 def test_visible_lines_are_the_same_without_the_hidden_ones(name):
     with_, without = (hlr.draw(DATA / name, (1, -2, 1.5), hidden=hidden) for hidden in (True, False))

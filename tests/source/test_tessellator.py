@@ -251,6 +251,7 @@ OWNERS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [*OWNERS, "build123d"])
 @pytest.mark.parametrize("meshed", [True, False])
 def test_the_triangles_that_a_caller_s_shape_brings_stay(name, meshed):
