@@ -1,0 +1,68 @@
+# The tasks of every day: `just` lists them, CONTRIBUTING.md explains them.
+
+set positional-arguments
+
+# A profile of the kernel that is built in seconds after a change, and runs at half the speed of a release or better.
+export SETUPTOOLS_RUST_CARGO_PROFILE := "quick"
+
+# List the tasks
+default:
+    @just --list --unsorted
+
+# Install the package from this tree, once: Python takes effect at once, Rust after `just build`
+setup:
+    pip install --editable '.[dev]'
+
+# Build the kernel after a change of Rust
+build:
+    python -W ignore -c 'from setuptools import setup; setup()' --quiet build_rust --inplace
+
+# Run the tests that are given, or all: just test tests/hard/test_sphere.py -k picture
+test *arguments:
+    pytest "$@"
+
+# Run the quick tests, in about a minute
+fast *arguments:
+    pytest -m 'not slow' "$@"
+
+# Run the tests of the kernel: just rust, just rust sweep
+rust *arguments:
+    #!/usr/bin/env bash
+    set -euo pipefail
+    # A test binary links the interpreter, whose library may lie outside the system's folders.
+    library=$(python -c 'import sysconfig; print(sysconfig.get_config_var("LIBDIR") or "")')
+    export LD_LIBRARY_PATH="$library:${LD_LIBRARY_PATH:-}" DYLD_FALLBACK_LIBRARY_PATH="$library"
+    cd hlr/kernel && cargo test --quiet --profile quick --workspace --no-default-features "$@"
+
+# Check style and types as the gate does
+lint:
+    ruff check .
+    ruff format --check .
+    mypy hlr cli
+    cd hlr/kernel && cargo fmt --all --check
+    cd hlr/kernel && cargo clippy --quiet --workspace --all-targets -- -D warnings
+
+# Put Python and Rust into the project's format
+format:
+    ruff check --fix .
+    ruff format .
+    cd hlr/kernel && cargo fmt --all
+
+# Measure beside other programs, on a release build (`pip install .`): just bench --only svg,kernel
+bench *arguments:
+    cd tests && python -m bench.run "$@"
+
+# Draw the expected files and pictures anew; look at each before it is committed
+goldens:
+    HLR_GOLDEN=write pytest tests/writers
+    pytest tests/hard --draw
+    git status --short tests/golden tests/hard/pictures
+
+# Build the site of the documentation into build/site
+docs:
+    pip install --quiet '.[docs]'
+    sphinx-build -W -c docs . build/site
+
+# Run the whole gate: a fresh environment, the wheel, all checks, all tests; some ten minutes
+gate:
+    .ci/run
