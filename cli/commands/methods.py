@@ -56,7 +56,7 @@ if TYPE_CHECKING:
     help="Seconds of the processor, as in the tables, for each method and scene. Default: 10.",
 )
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def methods(
+def methods(  # noqa: PLR0913 - one for each option of the command
     *,
     source: str | None,
     output: str | None,

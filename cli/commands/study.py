@@ -62,7 +62,7 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
 )
 @click.option("--runs", type=click.IntRange(min=1), metavar="N", default=3, help="Runs of each point. Default: 3.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def study(
+def study(  # noqa: PLR0913 - one for each option of the command
     *,
     source: str,
     output: str,

@@ -80,7 +80,7 @@ def _together(arrays: list[Any], width: int) -> Any:
     return np.ascontiguousarray(np.concatenate([np.zeros((0, width)), *arrays]), np.float64)
 
 
-def _records(
+def _records(  # noqa: PLR0913 - one for each array of the kernel
     *,
     kind: Any,
     visible: Any,

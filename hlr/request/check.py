@@ -21,7 +21,7 @@ NARROWEST, WIDEST = 0.01, 170.0
 """Degrees: fields of view that can be drawn."""
 
 
-def checked(options: Options) -> Options:
+def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for each option
     """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
     for name in (
         "hidden", "smooth", "seam", "intersections", "see_through", "fill", "circles", "strict", "report", "annotations"

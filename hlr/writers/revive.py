@@ -11,7 +11,7 @@ from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 import numpy as np
 
 
-def revived(kind: Any, value: Any, what: str) -> Any:
+def revived(kind: Any, value: Any, what: str) -> Any:  # noqa: PLR0911 - one answer for each type of value
     """`value`, which JSON gave, as a `kind`: a number, text, tuple, mapping, array or dataclass of such.
 
     Raises ValueError, which says what `what` should be.

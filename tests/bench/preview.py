@@ -106,7 +106,7 @@ def ours(given: Arrays, antialias: bool, threads: int) -> Run:
     return run
 
 
-def theirs(given: Arrays, antialias: bool, _threads: int, parts: bool = False) -> Run:
+def theirs(given: Arrays, antialias: bool, _threads: int, parts: bool = False) -> Run:  # noqa: PLR0915 - one scene, set up step by step
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 

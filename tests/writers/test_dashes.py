@@ -7,7 +7,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from writers.test_pdf import content_of, image
+from writers.pages import content_of, image
 
 import hlr
 from hlr.drawing.curve import Arc

@@ -21,7 +21,7 @@ MOST = 10_000_000
 """Polygons of a scene: more do not fit into memory."""
 
 
-def compare_methods(
+def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     source: Any = None,
     *,
     counts: Sequence[int] | None = None,

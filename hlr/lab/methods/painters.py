@@ -38,7 +38,7 @@ class PaintersList(ByValue):
             yield polygon, [self.points[self.loops[r] : self.loops[r + 1]] for r in runs]
 
 
-def painters_list(
+def painters_list(  # noqa: PLR0913 - one for each thing a user may ask
     scene: Any,
     camera: Camera | Screen,
     size: tuple[int, int],

@@ -108,7 +108,7 @@ class Rendering(ByValue):
         return ahead
 
 
-def render(
+def render(  # noqa: PLR0913 - one for each thing a user may ask
     scene: Scene | Polygons | Any,
     camera: Camera | Screen,
     size: tuple[int, int],

@@ -60,7 +60,7 @@ class Wish:
     reached: bool = True
 
 
-def study(
+def study(  # noqa: PLR0913 - one for each thing a user may ask
     source: str,
     view: View = "iso",
     *,
