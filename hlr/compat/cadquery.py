@@ -12,11 +12,8 @@ from hlr.compat.cadquery_options import check_options
 from hlr.compat.cadquery_page import Page, lay_out, to_pdf, to_svg
 from hlr.drawing import files
 from hlr.errors import OptionError
-from hlr.request.accuracy import SMALL_DRAWING
+from hlr.request.accuracy import PIXEL_ACCURACY, SMALL_DRAWING
 from hlr.source.cad.objects import is_shape_like
-
-ACCURACY_PIXELS = 0.1
-"""Of a pixel: the accuracy of lines."""
 
 WRITERS = {"SVG": to_svg, "PDF": to_pdf}
 
@@ -88,7 +85,7 @@ def _page(shape: Any, opts: Mapping[str, Any] | None) -> Page:
         """A share of a pixel, and less for small pictures."""
         width, height = viewport.flat_extent(bounds, view)
         finest = (width**2 + height**2) ** 0.5 / SMALL_DRAWING
-        return min(ACCURACY_PIXELS / options.unit_scale(width, height), finest) if finest else 1.0
+        return min(PIXEL_ACCURACY / options.unit_scale(width, height), finest) if finest else 1.0
 
     picture = viewport.draw_viewport(shape, view, hidden=options.showHidden, accuracy=accuracy)
     return lay_out(picture, options)

@@ -21,15 +21,12 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line, Points
 from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views
-from hlr.request.accuracy import DEFAULT_ACCURACY
+from hlr.request.accuracy import DEFAULT_ACCURACY, SMALL_GEOMETRY
 from hlr.request.check import WIDEST
 from hlr.request.directions import normalized
 from hlr.request.options import Options, Perspective, Vector
 from hlr.source import open_source
 from hlr.source.model import Source
-
-ACCURACY_SHARE = 2.5e-4
-"""Of the model's diagonal: the accuracy of lines that go on as geometry, where 0.05 mm are not finer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +174,7 @@ def _caller() -> int:
 
 def _fine(bounds: Floats) -> float:
     diagonal = math.sqrt(float(((bounds[1] - bounds[0]) ** 2).sum()))
-    return min(DEFAULT_ACCURACY, ACCURACY_SHARE * diagonal) or DEFAULT_ACCURACY
+    return min(DEFAULT_ACCURACY, SMALL_GEOMETRY * diagonal) or DEFAULT_ACCURACY
 
 
 def _dot(a: Sequence[float], b: Sequence[float]) -> float:

@@ -12,7 +12,7 @@ from hlr.drawing.notes import Note
 from hlr.errors import SourceError
 from hlr.image.camera import ASPECT, NEAR, Camera
 from hlr.image.strays import stray_note
-from hlr.request.accuracy import CURVE_BULGE, Tolerances, choose, derive
+from hlr.request.accuracy import CURVE_BULGE, MOST_MAGNIFIED, Tolerances, choose, derive
 from hlr.request.options import Options
 from hlr.source.model import Source
 from hlr.tables.readers import is_brep
@@ -25,10 +25,6 @@ CORNERS = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 AXES = np.arange(3)
 
 _CURE = "give a scale, or a size to fit it into"
-
-MOST_MAGNIFIED = 50.0
-"""Nearer to the eye than this share of the target's distance the accuracy is no longer kept: a tessellation that fine
-would not end."""
 
 
 @dataclass(frozen=True, slots=True)

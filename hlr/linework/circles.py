@@ -25,13 +25,11 @@ from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import Camera
 from hlr.image.image import Image
+from hlr.request.accuracy import CIRCLE_FIT
 from hlr.source.curve_records import ELLIPSE, Record, pack_curves
 from hlr.source.model import Curves
 from hlr.tables.line_classes import EdgeClass
 from hlr.visibility.plan import Plan
-
-SHARE = 0.75
-"""Of the accuracy: how far vertices may lie off the circle; the rest is for junctions and digits."""
 
 FEWEST = 5
 """Vertices of an arc."""
@@ -66,7 +64,7 @@ def circles(image: Image, plan: Plan, chains: _kernel.Chains) -> Circles | None:
     offsets, walked, backward = chains.offsets, chains.edges, chains.reversed
     wanted &= np.diff(offsets) >= FEWEST - 1
     number = np.full(len(wanted), -1, np.int32)
-    allowed = SHARE * image.placement.tolerances.accuracy
+    allowed = CIRCLE_FIT * image.placement.tolerances.accuracy
     records: list[Record] = []
     bulges: list[float] = []
     for chain in np.flatnonzero(wanted).tolist():

@@ -34,7 +34,7 @@ from hlr.linework.curves import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
 from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
 from hlr.pipeline.finish import Solved, finished
-from hlr.request.accuracy import ANGLE, SMALL_DRAWING
+from hlr.request.accuracy import ANGLE, REMESH, SMALL_DRAWING
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
@@ -47,9 +47,6 @@ from hlr.visibility.segments import solve
 
 Placing = Callable[[Camera, Options, Source, Floats], Placement]
 """Chooses a view's place on paper: as `hlr.image.placement.place`."""
-
-FINE_ENOUGH = 0.8
-"""Of the deflection that was meshed with: where a view turns out to need less, all are meshed again."""
 
 
 @dataclass(slots=True)
@@ -129,7 +126,7 @@ class Session:
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._fitted(camera, placement, planner.fork()) for camera, placement in pairs]
             self.placements = [draft.image.placement for draft in drafts]
-            if min(at.tolerances.deflection for at in self.placements) > FINE_ENOUGH * finest:
+            if min(at.tolerances.deflection for at in self.placements) > REMESH * finest:
                 break
         for draft in drafts:
             note_rescue(draft.planner, self.scene, meshed)

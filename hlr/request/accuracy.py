@@ -1,59 +1,149 @@
-"""Every tolerance, derived from one accuracy: millimetres on paper.
+"""Every tolerance follows from one accuracy: millimetres on paper.
 
-The accuracy is shared out so that the parts of an emitted line's error add up to less than it.
+Each source of error gets a share of the accuracy. The shares of an emitted line add up to less than one (`SHARES`):
 
-    line                         what it is off by, in accuracies
-    polyline                     0.5 tessellation + 0.25 vertices left out + 0.1 digits
-    edge or outline of a B-rep   0.1 curve fitting (kernel, fit::FIT) + 0.2 arcs in SVG (curves::arcs) + 0.1 digits
-    contour of a mesh            0.5 smoothing (kernel, fit::smooth) + 0.1 digits
-    change of visibility         0.5 tessellation, across the line; along it that over the sine of the angle at which
-                                 what covers it crosses; and pieces that are too short to be drawn: 0.75
+    line                           shares                                                              sum
+    polyline                       0.625 tessellation + 0.25 vertices left out + 0.1 digits            0.975
+    edge of a B-rep                0.1 curve fitting + 0.2 arcs in SVG + 0.1 digits                    0.4
+    outline of a B-rep             0.125 chords + 0.1 curve fitting + 0.2 arcs in SVG + 0.1 digits     0.525
+    contour of a mesh              0.5 vertices moved + 0.3 curve fitting + 0.1 digits                 0.9
+    circle of a mesh               0.75 vertices off the circle + 0.2 arcs in SVG, digits included     0.95
+    change of visibility, across   0.625 tessellation + 0.1 digits                                     0.725
+    change of visibility, along    0.75 short pieces left out + 0.1 digits                             0.85
 
-The kernel's grid adds nothing to them: a drawing is at least 2^30 of its steps wide; a step is a quarter of the finest
-accuracy that is accepted for meshes, a hundredth of that for B-reps. In perspective the tessellation is finer as much
-as its nearest point is magnified, up to fifty times (`hlr.image.placement`); nearer to the eye than a fiftieth of the
-target's distance the accuracy is not kept: errors grow there as the distance shrinks.
+The tessellation takes 0.5, or 0.625 where the scale turns out larger than was foreseen (`REMESH`). Along its line a
+change of visibility is off by that over the sine of the angle at which the covering edge crosses, which comes on top.
+A stitched border of a mesh is one of the two borders that the file gives, 0.2 apart at most (`STITCH`). Faces that
+OpenCASCADE had to mesh may be off by more; the drawing names them in a note.
+
+The kernel's grid adds nothing: a drawing is at least 2^30 of its steps wide; a step is a quarter of the finest accuracy
+that is accepted for meshes, a hundredth of that for B-reps. In perspective the tessellation is finer as much as its
+nearest point is magnified, up to fifty times (`MOST_MAGNIFIED`); nearer to the eye than a fiftieth of the target's
+distance the accuracy is not kept: errors grow there as the distance shrinks.
+
+No other module of Python defines a number of this kind. Shares that the kernel alone uses are in
+`hlr/kernel/accuracy/src/lib.rs`. The first words of each text name the length that the number is a multiple of:
+
+    accuracy      what a drawing promises, millimetres on paper
+    deflection    chord error asked of the mesher, model units: half of the accuracy
+    contact       depth within which two surfaces touch, model units
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hlr.errors import OptionError
 
+# Which accuracy is used.
+
 DEFAULT_ACCURACY = 0.05
-"""A tenth of the wide ISO 128 line: no eye sees it on paper."""
+"""Millimetres: a tenth of the wide ISO 128 line. No eye sees it on paper."""
 
 SMALL_DRAWING = 2000.0
-"""Without a wish of the caller's, a small drawing is at least this many accuracies in diagonal."""
+"""Of the accuracy: where none is asked for, the diagonal of a small drawing is at least this long."""
+
+SMALL_GEOMETRY = 2.5e-4
+"""Of the model's diagonal: the accuracy of lines that become geometry again, where that is less than the default."""
+
+PIXEL_ACCURACY = 0.1
+"""Of a pixel: the accuracy of pictures that other programs state in pixels."""
+
+FINEST_BREP = 1e-7
+FINEST_MESH = 4e-9
+"""Of the drawing's diagonal: the finest accuracy. Finer tessellations do not fit into memory; finer meshes do not fit
+the integer grid."""
+
+# The mesher.
+
+TESSELLATION = 0.5
+"""Of the accuracy, in the model: the deflection."""
+
+REMESH = 0.8
+"""Of the deflection that was meshed with: where a view turns out to need less, all views are meshed again."""
 
 ANGLE = 0.5
-"""Radians between neighbouring tessellation chords: 13 for a full circle, however small it is on paper."""
+"""Radians between neighbouring chords: 13 for a full circle, however small it is on paper."""
+
+EACH_SURFACE = 0.5
+"""Of the deflection: chord error of each B-rep surface. Two surfaces that touch, one inside the other, are then no
+further apart than one deflection."""
+
+STITCH = 0.4
+"""Of the deflection: how far a corner of a mesh may move when borders are stitched. A fifth of the accuracy."""
+
+MOST_MAGNIFIED = 50.0
+"""Times: how much finer the tessellation is at most for what is near the eye. Finer ones would not end."""
+
+# Where surfaces touch.
 
 MESH_CONTACT = 1.0 / 8000.0
-"""Of the model's diagonal. A mesh was tessellated by someone else, at a deflection it does not tell: within this depth
-its pieces count as touching."""
+"""Of the model's diagonal: the contact depth of meshes, whose own deflection is not known."""
 
 CONTACT = 5.0
-"""In deflections: the tessellations of two touching curved surfaces may be off by one each, obliquely seen."""
+"""Of the deflection: the contact depth of curved surfaces. Two tessellations may be off by one each, obliquely seen."""
 
 CONTACT_PLANAR = 2.5
-"""In deflections: planar faces are off only by what their files round, but parts are put down on one another with gaps
-and overlaps that are nothing on paper. Ten times what a wall may sink into a face without a line of its own: so its
-edge is still seen there from all but the most oblique directions."""
+"""Of the deflection: the contact depth of planar parts. Files round little, but parts are placed on one another with
+gaps and overlaps that are nothing on paper. Ten times the kernel's `FLUSH`, the depth a wall may sink into a face
+without a line of its own: so its edge is seen there from all but the most oblique directions."""
+
+CONTACT_CROSSING = 2.0
+"""Of the deflection: the contact depth of planar parts that meet at a small angle, where intersections are searched."""
+
+CONTACT_SPARE = 1.01
+"""Of the contact depth: boxes of parts are grown by this much to find the parts that come near one another."""
 
 ROUNDING = 0.04
-"""In deflections: what lies in a plane is off by what its file rounds."""
+"""Of the deflection: what lies in a plane is off by what its file rounds."""
+
+# Outlines.
+
+OUTLINE_CHORD = 0.2
+"""Of the deflection: chord error of the polyline of an outline."""
+
+OUTLINE_LIFT = 2.5
+"""Of the deflection: the most an outline is moved off its surface before visibility is decided. Facets are off by a
+half, those of OpenCASCADE's mesher by two, the outline's chords by a fifth."""
+
+OUTLINE_SPARE = 0.3
+"""Of the deflection: how far an outline is moved where no facet stands out beyond it. Its own chords are off by 0.2."""
+
+OWN_LIFT = 1.5
+"""Of the deflection: how far off its own face a line is compared with that face's triangles. They are off by one."""
+
+MOST_LIFT = 3.0
+"""Of the deflection: lines are moved off their surfaces by less than this."""
+
+# Lines.
+
+THIN = 0.25
+"""Of the accuracy: vertices of a polyline this close to their line are left out, on paper and in the model."""
+
+SHORT = 1.0
+"""Of the accuracy: no figure shorter than this is drawn on its own."""
 
 FLIP = 0.75
-"""Of the accuracy: a piece that is left out between two others moves a change by its length, and its own two ends are
-displaced by a little already."""
+"""Of the accuracy: a visible or hidden piece shorter than this takes the state of its line beside it. That moves a
+change by the length of the piece, whose own two ends are displaced by a little already."""
 
-DIGITS = 0.1
-"""Of the accuracy: what rounding may move a point by in SVG and PDF. JSON holds the numbers as they are."""
+STUB = 10.0
+"""Of the accuracy: a doubtful piece shorter than this beside a hidden one is hidden."""
+
+SAME = 0.5
+"""Of the accuracy: lines of one visibility this close coincide."""
+
+UNDER = 3.0
+INK = 0.25
+"""UNDER of the accuracy, but no more than INK millimetres: a hidden line this close to a visible one lies under its
+ink. INK is half a wide ISO 128 line."""
+
+CIRCLE_FIT = 0.75
+"""Of the accuracy: how far vertices of a mesh may lie off the circle that is drawn through them."""
 
 CURVE_BULGE = 0.2
-"""Of the accuracy: how far a curve may be fitted off the true one, and so reach beyond what is to fit on the sheet."""
+"""Of the accuracy: how far a drawn curve may reach beyond the true one, and so beyond the sheet it has to fit."""
 
 CURVE_CHORD = 0.2
 """Of the accuracy: how far the points along a circle may be off it between them."""
@@ -61,41 +151,88 @@ CURVE_CHORD = 0.2
 CLOSED = 0.01
 """Of the accuracy, in the model: a curve whose ends are this close is closed."""
 
-OUTLINE_CHORD = 0.2
-"""In deflections: how far the polyline of an outline may stay off the curve."""
+DIGITS = 0.1
+"""Of the accuracy: how far rounding may move a point in SVG and PDF. JSON holds the numbers as they are."""
 
-OUTLINE_LIFT = 2.5
-"""In deflections: facets are off by a half, those of OpenCASCADE's mesher by two, the outline's chords by a little."""
+FILL_STEP = 1.0
+"""Of the accuracy: spacing of the grid on which the faces of a filled drawing are looked up."""
 
-OUTLINE_SPARE = 0.3
-"""In deflections: what an outline is moved by where no facet stands out beyond it. Its own chords may be off by 0.2."""
+# The kernel's shares that the sums below need. `kernel/accuracy` defines them; a test compares both.
 
-OWN_LIFT = 1.5
-"""In deflections: how far off its own face a line is compared with the triangles of that face. They are off by one."""
+CURVE_FIT = 0.1
+"""Of the accuracy: how far a fitted curve may be from the true one."""
 
-UNDER = 3.0
-INK = 0.25
-"""A hidden line this many accuracies from a visible one lies under its ink, if that is as wide: half a wide ISO 128
-line, in millimetres."""
+ARC_FIT = 0.2
+"""Of the accuracy: how far an SVG arc may be from the true one, its ends rounded."""
 
-FINEST_BREP = 1e-7
-FINEST_MESH = 4e-9
-"""Of the drawing's diagonal. Finer tessellations do not fit into memory; finer meshes do not fit the integer grid."""
+CONTOUR_MOVE = 0.5
+"""Of the accuracy: how far a vertex of a mesh's contour may move when the contour is smoothed."""
+
+CONTOUR_FIT = 0.3
+"""Of the accuracy: how far curves may be from the moved contour."""
+
+SHARES: Mapping[str, Mapping[str, float]] = {
+    "polyline": {"tessellation": TESSELLATION / REMESH, "vertices left out": THIN, "digits": DIGITS},
+    "edge of a B-rep": {"curve fitting": CURVE_FIT, "arcs in SVG": ARC_FIT, "digits": DIGITS},
+    "outline of a B-rep": {
+        "chords": OUTLINE_CHORD * TESSELLATION / REMESH,
+        "curve fitting": CURVE_FIT,
+        "arcs in SVG": ARC_FIT,
+        "digits": DIGITS,
+    },
+    "contour of a mesh": {"vertices moved": CONTOUR_MOVE, "curve fitting": CONTOUR_FIT, "digits": DIGITS},
+    "circle of a mesh": {"vertices off the circle": CIRCLE_FIT, "arcs in SVG, digits included": ARC_FIT},
+    "change of visibility, across": {"tessellation": TESSELLATION / REMESH, "digits": DIGITS},
+    "change of visibility, along": {"short pieces left out": FLIP, "digits": DIGITS},
+}
+"""Of the accuracy: what each source of error may take of a line, per class of line. None of the sums exceeds one."""
+
+# How finely the lab looks at a drawing when it measures errors.
+
+MEASURED_CHORD = 0.02
+"""Of the accuracy: chord error of the polylines that stand for written curves."""
+
+MEASURED_EDGE_CHORD = 0.1
+"""Of the accuracy: chord error of the polylines that stand for the true curves of edges."""
+
+MEASURED_FINENESS = 4.0
+"""Times: how much finer the drawing is that changes of visibility and lost lines are compared with."""
+
+MEASURED_SAMPLE = 0.25
+"""Of the accuracy: spacing of samples along a stretch whose length is measured."""
+
+MEASURED_SAME = 0.25
+"""Of the accuracy: lines of two drawings this close are the same line."""
+
+MEASURED_REACH = 1000.0
+"""Of the accuracy: where no line of the other drawing is this close, none is searched for farther away."""
+
+MEASURED_RETRY = 0.25
+"""Of the accuracy: where an outline's error is larger, other places on the surface are tried, and folds along edges."""
+
+MEASURED_STEP = 10.0
+"""Of the accuracy: the longest step of that search on a surface. What is farther away is another outline."""
+
+MEASURED_EDGE_ON = 0.01
+"""Of the deflection: a triangle whose image is no higher than this is seen edge-on."""
+
+MEASURED_CONTACT = 0.1
+"""Of the contact depth: a sample's own surface may be this near in front of it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerances:
-    """Lengths on paper (millimetres) and in the model (model units).
+    """The lengths that follow from one accuracy: on paper in millimetres, in the model in model units.
 
     accuracy       what is promised, on paper
     deflection     chord error of the tessellation, in the model
     angle          turning per chord, radians
-    contact        depth within which two curved things count as touching, in the model
+    contact        depth within which two curved surfaces touch, in the model
     contact_planar the same for planar parts
     rounding       the same for lines that lie on surfaces, and for open sheets
     short          no figure shorter than this is drawn on its own, on paper
     flip           a visible or hidden piece shorter than this takes the state of what its line does beside it, on paper
-    stub           a doubtful piece shorter than this beside a hidden one is the contact tolerance's own, on paper
+    stub           a doubtful piece shorter than this beside a hidden one is hidden, on paper
     width          lines of one visibility this close coincide, on paper
     under          a hidden line this close to a visible one lies under its ink, on paper
     thin_paper     vertices this close to their line are left out, on paper
@@ -118,23 +255,24 @@ class Tolerances:
 
 
 def choose(asked: float | None, diagonal: float) -> float:
-    """The accuracy used for a drawing of this diagonal, both in millimetres on paper."""
+    """The accuracy asked for, or the default for a drawing of this diagonal. All in millimetres on paper."""
     if asked is not None:
         return asked
     return min(DEFAULT_ACCURACY, diagonal / SMALL_DRAWING) if diagonal > 0.0 else DEFAULT_ACCURACY
 
 
 def under(accuracy: float) -> float:
-    """How close to a visible line a hidden one is not drawn, millimetres on paper."""
+    """A hidden line closer than this to a visible one is not drawn: millimetres on paper, as the accuracy."""
     return max(accuracy, min(UNDER * accuracy, INK))
 
 
 def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) -> Tolerances:
-    """Tolerances for an accuracy on paper, `per_model` millimetres on paper per model unit.
+    """All tolerances of a drawing.
 
-    diagonal: of the drawing on paper, to refuse what cannot be kept.
+    accuracy: millimetres on paper. per_model: millimetres on paper per model unit. diagonal: of the drawing,
+    millimetres on paper. brep: the model has faces with equations, not triangles alone.
 
-    Raises OptionError where the accuracy is not positive, as coarse as the drawing, or beyond what can be computed.
+    Raises OptionError where the accuracy is not positive, as coarse as the drawing, or finer than can be computed.
     """
     if not accuracy > 0.0 or accuracy == float("inf"):
         raise OptionError(f"accuracy {accuracy:g} mm cannot be kept: give a positive length, such as 0.05")
@@ -149,7 +287,7 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
             f"accuracy {accuracy:g} mm is too fine for a drawing of {diagonal:.3g} mm: give at least {finest:.1g}"
         )
     model = accuracy / per_model
-    deflection = 0.5 * model
+    deflection = TESSELLATION * model
     return Tolerances(
         accuracy=accuracy,
         deflection=deflection,
@@ -157,11 +295,11 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         contact=CONTACT * deflection,
         contact_planar=CONTACT_PLANAR * deflection,
         rounding=ROUNDING * deflection,
-        short=accuracy,
+        short=SHORT * accuracy,
         flip=FLIP * accuracy,
-        stub=10.0 * accuracy,
-        width=0.5 * accuracy,
+        stub=STUB * accuracy,
+        width=SAME * accuracy,
         under=under(accuracy),
-        thin_paper=0.25 * accuracy,
-        thin_model=0.25 * model,
+        thin_paper=THIN * accuracy,
+        thin_model=THIN * model,
     )

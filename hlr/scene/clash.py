@@ -23,14 +23,11 @@ from hlr import _kernel
 from hlr._kernel import MeshScene
 from hlr.common.distinct import distinct
 from hlr.common.types import Floats, Ints
-from hlr.request.accuracy import CONTACT
+from hlr.request.accuracy import CONTACT, CONTACT_CROSSING
 from hlr.scene.chains import STRAIGHT_ON
 from hlr.scene.groups import contact_depths
 from hlr.scene.scene import Chains, Groups
 from hlr.tables.line_classes import EdgeClass
-
-PLANAR_CONTACT = 2.0
-"""In deflections: what counts as touching where planar parts meet at a small angle."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +54,7 @@ def no_clashes(groups: int) -> Clashes:
 
 def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
     """All real intersections of different groups, and of those with themselves that may not be one convex body."""
-    touch = contact_depths(groups, CONTACT * deflection, PLANAR_CONTACT * deflection)
+    touch = contact_depths(groups, CONTACT * deflection, CONTACT_CROSSING * deflection)
     points, edges, group, through, tests = found.crossings(touch, deflection)
     return Clashes(points, edges, group, through, tests)
 

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from hlr import _kernel
+from hlr.request.accuracy import STITCH
 from hlr.source.model import PartMesh
 
 MAX_GAP_SHARE = 5e-5
@@ -19,22 +20,15 @@ MAX_GAP_SHARE = 5e-5
 ends of edges miss one another. Of a mesh made face by face the gaps end well below, and up to twice that no new are
 found; what lies farther apart is a gap of the model's own."""
 
-MAX_GAP_DEFLECTIONS = 0.4
-"""In deflections, at most: a fifth of the accuracy. Of a mesh nothing else is used up by tessellating it."""
-
 
 def stitch_borders(parts: list[PartMesh], borders: list[int], deflection: float) -> tuple[list[PartMesh], int]:
     """The parts, those with `borders` (p,) stitched; and how many pieces of borders were joined.
 
-    No corner moves by more than GAP and UNSEEN allow. A triangle that gets corners of its neighbours is cut.
+    No corner moves by more than MAX_GAP_SHARE and STITCH allow. A triangle that gets corners of its neighbours is cut.
     """
     out, seams = [], 0
     for part, count in zip(parts, borders, strict=True):
-        joined, found = (
-            _stitched(part, min(MAX_GAP_SHARE * _extent(part), MAX_GAP_DEFLECTIONS * deflection))
-            if count
-            else (part, 0)
-        )
+        joined, found = _stitched(part, min(MAX_GAP_SHARE * _extent(part), STITCH * deflection)) if count else (part, 0)
         out.append(joined)
         seams += found
     return out, seams

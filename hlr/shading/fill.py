@@ -11,6 +11,7 @@ from hlr import _kernel
 from hlr.common.types import Floats, Ints
 from hlr.drawing.fill import Fill, Gradient
 from hlr.image.camera import NEAR, Camera
+from hlr.request.accuracy import FILL_STEP
 from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
 from hlr.scene.scene import Scene
 from hlr.shading.lens import lens_at, toward_light
@@ -99,7 +100,7 @@ def _per_mm(extent: Floats, accuracy: float) -> float:
     """Points of the grid per millimetre of paper; extent (2,) millimetres."""
     wide, high = (float(e) for e in extent)
     longest = max(wide, high)
-    wanted = max(1.0 / accuracy, LEAST_A_SIDE / longest)
+    wanted = max(1.0 / (FILL_STEP * accuracy), LEAST_A_SIDE / longest)
     return min(wanted, math.sqrt(MOST / (wide * high)), MOST_A_SIDE / longest)
 
 

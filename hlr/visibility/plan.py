@@ -12,7 +12,7 @@ from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.image.camera import NEAR
 from hlr.image.image import Image
-from hlr.request.accuracy import Tolerances
+from hlr.request.accuracy import CONTACT_SPARE, MOST_LIFT, Tolerances
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.groups import contact_depths
@@ -58,12 +58,6 @@ class Plan:
     every_curve: bool
 
 
-LIFT = 3.0
-"""In deflections: outlines are moved away from their surface by somewhat less before visibility is decided."""
-
-SPARE = 1.01
-"""Times the contact tolerance: what the visibility pass rounds is far less than the rest."""
-
 MOST_STEP = 45.0
 """Degrees between neighbouring vertices of a circle: an octagon is never one."""
 
@@ -83,7 +77,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     faced = np.zeros(len(used), bool)
     faced[image.triangle_group] = True
     with planner.deciding():
-        near = _coming_near(image, delta, LIFT * tolerances.deflection)
+        near = _coming_near(image, delta, MOST_LIFT * tolerances.deflection)
     facts = Facts(
         groups=int(np.count_nonzero(faced)),
         culled=int(np.count_nonzero(groups.cull)),
@@ -133,7 +127,7 @@ def _coming_near(image: Image, delta: Floats, lift: float) -> int:
     if len(used) < 2:
         return 0
     low, high = groups.low[used] - lift, groups.high[used] + lift
-    most = SPARE * float(delta[used].max(initial=0.0))
+    most = CONTACT_SPARE * float(delta[used].max(initial=0.0))
     if camera.eye is None or camera.distance is None:
         return int(np.count_nonzero(_kernel.boxes_meet(low - 0.5 * most, high + 0.5 * most)))
     box = (low, high)

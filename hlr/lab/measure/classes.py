@@ -17,14 +17,11 @@ from hlr.lab.measure.outlines import outline_errors
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.rays import Caster, labels
 from hlr.lab.measure.written import written
-from hlr.request.accuracy import under
+from hlr.request.accuracy import MEASURED_FINENESS, under
 from hlr.source import open_source
 
 SAMPLES = 20_000
 """Points judged by rays, and points of outlines, where the caller does not say how many."""
-
-FINENESS = 4.0
-"""How much finer the drawing is that changes and lost lines are found by."""
 
 
 def measured(
@@ -39,7 +36,7 @@ def measured(
 
     source: what it was drawn from: a path or an object, better a source that is open already.
     samples: how many points are judged by rays, and how many points of outlines are put on their surfaces.
-    finer: the same request at a finer accuracy, where there is one; else it is drawn, `FINENESS` times as fine.
+    finer: the same request at a finer accuracy, where there is one; else it is drawn (`MEASURED_FINENESS`).
 
     Raises OptionError where the drawing does not know what was asked for, SourceError where the source cannot be read.
     """
@@ -73,8 +70,8 @@ def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Dr
         outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples, threads))
     else:
         meshes = errors(*mesh_errors(opened, drawing, forms[0], paper, threads))
-    found = finer_drawing(opened, drawing, FINENESS) if finer is None else finer
-    deflection = drawing.accuracy.deflection / FINENESS
+    found = finer_drawing(opened, drawing, MEASURED_FINENESS) if finer is None else finer
+    deflection = drawing.accuracy.deflection / MEASURED_FINENESS
     if not isinstance(found, str):
         deflection = min(deflection, found.accuracy.deflection)
     caster = Caster.of(opened, drawing, paper, deflection)

@@ -18,6 +18,7 @@ from hlr.drawing.drawing import Drawing
 from hlr.lab.measure.occt_curves import edge_record, evaluate_curves, transform_record
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written
+from hlr.request.accuracy import MEASURED_EDGE_CHORD
 from hlr.source.curve_records import NONE, SPLINE, UNKNOWN, Record, pack_curves
 from hlr.source.model import Curves
 from hlr.source.transforms import transform_points
@@ -27,8 +28,8 @@ Edge = tuple[int, int]
 
 CHORDS = 96
 """Per edge, and per span of a spline a twelfth of them."""
-CLOSE, MOST_FINER = 0.1, 64
-"""Of the accuracy: how far chords may be off; and how many times more than `CHORDS` there are at most for that."""
+MOST_FINER = 64
+"""How many times more chords than `CHORDS` there are at most."""
 CHECKS = 9
 """Places where a record is compared with OpenCASCADE."""
 FREE = 2000
@@ -61,7 +62,7 @@ class TrueEdges:
                 here = evaluate_curves(curve, np.zeros(CHECKS, np.int32), np.linspace(*record[1:3], CHECKS))[:, 0]
                 self._off[i] = float((np.linalg.norm(here - truth, axis=1) * paper.magnified(here)).max(initial=0.0))
                 flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])
-                finer = _finer(flat, CLOSE * drawing.accuracy.used)
+                finer = _finer(flat, MEASURED_EDGE_CHORD * drawing.accuracy.used)
                 if finer > 1:
                     places = np.linspace(places[0], places[-1], (len(places) - 1) * finer + 1)
                     flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])

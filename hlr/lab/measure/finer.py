@@ -27,14 +27,13 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.drawing.reached import Errors, errors
 from hlr.errors import HlrError
-from hlr.lab.measure.rays import DENSE, Caster, contradicted, longest_run, runs
+from hlr.lab.measure.rays import Caster, contradicted, longest_run, runs
 from hlr.lab.measure.written import Written, written
 from hlr.lab.sampling import Index
+from hlr.request.accuracy import MEASURED_REACH, MEASURED_SAME, MEASURED_SAMPLE
 
 Mask = npt.NDArray[np.bool_]
 
-LATERAL = 0.25
-"""Of the accuracy: lines of the two drawings this close are the same line."""
 BETWEEN = 5
 """How much denser rays look at a stretch that is longer than the accuracy."""
 MOST_SAMPLES = 2_000_000
@@ -105,7 +104,7 @@ class Comparison:
     def _step(self, drawn: Written) -> float:
         segments, _ = drawn.steps()
         length = float(np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]).sum())
-        return max(DENSE * self._accuracy, length / MOST_SAMPLES)
+        return max(MEASURED_SAMPLE * self._accuracy, length / MOST_SAMPLES)
 
     def _to_finer(self, points: Floats, key: Ints, most: float) -> Floats:
         return _kernel.nearest(
@@ -122,9 +121,9 @@ class Comparison:
         accuracy, step = self._accuracy, self._step(self._drawn)
         points, line = self._drawn.middles(step)
         key = self._own[line]
-        reach = 1e3 * accuracy
+        reach = MEASURED_REACH * accuracy
         same, other = self._to_finer(points, key, reach), self._to_finer(points, key ^ 1, reach)
-        differ = (other <= accuracy) & (other < same) & (same > LATERAL * accuracy)
+        differ = (other <= accuracy) & (other < same) & (same > MEASURED_SAME * accuracy)
         start, length = runs(points, line, differ, step)
         found = [*self._ends().tolist(), *length[length <= accuracy].tolist()]
         doubtful, bound = [], 0.0
@@ -171,7 +170,7 @@ class Comparison:
             found, _ = _kernel.nearest(points, none, np.ascontiguousarray(chosen), zero, most, self._threads)
             return ~np.isfinite(found)
 
-        missing = far(np.ones(len(of), bool), (1.0 + LATERAL) * accuracy)
+        missing = far(np.ones(len(of), bool), (1.0 + MEASURED_SAME) * accuracy)
         if missing.any():
             missing &= wanted | far(visible, under + accuracy)
         start, length = runs(points, line, missing, step)

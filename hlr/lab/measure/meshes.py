@@ -12,11 +12,9 @@ from hlr.drawing.drawing import Drawing
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written
 from hlr.pipeline.session import Session
+from hlr.request.accuracy import MEASURED_EDGE_ON
 from hlr.request.options import Options
 from hlr.tables.line_classes import INTERIOR
-
-EDGE_ON = 0.01
-"""In deflections: a triangle whose image is no higher than this is seen edge-on."""
 
 
 def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, threads: int) -> tuple[Floats, list[str]]:
@@ -36,7 +34,7 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, thr
     ahead = (normal * sight).sum(axis=1) / np.linalg.norm(sight, axis=1)
     side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
     # Twice the area of its image over a side: its height. Where that is next to none, rounding says how it is turned.
-    edge_on = np.abs(ahead) <= EDGE_ON * deflection * side
+    edge_on = np.abs(ahead) <= MEASURED_EDGE_ON * deflection * side
     first, count = scene.offsets[:-1], np.diff(scene.offsets)
     faced = np.flatnonzero(count > 0)
     some = np.zeros(len(scene.edges), np.int64)

@@ -30,16 +30,13 @@ from hlr.lab.measure.edges import TrueEdges
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written, in_model
 from hlr.lab.sampling import Index
+from hlr.request.accuracy import MEASURED_RETRY, MEASURED_STEP
 
 ITERATIONS = 30
 EDGE_ON = 1e-9
 """|N . V| of unit vectors below which a place counts as edge-on."""
 SETTLED = 1e-13
 """Steps and remainders below which a search has ended, in longest steps and accuracies."""
-STEP = 10.0
-"""In accuracies: the longest step on a surface. What is farther away is another outline."""
-ENOUGH = 0.25
-"""Of the accuracy: where an error is larger, other places are tried, and folds along edges."""
 
 
 def outline_errors(
@@ -64,7 +61,7 @@ def outline_errors(
         of = drawing.parts[part]
         judge = _Face(opened.face_shape(of.name, face), of.transform, paper, accuracy)
         off[those] = judge.errors(near[those], q[those], way[those])
-    far = np.flatnonzero(off > ENOUGH * accuracy)
+    far = np.flatnonzero(off > MEASURED_RETRY * accuracy)
     if len(far):
         off[far] = np.minimum(off[far], _to_folds(opened, drawing, paper, q[far], line[far], threads))
     names = [f"{drawing.parts[drawing.lines[i].part].name}, outline of face {drawing.lines[i].face}" for i in line]
@@ -95,8 +92,8 @@ class _Face:
         self._turn, self._shift = transform[:3, :3], transform[:3, 3]
         self._back = np.linalg.inv(self._turn)
         self._paper = paper
-        self._most = STEP * accuracy / paper.per_model
-        self._enough = ENOUGH * accuracy
+        self._most = MEASURED_STEP * accuracy / paper.per_model
+        self._enough = MEASURED_RETRY * accuracy
         self._accuracy = accuracy
 
     def errors(self, near: Floats, q: Floats, way: Floats) -> Floats:

@@ -28,13 +28,9 @@ from hlr.image.camera import NEAR
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written, in_model
 from hlr.lab.sampling import Index
-from hlr.request.accuracy import ANGLE, MESH_CONTACT, under
+from hlr.request.accuracy import ANGLE, MEASURED_CONTACT, MEASURED_SAMPLE, MESH_CONTACT, under
 
 RING = 8
-CLOSE = 0.1
-"""Of the depth of a contact: nearer than this a sample's own surface may be."""
-DENSE = 0.25
-"""Of the accuracy: how far apart samples are where a stretch is measured."""
 DISAGREE, BLOCKED, FREE = 0, 1, 2
 """What nine rays say."""
 
@@ -88,7 +84,7 @@ class Caster:
 
     def touched(self, points: Floats, threads: int) -> npt.NDArray[np.bool_]:
         """(n,) whether anything covers points (n, 3), be it no deeper than a contact."""
-        return self._blocked(points, points[:, None, :], CLOSE * self.depth, threads)[:, 0]
+        return self._blocked(points, points[:, None, :], MEASURED_CONTACT * self.depth, threads)[:, 0]
 
     def _blocked(self, points: Floats, starts: Floats, depth: float, threads: int) -> npt.NDArray[np.bool_]:
         """(n, k) whether rays from starts (n, k, 3), so much nearer to the viewer, meet anything."""
@@ -128,7 +124,7 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
     # How long each stretch is: its line's samples all lie close together now.
     bad = np.unique(line[wrong])
     near = Written(drawn.points[np.isin(drawn.line, bad)], drawn.line[np.isin(drawn.line, bad)])
-    dense = max(DENSE * accuracy, step / 64.0)
+    dense = max(MEASURED_SAMPLE * accuracy, step / 64.0)
     points, line = near.middles(dense)
     close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step, threads)
     points, line = points[close], line[close]

@@ -11,6 +11,7 @@ from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.lab.sampling import Index, line_middles, numbered
+from hlr.request.accuracy import MEASURED_CHORD
 from hlr.writers.strokes import ARC, CUBIC, LINE, QUADRATIC, WHOLE, Rows, places_of, rows_of
 
 EXTRA, ROTATION = 2, 6
@@ -20,9 +21,6 @@ EXTRA, ROTATION = 2, 6
 FEWEST = {LINE: 4, QUADRATIC: 8, CUBIC: 8, ARC: 16, WHOLE: 32}
 """Pieces that a straight line, a curve, an arc, a full circle are looked at in, at least."""
 DEGREE = {LINE: 1, QUADRATIC: 2, CUBIC: 3}
-
-CHORD = 0.02
-"""Of the accuracy: how far the chords between two points looked at are off the curve, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +71,7 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
             second = control[:-2] - 2.0 * control[1:-1] + control[2:]
             bend = np.hypot(second[..., 0], second[..., 1]).max(axis=0, initial=0.0) * DEGREE[op] * (DEGREE[op] - 1)
         # A chord over 1 / n of a curve is off by at most a eighth of its second derivative over n squared.
-        pieces = np.maximum(np.ceil(np.sqrt(bend / (8.0 * CHORD * accuracy))), fewest).astype(np.int64)
+        pieces = np.maximum(np.ceil(np.sqrt(bend / (8.0 * MEASURED_CHORD * accuracy))), fewest).astype(np.int64)
         which_of, number = numbered(pieces + (op == WHOLE))
         t = (number + (op != WHOLE)) / pieces[which_of]
         points.append(shape.at(which_of, t) if op in (ARC, WHOLE) else _bezier(control[:, which_of], t))

@@ -25,12 +25,10 @@ from hlr.lab.study.watch import Watch
 from hlr.pipeline.draw import draw_views
 from hlr.pipeline.finish import drawn_view
 from hlr.pipeline.session import Session
+from hlr.request.accuracy import MEASURED_CHORD
 from hlr.request.options import Options
 from hlr.source.model import Source
 from hlr.source.selection import open_selected
-
-CHORDS = 0.02
-"""Of the accuracy: how far chords are off the curves that they stand for when lines are judged."""
 
 
 def done(job: Job) -> dict[str, Any]:
@@ -119,7 +117,7 @@ def _hlr(job: Job) -> Point:
     watch("write")
     size = len(render(drawing, "svg"))
     watch.stop()
-    _keep(job, polylines_of(drawing, CHORDS * job.setting))
+    _keep(job, polylines_of(drawing, MEASURED_CHORD * job.setting))
     stages = dict(watch.stages)
     # The pipeline does not say when it passes from deciding to hiding and to lines: its own clock does.
     whole = stages.pop("visibility")
@@ -146,7 +144,7 @@ def _pieces(line: Line) -> int:
 def _truth(job: Job) -> dict[str, Any]:
     """The lines that all are judged by: those of the finest drawing, and what may be drawn beside them."""
     drawing = _drawn(job, Watch(), smooth=True, seam=True)
-    _keep(job, polylines_of(drawing, CHORDS * job.setting))
+    _keep(job, polylines_of(drawing, MEASURED_CHORD * job.setting))
     return {"accuracy": job.setting, "lines": len(drawing.lines)}
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Ints, Progress
+from hlr.request.accuracy import EACH_SURFACE
 from hlr.source.cad.meshing_faults import MeshingFaults
 from hlr.source.cad.prototypes import Prototypes
 from hlr.source.cad.rescue import faces_of, rescue
@@ -15,9 +16,6 @@ from hlr.source.model import Curves, SurfaceRecords
 
 FLAT = 1e-7
 """A free-form surface is planar where it departs from a plane by less than this share of the model's size."""
-
-HALF = 0.5
-"""Of the deflection: two surfaces that touch, one inside the other, are then no further apart than one deflection."""
 
 MOST_TRIES = 200
 """After so many faces that could not be rescued, a few milliseconds each, the others are given up, too."""
@@ -39,7 +37,7 @@ class Tessellator:
         if progress is not None:
             progress("tessellate", 0.0)
         tell = None if progress is None else lambda done: progress("tessellate", done)
-        meshed = self._model.mesh(HALF * deflection, angle, tell)
+        meshed = self._model.mesh(EACH_SURFACE * deflection, angle, tell)
         faults = self._rescued(meshed, deflection, angle)
         if progress is not None:
             progress("tessellate", 1.0)
