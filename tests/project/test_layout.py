@@ -245,6 +245,18 @@ def test_the_architecture_page_lists_the_rooms_in_their_order():
     assert tuple(re.findall(r"^\| \[`(\w+)`\]\(\S+\) \| \S", page, re.MULTILINE)) == FLOORS
 
 
+def test_the_page_of_the_kernel_lists_the_crates_and_what_they_use():
+    page = (ROOT / "hlr/kernel/README.md").read_text("utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| .* \| (.*)\|$", page, re.MULTILINE)
+    uses = {
+        name: set(CRATES) - {name} if last.strip() == "all" else set(re.findall(r"`(\w+)`", last))
+        for name, last in rows
+    }
+    assert [name for name in uses if name != "fuzz"] == list(CRATES)
+    for crate, allowed in CRATES.items():
+        assert allowed == uses[crate] or (crate == "python" and allowed <= uses[crate])
+
+
 def test_no_import_leads_upward():
     wrong = list(wrong_arrows(ROOT))
     assert not wrong, "\n".join(wrong)
