@@ -62,7 +62,7 @@ def finished(
 
         fill = filled(
             scene,
-            source.looks(),
+            source.appearances(),
             camera,
             image.points,
             placement.per_model,

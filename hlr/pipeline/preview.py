@@ -82,7 +82,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     camera, placement = draft.image.camera, draft.image.placement
     clock = dict(session.clock)
     started = perf_counter()
-    shaded = shaded_scene(scene, source.looks(), before_the_eye(scene, camera), options.threads)
+    shaded = shaded_scene(scene, source.appearances(), before_the_eye(scene, camera), options.threads)
     planner = Planner(PREVIEW, options)
     eye = lens(camera, shaded.points, placement.per_model * PIXELS_PER_MM, options.size)
     facts = _facts(scene, camera, eye, unit)

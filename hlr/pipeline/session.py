@@ -131,7 +131,7 @@ class Session:
         for draft in drafts:
             note_rescue(draft.planner, self.scene, meshed)
         self.edge_curves = meshed.edge_curves
-        self.looks = self.source.looks() if self.source.transparent() else {}
+        self.looks = self.source.appearances() if self.source.transparent() else {}
         self.remarks = [] if self.options.see_through else hiding(self.scene, self.looks)
         return drafts
 

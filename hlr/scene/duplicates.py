@@ -77,14 +77,14 @@ def _first_equal(corners: Ints, n: int) -> Indices:
 def _only(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
     if kept.all():
         return part
-    on = part.on_surfaces
+    on = part.surface_parameters
     origin = np.flatnonzero(kept).astype(np.int32)
     return replace(
         part,
         triangles=part.triangles[kept],
         triangle_face=part.triangle_face[kept],
         origin=origin if part.origin is None else part.origin[origin],
-        on_surfaces=replace(on, corner=on.corner[kept]) if on is not None else None,
+        surface_parameters=replace(on, corner=on.corner[kept]) if on is not None else None,
     )
 
 

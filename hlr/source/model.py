@@ -67,7 +67,7 @@ class PartMesh:
     edge_offsets      (e+1,) int32 into edge_nodes
     edge_index        (e,)   int32: index of the edge in the part's TopExp edge map
     edge_class        (e,)   uint8: EdgeClass (SHARP, SMOOTH, SEAM or BOUNDARY)
-    on_surfaces       where the triangles lie on their true surfaces; None where there are none
+    surface_parameters       where the triangles lie on their true surfaces; None where there are none
     precision         how far the coordinates of a mesh may be off by what they were rounded to, in model units
     joined            no two points are in one place
     origin            (m,) int32: of a mesh that the scene has repaired, which of the source's own triangles each one
@@ -89,7 +89,7 @@ class PartMesh:
     edge_index: Ints
     edge_class: npt.NDArray[np.uint8]
     brep: bool
-    on_surfaces: SurfaceParameters | None = None
+    surface_parameters: SurfaceParameters | None = None
     precision: float = 0.0
     joined: bool = False
     origin: Ints | None = None
@@ -226,7 +226,7 @@ class Source(Protocol):
     def transparent(self) -> bool:
         """Some part may be transparent; cheap, and sure where it says no."""
 
-    def looks(self) -> Mapping[str, Appearance]:
+    def appearances(self) -> Mapping[str, Appearance]:
         """How the parts look, by name; gathered when it is asked for, for a drawing has no use of it."""
 
 

@@ -67,7 +67,7 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
         return parts
     check_triangle_count(sum(len(part.triangles) for part in parts))
     points = _starts([len(part.points) for part in parts])
-    on = [part.on_surfaces for part in parts]
+    on = [part.surface_parameters for part in parts]
     known = [o for o in on if o is not None]
     nodes = _starts([0 if o is None else len(o.uv) for o in on])
     chains = _starts([len(part.edge_nodes) for part in parts])
@@ -144,7 +144,7 @@ def _part(whole: PartMeshes, i: int) -> PartMesh:
         edge_index=t.edge_index[edges],
         edge_class=t.edge_class[edges],
         brep=bool(t.brep[i]),
-        on_surfaces=on,
+        surface_parameters=on,
         precision=float(t.precision[i]),
         joined=bool(t.joined[i]),
         origin=None if (own == np.arange(len(own))).all() else own,

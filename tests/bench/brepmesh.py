@@ -120,7 +120,9 @@ def table(models, share, runs):
         source = open_source(scenes.make(name) if name in scenes.SCENES else Path(name))
         low, high = source.bounds()
         deflection = share * float(np.linalg.norm(high - low))
-        roots = [root for root, counts in zip(source._roots.shapes, source._roots.counts, strict=True) if counts[0]]
+        roots = [
+            root for root, counts in zip(source._prototypes.shapes, source._prototypes.counts, strict=True) if counts[0]
+        ]
         a, b = ours(roots, deflection, runs), theirs(roots, deflection, runs)
 
         def told(errors, deflection=deflection):

@@ -185,10 +185,10 @@ def test_what_was_read_from_something_else_or_by_something_else_is_not_used(chan
         monkeypatch.setattr(cache_key, "_own_code", lambda: "another")
     else:
         monkeypatch.setattr(cache_key, "_bindings", lambda: ["cadquery_ocp-9.dist-info"])
-    cache_key._reader.cache_clear()
+    cache_key._reader_versions.cache_clear()
     assert "is in the cache now" in open_source(part).reading
     assert len(list(own_cache.iterdir())) == 2
-    cache_key._reader.cache_clear()
+    cache_key._reader_versions.cache_clear()
 
 
 def test_the_code_that_counts_is_the_version_and_all_that_reads():
@@ -272,10 +272,10 @@ HOSTILE = {
     "no parts": facts_with(parts=[]),
     "parts are a number": facts_with(parts=3),
     "a part is short": lambda facts, data: (facts | {"parts": [part[:3] for part in facts["parts"]]}, data),
-    "many roots": facts_with(roots=2**31 - 1),
-    "endless roots": facts_with(roots=10**30),
-    "negative roots": facts_with(roots=-1),
-    "roots are a truth": facts_with(roots=True),
+    "many roots": facts_with(prototypes=2**31 - 1),
+    "endless roots": facts_with(prototypes=10**30),
+    "negative roots": facts_with(prototypes=-1),
+    "roots are a truth": facts_with(prototypes=True),
     "many faces": facts_with(faces=2**31 - 1),
     "a name is a number": part_with(0, 5),
     "a name is there twice": lambda facts, data: (
@@ -303,7 +303,7 @@ HOSTILE = {
 
 
 def OTHER_DUMP():  # noqa: N802
-    return open_source(SCREW).roots.dump
+    return open_source(SCREW).prototypes.dump
 
 
 @pytest.mark.slow
@@ -339,7 +339,7 @@ def test_every_number_of_an_entry_may_be_wrong(own_cache):
         used += "not read again" in source.reading
         try:
             source.bounds()
-            source.looks()
+            source.appearances()
             source.infos()
         except hlr.SourceError:
             pass

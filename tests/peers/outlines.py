@@ -81,11 +81,11 @@ def measured(path: Path, view: Any, options: Options) -> tuple[int, int, int, fl
     meshed = source.mesh(tolerances.deflection, tolerances.angle)
     bare = image_of(build(meshed, options.crease, tolerances.deflection), camera, at)
     scene = outlined(bare, 0, Planner(drawing_effects(), options))
-    faces = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.roots.shapes]
+    faces = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.prototypes.shapes]
     parts, values, count = source.parts, [np.zeros((0, 2))], 0
     for part, face, points in outlines(scene):
         own = parts[part]
-        values.append(judged(TopoDS.Face_s(faces[own.root][face]), np.array(own.transform), points, camera))
+        values.append(judged(TopoDS.Face_s(faces[own.prototype][face]), np.array(own.transform), points, camera))
         count += 1
     found = np.concatenate(values)
     slope = found[:, 0][~np.isnan(found[:, 0])]

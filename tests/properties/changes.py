@@ -29,7 +29,7 @@ def moved(model: Frozen, matrix: np.ndarray, offset: Sequence[float] = (0.0, 0.0
             triangles=np.ascontiguousarray(part.triangles[:, turn]),
             transform=placed @ part.transform,
             precision=part.precision * float(np.abs(matrix).max()),
-            on_surfaces=_corners(part, lambda corner: corner[:, turn]),
+            surface_parameters=_corners(part, lambda corner: corner[:, turn]),
         )
 
     return replace(model, parts=tuple(each(part) for part in model.parts))
@@ -37,7 +37,7 @@ def moved(model: Frozen, matrix: np.ndarray, offset: Sequence[float] = (0.0, 0.0
 
 def _corners(part: PartMesh, change: Callable[[np.ndarray], np.ndarray]) -> SurfaceParameters | None:
     """Where triangles lie on their surfaces goes with them."""
-    on = part.on_surfaces
+    on = part.surface_parameters
     return replace(on, corner=np.ascontiguousarray(change(on.corner))) if on is not None else None
 
 
@@ -57,7 +57,7 @@ def shuffled_triangles(model: Frozen, rng: Random) -> Frozen:
             part,
             triangles=np.ascontiguousarray(triangles),
             triangle_face=part.triangle_face[order],
-            on_surfaces=_corners(part, lambda corner: np.take_along_axis(corner[order], turn, axis=1)),
+            surface_parameters=_corners(part, lambda corner: np.take_along_axis(corner[order], turn, axis=1)),
         )
 
     return replace(model, parts=tuple(each(part) for part in model.parts))
@@ -69,10 +69,12 @@ def shuffled_faces(model: Frozen, rng: Random) -> tuple[Frozen, list[np.ndarray]
     for part in model.parts:
         order = rng.permutation(len(part.face_planar))
         triangle_face = np.argsort(order)[part.triangle_face].astype(np.int32)
-        on = part.on_surfaces
+        on = part.surface_parameters
         if on is not None:
             on = replace(on, number=on.number[order], place=on.place[order], reversed=on.reversed[order])
-        parts.append(replace(part, triangle_face=triangle_face, face_planar=part.face_planar[order], on_surfaces=on))
+        parts.append(
+            replace(part, triangle_face=triangle_face, face_planar=part.face_planar[order], surface_parameters=on)
+        )
         orders.append(order)
     return replace(model, parts=tuple(parts)), orders
 
@@ -145,7 +147,7 @@ def _split(part: PartMesh, rng: Random) -> PartMesh:
         points=np.concatenate([part.points, middle]),
         triangles=np.concatenate(four).astype(np.int32),
         triangle_face=np.tile(part.triangle_face, 4),
-        on_surfaces=_split_surfaces(part, share[number[: len(sides)] - n]),
+        surface_parameters=_split_surfaces(part, share[number[: len(sides)] - n]),
         edge_nodes=nodes.astype(np.int32),
         edge_offsets=np.cumsum([0, *counts]).astype(np.int32),
     )
@@ -153,7 +155,7 @@ def _split(part: PartMesh, rng: Random) -> PartMesh:
 
 def _split_surfaces(part: PartMesh, share: np.ndarray) -> SurfaceParameters | None:
     """The same in parameters; share (3 m,) of each side, from its node of the lower number."""
-    on = part.on_surfaces
+    on = part.surface_parameters
     if on is None:
         return None
     k, m = len(on.uv), len(part.triangles)

@@ -213,7 +213,7 @@ def turned_over(mesh):
 
 
 def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():
-    one = replace(part_of(cq.Workplane().box(10, 20, 30).edges("|Z").fillet(3)), on_surfaces=None)
+    one = replace(part_of(cq.Workplane().box(10, 20, 30).edges("|Z").fillet(3)), surface_parameters=None)
     n = len(one.points)
     twice = replace(
         one,

@@ -253,11 +253,11 @@ def test_colours_of_a_ply_file(tmp_path):
     colors = np.arange(48, dtype=np.uint8).reshape(12, 4)
     box.visual.face_colors = colors
     box.export(tmp_path / "faces.ply")
-    look = open_source(tmp_path / "faces.ply").looks()["faces"]
+    look = open_source(tmp_path / "faces.ply").appearances()["faces"]
     assert np.allclose(look.corners, np.repeat(colors[:, None], 3, axis=1) / 255)
     box.visual = trimesh.visual.ColorVisuals(box, vertex_colors=colors[:8])
     box.export(tmp_path / "vertices.ply")
-    look = open_source(tmp_path / "vertices.ply").looks()["vertices"]
+    look = open_source(tmp_path / "vertices.ply").appearances()["vertices"]
     assert np.allclose(look.corners, colors[box.faces] / 255)
 
 
@@ -307,7 +307,7 @@ def test_colours_of_needles():
     red, green, blue = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255)
     by_face = trimesh.Trimesh(points, triangles, process=False, face_colors=[blue, green, red, blue, blue])
     by_vertex = trimesh.Trimesh(points, triangles, process=False, vertex_colors=[red, green, blue, red, blue, green])
-    faces, corners = (next(iter(open_source(mesh).looks().values())) for mesh in (by_face, by_vertex))
+    faces, corners = (next(iter(open_source(mesh).appearances().values())) for mesh in (by_face, by_vertex))
     assert faces.triangles.tolist() == [[0, 1, 3], [1, 2, 3], [1, 0, 4], [2, 1, 4]]
     assert (faces.corners[:2] == np.array(red) / 255).all() and (faces.corners[2:] == np.array(blue) / 255).all()
     expected = np.array([red, green, blue, red, blue])[faces.triangles] / 255

@@ -118,9 +118,9 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
             found = self.meshed.parts(planar)
             nameless = [PartLabel("", None, np.eye(4))] * len(found)
             *others, last = PartMeshes(nameless, found, object())
-            none = replace(last.on_surfaces, corner=last.on_surfaces.corner[:0])
+            none = replace(last.surface_parameters, corner=last.surface_parameters.corner[:0])
             without = replace(
-                last, triangles=last.triangles[:0], triangle_face=last.triangle_face[:0], on_surfaces=none
+                last, triangles=last.triangles[:0], triangle_face=last.triangle_face[:0], surface_parameters=none
             )
             return combine_parts([*others, without]).tables
 

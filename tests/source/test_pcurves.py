@@ -152,13 +152,18 @@ def test_periods():
 def test_whole_periods():
     inf = math.inf
     offset, period = np.array([6.9, 100.0]), np.array([2.0, inf])
-    assert pcurves._whole(offset, period).tolist() == [6.0, 0.0]
-    assert pcurves._whole(-offset, period).tolist() == [-6.0, 0.0]
-    assert pcurves._whole(np.array([7.1, -7.1]), np.array([2.0, 2.0])).tolist() == [8.0, -8.0]
-    assert pcurves._whole(np.array([6.1, -6.1]), np.array([2.0, 2.0]), down=True).tolist() == [8.0, -6.0]
+    assert pcurves._whole_periods(offset, period).tolist() == [6.0, 0.0]
+    assert pcurves._whole_periods(-offset, period).tolist() == [-6.0, 0.0]
+    assert pcurves._whole_periods(np.array([7.1, -7.1]), np.array([2.0, 2.0])).tolist() == [8.0, -8.0]
+    assert pcurves._whole_periods(np.array([6.1, -6.1]), np.array([2.0, 2.0]), round_up=True).tolist() == [8.0, -6.0]
     # What is beyond by rounding alone takes no further period.
-    assert pcurves._whole(np.array([6.0 + 1e-7, 6.0 + 1e-5]), np.array([2.0, 2.0]), down=True).tolist() == [6.0, 8.0]
-    assert pcurves._whole(np.array([6.0 + 1.5e-6, 6.0 + 3e-6]), np.array([2.0, 2.0]), down=True).tolist() == [6.0, 8.0]
+    assert pcurves._whole_periods(np.array([6.0 + 1e-7, 6.0 + 1e-5]), np.array([2.0, 2.0]), round_up=True).tolist() == [
+        6.0,
+        8.0,
+    ]
+    assert pcurves._whole_periods(
+        np.array([6.0 + 1.5e-6, 6.0 + 3e-6]), np.array([2.0, 2.0]), round_up=True
+    ).tolist() == [6.0, 8.0]
 
 
 class Vertex(SimpleNamespace):
@@ -215,7 +220,7 @@ def test_uses_run_as_their_wire_does():
     assert len(uses) == 4 and {u.backward for u in uses} == {True, False}
     for u in pcurves._in_order(uses, np.array(pcurves.periods(face))):
         assert u.backward == (u.edge.Orientation() == TopAbs_Orientation.TopAbs_REVERSED)
-        assert not u.move.any() and u.move.shape == (2,)
+        assert not u.shift.any() and u.shift.shape == (2,)
     loop = pcurves._in_order(uses, np.array(pcurves.periods(face)))
     for before, after in zip(loop, [*loop[1:], loop[0]], strict=True):
         assert before.vertices[1].IsSame(after.vertices[0])

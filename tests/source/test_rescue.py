@@ -28,7 +28,7 @@ def opened(shape):
     source = open_source(shape)
     source.mesh(0.02, 0.3)
     model = source._tessellator._model
-    faces = faces_of(source.roots.shapes, set(range(min(4, model.n_faces))))
+    faces = faces_of(source.prototypes.shapes, set(range(min(4, model.n_faces))))
     forward = TopAbs_Orientation.TopAbs_FORWARD
     return model.mesh(0.02, 0.3), {
         number: TopoDS.Face(face.Located(TopLoc_Location(), False).Oriented(forward)) for number, face in faces.items()
@@ -40,7 +40,7 @@ def test_a_lost_turned_or_doubled_triangle_is_found(name):
     meshed, faces = opened(SHAPES[name]())
     assert faces
     for number, face in faces.items():
-        copy, counterpart = next(rescue._copies(face))()
+        copy, counterpart = next(rescue._repairs(face))()
         run_mesher(copy, 0.04, 0.3)
         points, uv, triangles = rescue._triangles(copy)
         borders = rescue._borders(face, copy, counterpart, triangles)
@@ -56,7 +56,7 @@ def test_a_lost_turned_or_doubled_triangle_is_found(name):
 def test_triangles_without_the_area_of_the_face_are_found():
     """In (u, v) all is as it should be; in space the face has shrunk, or is twice as large."""
     meshed, faces = opened(SHAPES["plate"]())
-    copy, counterpart = next(rescue._copies(faces[0]))()
+    copy, counterpart = next(rescue._repairs(faces[0]))()
     run_mesher(copy, 0.04, 0.3)
     points, uv, triangles = rescue._triangles(copy)
     borders = rescue._borders(faces[0], copy, counterpart, triangles)

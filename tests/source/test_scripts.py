@@ -169,7 +169,7 @@ def test_a_variable_may_be_chosen(script):
 )
 def test_colours_and_opacities_are_kept(script, options, look):
     source = open_source(script(CQ + f"show_object(box, 'b', options={options})\n"))
-    whole = source.looks()["b"].whole
+    whole = source.appearances()["b"].whole
     assert whole == (None if look is None else pytest.approx(look, abs=2e-3))
 
 
@@ -178,5 +178,5 @@ def test_an_assembly_has_the_colour_it_is_shown_in_where_it_has_none(script):
         "a = cq.Assembly().add(box, name='own', color=cq.Color(0, 1, 0, 0.5)).add(box, name='none')\n"
         "show_object(a, options={'color': cq.Color('red')})\n"
     )
-    looks = open_source(script(CQ + text)).looks()
+    looks = open_source(script(CQ + text)).appearances()
     assert looks["own"].whole == (0, 1, 0, 0.5) and looks["none"].whole == (1, 0, 0, 1)

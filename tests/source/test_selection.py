@@ -70,7 +70,7 @@ def test_what_is_left_is_drawn_as_if_it_were_alone(kind):
     assert (np.ptp(alone.bounds(), axis=0) < high - low).any()
     (mesh,) = alone.mesh(0.1, 0.3).parts
     assert mesh.name == "nut" and len(mesh.triangles)
-    assert list(alone.looks()) == ["nut"]
+    assert list(alone.appearances()) == ["nut"]
     nut = hlr.draw(source, only=("nut",), report=kind == "brep")
     if kind == "brep":
         assert nut.reached is not None

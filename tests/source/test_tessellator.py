@@ -109,7 +109,7 @@ def test_indices_are_those_of_the_index_maps(name, data):
     source = open_source(data / name)
     parts = source.mesh(0.005, 0.1).parts
     for part, entry in list(zip(parts, source.parts, strict=True))[:6]:
-        root = source.roots.shapes[entry.root]
+        root = source.prototypes.shapes[entry.prototype]
         faces, edges = TopTools_IndexedMapOfShape(), TopTools_IndexedMapOfShape()
         TopExp.MapShapes_s(root, Kind.TopAbs_FACE, faces)
         TopExp.MapShapes_s(root, Kind.TopAbs_EDGE, edges)
@@ -160,8 +160,8 @@ def same(a: PartMesh, b: PartMesh) -> bool:
         return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
 
     on = [f.name for f in fields(SurfaceParameters) if f.name != "surfaces"]
-    own = [f.name for f in fields(PartMesh) if f.name not in ("color", "on_surfaces")]
-    return equal(a, b, own) and equal(a.on_surfaces, b.on_surfaces, on)
+    own = [f.name for f in fields(PartMesh) if f.name not in ("color", "surface_parameters")]
+    return equal(a, b, own) and equal(a.surface_parameters, b.surface_parameters, on)
 
 
 @pytest.mark.parametrize("name", ["sinks", "fillets", "sphere", "revolved", "union"])
@@ -175,7 +175,7 @@ def test_triangles_of_another_mesher_are_joined_to_the_edges(name):
     tessellator = source._tessellator
     (ours,) = source.mesh(0.05, 0.3).parts
     meshed = tessellator._model.mesh(EACH_SURFACE * 0.05, 0.3)
-    faces = faces_of(source.roots.shapes, set(range(tessellator._model.n_faces)))
+    faces = faces_of(source.prototypes.shapes, set(range(tessellator._model.n_faces)))
     for number, face in faces.items():
         assert rescue(meshed, number, face, 0.08, 0.5)
         found = meshed.parts(tessellator._planar)
@@ -279,10 +279,10 @@ def test_the_triangles_that_a_caller_s_shape_brings_stay(name, meshed):
 
 def test_the_dump_of_shapes_in_memory_is_not_kept():
     source = open_source(cq.Workplane().sphere(3))
-    before = source._roots.dump
+    before = source._prototypes.dump
     source.mesh(0.1, 0.3)
-    assert "dump" not in vars(source._roots)
-    assert source._roots.dump == before and len(source._roots.read_back) == 1
+    assert "dump" not in vars(source._prototypes)
+    assert source._prototypes.dump == before and len(source._prototypes.shapes_from_dump) == 1
 
 
 def test_two_runs_give_the_same_bytes():

@@ -25,14 +25,14 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
-    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.prototypes.shapes]
     parts = {part.name: part for part in source.parts}
     known: dict[tuple[str, int], Any] = {}
 
     def at(name: str, edge: int) -> Any:
         if (name, edge) not in known:
             part = parts[name]
-            curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.root][edge]))
+            curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.prototype][edge]))
             spline = curve.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve
             # A helix of many turns is one B-spline.
             count = 8 * DENSE if spline else DENSE

@@ -1,4 +1,4 @@
-"""BREP files, text and binary: one shape, no names."""
+"""OpenCASCADE's BREP files, text and binary: one shape, without names."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hlr.source.cad.occt_import import load_occt, silence_stdout
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
 
-_ROOT = re.compile(rb"\*\s+[-+ie]\d+ \d+\s*(?:\d+\s*)?\0?\s*$")
+_ROOT_RECORD = re.compile(rb"\*\s+[-+ie]\d+ \d+\s*(?:\d+\s*)?\0?\s*$")
 """The end of the last list of sub-shapes, and the root shape: orientation and number, then its location."""
 
 
@@ -29,7 +29,7 @@ def open_brep(path: Path) -> BrepSource:
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 200))
         # OpenCASCADE's text reader never returns from a file whose last line, the root shape, is missing.
-        if not binary and _ROOT.search(file.read()) is None:
+        if not binary and _ROOT_RECORD.search(file.read()) is None:
             raise SourceError(f"{path.name} cannot be read as BREP: it is cut short; export or download it again.")
     load_occt()
     from OCP.BinTools import BinTools

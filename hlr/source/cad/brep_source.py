@@ -1,4 +1,4 @@
-"""A B-rep source: parts with names, colours and placements, tessellated as finely as asked."""
+"""A B-rep model as a source: parts with names, colours and placements, tessellated to a requested chord error."""
 
 from __future__ import annotations
 
@@ -24,21 +24,22 @@ from hlr.source.precision import coordinate_precision
 
 
 class BrepSource:
-    """Parts on roots as a source: from leaves of an assembly (`hlr.source.cad.source_builder`), or out of the cache.
+    """Parts and the prototypes that they are instances of, as a source. Lengths are millimetres, z is up.
 
-    Lengths are millimetres, z is up. The caller's shapes are neither copied nor changed: triangles that they have stay.
-    reading: how the model was come by, for people; "" where there is nothing to say.
+    Built from the leaves of an assembly (`hlr.source.cad.source_builder`) or from the cache. The caller's shapes are
+    neither copied nor changed; triangulations that they carry stay.
+    reading: one sentence for users on how the model was read and whether it came from the cache; may be empty.
     """
 
     def __init__(
-        self, name: str, kind: str, parts: Sequence[Part], roots: Prototypes, notes: Sequence[Note] = ()
+        self, name: str, kind: str, parts: Sequence[Part], prototypes: Prototypes, notes: Sequence[Note] = ()
     ) -> None:
-        """Parts, at least one, that stand on `roots` and have faces."""
+        """Args: `parts`, at least one, each an instance of one of `prototypes` that has faces."""
         self._name, self._kind, self._notes = name, kind, list(notes)
-        self._roots = roots
+        self._prototypes = prototypes
         self.choice: Choice | None = None
         self.reading = ""
-        self._hold(parts)
+        self._set_parts(parts)
 
     @property
     def name(self) -> str:
@@ -61,29 +62,29 @@ class BrepSource:
         return list(self._notes)
 
     def names(self) -> list[str]:
-        """Of every part."""
+        """Name of every part."""
         return [part.name for part in self._parts]
 
     def infos(self) -> list[PartInfo]:
-        """Counts of every part's index maps."""
-        return [PartInfo(part.name, *self._roots.counts[part.root].tolist()) for part in self._parts]
+        """Numbers of faces, edges and solids of every part."""
+        return [PartInfo(part.name, *self._prototypes.counts[part.prototype].tolist()) for part in self._parts]
 
     def of_parts(self, names: Collection[str], choice: Choice) -> BrepSource:
-        """The same source with these parts only; nothing else of it is meshed."""
+        """The same source with these parts only; no other part is tessellated."""
         chosen = copy(self)
         chosen.choice = choice
-        chosen._hold([part for part in self._parts if part.name in names])
+        chosen._set_parts([part for part in self._parts if part.name in names])
         return chosen
 
-    def _hold(self, parts: Sequence[Part]) -> None:
-        """The parts that are drawn, and what will be known of them."""
+    def _set_parts(self, parts: Sequence[Part]) -> None:
+        """Set the parts that are drawn, and forget what was computed for others."""
         self._parts = list(parts)
-        self._used = sorted({part.root for part in parts})
+        self._used_prototypes = sorted({part.prototype for part in parts})
         self._corners: tuple[Floats, Floats] | None = None
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
         self._maps: dict[tuple[int, Any], Any] = {}
-        self._root_of = {part.name: part.root for part in self._parts}
+        self._prototype_of = {part.name: part.prototype for part in self._parts}
 
     @property
     def parts(self) -> list[Part]:
@@ -91,27 +92,27 @@ class BrepSource:
         return self._parts
 
     @property
-    def roots(self) -> Prototypes:
-        """What they stand on, and parts that are left out as well."""
-        return self._roots
+    def prototypes(self) -> Prototypes:
+        """The prototypes of all parts, also of those that are left out."""
+        return self._prototypes
 
     def transparent(self) -> bool:
         """Some part has an opacity below one."""
         return any(part.transparent for part in self._parts)
 
-    def looks(self) -> dict[str, Appearance]:
+    def appearances(self) -> dict[str, Appearance]:
         """Colours and opacities of parts and faces."""
-        return {part.name: part.look() for part in self._parts}
+        return {part.name: part.appearance() for part in self._parts}
 
     def boxes(self) -> list[Floats]:
         """Corners of every part's box, (8, 3), or none where it has no extent."""
-        boxes = self._roots.boxes
+        boxes = self._prototypes.boxes
         void = (boxes[:, 0, 0] > boxes[:, 1, 0]).tolist()
         corners, _ = self._placed
-        return [box[:0] if void[part.root] else box for part, box in zip(self._parts, corners, strict=True)]
+        return [box[:0] if void[part.prototype] else box for part, box in zip(self._parts, corners, strict=True)]
 
     def bounds(self) -> Floats:
-        """(2, 3) corners in millimetres; free-form surfaces count with their control points."""
+        """(2, 3) lower and upper corner in millimetres; a free-form surface has the box of its control points."""
         if self._bounds is None:
             _, bounds = self._placed
             if bounds[0, 0] > bounds[1, 0]:
@@ -121,29 +122,29 @@ class BrepSource:
 
     @property
     def _placed(self) -> tuple[Floats, Floats]:
-        """Corners (p, 8, 3) of the parts' boxes, and the box around those that are not void."""
+        """Corners (p, 8, 3) of the parts' boxes, and the box (2, 3) around all that are not empty."""
         if self._corners is None:
-            roots = np.array([part.root for part in self._parts], np.int32)
+            prototypes = np.array([part.prototype for part in self._parts], np.int32)
             places = np.array([part.transform for part in self._parts])
-            self._corners = _kernel.placed_boxes(self._roots.boxes, roots, places)
+            self._corners = _kernel.placed_boxes(self._prototypes.boxes, prototypes, places)
         return self._corners
 
     def edge_shape(self, part: str, index: int) -> Any:
-        """The TopoDS_Edge with this number in the TopExp edge map of the part of that name, without its placement."""
+        """The TopoDS_Edge with this index in the TopExp edge map of the named part, without its placement."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopoDS import TopoDS
 
         return TopoDS.Edge(self._map(part, Kind.TopAbs_EDGE).FindKey(index + 1))
 
     def face_shape(self, part: str, index: int) -> Any:
-        """The TopoDS_Face with this number in the TopExp face map of the part of that name, without its placement."""
+        """The TopoDS_Face with this index in the TopExp face map of the named part, without its placement."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopoDS import TopoDS
 
         return TopoDS.Face(self._map(part, Kind.TopAbs_FACE).FindKey(index + 1))
 
     def face_edges(self, part: str, index: int) -> list[int]:
-        """Numbers of the edges of a face of a part, both counted as TopExp does."""
+        """Indices (TopExp edge map of the part) of the edges of a face (index in its TopExp face map)."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopExp import TopExp
 
@@ -156,14 +157,14 @@ class BrepSource:
         """The TopExp map of a part's edges or faces."""
         from OCP.TopExp import TopExp
 
-        key = self._root_of[part], kind
+        key = self._prototype_of[part], kind
         if key not in self._maps:
             self._maps[key] = new_collection("shape_map")
-            TopExp.MapShapes_s(self._roots.shapes[key[0]], kind, self._maps[key])
+            TopExp.MapShapes_s(self._prototypes.shapes[key[0]], kind, self._maps[key])
         return self._maps[key]
 
     def shape(self) -> Any:
-        """All parts that are drawn, each where it stands, as one TopoDS_Compound."""
+        """All parts that are drawn, with their placements, as one TopoDS_Compound."""
         from OCP.gp import gp_Trsf
         from OCP.TopLoc import TopLoc_Location
 
@@ -171,47 +172,49 @@ class BrepSource:
         for part in self._parts:
             move = gp_Trsf()
             move.SetValues(*(float(value) for value in part.transform[:3].ravel()))
-            placed.append(self._roots.shapes[part.root].Moved(TopLoc_Location(move), False))
+            placed.append(self._prototypes.shapes[part.prototype].Moved(TopLoc_Location(move), False))
         return make_compound(placed)
 
     @property
-    def _meshed_by(self) -> Tessellator:
+    def _part_tessellator(self) -> Tessellator:
         if self._tessellator is None:
             low, high = self.bounds()
-            self._tessellator = Tessellator(self._roots, self._used, float(np.sqrt(((high - low) ** 2).sum())))
+            self._tessellator = Tessellator(
+                self._prototypes, self._used_prototypes, float(np.sqrt(((high - low) ** 2).sum()))
+            )
         return self._tessellator
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
-        """Tessellate: chord error at most `deflection` (millimetres), turning at most `angle` (radians).
+        """Tessellate: chord error at most `deflection` (millimetres), turning per chord at most `angle` (radians).
 
         Raises:
             SourceError: no part could be meshed.
         """
-        surfaces = self._meshed_by
+        surfaces = self._part_tessellator
         tables, faults = surfaces.mesh(deflection, angle, progress)
-        number = {root: i for i, root in enumerate(self._used)}
+        number = {prototype: i for i, prototype in enumerate(self._used_prototypes)}
         starts = tables.triangle_start
         counts = (starts[1:] - starts[:-1]).tolist()
         notes, kept = [], []
         for part in self._parts:
-            root = number[part.root]
+            prototype = number[part.prototype]
             if faults:
-                a, b = tables.face_start[root : root + 2]
+                a, b = tables.face_start[prototype : prototype + 2]
                 notes += faults.notes(part.name, tables.face_shape[a:b])
-            if counts[root]:
+            if counts[prototype]:
                 kept.append(part)
             else:
                 text = f'Part "{part.name}" has no triangles and was left out.'
                 notes.append(Note("part-left-out", text))
         if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
-        check_triangle_count(sum(counts[number[part.root]] for part in kept))
-        roots = np.array([number[part.root] for part in kept], np.int32)
+        check_triangle_count(sum(counts[number[part.prototype]] for part in kept))
+        prototypes = np.array([number[part.prototype] for part in kept], np.int32)
         transforms = np.array([part.transform[:3] for part in kept])
-        placed = tables.placed(roots, transforms, _precisions(tables)[roots])
+        placed = tables.placed(prototypes, transforms, _precisions(tables)[prototypes])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:
-            keys = roots[part].astype(np.int64) << 32 | edge
+            keys = prototypes[part].astype(np.int64) << 32 | edge
             distinct, which = np.unique(keys, return_inverse=True)
             found = surfaces.edge_curves((distinct >> 32).astype(np.int32), distinct.astype(np.int32))
             return EdgeCurves(found, which.ravel().astype(np.int32), part, transforms)
@@ -221,7 +224,7 @@ class BrepSource:
 
 
 def _precisions(tables: _kernel.PartTables) -> Floats:
-    """(p,) how far the coordinates of parts without edges, which a file brought as triangles, may be off."""
+    """(p,) coordinate precision of parts that a file stores as triangles alone; 0 for all others."""
     out = np.zeros(len(tables))
     for i in np.flatnonzero(~tables.brep).tolist():
         a, b = tables.point_start[i : i + 2]

@@ -1,4 +1,4 @@
-"""What an entry is found by: all that what was read depends on."""
+"""Keys of cache entries: a digest of everything that the reading of a file depends on."""
 
 from __future__ import annotations
 
@@ -10,42 +10,42 @@ from pathlib import Path
 
 
 def cache_key(path: Path, kind: str, annotations: bool) -> str:
-    """Forty hexadecimal digits for the content of a file, its name, how it is read, and by what.
+    """40 hexadecimal digits: a digest of a file's content and name, the kind, the options, and the reading code.
 
-    The name counts, for it is that of parts that have none.
+    The name counts because nameless parts are named after the file.
     """
-    found = blake2b(digest_size=20)
-    for text in (*_reader(), kind, path.name, str(annotations)):
-        found.update(text.encode("utf-8", "surrogateescape") + b"\0")
+    digest = blake2b(digest_size=20)
+    for text in (*_reader_versions(), kind, path.name, str(annotations)):
+        digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
     with path.open("rb") as file:
         while piece := file.read(1 << 20):
-            found.update(piece)
-    return found.hexdigest()
+            digest.update(piece)
+    return digest.hexdigest()
 
 
 @cache
-def _reader() -> tuple[str, ...]:
-    """Versions of hlr and of OpenCASCADE's bindings, none of which is imported for it."""
+def _reader_versions() -> tuple[str, ...]:
+    """Digest of hlr's code and versions of OpenCASCADE's bindings; the bindings are not imported."""
     return _own_code(), *_bindings()
 
 
 def _own_code() -> str:
-    """A digest of hlr's version and of all code that reads: a checkout changes more often than its version."""
-    found = blake2b(digest_size=20)
+    """Digest of the modules that read files: in a checkout they change more often than the version."""
+    digest = blake2b(digest_size=20)
     for path in code_files():
-        found.update(path.read_bytes())
-    return found.hexdigest()
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
 
 
 def code_files() -> list[Path]:
-    """The module that states the version, and those that read files and keep what was read."""
+    """The module that states the version, and all modules that read and cache files."""
     hlr = Path(__file__).parents[2]
     readers = sorted(path for room in ("source", "cache", "tables") for path in (hlr / room).rglob("*.py"))
     return readers + sorted(hlr.glob("__init__.py*"))
 
 
 def _bindings() -> list[str]:
-    """Names of the distributions, with their versions, beside the package OCP; else its date and size."""
+    """Names and versions of the distributions beside the package OCP; where there are none, its date and size."""
     try:
         spec = find_spec("OCP")
     except ValueError:

@@ -1,15 +1,15 @@
-"""B-rep files through the cache: what a file was read to once is kept, and the next time OpenCASCADE is not needed.
+"""B-rep files through the cache: a file that is drawn again is not read again, and OpenCASCADE is not needed.
 
-An entry (`hlr.cache.entry`) has in its JSON the counts of parts, roots and coloured faces, what was noted, and of each
-part [name, product, colour or null, root, transparent, whole look or null]. Its data are, little-endian:
+The JSON of an entry (`hlr.cache.entry`) has the numbers of prototypes and coloured faces, the notes, and for each part
+[name, product, colour or null, prototype, transparent, colour and opacity or null]. Its data are, little-endian:
 
-    transforms   (parts, 4, 4)   f8   where each part stands
-    boxes        (roots, 2, 3)   f8   as of `hlr.source.cad.prototypes.Prototypes`
-    colours      (faces, 4)      f8   red, green, blue, opacity of faces that have their own
-    counts       (roots, 3)      i4   as of `Prototypes`
-    coloured     (parts + 1)     i4   where each part's coloured faces begin
-    faces        (faces)         i4   their numbers in the part's face map
-    dump                              the rest: OpenCASCADE's binary dump of all roots
+    transforms   (parts, 4, 4)        f8   placement of each part
+    boxes        (prototypes, 2, 3)   f8   as of `hlr.source.cad.prototypes.Prototypes`
+    colours      (faces, 4)           f8   red, green, blue, opacity of faces that have their own
+    counts       (prototypes, 3)      i4   as of `Prototypes`
+    coloured     (parts + 1)          i4   offsets of each part's coloured faces
+    faces        (faces)              i4   their indices in the part's face map
+    dump                                   the rest: OpenCASCADE's binary dump of all prototypes
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ from hlr.source.model import Appearance
 
 
 def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[[], BrepSource]) -> BrepSource:
-    """The file as it was read before, else what `read` makes of it, which is kept where that is possible.
+    """The source of a file: from the cache, else from `read`, whose result is cached where that is possible.
 
     Raises:
-        SourceError: what `read` raises; that is not kept.
+        SourceError: whatever `read` raises; a failure is not cached.
     """
     started = perf_counter()
-    where = folder()
-    if where is None:
+    cache_folder = folder()
+    if cache_folder is None:
         source = read()
-        source.reading = f"{path.name} was read in {_since(started)}; the cache is off"
+        source.reading = f"{path.name} was read in {_seconds_since(started)}; the cache is off"
         return source
-    store = Store(where, most_bytes())
+    store = Store(cache_folder, most_bytes())
     key = cache_key(path, kind, annotations)
     entry = store.read(key)
     damage = ""
@@ -61,7 +61,7 @@ def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[
             source.reading = f"{path.name} was not read again, it is in the cache: {store.path(key)}"
             return source
     source = read()
-    source.reading = f"{damage}{path.name} was read in {_since(started)}"
+    source.reading = f"{damage}{path.name} was read in {_seconds_since(started)}"
     try:
         if key != cache_key(path, kind, annotations):
             raise NotKeptError("the file has changed meanwhile")
@@ -72,107 +72,107 @@ def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[
     return source
 
 
-def _since(started: float) -> str:
+def _seconds_since(started: float) -> str:
     return f"{perf_counter() - started:.2g} s"
 
 
 def to_entry(source: BrepSource) -> tuple[dict[str, Any], list[bytes]]:
-    """JSON and data of an entry."""
-    roots, looks = source.roots, [part.look() for part in source.parts]
+    """JSON and data of the cache entry of a source."""
+    prototypes, looks = source.prototypes, [part.appearance() for part in source.parts]
     painted = [(number, rgba) for look in looks for number, rgba in look.faces.items()]
     facts = {
-        "roots": len(roots.counts),
+        "prototypes": len(prototypes.counts),
         "faces": len(painted),
         "notes": [[note.code, note.text] for note in source.notes],
         "parts": [
-            [part.name, part.product, part.color, part.root, part.transparent, look.whole]
+            [part.name, part.product, part.color, part.prototype, part.transparent, look.whole]
             for part, look in zip(source.parts, looks, strict=True)
         ],
     }
     arrays = [
         np.array([part.transform for part in source.parts], "<f8"),
-        roots.boxes.astype("<f8"),
+        prototypes.boxes.astype("<f8"),
         np.array([rgba for _, rgba in painted], "<f8"),
-        roots.counts.astype("<i4"),
+        prototypes.counts.astype("<i4"),
         np.cumsum([0, *(len(look.faces) for look in looks)]).astype("<i4"),
         np.array([number for number, _ in painted], "<i4"),
     ]
-    return facts, [*(array.tobytes() for array in arrays), roots.dump]
+    return facts, [*(array.tobytes() for array in arrays), prototypes.dump]
 
 
 def from_entry(name: str, kind: str, facts: dict[str, Any], data: memoryview) -> BrepSource:
-    """The source that was recorded; nothing of it is taken on trust.
+    """The source that a cache entry describes; every value is checked.
 
     Raises:
-        DamagedError: it cannot be what `to_entry` made.
+        DamagedError: `to_entry` cannot have made this entry.
     """
     try:
-        return _restored(name, kind, facts, data)
+        return _checked_source(name, kind, facts, data)
     except (ValueError, TypeError, KeyError, IndexError, OverflowError, MemoryError):
         raise DamagedError("its content does not fit together") from None
 
 
-def _restored(name: str, kind: str, facts: dict[str, Any], data: memoryview) -> BrepSource:
+def _checked_source(name: str, kind: str, facts: dict[str, Any], data: memoryview) -> BrepSource:
     parts = facts["parts"]
-    n_parts, n_roots, n_faces = len(parts), _index(facts["roots"]), _index(facts["faces"])
-    at = 0
+    n_parts, n_prototypes, n_faces = len(parts), _index(facts["prototypes"]), _index(facts["faces"])
+    offset = 0
 
     def table(kind: str, *shape: int) -> Any:
-        nonlocal at
+        nonlocal offset
         dtype = np.dtype(kind)
         count = math.prod(shape)
-        _must(count * dtype.itemsize <= len(data) - at)
-        found = np.frombuffer(data, dtype, count, at).astype(dtype.newbyteorder("="))
-        at += found.nbytes
+        _require(count * dtype.itemsize <= len(data) - offset)
+        found = np.frombuffer(data, dtype, count, offset).astype(dtype.newbyteorder("="))
+        offset += found.nbytes
         return found.reshape(shape)
 
     transforms, boxes, colors = (
         table("<f8", n_parts, 4, 4),
-        table("<f8", n_roots, 2, 3),
+        table("<f8", n_prototypes, 2, 3),
         table("<f8", n_faces, 4),
     )
-    counts, start, faces = table("<i4", n_roots, 3), table("<i4", n_parts + 1), table("<i4", n_faces)
-    _must(n_parts > 0 and bool(np.isfinite(transforms).all()))
+    counts, start, faces = table("<i4", n_prototypes, 3), table("<i4", n_parts + 1), table("<i4", n_faces)
+    _require(n_parts > 0 and bool(np.isfinite(transforms).all()))
     sound = np.isfinite(boxes).all(axis=(1, 2)) & (boxes[:, 0] <= boxes[:, 1]).all(axis=1)
-    _must(bool((sound | (boxes == EMPTY_BOX).all(axis=(1, 2))).all()))
-    _must(bool(((colors >= 0.0) & (colors <= 1.0)).all()))
-    _must(start[0] == 0 and start[-1] == n_faces and bool((np.diff(start) >= 0).all()))
-    roots = Prototypes(bytes(data[at:]), counts, boxes)
-    _must(roots.model.faces_of_parts == counts[:, 0].tolist() and bool((counts >= 0).all()))
+    _require(bool((sound | (boxes == EMPTY_BOX).all(axis=(1, 2))).all()))
+    _require(bool(((colors >= 0.0) & (colors <= 1.0)).all()))
+    _require(start[0] == 0 and start[-1] == n_faces and bool((np.diff(start) >= 0).all()))
+    prototypes = Prototypes(bytes(data[offset:]), counts, boxes)
+    _require(prototypes.model.faces_of_parts == counts[:, 0].tolist() and bool((counts >= 0).all()))
 
     def part(number: int) -> Part:
-        own, product, color, root, transparent, whole = parts[number]
-        _must(all(isinstance(text, str) for text in (own, product)) and isinstance(transparent, bool))
-        _must(0 <= _index(root) < n_roots)
-        _must(counts[root, 0] > 0)
+        own, product, color, prototype, transparent, whole = parts[number]
+        _require(all(isinstance(text, str) for text in (own, product)) and isinstance(transparent, bool))
+        _require(0 <= _index(prototype) < n_prototypes)
+        _require(counts[prototype, 0] > 0)
         mine = slice(start[number], start[number + 1])
         numbers = faces[mine].tolist()
-        _must(all(0 <= face < counts[root, 0] for face in numbers))
+        _require(all(0 <= face < counts[prototype, 0] for face in numbers))
         rgba: list[Rgba] = [(r, g, b, a) for r, g, b, a in colors[mine].tolist()]
         look = Appearance(_numbers(whole, 4), dict(zip(numbers, rgba, strict=True)))
-        found = Part(own, product, _numbers(color, 3), root, transforms[number], transparent, Appearance)
+        found = Part(own, product, _numbers(color, 3), prototype, transforms[number], transparent, Appearance)
         return with_appearance(found, look)
 
-    _must(all(code in CODES and isinstance(text, str) for code, text in facts["notes"]))
+    _require(all(code in CODES and isinstance(text, str) for code, text in facts["notes"]))
     notes = [Note(code, text) for code, text in facts["notes"]]
-    source = BrepSource(name, kind, [part(number) for number in range(n_parts)], roots, notes)
-    _must(len({part.name for part in source.parts}) == n_parts)
+    source = BrepSource(name, kind, [part(number) for number in range(n_parts)], prototypes, notes)
+    _require(len({part.name for part in source.parts}) == n_parts)
     return source
 
 
-def _must(true: bool) -> None:
+def _require(true: bool) -> None:
     if not true:
         raise ValueError("an entry that was not made here")
 
 
 def _index(value: Any) -> int:
-    _must(isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31)
+    _require(isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31)
     return int(value)
 
 
 def _numbers(values: Any, count: int) -> Any:
-    """So many numbers from 0 to 1 as a tuple, or None."""
+    """`count` numbers from 0 to 1 as a tuple, or None."""
     if values is None:
         return None
-    _must(len(values) == count and all(isinstance(v, int | float) and 0.0 <= v <= 1.0 for v in values))
+    _require(len(values) == count and all(isinstance(v, int | float) and 0.0 <= v <= 1.0 for v in values))
     return tuple(map(float, values))

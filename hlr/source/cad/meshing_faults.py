@@ -1,4 +1,4 @@
-"""What went wrong with the faces of a model when they were triangulated, and the notes that say so."""
+"""Faces that could not be tessellated as they are, and the notes on them."""
 
 from __future__ import annotations
 
@@ -9,16 +9,17 @@ import numpy as np
 from hlr.common.types import Ints
 from hlr.drawing.notes import Note
 
-NAMED = 5
-"""So many faces are named in one note."""
+MAX_LISTED = 5
+"""Faces that one note lists by number."""
 
 
 @dataclass(slots=True)
 class MeshingFaults:
     """Numbers of underlying faces.
 
-    lost: without triangles; rescued: meshed by OpenCASCADE's mesher instead of ours; turned: with an outline or a hole
-    that runs the wrong way round, which was taken as if it did not.
+    lost      without triangles
+    rescued   meshed by OpenCASCADE's mesher, not by the kernel
+    turned    a loop of the face has the wrong orientation; it was meshed as if it had the right one
     """
 
     lost: list[int] = field(default_factory=list)
@@ -29,7 +30,7 @@ class MeshingFaults:
         return bool(self.lost or self.rescued or self.turned)
 
     def notes(self, part: str, face_shape: Ints) -> list[Note]:
-        """Notes on a part; face_shape: the number of the underlying face of each of its faces."""
+        """Notes on a part. face_shape (f,): for each of its faces the number of the underlying face."""
         lost, rescued, turned = (
             np.flatnonzero(np.isin(face_shape, numbers)).tolist() if numbers else []
             for numbers in (self.lost, self.rescued, self.turned)
@@ -37,22 +38,22 @@ class MeshingFaults:
         of = f'Part "{part}": {{}} of {len(face_shape)} faces'
         notes = []
         if lost:
-            notes.append(Note("not-meshed", f"{of.format(len(lost))} could not be meshed ({_named(lost)})."))
+            notes.append(Note("not-meshed", f"{of.format(len(lost))} could not be meshed ({_listed(lost)})."))
         if rescued:
             was = "was" if len(rescued) == 1 else "were"
-            text = f"{of.format(len(rescued))} {was} meshed by OpenCASCADE ({_named(rescued)})."
+            text = f"{of.format(len(rescued))} {was} meshed by OpenCASCADE ({_listed(rescued)})."
             notes.append(Note("faces-mended", text))
         if turned:
             have = "has" if len(turned) == 1 else "have"
             what = f"{have} an outline or a hole that runs the wrong way round"
-            notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_named(turned)})."))
+            notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
         return notes
 
 
-def _named(faces: list[int]) -> str:
+def _listed(faces: list[int]) -> str:
     """ "face 3", "faces 3, 4 and 7", "faces 3, 4, 5, 6, 7 and 12 more"; counted from 0, as in ids of lines."""
     if len(faces) == 1:
         return f"face {faces[0]}"
-    last = f"{len(faces) - NAMED} more" if len(faces) > NAMED else str(faces[-1])
-    shown = faces[:NAMED] if len(faces) > NAMED else faces[:-1]
+    last = f"{len(faces) - MAX_LISTED} more" if len(faces) > MAX_LISTED else str(faces[-1])
+    shown = faces[:MAX_LISTED] if len(faces) > MAX_LISTED else faces[:-1]
     return f"faces {', '.join(map(str, shown))} and {last}"

@@ -1,4 +1,4 @@
-"""CAD objects in memory: CadQuery, build123d and bare OpenCASCADE shapes become leaves."""
+"""CAD objects in memory (CadQuery, build123d, OpenCASCADE shapes) as leaves of an assembly."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ def open_object(thing: Any, name: str = "") -> BrepSource:
 
 
 def is_shape_like(thing: Any) -> bool:
-    """Whether `to_leaves` would take it: judged by type and attributes, nothing is imported."""
-    root = package_of(thing)
-    if root == "cadquery":
-        return _is_kind(thing, "Workplane", "Shape", "Assembly", "Sketch")
-    if root == "build123d":
-        return _wrapped(thing) is not None or _is_kind(thing, "Shape", "Builder", "ShapeList")
-    if root == "OCP":
-        return _is_kind(thing, "TopoDS_Shape")
+    """Whether `to_leaves` accepts an object; judged by type and attributes, without importing any CAD package."""
+    package = package_of(thing)
+    if package == "cadquery":
+        return _is_instance_of(thing, "Workplane", "Shape", "Assembly", "Sketch")
+    if package == "build123d":
+        return _wrapped(thing) is not None or _is_instance_of(thing, "Shape", "Builder", "ShapeList")
+    if package == "OCP":
+        return _is_instance_of(thing, "TopoDS_Shape")
     return isinstance(thing, list | tuple) and len(thing) > 0 and all(is_shape_like(item) for item in thing)
 
 
 def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float = 1.0) -> list[Leaf]:
-    """Leaves of any supported object; name, colour and opacity are used where it brings none.
+    """Leaves of a supported object. name, color, opacity: used where the object has none of its own.
 
-    Those of nested assemblies have their path in their names: gearbox/shaft/key.
+    Leaves of nested assemblies are named by their path: gearbox/shaft/key.
 
     Raises:
         SourceError: not a supported object.
     """
-    root = package_of(thing)
-    if root == "OCP" and _is_kind(thing, "TopoDS_Shape"):
+    package = package_of(thing)
+    if package == "OCP" and _is_instance_of(thing, "TopoDS_Shape"):
         return [Leaf(thing, name, color, opacity=opacity)]
-    if root == "cadquery":
+    if package == "cadquery":
         return _cadquery(thing, name, color, opacity)
-    if root == "build123d":
+    if package == "build123d":
         return _build123d(thing, getattr(thing, "label", "") or name, color, opacity)
     if isinstance(thing, Iterable) and not isinstance(thing, str | bytes | dict):
         return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
@@ -64,20 +64,20 @@ def to_leaves(thing: Any, name: str, color: Color | None = None, opacity: float 
 
 
 def _cadquery(thing: Any, name: str, color: Color | None, opacity: float) -> list[Leaf]:
-    if _is_kind(thing, "Assembly"):
-        return _assembly(thing, None, color, opacity, _readable(thing.name) or name)
-    if _is_kind(thing, "Workplane"):
-        shapes = [item for item in thing.vals() if _is_kind(item, "Shape")]
+    if _is_instance_of(thing, "Assembly"):
+        return _assembly(thing, None, color, opacity, _name_or_empty(thing.name) or name)
+    if _is_instance_of(thing, "Workplane"):
+        shapes = [item for item in thing.vals() if _is_instance_of(item, "Shape")]
         return [leaf for item in shapes for leaf in to_leaves(item, name, color, opacity)]
-    if _is_kind(thing, "Sketch"):
+    if _is_instance_of(thing, "Sketch"):
         return to_leaves(thing.moved() if not thing.locs else thing.val(), name, color, opacity)
-    if _is_kind(thing, "Shape"):
+    if _is_instance_of(thing, "Shape"):
         return [] if thing.wrapped is None else [Leaf(thing.wrapped, name, color, opacity=opacity)]
     raise SourceError(f"A cadquery.{type(thing).__name__} cannot be drawn: pass a Workplane, a Shape or an Assembly.")
 
 
 def _assembly(node: Any, place: Any, color: Color | None, opacity: float, name: str, path: str = "") -> list[Leaf]:
-    """A cq.Assembly, children after the node's own shapes. path: what the names of its children begin with."""
+    """Leaves of a cq.Assembly: its own shapes, then those of its children. path: prefix of the children's names."""
     here = node.loc.wrapped if place is None else place.Multiplied(node.loc.wrapped)
     if node.color is not None:
         color, opacity = color_of_wrapper(node.color)
@@ -86,12 +86,12 @@ def _assembly(node: Any, place: Any, color: Color | None, opacity: float, name: 
         if shape is not None and shape.wrapped is not None:
             leaves.append(Leaf(shape.wrapped.Moved(here, False), name, color, opacity=opacity))
     for child in node.children:
-        leaves.extend(_assembly(child, here, color, opacity, *_nested(path, _readable(child.name), name)))
+        leaves.extend(_assembly(child, here, color, opacity, *_nested(path, _name_or_empty(child.name), name)))
     return leaves
 
 
 def _nested(path: str, own: str, parent: str) -> tuple[str, str]:
-    """The name of a child, and the path of its children: the top of an assembly is in no name."""
+    """The name of a child, and the path for its own children. The top of an assembly is in no name."""
     if not own:
         return parent, path
     whole = f"{path}/{own}" if path else own
@@ -99,12 +99,12 @@ def _nested(path: str, own: str, parent: str) -> tuple[str, str]:
 
 
 def _build123d(thing: Any, name: str, color: Color | None, opacity: float, path: str = "") -> list[Leaf]:
-    """A build123d object, whose own label is in the name already. path: what the names of its children begin with."""
+    """Leaves of a build123d object. name: has its label already; path: prefix of the children's names."""
     own = getattr(thing, "color", None)
     if own is not None and hasattr(own, "wrapped"):
         color, opacity = color_of_wrapper(own)
     for attribute in ("part", "sketch", "line"):
-        if _is_kind(thing, "Builder") and (made := getattr(thing, attribute, None)) is not None:
+        if _is_instance_of(thing, "Builder") and (made := getattr(thing, attribute, None)) is not None:
             return _build123d(made, getattr(made, "label", "") or name, color, opacity)
     children = getattr(thing, "children", ())
     if children:
@@ -116,7 +116,7 @@ def _build123d(thing: Any, name: str, color: Color | None, opacity: float, path:
         return [Leaf(shape, name, color, opacity=opacity)]
     if isinstance(thing, Iterable):
         return [leaf for item in thing for leaf in to_leaves(item, name, color, opacity)]
-    if _is_kind(thing, "Shape", "Builder"):
+    if _is_instance_of(thing, "Shape", "Builder"):
         return []
     raise SourceError(f"A build123d.{type(thing).__name__} cannot be drawn: pass a shape or a builder.")
 
@@ -134,12 +134,12 @@ def _wrapped(thing: Any) -> Any:
     return shape if shape is not None and type(shape).__name__.startswith("TopoDS_") else None
 
 
-def _is_kind(thing: Any, *names: str) -> bool:
+def _is_instance_of(thing: Any, *names: str) -> bool:
     return any(cls.__name__ in names for cls in type(thing).__mro__)
 
 
-def _readable(name: str | None) -> str:
-    """CadQuery names nameless nodes by a random UUID: no name, and another one on every run."""
+def _name_or_empty(name: str | None) -> str:
+    """The name, or "" for the random UUID that CadQuery gives to nameless nodes."""
     text = name or ""
     return "" if len(text) == 36 and text.count("-") == 4 else text
 

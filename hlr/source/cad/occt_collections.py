@@ -1,6 +1,6 @@
-"""What the Python bindings of OpenCASCADE 7 and 8 call differently.
+"""OpenCASCADE's collection classes under one name each, for its Python bindings of versions 7 and 8.
 
-The bindings of OpenCASCADE 8 keep all collections in one module, those of 7 each beside what it collects.
+The bindings of version 8 have all collections in one module, those of version 7 in many packages.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ COLLECTION_CLASSES = {
     "reals": ("Array1_double", "TColStd.TColStd_Array1OfReal"),
     "integers": ("Array1_int", "TColStd.TColStd_Array1OfInteger"),
 }
-"""What is collected: the name in OCP.collections of 8, package and name in 7."""
+"""For each kind: the name in OCP.collections (version 8), and package and name in version 7."""
 
 
 def new_collection(kind: str, *arguments: Any) -> Any:
-    """A new collection of this kind (see NAMES), made from these arguments."""
+    """A new collection of a kind in COLLECTION_CLASSES. `arguments`: those of the constructor."""
     return _class(kind)(*arguments)
 
 

@@ -1,4 +1,4 @@
-"""The one door to OpenCASCADE: imported when a B-rep is met, silent, and with a cure when it cannot start."""
+"""Importing OpenCASCADE: only where a B-rep is read, without its own output, with a clear error where it fails."""
 
 from __future__ import annotations
 
@@ -13,39 +13,39 @@ from hlr.errors import SourceError
 
 @cache
 def load_occt() -> None:
-    """Import OpenCASCADE's bindings and switch off what it prints to standard output.
+    """Import OpenCASCADE's bindings and switch off its messages on standard output.
 
     Raises:
-        SourceError: the bindings are missing, or a system library they need is.
+        SourceError: the bindings or a system library that they need is missing.
     """
     try:
         from OCP.Message import Message
     except ImportError as error:
         raise SourceError(import_failure_message(error)) from None
-    # Readers report to standard output, where our own drawing may go.
+    # Readers print to standard output, which may be where the drawing is written.
     Message.DefaultMessenger_s().ChangePrinters().Clear()
 
 
 @contextmanager
 def silence_stdout() -> Iterator[None]:
-    """Keep what C++ writes straight to standard output out of it, for as long as a file is being read."""
+    """Discard what C++ code writes to standard output (file descriptor 1) in the block."""
     try:
         sys.stdout.flush()
-        kept = os.dup(1)
+        saved_fd = os.dup(1)
     except (OSError, ValueError, AttributeError):
         yield
         return
     try:
-        with open(os.devnull, "wb") as nowhere:
-            os.dup2(nowhere.fileno(), 1)
+        with open(os.devnull, "wb") as null:
+            os.dup2(null.fileno(), 1)
         yield
     finally:
-        os.dup2(kept, 1)
-        os.close(kept)
+        os.dup2(saved_fd, 1)
+        os.close(saved_fd)
 
 
 def import_failure_message(error: ImportError) -> str:
-    """One sentence on why OpenCASCADE cannot be imported, and what to install."""
+    """One sentence: why OpenCASCADE cannot be imported, and what to install."""
     text = str(error)
     for library, package in (("libGL.so", "libgl1"), ("libX11", "libx11-6"), ("libXrender", "libxrender1")):
         if library in text:

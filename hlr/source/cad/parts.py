@@ -1,4 +1,4 @@
-"""From the leaves of an assembly to parts: one per solid, loose faces together, underlying shapes shared."""
+"""Parts of a B-rep model: one per solid of a leaf; equal shapes share one prototype."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ from hlr.source.transforms import MatrixRows, compose, matrix4
 
 @dataclass(slots=True)
 class Leaf:
-    """A shape as an assembly, a file or a caller names it.
+    """A named shape of an assembly, a file or a caller, which is not an assembly itself.
 
-    shape: TopoDS_Shape with its placement; colors: by underlying shape of a solid or face, where a file says so.
-    opacity: of `color`; opacities: of those `colors` that are not opaque.
+    shape      TopoDS_Shape with its placement
+    color      of the leaf; opacity: of that colour, 0 to 1
+    colors     of solids and faces, by TShape, where a file has them; opacities: of those that are not opaque
     """
 
     shape: Any
@@ -32,50 +33,55 @@ class Leaf:
 
 @dataclass(slots=True)
 class Part:
-    """A part to draw: the number of its root (a shape without placement), and where it stands, a (4, 4) matrix.
+    """A part to draw: an instance of a prototype (a shape without placement).
 
-    name: its own; product: that of its leaf, which several parts may share. transparent: it may be, in part; look: says
-    how it looks.
+    name         unique
+    product      name of its leaf, which several parts may share
+    prototype    index of its prototype
+    transform    (4, 4) placement
+    transparent  some of it may be transparent
+    appearance   returns its colours; they are gathered only when asked for
     """
 
     name: str
     product: str
     color: Color | None
-    root: int
+    prototype: int
     transform: Floats
     transparent: bool
-    look: Callable[[], Appearance]
+    appearance: Callable[[], Appearance]
 
 
 @dataclass(slots=True)
 class _Piece:
-    root: int
+    """A part of a leaf, in the leaf's own coordinates."""
+
+    prototype: int
     place: MatrixRows
     solid: bool
     color: Color | None
 
 
 class PartCollector:
-    """Collects leaves into `parts` over distinct `roots`; `notes` says what was left out."""
+    """Splits leaves into `parts`, instances of distinct `prototypes`. `notes` names leaves that were left out."""
 
     def __init__(self) -> None:
         from OCP.TopLoc import TopLoc_Location
 
         self._origin = TopLoc_Location()
         self.parts: list[Part] = []
-        self.roots: list[Any] = []
+        self.prototypes: list[Any] = []
         self.notes: list[Note] = []
-        self.has_edges = False
         self._numbers: dict[Any, int] = {}
         self._pieces: dict[Any, list[_Piece]] = {}
         self._names: set[str] = set()
         self._counts: dict[str, int] = {}
 
     def add(self, leaf: Leaf) -> None:
-        """Split a leaf.
+        """Split a leaf into parts.
 
-        One without any shape becomes a note: its geometry is missing. One that holds neither faces nor edges does not:
-        such products only carry annotation, often under the name of the part that they annotate.
+        A leaf without a shape becomes a note, for its geometry is missing. A leaf without faces and edges does not:
+        such products carry annotation only, often under the name of the part that they annotate.
         """
         if leaf.shape is None or leaf.shape.IsNull():
             self.notes.append(Note("part-left-out", f'Part "{leaf.name}" is empty and was left out.'))
@@ -93,10 +99,10 @@ class PartCollector:
                     name=self._unique(leaf.name + suffix, several and piece.solid),
                     product=leaf.name,
                     color=piece.color or leaf.color,
-                    root=piece.root,
+                    prototype=piece.prototype,
                     transform=matrix4(compose(place, piece.place)),
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
-                    look=partial(_look, leaf, self.roots[piece.root]),
+                    appearance=partial(_appearance, leaf, self.prototypes[piece.prototype]),
                 )
             )
 
@@ -111,38 +117,37 @@ class PartCollector:
     def _split(self, leaf: Leaf) -> list[_Piece]:
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-        bare = leaf.shape.Located(self._origin, False)
-        if bare.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE):
-            return [self._piece(bare, leaf, bare.ShapeType() == Kind.TopAbs_SOLID)]
-        solids = sub_shapes(bare, Kind.TopAbs_SOLID)
-        shells = sub_shapes(bare, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
-        faces = sub_shapes(bare, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
-        edges = sub_shapes(bare, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
-        self.has_edges |= bool(edges)
+        unplaced = leaf.shape.Located(self._origin, False)
+        if unplaced.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE):
+            return [self._piece(unplaced, leaf, unplaced.ShapeType() == Kind.TopAbs_SOLID)]
+        solids = sub_shapes(unplaced, Kind.TopAbs_SOLID)
+        shells = sub_shapes(unplaced, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
+        faces = sub_shapes(unplaced, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
+        edges = sub_shapes(unplaced, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
         pieces = [self._piece(solid, leaf, True) for solid in solids]
         loose = shells + faces
         if loose or edges:
-            # What is not a solid stays together: the leaf itself where it holds nothing else.
-            pieces.append(self._piece(make_compound(loose + edges) if solids else bare, leaf))
+            # Faces and edges outside solids become one part.
+            pieces.append(self._piece(make_compound(loose + edges) if solids else unplaced, leaf))
         return pieces
 
     def _piece(self, shape: Any, leaf: Leaf, solid: bool = False) -> _Piece:
         key = (shape.TShape(), shape.Orientation())
         number = self._numbers.get(key)
         if number is None:
-            number = self._numbers[key] = len(self.roots)
-            self.roots.append(shape.Located(self._origin, False))
-        color = _majority(shape, leaf) if leaf.colors else None
+            number = self._numbers[key] = len(self.prototypes)
+            self.prototypes.append(shape.Located(self._origin, False))
+        color = _main_color(shape, leaf) if leaf.colors else None
         return _Piece(number, location_matrix(shape.Location()), solid, color)
 
 
-def _majority(shape: Any, leaf: Leaf) -> Color | None:
-    """The colour a file gives to the solid, else the one most of its faces have."""
+def _main_color(shape: Any, leaf: Leaf) -> Color | None:
+    """The colour of a solid in the file, else the most frequent colour of its faces."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-    own = leaf.colors.get(shape.TShape())
-    if own is not None:
-        return own
+    whole_color = leaf.colors.get(shape.TShape())
+    if whole_color is not None:
+        return whole_color
     counts: dict[Color | None, int] = {}
     for face in sub_shapes(shape, Kind.TopAbs_FACE):
         color = leaf.colors.get(face.TShape(), leaf.color)
@@ -150,23 +155,23 @@ def _majority(shape: Any, leaf: Leaf) -> Color | None:
     return max(counts, key=lambda color: counts[color]) if counts else None
 
 
-def _look(leaf: Leaf, root: Any) -> Appearance:
-    """How a part of a leaf looks; root: its shape, without placement."""
+def _appearance(leaf: Leaf, prototype: Any) -> Appearance:
+    """Colours of a part of a leaf. prototype: its shape without placement."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
 
-    own = _painted(leaf, root)
+    whole_color = _own_color(leaf, prototype)
     faces = {}
     if leaf.colors:
-        for i, face in enumerate(sub_shapes(root, Kind.TopAbs_FACE)):
-            color = _painted(leaf, face)
-            if color is not None and color != own:
+        for i, face in enumerate(sub_shapes(prototype, Kind.TopAbs_FACE)):
+            color = _own_color(leaf, face)
+            if color is not None and color != whole_color:
                 faces[i] = color
-    whole = own or rgba(leaf.color, leaf.opacity)
+    whole = whole_color or rgba(leaf.color, leaf.opacity)
     if whole is None and leaf.opacity < 1.0:
         whole = (*DEFAULT_COLOR[:3], leaf.opacity)
     return Appearance(whole, faces)
 
 
-def _painted(leaf: Leaf, shape: Any) -> Rgba | None:
+def _own_color(leaf: Leaf, shape: Any) -> Rgba | None:
     key = shape.TShape()
     return rgba(leaf.colors.get(key), leaf.opacities.get(key, 1.0))

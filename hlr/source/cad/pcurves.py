@@ -1,4 +1,4 @@
-"""The outline of a face in (u, v), mended: curves moved by whole periods until they make closed loops."""
+"""Repair of pcurves (the curves of a face's edges in (u, v)), so that each wire is a closed loop."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from hlr.source.cad.shapes import sub_shapes
 
 @dataclass(slots=True)
 class _Use:
-    """An edge as a wire runs through it: its curve in (u, v), where that begins and ends, how far it is to be moved."""
+    """A use of an edge by a wire: its pcurve, the start and end of that (2, 2) in (u, v), and its shift (2,)."""
 
     edge: Any
     backward: bool
     curve: Any
     ends: Floats
     vertices: tuple[Any, Any]
-    move: Floats
+    shift: Floats
 
 
 def close_loops(face: Any) -> None:
-    """Move the curves in (u, v) of the edges of a TopoDS_Face, which lies forward, so that they follow one another.
+    """Move the pcurves of a forward TopoDS_Face by whole periods, so that each begins where the one before it ends.
 
-    The curves are replaced: the face and its edges must be nobody else's.
+    The pcurves are replaced in place: pass a copy of the face that shares no edge with another.
     """
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
@@ -41,20 +41,20 @@ def close_loops(face: Any) -> None:
     for wire in sub_shapes(face, Kind.TopAbs_WIRE):
         loop = _in_order(_uses(wire, face), period)
         for before, use in pairwise(loop):
-            use.move = _whole(before.ends[1] + before.move - use.ends[0], period)
+            use.shift = _whole_periods(before.ends[1] + before.shift - use.ends[0], period)
         if loop:
-            # All together to where the surface begins.
-            least = np.min([use.ends + use.move for use in loop], axis=(0, 1))
+            # The whole loop moves to the first period of the surface.
+            least = np.min([use.ends + use.shift for use in loop], axis=(0, 1))
             corner = np.where(np.isfinite(period), [low_u, low_v], least)
-            back = _whole(corner - least, period, down=True)
+            back = _whole_periods(corner - least, period, round_up=True)
             for use in loop:
-                use.move = use.move + back
+                use.shift = use.shift + back
         uses += loop
-    _move(uses, face)
+    _apply_shifts(uses, face)
 
 
 def periods(face: Any) -> tuple[float, float]:
-    """After how much u and v the surface of a TopoDS_Face comes back to itself; infinite where it does not."""
+    """Periods of the surface of a TopoDS_Face in u and v; infinite where it is not periodic."""
     from OCP.BRep import BRep_Tool
     from OCP.TopLoc import TopLoc_Location
 
@@ -68,7 +68,7 @@ def periods(face: Any) -> tuple[float, float]:
 
 
 def project_pcurves(face: Any) -> None:
-    """Replace the curves in (u, v) of all edges that have a curve in space by the projection of that."""
+    """Replace each pcurve by the projection of the edge's 3-D curve; degenerated edges have none and stay."""
     from OCP.BRep import BRep_Tool
     from OCP.ShapeBuild import ShapeBuild_Edge
     from OCP.ShapeFix import ShapeFix_Edge
@@ -85,11 +85,11 @@ def project_pcurves(face: Any) -> None:
         fixer.FixAddPCurve(edge, face, seam)
 
 
-def _whole(offset: Floats, period: Floats, down: bool = False) -> Floats:
-    """The whole periods nearest to an offset, or those that reach at least that far: (2,)."""
+def _whole_periods(offset: Floats, period: Floats, round_up: bool = False) -> Floats:
+    """(2,) whole periods nearest to an offset; round_up: the least that reach it."""
     with np.errstate(invalid="ignore"):
         turns = offset / period
-        whole = (np.ceil(turns - 1e-6) if down else np.round(turns)) * period
+        whole = (np.ceil(turns - 1e-6) if round_up else np.round(turns)) * period
     result: Floats = np.where(np.isfinite(period), whole, 0.0)
     return result
 
@@ -110,7 +110,7 @@ def _uses(wire: Any, face: Any) -> list[_Use]:
         backward = edge.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
         curve = BRepAdaptor_Curve2d(edge, face)
         if curve.Curve() is None:
-            raise ValueError("an edge has no curve in (u, v) of its face")  # asked for a point, it would crash
+            raise ValueError("an edge has no curve in (u, v) of its face")  # to evaluate it would crash OpenCASCADE
         values = [curve.Value(t) for t in (curve.FirstParameter(), curve.LastParameter())]
         ends = np.array([(p.X(), p.Y()) for p in (reversed(values) if backward else values)])
         vertices = (TopExp.FirstVertex_s(edge, True), TopExp.LastVertex_s(edge, True))
@@ -119,7 +119,10 @@ def _uses(wire: Any, face: Any) -> list[_Use]:
 
 
 def _in_order(uses: list[_Use], period: Floats) -> list[_Use]:
-    """The uses, each after one that ends in its first vertex: where several do, the one that is nearest in (u, v)."""
+    """The uses in order around the wire: each begins in the vertex where the one before it ends.
+
+    Where several do, the nearest in (u, v) comes next.
+    """
     if not uses:
         return []
     loop, left = [uses[0]], uses[1:]
@@ -128,7 +131,7 @@ def _in_order(uses: list[_Use], period: Floats) -> list[_Use]:
 
         def distance(use: _Use, last: _Use = last) -> tuple[bool, float]:
             gap = last.ends[1] - use.ends[0]
-            gap = gap - _whole(gap, period)
+            gap = gap - _whole_periods(gap, period)
             same = use.edge.TShape() == last.edge.TShape()
             return same or not use.vertices[0].IsSame(last.vertices[1]), float(np.hypot(*gap))
 
@@ -137,7 +140,7 @@ def _in_order(uses: list[_Use], period: Floats) -> list[_Use]:
     return loop
 
 
-def _move(uses: list[_Use], face: Any) -> None:
+def _apply_shifts(uses: list[_Use], face: Any) -> None:
     from OCP.BRep import BRep_Builder, BRep_Tool
     from OCP.gp import gp_Vec2d
 
@@ -146,12 +149,12 @@ def _move(uses: list[_Use], face: Any) -> None:
     for use in uses:
         by_edge.setdefault(use.edge.TShape(), []).append(use)
     for group in by_edge.values():
-        if not any(use.move.any() for use in group):
+        if not any(use.shift.any() for use in group):
             continue
         curves = []
         for use in sorted(group, key=lambda use: use.backward):
             curve = use.curve.Copy()
-            curve.Translate(gp_Vec2d(*use.move.tolist()))
+            curve.Translate(gp_Vec2d(*use.shift.tolist()))
             curves.append(curve)
         edge = group[0].edge
         builder.UpdateEdge(edge, *curves[:2], face, BRep_Tool.Tolerance_s(edge))

@@ -1,4 +1,4 @@
-"""The roots of a B-rep source, shapes without placement: as OpenCASCADE's dump, with what is known of each."""
+"""Prototypes: the distinct shapes without placement of which the parts of a model are instances."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from hlr.source.cad.occt_collections import new_collection
 
 
 class Prototypes:
-    """Roots as a dump: nothing of OpenCASCADE is needed, unless somebody asks for the shapes.
+    """Prototypes as a binary dump. OpenCASCADE is loaded only where `shapes` is asked for.
 
-    dump    of a compound of all roots
+    dump    OpenCASCADE's binary dump of a compound of all prototypes
     counts  (r, 3) int32: faces, edges and solids in the index maps of each
     boxes   (r, 2, 3) lower and upper corner of each; the lower is beyond the upper where it has no extent
     """
@@ -27,25 +27,25 @@ class Prototypes:
         self.dump, self.counts, self.boxes = dump, counts, boxes
 
     @cached_property
-    def faced(self) -> list[bool]:
-        """Of each whether it has faces."""
+    def has_faces(self) -> list[bool]:
+        """(r,) whether each has faces."""
         found: list[bool] = (self.counts[:, 0] > 0).tolist()
         return found
 
     @cached_property
     def model(self) -> _kernel.BrepModel:
-        """All of them in the kernel. Raises ValueError where the dump is damaged."""
+        """The kernel's model of all prototypes. Raises ValueError where the dump is damaged."""
         return _kernel.BrepModel(self.dump)
 
-    def model_of(self, chosen: Sequence[int]) -> _kernel.BrepModel:
-        """Those with these numbers, ascending, as the parts of a model of the kernel."""
-        if len(chosen) == len(self.faced):
+    def model_of(self, indices: Sequence[int]) -> _kernel.BrepModel:
+        """The kernel's model of the prototypes with these indices, ascending."""
+        if len(indices) == len(self.has_faces):
             return self.model
-        return _kernel.BrepModel(self.dump, chosen)
+        return _kernel.BrepModel(self.dump, indices)
 
     @cached_property
-    def read_back(self) -> list[Any]:
-        """The shapes as the dump has them: the same whether they were ever in memory or not."""
+    def shapes_from_dump(self) -> list[Any]:
+        """The shapes read from the dump: the same for a model from a file and one from the cache."""
         from hlr.source.cad.occt_import import load_occt
 
         load_occt()
@@ -62,12 +62,12 @@ class Prototypes:
 
     @property
     def shapes(self) -> list[Any]:
-        """The shapes, TopoDS_Shape."""
-        return self.read_back
+        """(r,) TopoDS_Shape of each."""
+        return self.shapes_from_dump
 
 
 class LivePrototypes(Prototypes):
-    """Roots as shapes in memory, which stay as they are: counts, boxes and dump are made when they are asked for."""
+    """Prototypes as shapes in memory, which are not changed: counts, boxes and dump are made on first use."""
 
     def __init__(self, shapes: Sequence[Any]) -> None:
         self._shapes = list(shapes)
@@ -78,8 +78,8 @@ class LivePrototypes(Prototypes):
         return np.array(_counts(self._shapes), np.int32).reshape(-1, 3)
 
     @cached_property
-    def faced(self) -> list[bool]:
-        """Of each whether it has faces."""
+    def has_faces(self) -> list[bool]:
+        """(r,) whether each has faces."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopExp import TopExp_Explorer
 
@@ -88,12 +88,12 @@ class LivePrototypes(Prototypes):
 
     @property
     def shapes(self) -> list[Any]:
-        """The very shapes."""
+        """(r,) TopoDS_Shape of each: the caller's own."""
         return self._shapes
 
     @cached_property
     def model(self) -> _kernel.BrepModel:
-        """All of them in the kernel; the dump goes, and is made anew should it be asked for again."""
+        """The kernel's model of all prototypes. The dump is released, and written again where it is needed again."""
         made = _kernel.BrepModel(self.dump)
         self.__dict__.pop("dump")
         return made
@@ -108,15 +108,15 @@ class LivePrototypes(Prototypes):
         """(r, 2, 3) lower and upper corner of each; the lower is beyond the upper where it has no extent."""
         return np.array(_boxes(self._shapes)).reshape(-1, 2, 3)
 
-    def alone(self) -> Prototypes:
-        """The same without the shapes."""
+    def without_shapes(self) -> Prototypes:
+        """The same as a dump alone, so that the shapes can be released."""
         return Prototypes(self.dump, self.counts, self.boxes)
 
 
 Corner = tuple[float, float, float]
 
 EMPTY_BOX: tuple[Corner, Corner] = ((math.inf,) * 3, (-math.inf,) * 3)
-"""The box of a shape that has no extent."""
+"""Lower and upper corner of the box of a shape without extent."""
 
 
 def binary_dump(shapes: Sequence[Any]) -> bytes:

@@ -1,15 +1,15 @@
-"""Faces that the kernel cannot mesh: OpenCASCADE's mesher tries them, on a copy with a mended outline.
+"""Faces that the kernel cannot mesh are meshed by OpenCASCADE, on a copy with repaired pcurves.
 
-Most of them have sound curves and surfaces, but the curves of their edges in (u, v) do not make a closed outline: one
-lies a whole period beside the others, or is not the edge's at all. What is tried, the cheap first:
+Most of them have sound curves and surfaces, but their pcurves (curves of the edges in (u, v)) make no closed loop: one
+is off by a whole period, or belongs to another edge. These repairs are tried in turn, the cheapest first:
 
-1. the copy as it is;
-2. the same curves in (u, v), each moved by whole periods to where the one before it ends;
-3. curves in (u, v) found anew, from the edges in space;
+1. none: the copy as it is;
+2. the same pcurves, each moved by whole periods to the end of the one before it;
+3. pcurves computed anew from the edges' 3-D curves;
 4. OpenCASCADE's own repair of a face.
 
-A copy counts only where the kernel finds that its triangles fill the face's outline and have its area. They are then
-joined to the edges' polylines, which stay as they are: so do the neighbours. Nothing of the caller's shape is touched.
+The kernel accepts the triangles only where they fill the face's loops and have its area. It then joins them to the
+edges' polylines, which do not change, so neither do the neighbouring faces. The caller's shape is not touched.
 """
 
 from __future__ import annotations
@@ -26,32 +26,35 @@ from hlr.source.cad.pcurves import close_loops, project_pcurves
 from hlr.source.cad.shapes import sub_shapes
 
 Copied = tuple[Any, Callable[[Any], Any]]
-"""A face, and which edge of it stands for an edge of the original."""
+"""A copied face, and the function from an edge of the original to its copy."""
 
 Border = tuple[list[int], list[float]]
-"""Nodes on an edge and their parameters, in the sense of the edge."""
+"""Nodes on an edge and their parameters, in the direction of the edge."""
 
 
 def rescue(meshed: _kernel.BrepMesh, number: int, face: Any, deflection: float, angle: float) -> bool:
-    """Give the face with this number, a TopoDS_Face, triangles of OpenCASCADE's; whether any fit."""
+    """Replace the mesh of a face by triangles of OpenCASCADE's mesher; whether any were accepted.
+
+    number: of the face in `meshed`; face: the TopoDS_Face; deflection: model units; angle: turning per chord, radians.
+    """
     from OCP.TopAbs import TopAbs_Orientation
     from OCP.TopLoc import TopLoc_Location
     from OCP.TopoDS import TopoDS
 
-    here = TopoDS.Face(face.Located(TopLoc_Location(), False).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
-    for copied in _copies(here):
-        with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the next way is tried
-            copy, counterpart = copied()
+    unplaced = TopoDS.Face(face.Located(TopLoc_Location(), False).Oriented(TopAbs_Orientation.TopAbs_FORWARD))
+    for repair in _repairs(unplaced):
+        with suppress(Exception):  # OpenCASCADE's exceptions derive from Exception alone; the next repair is tried
+            copy, counterpart = repair()
             run_mesher(copy, deflection, angle)
             points, uv, triangles = _triangles(copy)
-            borders = _borders(here, copy, counterpart, triangles)
+            borders = _borders(unplaced, copy, counterpart, triangles)
             if meshed.replace(number, points, uv, triangles, borders):
                 return True
     return False
 
 
 def run_mesher(face: Any, deflection: float, angle: float) -> None:
-    """OpenCASCADE's mesher, by its older algorithm: the newer one may crash, or run on for ever.
+    """Mesh a TopoDS_Face with OpenCASCADE's older algorithm: the newer one may crash, or never end.
 
     deflection: chord error, model units; angle: turning per chord, radians.
     """
@@ -65,39 +68,41 @@ def run_mesher(face: Any, deflection: float, angle: float) -> None:
     BRepMesh_IncrementalMesh(face, parameters)
 
 
-def _copies(face: Any) -> Iterator[Callable[[], Copied]]:
-    def as_it_is() -> Copied:
+def _repairs(face: Any) -> Iterator[Callable[[], Copied]]:
+    """The repairs, the cheapest first, each as a function that copies the face."""
+
+    def unchanged() -> Copied:
         from OCP.BRepBuilderAPI import BRepBuilderAPI_Copy
         from OCP.TopoDS import TopoDS
 
         copier = BRepBuilderAPI_Copy(face, True, False)
         return TopoDS.Face(copier.Shape()), copier.ModifiedShape
 
-    def same_curves() -> Copied:
-        copy, counterpart = as_it_is()
+    def shifted_pcurves() -> Copied:
+        copy, counterpart = unchanged()
         close_loops(copy)
         return copy, counterpart
 
-    def new_curves() -> Copied:
-        copy, counterpart = as_it_is()
+    def projected_pcurves() -> Copied:
+        copy, counterpart = unchanged()
         project_pcurves(copy)
         close_loops(copy)
         return copy, counterpart
 
-    def repaired() -> Copied:
+    def fixed_by_opencascade() -> Copied:
         from OCP.ShapeFix import ShapeFix_Face
         from OCP.TopoDS import TopoDS
 
-        copy, counterpart = as_it_is()
+        copy, counterpart = unchanged()
         fixer = ShapeFix_Face(copy)
         fixer.Perform()
         context = fixer.Context()
         return TopoDS.Face(fixer.Result()), lambda edge: context.Apply(counterpart(edge))
 
-    yield as_it_is
-    yield same_curves
-    yield new_curves
-    yield repaired
+    yield unchanged
+    yield shifted_pcurves
+    yield projected_pcurves
+    yield fixed_by_opencascade
 
 
 def _triangles(face: Any) -> tuple[Floats, Floats, Ints]:
@@ -131,13 +136,14 @@ def _borders(face: Any, copy: Any, counterpart: Callable[[Any], Any], triangles:
     found: list[Border] = []
     for wire in _children(face, Kind.TopAbs_WIRE, TopoDS_Iterator):
         for shape in _children(wire, Kind.TopAbs_EDGE, TopoDS_Iterator):
-            twin, backward = counterpart(shape), shape.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
-            ways = (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED)
-            both = [
-                BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge(twin.Oriented(w)), triangulation, place) for w in ways
+            copied_edge, backward = counterpart(shape), shape.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
+            orientations = (TopAbs_Orientation.TopAbs_FORWARD, TopAbs_Orientation.TopAbs_REVERSED)
+            polygons = [
+                BRep_Tool.PolygonOnTriangulation_s(TopoDS.Edge(copied_edge.Oriented(w)), triangulation, place)
+                for w in orientations
             ]
-            # A seam has two; the one with triangles to its left is meant.
-            borders = [_border(polygon) for polygon in both if polygon is not None and polygon.HasParameters()]
+            # A seam edge has two polygons: take the one with triangles to its left.
+            borders = [_border(polygon) for polygon in polygons if polygon is not None and polygon.HasParameters()]
             if not borders:
                 raise ValueError("an edge without a polygon")
             fits = [b for b in borders if (b[0][1], b[0][0]) in sides] if backward else []
@@ -152,7 +158,7 @@ def _border(polygon: Any) -> Border:
 
 
 def _children(shape: Any, kind: Any, iterator: Any) -> Iterator[Any]:
-    """Sub-shapes of a kind in the order in which they are kept."""
+    """Direct sub-shapes of a kind, in stored order."""
     at = iterator(shape)
     while at.More():
         if at.Value().ShapeType() == kind:
@@ -160,15 +166,15 @@ def _children(shape: Any, kind: Any, iterator: Any) -> Iterator[Any]:
         at.Next()
 
 
-def faces_of(roots: list[Any], numbers: set[int]) -> dict[int, Any]:
-    """The underlying faces with these numbers, as TopoDS_Face: counted as an explorer of the roots meets them."""
+def faces_of(shapes: list[Any], numbers: set[int]) -> dict[int, Any]:
+    """The underlying faces with these numbers, as TopoDS_Face, numbered in the order of an explorer of the shapes."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopoDS import TopoDS
 
     known: set[Any] = set()
     found = {}
-    for root in roots if numbers else ():
-        for shape in sub_shapes(root, Kind.TopAbs_FACE):
+    for prototype in shapes if numbers else ():
+        for shape in sub_shapes(prototype, Kind.TopAbs_FACE):
             underlying = shape.TShape()
             if underlying not in known:
                 if len(known) in numbers:

@@ -1,15 +1,15 @@
-"""CAD scripts: a Python file is run, and what it shows is drawn.
+"""CAD scripts: a Python file is run, and the objects that it shows are drawn.
 
-The file is executed with the caller's rights, because the caller asked to draw it. As in CQ-editor and cq-cli the
-script finds `show_object(obj, name=None, options=None)` and `debug(obj)`, and its `__name__` is "__cq_main__";
-`show(...)` is there for scripts written for viewers. What is drawn, in this order:
+The file runs with the caller's rights. As in CQ-editor and cq-cli the script finds
+`show_object(obj, name=None, options=None)` and `debug(obj)`, and its `__name__` is "__cq_main__". `show(...)` is there
+for scripts written for viewers. The first of these that exists is drawn:
 
 1. the variable that the caller names;
-2. everything shown;
+2. all objects that the script shows;
 3. the variable `result`;
-4. the solid that was assigned last. A sketch, a face or a wire is drawn only where there is no solid.
+4. the solid that was assigned last, else the last face, else the last shape.
 
-A remark says which it was.
+A remark in the drawing names the choice.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ from hlr.source.cad.occt_import import import_failure_message, load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
 
-_RESULT = "result"
+_RESULT_VARIABLE = "result"
 
 Shown = tuple[Any, str, ColorOpacity]
-"""An object, the name it is shown under or "", and its colour."""
+"""An object, the name it is shown under or "", and its colour and opacity."""
 
-_PLAIN: ColorOpacity = (None, 1.0)
+_NO_COLOR: ColorOpacity = (None, 1.0)
 
 
 def open_script(path: Path, var: str | None = None) -> BrepSource:
-    """Run a script and take what it shows, or the variable of this name.
+    """Run a script; its parts are the objects that it shows, or the variable named `var`.
 
     Raises:
         SourceError: the script fails (line and exception are named), or shows nothing.
@@ -47,7 +47,7 @@ def open_script(path: Path, var: str | None = None) -> BrepSource:
     shown: list[Shown] = []
     values = _run(path, shown)
     load_occt()
-    chosen, why = _chosen(path, shown, values, var)
+    chosen, why = _objects_to_draw(path, shown, values, var)
     leaves: list[Leaf] = []
     for thing, name, (color, opacity) in chosen:
         try:
@@ -61,25 +61,27 @@ def open_script(path: Path, var: str | None = None) -> BrepSource:
     return build_source(path.name, "script", leaves, [Note("script-shape", f"{path.name}: {why}.")])
 
 
-def _chosen(path: Path, shown: list[Shown], values: dict[str, Any], var: str | None) -> tuple[list[Shown], str]:
-    """What is drawn, and why it is that."""
+def _objects_to_draw(
+    path: Path, shown: list[Shown], values: dict[str, Any], var: str | None
+) -> tuple[list[Shown], str]:
+    """The objects to draw, and the reason, in words."""
     if var is not None:
-        return [(_named(path, values, var), "", _PLAIN)], f'the variable "{var}" is drawn'
+        return [(_named_variable(path, values, var), "", _NO_COLOR)], f'the variable "{var}" is drawn'
     if shown:
         return shown, "all that it shows is drawn" + (f", {len(shown)} objects" if len(shown) > 1 else "")
     found = _shapes(values)
-    if _RESULT in found:
-        return [(found[_RESULT], "", _PLAIN)], f'the variable "{_RESULT}" is drawn'
+    if _RESULT_VARIABLE in found:
+        return [(found[_RESULT_VARIABLE], "", _NO_COLOR)], f'the variable "{_RESULT_VARIABLE}" is drawn'
     for rank, what in enumerate(("the last solid", "the last face, for there is no solid", "the last shape")):
         names = [name for name, thing in found.items() if _rank(thing) <= rank]
         if names:
             why = f'the variable "{names[-1]}" is drawn, {what}'
             choice = "show_object(shape), or a variable result, in the script, or --var NAME, chooses another"
-            return [(found[names[-1]], "", _PLAIN)], f"{why}; {choice}"
+            return [(found[names[-1]], "", _NO_COLOR)], f"{why}; {choice}"
     return [], ""
 
 
-def _named(path: Path, values: dict[str, Any], var: str) -> Any:
+def _named_variable(path: Path, values: dict[str, Any], var: str) -> Any:
     if var in values and _is_shape(values[var]):
         return values[var]
     names = ", ".join(_shapes(values)) or "none"
@@ -88,7 +90,7 @@ def _named(path: Path, values: dict[str, Any], var: str) -> Any:
 
 
 def _shapes(values: dict[str, Any]) -> dict[str, Any]:
-    """Variables that are shapes, in the order in which they were assigned last."""
+    """Variables that are shapes, in the order of their last assignment."""
     return {name: thing for name, thing in values.items() if not name.startswith("_") and _is_shape(thing)}
 
 
@@ -100,7 +102,7 @@ def _is_shape(value: Any) -> bool:
 
 
 def _rank(thing: Any) -> int:
-    """0: has a solid; 1: has a face; 2: has something; 3: is empty."""
+    """0: has a solid; 1: has a face; 2: has other shapes; 3: is empty."""
     from OCP.TopAbs import TopAbs_ShapeEnum as Kind
     from OCP.TopExp import TopExp_Explorer
 
@@ -115,7 +117,7 @@ def _rank(thing: Any) -> int:
 
 
 class _Variables(dict[str, Any]):
-    """Those of a script, in the order in which each was assigned last."""
+    """Variables of a script, in the order of their last assignment."""
 
     def __setitem__(self, name: str, value: Any) -> None:
         self.pop(name, None)
@@ -127,11 +129,11 @@ def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
         shown.append((obj, str(name or ""), color_from_options(options if isinstance(options, dict) else more)))
 
     def show(*objects: Any, names: Any = (), **_: Any) -> None:
-        given = list(names or ())
+        given_names = list(names or ())
         for i, obj in enumerate(objects):
-            shown.append((obj, str(given[i]) if i < len(given) else "", _PLAIN))
+            shown.append((obj, str(given_names[i]) if i < len(given_names) else "", _NO_COLOR))
 
-    def nothing(*_: Any, **__: Any) -> None: ...
+    def ignore(*_: Any, **__: Any) -> None: ...
 
     values = _Variables(
         {
@@ -140,13 +142,13 @@ def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
             "__builtins__": __builtins__,
             "show_object": show_object,
             "show": show,
-            "show_all": nothing,
-            "debug": nothing,
-            "log": nothing,
+            "show_all": ignore,
+            "debug": ignore,
+            "log": ignore,
         }
     )
-    folder, here = path.resolve().parent, _here()
-    before, arguments = list(sys.path), sys.argv
+    folder, working_folder = path.resolve().parent, _working_folder()
+    saved_path, saved_arguments = list(sys.path), sys.argv
     sys.path.insert(0, str(folder))
     sys.argv = [str(path)]
     try:
@@ -161,24 +163,24 @@ def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # whatever a script raises, the caller gets one sentence
-        raise SourceError(_sentence(path, error)) from None
+        raise SourceError(_failure_message(path, error)) from None
     finally:
-        sys.argv = arguments
-        sys.path[:] = before
-        if here is not None:
-            os.chdir(here)
+        sys.argv = saved_arguments
+        sys.path[:] = saved_path
+        if working_folder is not None:
+            os.chdir(working_folder)
     return values
 
 
-def _here() -> str | None:
+def _working_folder() -> str | None:
     try:
         return os.getcwd()
     except OSError:
         return None
 
 
-def _sentence(path: Path, error: BaseException) -> str:
-    """The script's own line, and what was raised."""
+def _failure_message(path: Path, error: BaseException) -> str:
+    """One sentence: the line of the script, and the exception."""
     if isinstance(error, ImportError) and "libGL" in str(error):
         return f"{path.name}: {import_failure_message(error)}"
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]

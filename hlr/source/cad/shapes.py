@@ -1,4 +1,4 @@
-"""Small tools for OpenCASCADE shapes: sub-shapes, compounds, placements."""
+"""Sub-shapes, compounds and placements of OpenCASCADE shapes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hlr.source.transforms import IDENTITY, MatrixRows
 
 
 def sub_shapes(shape: Any, kind: Any, avoid: Any = None) -> list[Any]:
-    """Sub-shapes of a kind in TopExp order, each once, outside those of the kind `avoid`."""
+    """Sub-shapes of a kind in TopExp order, each once. avoid: sub-shapes inside this kind are left out."""
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
 
@@ -35,19 +35,19 @@ def make_compound(shapes: list[Any]) -> Any:
 
 
 def with_location(shape: Any, location: Any) -> Any:
-    """The shape at a location (None: at the origin)."""
+    """The shape with this TopLoc_Location instead of its own; None: the identity."""
     from OCP.TopLoc import TopLoc_Location
 
     return shape.Located(TopLoc_Location() if location is None else location, False)
 
 
 def location_matrix(location: Any) -> MatrixRows:
-    """What a TopLoc_Location does."""
+    """The (3, 4) matrix of a TopLoc_Location, row by row."""
     if location.IsIdentity():
         return IDENTITY
     value = location.Transformation().Value
-    return tuple([value(i, j) for i, j in _PLACES])
+    return tuple([value(i, j) for i, j in _ROWS_AND_COLUMNS])
 
 
-_PLACES = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3, 4)]
-"""Row and column of each number, as OpenCASCADE counts them."""
+_ROWS_AND_COLUMNS = [(i, j) for i in (1, 2, 3) for j in (1, 2, 3, 4)]
+"""Row and column of each number, counted from 1 as in OpenCASCADE."""

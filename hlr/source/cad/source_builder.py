@@ -1,4 +1,4 @@
-"""From the leaves of an assembly, a file or a caller to a source."""
+"""A B-rep source from the leaves of an assembly, a file or a caller's objects."""
 
 from __future__ import annotations
 
@@ -14,54 +14,61 @@ from hlr.source.model import Appearance
 
 
 def build_source(name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note] = ()) -> BrepSource:
-    """Leaves as a source, split into parts; the shapes of a caller are not copied, those of a file are let go.
+    """Split leaves into parts and make a source of them.
+
+    A caller's shapes are not copied; those of a file are released.
 
     Raises:
-        SourceError: nothing to draw: no shapes, or none with faces.
+        SourceError: there are no shapes, or none has faces.
     """
-    found = PartCollector()
+    collector = PartCollector()
     for leaf in leaves:
-        found.add(leaf)
-    roots = LivePrototypes(found.roots)
-    faced = roots.faced
-    parts = [part for part in found.parts if faced[part.root]]
-    wires = [part for part in found.parts if not faced[part.root]]
-    if not found.parts:
+        collector.add(leaf)
+    prototypes = LivePrototypes(collector.prototypes)
+    has_faces = prototypes.has_faces
+    parts = [part for part in collector.parts if has_faces[part.prototype]]
+    wires = [part for part in collector.parts if not has_faces[part.prototype]]
+    if not collector.parts:
         raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
     if not parts:
         raise SourceError(
-            f"{name} holds {_edges(wires, roots)} but no faces: a hidden-line drawing needs surfaces "
+            f"{name} holds {_edges(wires, prototypes)} but no faces: a hidden-line drawing needs surfaces "
             "(export solids or shells instead of wires)."
         )
-    # In a file, wires under the name of a part that is drawn are its construction lines, axes or sketches. Few
-    # drawings miss them: a remark. Wires under a name of their own, and those that a caller put there, may be
-    # something that the reader of the drawing looks for: a warning.
+    # In a file, wires with the name of a part that is drawn are its construction lines, axes or sketches: leaving them
+    # out is worth a remark. Wires with a name of their own, or of a caller, may be wanted: a warning.
     of_file = kind not in ("object", "script")
     drawn = {part.product for part in parts if of_file}
-    said = [
+    all_notes = [
         *notes,
-        *found.notes,
-        *_left_out("free-edges-left-out", [part for part in wires if part.product in drawn], roots),
-        *_left_out("wires-left-out", [part for part in wires if part.product not in drawn], roots),
+        *collector.notes,
+        *_left_out("free-edges-left-out", [part for part in wires if part.product in drawn], prototypes),
+        *_left_out("wires-left-out", [part for part in wires if part.product not in drawn], prototypes),
     ]
     if of_file:
-        return BrepSource(name, kind, [with_appearance(part, part.look()) for part in parts], roots.alone(), said)
-    return BrepSource(name, kind, parts, roots, said)
+        return BrepSource(
+            name,
+            kind,
+            [with_appearance(part, part.appearance()) for part in parts],
+            prototypes.without_shapes(),
+            all_notes,
+        )
+    return BrepSource(name, kind, parts, prototypes, all_notes)
 
 
-def with_appearance(part: Part, look: Appearance) -> Part:
-    """The part with a look that is known."""
-    return replace(part, look=lambda: look)
+def with_appearance(part: Part, appearance: Appearance) -> Part:
+    """The part with an appearance that is known already."""
+    return replace(part, appearance=lambda: appearance)
 
 
-def _left_out(code: NoteCode, wires: list[Part], roots: LivePrototypes) -> list[Note]:
+def _left_out(code: NoteCode, wires: list[Part], prototypes: LivePrototypes) -> list[Note]:
     if not wires:
         return []
     names = sorted({part.product for part in wires})
     some = f'Part "{wires[0].name}"' if len(wires) == 1 else f"{len(wires)} parts"
     beside = f' beside "{names[0]}"' if code == "free-edges-left-out" and len(names) == 1 else ""
-    return [Note(code, f"{some} without faces ({_edges(wires, roots)}){beside} left out.")]
+    return [Note(code, f"{some} without faces ({_edges(wires, prototypes)}){beside} left out.")]
 
 
-def _edges(wires: list[Part], roots: LivePrototypes) -> str:
-    return counted(int(sum(roots.counts[part.root, 1] for part in wires)), "edge")
+def _edges(wires: list[Part], prototypes: LivePrototypes) -> str:
+    return counted(int(sum(prototypes.counts[part.prototype, 1] for part in wires)), "edge")

@@ -1,4 +1,4 @@
-"""From roots to part meshes: the kernel reads and meshes OpenCASCADE's dump; what fails goes back to OpenCASCADE."""
+"""Tessellation of prototypes by the kernel; faces that it cannot mesh are meshed by OpenCASCADE."""
 
 from __future__ import annotations
 
@@ -14,47 +14,47 @@ from hlr.source.cad.prototypes import Prototypes
 from hlr.source.cad.rescue import faces_of, rescue
 from hlr.source.model import Curves, SurfaceRecords
 
-FLAT = 1e-7
-"""A free-form surface is planar where it departs from a plane by less than this share of the model's size."""
+PLANARITY_SHARE = 1e-7
+"""Share of the model's diagonal: a free-form surface that departs from a plane by less is planar."""
 
-MOST_TRIES = 200
-"""After so many faces that could not be rescued, a few milliseconds each, the others are given up, too."""
+MAX_FAILED_RESCUES = 200
+"""After this number of failed rescues, a few milliseconds each, all remaining faces count as lost."""
 
 
 class Tessellator:
-    """Meshes roots (shapes without placement), each underlying face once. The shapes stay as they are."""
+    """Tessellates prototypes (shapes without placement), each underlying face once. The shapes are not changed."""
 
-    def __init__(self, roots: Prototypes, chosen: Sequence[int], size: float) -> None:
-        """chosen: numbers of the roots that are meshed, ascending; size: the model's diagonal, to judge planarity."""
-        self._roots, self._chosen = roots, chosen
-        self._model = roots.model_of(chosen)
-        self._planar = self._model.planar(FLAT * size)
+    def __init__(self, prototypes: Prototypes, chosen: Sequence[int], size: float) -> None:
+        """Args: chosen: ascending indices of the prototypes to mesh; size: the model's diagonal, to judge planarity."""
+        self._prototypes, self._chosen = prototypes, chosen
+        self._model = prototypes.model_of(chosen)
+        self._planar = self._model.planar(PLANARITY_SHARE * size)
 
     def mesh(
         self, deflection: float, angle: float, progress: Progress | None = None
     ) -> tuple[_kernel.PartTables, MeshingFaults]:
-        """The roots at this chord error and turning angle (radians), and what failed."""
+        """Meshes of the prototypes, and the faces that failed. deflection: model units; angle: turning, radians."""
         if progress is not None:
             progress("tessellate", 0.0)
-        tell = None if progress is None else lambda done: progress("tessellate", done)
-        meshed = self._model.mesh(EACH_SURFACE * deflection, angle, tell)
-        faults = self._rescued(meshed, deflection, angle)
+        report = None if progress is None else lambda done: progress("tessellate", done)
+        meshed = self._model.mesh(EACH_SURFACE * deflection, angle, report)
+        faults = self._rescue_failed(meshed, deflection, angle)
         if progress is not None:
             progress("tessellate", 1.0)
         return meshed.parts(self._planar), faults
 
-    def _rescued(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> MeshingFaults:
-        """What became of the faces that the kernel could not mesh."""
+    def _rescue_failed(self, meshed: _kernel.BrepMesh, deflection: float, angle: float) -> MeshingFaults:
+        """Mesh with OpenCASCADE the faces that the kernel could not mesh."""
         failed = {number for number, _ in meshed.faults()}
         faults = MeshingFaults(turned=[number for number, _ in meshed.turned()])
         if not failed:
             return faults
-        # Of the shapes as they were dumped: a model out of the cache has no others, and is to give the same triangles.
-        shapes = self._roots.read_back
+        # Shapes from the dump: a model from the cache has no others, and must give the same triangles.
+        shapes = self._prototypes.shapes_from_dump
         faces = faces_of([shapes[number] for number in self._chosen], failed)
         for number, face in sorted(faces.items()):
-            hopeless = len(faults.lost) >= MOST_TRIES
-            if not hopeless and rescue(meshed, number, face, deflection, angle):
+            give_up = len(faults.lost) >= MAX_FAILED_RESCUES
+            if not give_up and rescue(meshed, number, face, deflection, angle):
                 faults.rescued.append(number)
             else:
                 faults.lost.append(number)
@@ -68,6 +68,6 @@ class Tessellator:
         """Faces on tori whose tube reaches beyond their axis: number, major and minor radius."""
         return self._model.spindles()
 
-    def edge_curves(self, roots: Ints, edges: Ints) -> Curves:
-        """Curves of edges (m,) in the TopExp edge maps of roots (m,)."""
-        return Curves(*self._model.edge_curves(roots, edges))
+    def edge_curves(self, prototypes: Ints, edges: Ints) -> Curves:
+        """Curves of edges: (m,) prototypes, and (m,) indices in their TopExp edge maps."""
+        return Curves(*self._model.edge_curves(prototypes, edges))

@@ -19,7 +19,7 @@ from hlr.source.cad.shapes import sub_shapes
 from hlr.source.cad.source_builder import build_source
 
 MAX_DEPTH = 200
-"""Assemblies nest no deeper than this; a file that refers to itself would never end."""
+"""Levels of an assembly that are followed: a file that refers to itself would have no end."""
 
 
 def read_document(
@@ -73,7 +73,7 @@ def read_document(
 
 
 class _AssemblyTree:
-    """The document's assembly tree, flattened."""
+    """The assembly tree of a document, flattened into leaves."""
 
     def __init__(self, shapes: Any, colors: Any) -> None:
         self.shapes, self.colors = shapes, colors
@@ -81,10 +81,10 @@ class _AssemblyTree:
         self.notes: list[Note] = []
         self._annotation: AnnotationFilter | None = None
         self._left_out = 0
-        self._details: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
+        self._known_colors: dict[str, tuple[dict[Any, Color], dict[Any, float]]] = {}
 
     def walk(self, fallback: str, annotation: AnnotationFilter | None = None) -> None:
-        """Collect the leaves; annotation: what is left out of them, unless nothing else would be left."""
+        """Collect the leaves. annotation: removed from them, unless nothing else would be left."""
         from OCP.TopAbs import TopAbs_ShapeEnum as Kind
         from OCP.TopLoc import TopLoc_Location
 
@@ -111,47 +111,47 @@ class _AssemblyTree:
             place = place.Multiplied(self.shapes.GetLocation_s(label))
         # A colour set on the instance wins over the assembly's, which wins over the product's own.
         color = color or inherited or (self._color(product) if product is not label else None)
-        under = [*above, label]
+        path = [*above, label]
         name = _name(product) or _name(label) or fallback
         if self.shapes.IsAssembly_s(product) and len(above) < MAX_DEPTH:
             children = new_collection("labels")
             self.shapes.GetComponents_s(product, children)
             for i in range(1, children.Length() + 1):
-                self._visit(children.Value(i), place, color, name, under)
+                self._visit(children.Value(i), place, color, name, path)
             return
         shape = self.shapes.GetShape_s(product)
         if shape is None or shape.IsNull():
             self.notes.append(Note("part-left-out", f'Part "{name}" is empty and was left out.'))
             return
         if self._annotation is not None:
-            shape, faces = self._annotation.without(product, under)
+            shape, faces = self._annotation.filtered(product, path)
             self._left_out += faces
             if shape is None:
                 return
-        # A free shape carries its own placement; a product's stands in the reference.
-        colors, opacities = self._detail(product)
+        # A free shape has its own placement; that of a product is in the reference to it.
+        colors, opacities = self._sub_shape_colors(product)
         leaf = Leaf(shape.Moved(place, False), name, colors=colors, opacities=opacities)
         if color is not None:
             leaf.color, leaf.opacity = color[:3], color[3]
         self.leaves.append(leaf)
 
-    def _detail(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
-        """Colours, and opacities below one, of the solids and faces of a product, by underlying shape."""
+    def _sub_shape_colors(self, product: Any) -> tuple[dict[Any, Color], dict[Any, float]]:
+        """Colours, and opacities below one, of the solids and faces of a product, by TShape."""
 
         key = label_entry(product)
-        known = self._details.get(key)
-        if known is None:
-            known = self._details[key] = ({}, {})
+        found = self._known_colors.get(key)
+        if found is None:
+            found = self._known_colors[key] = ({}, {})
             children = new_collection("labels")
             self.shapes.GetSubShapes_s(product, children)
             for i in range(1, children.Length() + 1):
                 color = self._color(children.Value(i))
                 if color is not None:
                     shape = self.shapes.GetShape_s(children.Value(i)).TShape()
-                    known[0][shape] = color[:3]
+                    found[0][shape] = color[:3]
                     if color[3] < 1.0:
-                        known[1][shape] = color[3]
-        return known
+                        found[1][shape] = color[3]
+        return found
 
     def _color(self, label: Any) -> Rgba | None:
         from OCP.Quantity import Quantity_ColorRGBA
@@ -173,8 +173,8 @@ def _name(label: Any) -> str:
     name = TDataStd_Name()
     label.FindAttribute(TDataStd_Name.GetID_s(), name)
     text = " ".join(str(name.Get().ToExtString()).split())
-    # What OpenCASCADE's own writers put where nobody gave a name says nothing.
-    return "" if text.startswith(("Open CASCADE", "=>[")) or text in _EMPTY_NAMES else text
+    # OpenCASCADE's own writers give such names to nameless shapes.
+    return "" if text.startswith(("Open CASCADE", "=>[")) or text in _GENERIC_NAMES else text
 
 
-_EMPTY_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO"}
+_GENERIC_NAMES = {"SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "SHAPE", "ASSEMBLY", "NAUO"}

@@ -132,7 +132,7 @@ class MeshSource:
         """The file says something of colours."""
         return any(instance.mesh is not None for _, instance, _ in self._drawn)
 
-    def looks(self) -> dict[str, Appearance]:
+    def appearances(self) -> dict[str, Appearance]:
         """Materials, and colours of vertices and faces where there is no material."""
         from hlr.source.mesh.colors import mesh_appearance
 

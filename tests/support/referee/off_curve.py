@@ -83,7 +83,7 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
     from support.true_curves import true_curves
 
     curves = true_curves(source)
-    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.roots.shapes]
+    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.prototypes.shapes]
     parts = {part.name: part for part in source.parts}
 
     def true(name: str, edge: int) -> Floats | None:
@@ -94,7 +94,7 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
 
     def slack(name: str, edge: int) -> float:
         part = parts[name]
-        own = TopoDS.Edge_s(edges[part.root][edge])
+        own = TopoDS.Edge_s(edges[part.prototype][edge])
         ends = [end for end in (TopExp.FirstVertex_s(own), TopExp.LastVertex_s(own)) if not end.IsNull()]
         # A curve need not end at its vertices, and there neighbours meet: lines go to the vertex.
         stated = max(BRep_Tool.Tolerance_s(own), *map(BRep_Tool.Tolerance_s, ends), 0.0)
