@@ -73,6 +73,7 @@ examples/drop_ins/README
 :hidden:
 :caption: Build
 ARCHITECTURE
+CONTRIBUTING
 hlr/kernel/README
 tests/hard/README
 tests/properties/README

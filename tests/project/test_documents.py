@@ -67,6 +67,9 @@ def test_the_readme_leads_to_every_page_of_docs():
     assert {f"docs/{path.name}" for path in pages} == {link for link, _ in linked if link.startswith("docs/")}
 
 
-def test_a_newcomer_finds_architecture_and_glossary_at_the_top_of_the_readme():
+def test_a_newcomer_finds_the_pages_to_begin_with_at_the_top_of_the_readme():
     top = (ROOT / "README.md").read_text("utf-8").partition("\n## ")[0]
-    assert "](ARCHITECTURE.md)" in top and "](GLOSSARY.md)" in top
+    pages = ("ARCHITECTURE.md", "GLOSSARY.md", "CONTRIBUTING.md")
+    assert all(f"]({page})" in top for page in pages)
+    contributing = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
+    assert all(f"]({page})" in contributing for page in pages[:2])
