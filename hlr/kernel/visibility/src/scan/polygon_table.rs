@@ -76,7 +76,9 @@ fn almost_edge_on((p, q, r): (&Point, &Point, &Point)) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::is_needle;
+    use super::{PolygonTable, is_needle};
+    use crate::scan::mesh::Mesh;
+    use hlr_exact::Point;
 
     #[test]
     fn a_needle_is_no_higher_than_rounding() {
@@ -84,5 +86,29 @@ mod tests {
         assert!(needle(0) && needle(1) && needle(-2));
         assert!(!needle(3) && !needle(-1000));
         assert!(!is_needle((&[0, 0, 0], &[5, 0, 0], &[0, 5, 0])));
+    }
+
+    /// Whether culling hides an edge between a triangle that is turned away and another one, whose third corner is so
+    /// far off the edge.
+    fn hidden_beside(off: i32) -> bool {
+        let points: Vec<Point> = vec![[0, 0, 0], [1_000_000, 0, 0], [0, 1_000_000, 0], [500_000, -off, 0]];
+        let mesh = Mesh {
+            points,
+            triangles: &[[0, 2, 1], [0, 1, 3]],
+            triangle_group: &[0, 0],
+            edges: &[],
+            offsets: &[0],
+            incident: &[],
+            edge_group: &[],
+            role: &[],
+            groups: Vec::new(),
+        };
+        PolygonTable { facing: vec![-1, -1], almost: vec![false; 2], culled: 2 }.turned_away(&mesh, &[0, 1])
+    }
+
+    #[test]
+    fn an_edge_beside_a_needle_is_not_hidden_by_culling_alone() {
+        assert!(hidden_beside(1000));
+        assert!(!hidden_beside(1) && !hidden_beside(0));
     }
 }
