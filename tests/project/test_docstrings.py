@@ -50,6 +50,7 @@ def failures(test):
     return "".join(said)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DOCUMENTED)
 def test_the_examples_of_a_public_name_run(name, plate, monkeypatch):
     monkeypatch.chdir(plate)

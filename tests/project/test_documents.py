@@ -49,6 +49,16 @@ def test_every_file_of_code_that_a_page_names_is_there(page):
     assert not missing(page)
 
 
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_program_that_a_page_runs_is_there(page):
+    text = page.read_text("utf-8")
+    paths = re.findall(r"python ((?:tests|examples)/\S+\.py)", text)
+    folders = "|".join(path.name for path in (ROOT / "tests").iterdir() if path.is_dir())
+    modules = re.findall(rf"python -m ((?:{folders})(?:\.\w+)+)", text)
+    paths += [f"tests/{name.replace('.', '/')}.py" for name in modules]
+    assert [path for path in paths if not (ROOT / path).is_file()] == []
+
+
 def test_a_file_that_is_not_there_is_found(tmp_path):
     page = tmp_path / "page.md"
     page.write_text("`session.py`, `pipeline/session.py`, `pipeline/nothing.py`\n")
