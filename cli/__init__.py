@@ -7,9 +7,9 @@ from typing import NoReturn
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and leave the process with its exit code: 0 done, 2 refused, 1 a fault of hlr.
+    """Run the command line and end the process with its exit code: 0 done, 2 refused, 1 a fault of hlr.
 
-    Without arguments it takes those of the process, which then is the command's own and guarded against crashes.
+    arguments: None for those of the process. The process then belongs to the command, and a crash becomes an error.
     """
     from .app import command
     from .exits import run

@@ -1,4 +1,4 @@
-"""The command and its verbs."""
+"""The `hlr` command and its list of subcommands."""
 
 from __future__ import annotations
 
@@ -13,31 +13,31 @@ from hlr.tables.writers import PICTURE, WRITERS, titles
 
 VERBS = {
     "draw": f"Draw a model as {titles('or')}.",
-    "plan": "Which effects a drawing needs, and why, without drawing it.",
+    "plan": "Which steps a drawing needs, and why, without drawing it.",
     "preview": "Shaded picture of a model as PNG.",
     "methods": "Time the visible-surface methods side by side.",
-    "study": "What accuracy costs, beside others.",
+    "study": "Measure what accuracy costs, and compare with other programs.",
     "info": "Parts, faces, edges, triangles and defects of a model.",
-    "cache": "Where models that were read before are kept.",
+    "cache": "Show or clear the cache of models that were read before.",
 }
 
 
 class Verbs(click.Group):
-    """Verbs are imported when they are named: each costs start-up time."""
+    """A group whose subcommands are imported when they are named: each import costs start-up time."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """All verbs, in the order of the help text."""
+        """All subcommands, in the order of the help text."""
         return list(VERBS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The verb, or None."""
+        """The subcommand, or None."""
         if cmd_name not in VERBS:
             return None
         command: click.Command = getattr(import_module(f".commands.{cmd_name}", __package__), cmd_name)
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """List the verbs without importing them."""
+        """List the subcommands without importing them."""
         with formatter.section("Commands"):
             formatter.write_dl(list(VERBS.items()))
 

@@ -15,11 +15,13 @@ if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
 
 Targets = list[list[Target]]
-"""For each view, where its drawing goes."""
+"""For each view, the files that its drawing is written to."""
 
 
 def targets_of(outputs: Sequence[str], source: str, names: Sequence[str], format: str | None, as_json: bool) -> Targets:
-    """Outputs may be names, patterns, folders and standard output. What cannot be written is refused before any work.
+    """Where the drawing of each view is written. What cannot be written is refused before any work.
+
+    outputs: file names, patterns, folders, or "-" for standard output.
 
     Raises OptionError, WriteError, SourceError.
     """
@@ -38,7 +40,7 @@ def targets_of(outputs: Sequence[str], source: str, names: Sequence[str], format
 
 
 def write(drawings: Sequence[Drawing], targets: Targets, put: Callable[[bytes], None]) -> list[Drawing]:
-    """All files or none; the drawings, with what writing took among their timings."""
+    """Write all files or none. Returns the drawings with the time of writing among their timings."""
     from hlr.drawing.drawing import timed
     from hlr.drawing.saving import render
 
@@ -72,7 +74,7 @@ def _column(output: str | None, source: str, names: Sequence[str], format: str |
 
 
 def _format(path: Path, format: str | None) -> str:
-    """What the name says, else the option; raises WriteError where neither does."""
+    """The format that the file name says, else the option. Raises WriteError where neither says one."""
     from hlr.drawing.saving import format_of
     from hlr.tables.writers import WRITERS
 
@@ -81,6 +83,6 @@ def _format(path: Path, format: str | None) -> str:
 
 
 def _check_format(format: str | None, outputs: Sequence[str], targets: Sequence[Target]) -> None:
-    """An option that no output follows was meant for one."""
+    """Raises OptionError where the option contradicts the names of all outputs."""
     if format is not None and not any(target.format == format for target in targets):
         raise OptionError(f"--format {format} and the name {outputs[0]} contradict one another; leave out one of them")

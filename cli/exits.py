@@ -1,4 +1,4 @@
-"""How the command ends: one sentence and an exit code for everything that can go wrong."""
+"""The end of the command: each error becomes one sentence and an exit code."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ FAULT = 1
 
 
 def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run a command and leave the process."""
+    """Run a command and end the process with its exit code."""
     signals.at_once(own=arguments is None)
     _Asked.json = "--json" in (sys.argv[1:] if arguments is None else arguments)
-    # Absurd coordinates overflow on their way to an error or a drawing: arithmetic's own remarks help nobody.
+    # Huge coordinates overflow on their way to an error or a drawing: NumPy's own warnings do not help the user.
     warnings.filterwarnings("ignore", category=RuntimeWarning, module=r"(hlr|numpy|trimesh)\b")
     try:
         result = command.main(args=arguments, prog_name="hlr", standalone_mode=False)
@@ -61,17 +61,17 @@ def run(command: click.Command, arguments: Sequence[str] | None = None) -> NoRet
 
 
 def warn(message: str) -> None:
-    """A warning on standard error."""
+    """Print a warning to standard error."""
     _say(f"hlr: warning: {_full(message)}")
 
 
 def remark(message: str) -> None:
-    """Something worth knowing that is nothing to warn of, on standard error."""
+    """Print a note to standard error: worth knowing, but no warning."""
     _say(f"hlr: note: {_full(message)}")
 
 
 def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
-    """One sentence on standard error; for machines that asked for JSON, the same on standard output."""
+    """Print one sentence to standard error, and with --json the same as JSON to standard output; then end."""
     text = _full(message)
     _say(f"hlr: {text}")
     if _Asked.json and sys.stdout is not None:
@@ -84,7 +84,7 @@ def _refuse(message: str, kind: str, code: int = REFUSED) -> NoReturn:
 
 
 class _Asked:
-    """What the arguments ask of errors, which may come before they are understood."""
+    """Whether --json is among the arguments, known before they are parsed: errors may come earlier."""
 
     json = False
 
@@ -109,7 +109,7 @@ def _debug() -> None:
 
 
 def _broken_pipe() -> NoReturn:
-    """The reader of the output has gone: end without a word, as other programs do."""
+    """End silently when nobody reads the output any more, as other programs do."""
     if hasattr(signal, "SIGPIPE"):
         signals.die_by(signal.SIGPIPE)
     os._exit(0)
@@ -134,7 +134,7 @@ def _say(text: str) -> None:
 
 
 def _sentence(message: str) -> str:
-    """A message of click in the style of ours: it starts small and has no full stop."""
+    """A message of click in our style: it begins with a small letter and has no full stop."""
     text = message.rstrip(".")
     return text[:1].lower() + text[1:]
 

@@ -1,16 +1,15 @@
-"""The work is done in a worker process, so that a crash of it is an error and not the end of the program.
+"""Do the work in a worker process, so that a crash becomes an error message.
 
-OpenCASCADE is C++ that takes broken files on trust: some make it use memory that is not there, recurse until the stack
-is full, or abort. No Python can catch that in its own process. So the process that was started forks a worker, waits
-for it, and puts into a sentence what a signal said about its end. Signals sent to the one are passed to the other, the
-exit code is the worker's, and so are standard input and output: from outside there is one program. A worker says how it
-ended: one that is gone without a word was ended by a script that it ran. And whoever started the command and is gone no
-longer wants its result: the work ends then, unless `nohup` asked for the contrary.
+OpenCASCADE does not check files fully: a broken file can make it read invalid memory, recurse until the stack is full,
+or abort. Python cannot catch that in its own process. So the process that was started forks a worker, waits for it, and
+turns the signal that ended it into a sentence. Signals are passed on to the worker; the exit code, standard input and
+standard output are the worker's: from outside there is one program. The worker reports how it ended; if it ends without
+a report, a script that it ran has ended it. If the process that started the command is gone, the work ends too, unless
+`nohup` was used.
 
-Each drawing has a worker, whatever the source: forking a process that has imported nothing but click costs about a
-millisecond, and memory can run out on a mesh too. Help, versions and refused options come before it. There is no
-worker without `fork` (Windows), nor where the command line is called from within another program: there the process
-does the work itself.
+Every drawing has a worker, whatever the source: forking a process that has imported nothing but click takes about a
+millisecond, and a mesh can use up the memory too. Help, versions and refused options need no worker. There is none
+without `fork` (Windows), nor where another program calls the command line: there the process does the work itself.
 """
 
 from __future__ import annotations
@@ -44,24 +43,24 @@ CRASHES = {
     )
     if hasattr(signal, name)
 }
-"""Signals that a process brings upon itself."""
+"""Signals of a crash."""
 
 _READING = ("", "source", "tessellate")
-"""Stages in which OpenCASCADE, or a script, is at work; the others are ours alone."""
+"""Stages in which OpenCASCADE or a script runs; all other stages run our code alone."""
 
 _PATIENCE = 2.0
-"""Seconds for the progress bar of a worker that crashed to clear its line, and for a stopped one to tidy up."""
+"""Seconds that a crashed worker's progress bar has to clear its line, and that a stopped worker has to tidy up."""
 
 _GLANCE = 0.25
-"""Seconds between two looks at whether the process that started the command is still there."""
+"""Seconds between two checks whether the process that started the command still runs."""
 
 
 class CrashError(Exception):
-    """The worker crashed in code of ours."""
+    """The worker crashed in our own code."""
 
 
 class _Worker:
-    """What this process knows of itself. notes: where the worker writes what it does, None if this is no worker."""
+    """The state of this process. notes: descriptor that a worker reports its stages to; None if this is no worker."""
 
     allowed = False
     notes: int | None = None
@@ -69,15 +68,15 @@ class _Worker:
 
 
 def allow() -> None:
-    """From now on this process may be split: it is the command and nothing else."""
+    """Allow this process to fork a worker: it runs the command and nothing else."""
     _Worker.allowed = hasattr(os, "fork")
     _Worker.parent = os.getppid() if _Worker.allowed else None
 
 
 def start(source: str) -> None:
-    """Go on in a worker. The process that was started never returns from here.
+    """Continue in a worker. In the process that was started this never returns.
 
-    Raises (there): SourceError, CrashError, or Stopped, by what ended the worker.
+    That process raises SourceError, CrashError or Stopped, by what ended the worker.
     """
     if not _Worker.allowed or threading.active_count() > 1:
         return
@@ -104,14 +103,14 @@ def start(source: str) -> None:
 
 
 def note(what: str) -> None:
-    """Tell the waiting process what is being done: the name of a stage, or "done" and the exit code."""
+    """Report to the waiting process: the name of a stage, or "done" and the exit code."""
     if _Worker.notes is not None:
         with contextlib.suppress(OSError):
             os.write(_Worker.notes, f"{what}\n".encode())
 
 
 def kept_open() -> tuple[int, ...]:
-    """Descriptors for a child that the waiting process is to wait for as well."""
+    """Descriptors that a child process inherits so that the waiting process waits for it as well."""
     return () if _Worker.notes is None else (_Worker.notes,)
 
 
@@ -157,12 +156,12 @@ def _wait(worker: int, reading: int, source: Path) -> NoReturn:
 
 
 def orphaned() -> bool:
-    """Whether the process that started the command is gone, and the command is to go with it."""
+    """Whether the process that started the command is gone, so that the command must end."""
     return _Worker.parent is not None and os.getppid() != _Worker.parent and not hang_up_ignored()
 
 
 def end_when_orphaned() -> None:
-    """For a command without a worker: a thread that ends it, tidily where it is writing, when it is orphaned."""
+    """Start a thread that ends a command without a worker once it is orphaned; a file being written is completed."""
     if _Worker.parent is None:
         return
 
@@ -175,7 +174,7 @@ def end_when_orphaned() -> None:
 
 
 def _end(worker: int) -> None:
-    """By a signal that lets it tidy up; it ends with this process in any case."""
+    """End a worker by a signal that lets it tidy up; it ends with this process in any case."""
     with contextlib.suppress(ProcessLookupError):
         os.kill(worker, signal.SIGTERM)
     end = time.monotonic() + _PATIENCE
@@ -190,7 +189,7 @@ class _Notes:
         self._reading, self._open, self._text = reading, True, b""
 
     def listen(self, seconds: float) -> bool:
-        """Until there is something new, or for so long; whether there may be more."""
+        """Wait for a report, for so many seconds at most. Returns whether there may be more."""
         if not self._open:
             time.sleep(min(seconds, 0.01))  # the worker is about to end
         elif select.select([self._reading], [], [], seconds)[0]:
@@ -201,19 +200,19 @@ class _Notes:
         return False
 
     def rest(self, seconds: float) -> None:
-        """Until nobody is left to say anything, or for so long: the progress bar has been cleared after this."""
+        """Wait until all writers have ended, for so many seconds at most: then the progress bar is cleared."""
         end = time.monotonic() + seconds
         while self.listen(max(end - time.monotonic(), 0.0)):
             pass
 
     def last(self) -> str:
-        """What it said last."""
+        """The last report."""
         lines = self._text.decode("utf-8", "replace").splitlines()
         return lines[-1] if lines else ""
 
 
 def _tie_to(parent: int) -> None:
-    """End with the waiting process: whoever kills that one with a signal that cannot be passed on means the work."""
+    """End when the waiting process ends, even by a signal that it cannot pass on."""
     if sys.platform == "linux":
         import ctypes  # NumPy would load it anyway
 
@@ -232,7 +231,7 @@ def _tie_to(parent: int) -> None:
 
 
 def _prepare() -> None:
-    """No core files, unless somebody looks for the fault: then a traceback as well."""
+    """Write no core files. With HLR_DEBUG: write them, and a traceback of a crash."""
     if os.environ.get("HLR_DEBUG", "") not in ("", "0"):
         import faulthandler
 

@@ -1,7 +1,7 @@
-"""Standard output for drawings that better ones may replace: the last one is written when this process ends, however.
+"""Standard output for drawings that finer ones replace: the last one is written, however this process ends.
 
-A process of its own holds what was given last. When its input ends, for nobody is left to give it more, it writes that
-to standard output; so Ctrl-C, which ends this process at once, does not take the finished drawing with it.
+A child process holds the last drawing. When its input ends, it writes that drawing to standard output. So Ctrl-C, which
+ends this process at once, loses no finished drawing.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .streams import Output, ReaderGoneError
 
 @contextlib.contextmanager
 def kept(out: Output) -> Iterator[Callable[[bytes], None]]:
-    """Yield what takes the content; what it was called with last is written."""
+    """Yield a function that takes a drawing's bytes. The bytes of its last call are written."""
     child = subprocess.Popen(
         [sys.executable, "-P", "-m", f"{__package__}.keeper_process"],
         stdin=subprocess.PIPE,

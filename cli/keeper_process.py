@@ -1,6 +1,6 @@
-"""The process that holds what is to be written: reads lengths and contents until its input ends, writes the last one.
+"""The child process of `keeper`: reads lengths and contents until its input ends, then writes the last content.
 
-What has arrived only in part, because the writer was stopped, is forgotten.
+A content that arrived only in part, because its sender was stopped, is dropped.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import sys
 
 
 def main() -> int:
-    """0: written; 1: nobody reads standard output."""
+    """Returns the exit code: 0 written, 1 nobody reads standard output."""
     # Ctrl-C reaches the whole group of processes; this one ends when the other has.
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         if hasattr(signal, name):

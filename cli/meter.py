@@ -1,7 +1,7 @@
-"""Progress on a terminal, drawn by a small process of its own.
+"""The progress bar on a terminal, drawn by a child process.
 
-OpenCASCADE keeps the interpreter for seconds, so a thread could not draw; and Ctrl-C ends this process without a
-chance to tidy the terminal. A child does both: it draws for as long as its input is open, then clears its line.
+OpenCASCADE blocks the interpreter for seconds, so a thread could not draw; and Ctrl-C ends this process before it can
+clear the terminal's line. The child draws while its input is open, then clears the line.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _PERIOD = 0.05
 
 @contextlib.contextmanager
 def meter(quiet: bool) -> Iterator[Progress]:
-    """Yield what the stages call with their name and the fraction done; it is drawn where somebody would see it."""
+    """Yield the function that stages call with their name and the fraction done. It draws on a terminal only."""
     if quiet or sys.stderr is None or not sys.stderr.isatty():
         yield _noting(None)
         return
@@ -49,7 +49,7 @@ def meter(quiet: bool) -> Iterator[Progress]:
 
 
 def _noting(show: Progress | None) -> Progress:
-    """Whoever waits for this process is told each stage, however seldom anything is shown."""
+    """Report each new stage to the process that waits for this one, and all progress to `show`."""
     noted = ""
 
     def report(stage: str, fraction: float) -> None:

@@ -1,6 +1,6 @@
-"""The process that draws the progress bar: reads "fraction stage" lines until its input ends.
+"""The child process of `meter`: reads lines "fraction stage" until its input ends, and draws the progress bar.
 
-Whatever is done within a second is not shown, and rich is not even imported for it.
+Work that ends within a second shows no bar, and rich is not imported for it.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ STDOUT = "-"
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Where a drawing goes, and as what. path: None for standard output; folder: is made if it is not there."""
+    """An output file and its format. path: None for standard output. folder: made if it does not exist."""
 
     path: Path | None
     format: str
@@ -65,10 +65,10 @@ def plan(pattern: str | None, source: str, views: Sequence[str], ending: str) ->
 
 
 def check(targets: Sequence[Target], source: str | None) -> None:
-    """Refuse what cannot be written before any work is done for it.
+    """Refuse outputs that cannot be written, before any work is done.
 
-    Raises OptionError where two things would be written to one file, however it is spelled; WriteError for a missing
-    folder, a lack of permission, the source itself or another model.
+    Raises OptionError where two outputs are the same file, however it is spelled; WriteError for a missing folder, a
+    lack of permission, the source itself or another model.
     """
     from hlr.drawing import files, originals
 
@@ -86,7 +86,7 @@ def check(targets: Sequence[Target], source: str | None) -> None:
 
 
 def in_folder(folder: str, names: Sequence[str], source: str | None) -> list[Target]:
-    """Files of these names in a folder, which is made if it is not there.
+    """Files of these names in a folder, which is made if it does not exist.
 
     Raises WriteError where they cannot be written there.
     """

@@ -1,4 +1,4 @@
-"""What may stand behind an option: vectors, scales, sizes."""
+"""Types of option values: vectors, views, scales, sizes, durations."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ from typing import NoReturn
 STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
 
 ENDING = tuple(number for number in STOPPING if number != getattr(signal, "SIGHUP", None))
-"""Those that end the command whatever it inherited."""
+"""Signals that end the command even where it inherited that they are ignored."""
 
 
 class Stopped(BaseException):
@@ -35,7 +35,7 @@ class Stopped(BaseException):
 def at_once(own: bool) -> None:
     """Let Ctrl-C end the process without Python's help.
 
-    own: the process is the command and nothing else, so what it has inherited is set right as well.
+    own: the process runs the command and nothing else, so inherited signal settings are reset as well.
     """
     if not _in_main_thread():
         return
@@ -48,7 +48,7 @@ def at_once(own: bool) -> None:
 
 
 def hang_up_ignored() -> bool:
-    """Whether `nohup` started this process: it is to go on whatever becomes of those who started it."""
+    """Whether `nohup` started this process: then it goes on when the process that started it ends."""
     return hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
 
 

@@ -1,7 +1,7 @@
-"""Standard output belongs to the result.
+"""Keep standard output for the result.
 
-Scripts print, and so do libraries underneath Python. While a drawing is computed their output is sent to standard
-error; what was standard output is kept aside for the result.
+Scripts print, and so do libraries below Python. While a drawing is computed, their output goes to standard error; the
+original standard output is reserved for the result.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ class ReaderGoneError(Exception):
 
 
 class Output:
-    """Standard output, kept aside. descriptor: None where the process was started without one."""
+    """The original standard output. descriptor: None where the process was started without one."""
 
     def __init__(self, descriptor: int | None) -> None:
         self._descriptor = descriptor
 
     @property
     def descriptor(self) -> int:
-        """For a process that writes in our place. Raises WriteError where there is none."""
+        """The file descriptor, for a child process that writes to it. Raises WriteError where there is none."""
         if self._descriptor is None:
             raise WriteError("cannot write to standard output: it is closed")
         return self._descriptor
@@ -70,7 +70,7 @@ def _duplicate(descriptor: int) -> int | None:
 
 
 def _send_to_errors(descriptor: int) -> None:
-    """Never leave the number free: the next file to be opened would get it, and with it what libraries print."""
+    """Redirect a descriptor to standard error. Never close it: the next file opened would get its number."""
     try:
         os.dup2(2, descriptor)
     except OSError:

@@ -1,4 +1,4 @@
-"""What the commands say beside their result: warnings and notes, summaries and reports."""
+"""Messages of the commands beside their result: warnings, notes, summaries, reports."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
-    """Each note once, though every view has met it. strict: a warning raises StrictError; quiet: warnings only."""
+    """Print each note once, even of several views. strict: a warning raises StrictError; quiet: warnings only."""
     notes = list(dict.fromkeys(notes))
     warnings = [note for note in notes if note.is_warning]
     if strict and warnings:
@@ -33,7 +33,7 @@ def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False)
 
 
 def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
-    """What was drawn, as JSON: one entry for each file."""
+    """A summary of the drawings as JSON: one entry for each file."""
     import json
 
     from hlr.writers.json import accuracies
@@ -61,7 +61,7 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
 
 
 def tell_report(drawings: Sequence[Drawing]) -> None:
-    """What accuracy was asked for and what was reached, for people."""
+    """Print the accuracy that was asked for and reached, as a table."""
     from hlr.lab.measure.table import table
 
     for drawing in drawings:
@@ -69,7 +69,7 @@ def tell_report(drawings: Sequence[Drawing]) -> None:
 
 
 def tell_plan(drawings: Sequence[Drawing]) -> None:
-    """The table of effects, and how the model was come by, on standard error."""
+    """Print the table of effects, and how the model was read, to standard error."""
     from hlr.request.effect import explained
 
     for drawing in drawings:
@@ -81,7 +81,7 @@ def tell_plan(drawings: Sequence[Drawing]) -> None:
 
 
 def tell_written(text: str, quiet: bool) -> None:
-    """A line about what was written, to people only: in a pipe success is silent."""
+    """Print a line about what was written, on a terminal only: in a pipe success is silent."""
     if not quiet and sys.stderr is not None and sys.stderr.isatty():
         click.echo(text, err=True)
 

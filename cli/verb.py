@@ -1,4 +1,4 @@
-"""A verb of the command line: what is given twice is refused, where the first would be forgotten without a word."""
+"""A subcommand that refuses an option given twice, of which click would silently use the last."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import click
 
 
 class Verb(click.Command):
-    """A command whose options are given once, but for flags and those that say otherwise."""
+    """A command whose options are given once; flags and options marked `multiple` may be repeated."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """As click does it; raises UsageError for an option with a value that is there twice."""
+        """Parse as click does. Raises UsageError where an option with a value is given twice."""
         _, _, order = self.make_parser(ctx).parse_args(list(args))
         once: set[click.Parameter] = set()
         for option in order:

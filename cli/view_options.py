@@ -1,4 +1,4 @@
-"""The options that say what is looked at from where, and how carefully; of every command that makes a picture."""
+"""Options that several commands share: parts, view, camera, scale, accuracy, threads."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ SIZE = (
         "--fit",
         type=Size(),
         metavar="WxH|A4",
-        help="Instead of a scale: fit into so many millimetres, or a sheet less margins of 10 mm: A4, A4-landscape.",
+        help="Instead of a scale: fit into a size in millimetres, or a sheet less margins of 10 mm: A4, A4-landscape.",
     ),
 )
 
@@ -49,7 +49,9 @@ WINDOW = click.option(
 )
 
 ANNOTATIONS = click.option(
-    "--annotations", is_flag=True, help=f"{_ANNOTATED}: also faces of annotation, hidden or supplemental in the file."
+    "--annotations",
+    is_flag=True,
+    help=f"{_ANNOTATED}: also draw faces of annotation that the file hides or calls supplemental.",
 )
 
 
@@ -65,7 +67,7 @@ NO_CACHE = click.option(
     is_flag=True,
     expose_value=False,
     callback=_uncached,
-    help=f"{_CACHED}: read the file, even where it was read before, and keep nothing.",
+    help=f"{_CACHED}: read the file again, and do not keep it in the cache.",
 )
 
 CHOICE = (
@@ -100,14 +102,14 @@ CARE = (
         "--accuracy",
         type=click.FloatRange(min=0.0, min_open=True),
         metavar="MM",
-        help="How far a line may be off on paper. Default: 0.05, less for small drawings.",
+        help="Largest error of a line on paper. Default: 0.05, less for small drawings.",
     ),
     click.option(
         "--crease",
         type=click.FloatRange(0.0, 180.0),
         metavar="DEG",
         default=30.0,
-        help="Meshes: fold from which an edge is drawn. Default: 30.",
+        help="Meshes: angle between two triangles from which an edge is drawn. Default: 30.",
     ),
 )
 
@@ -118,7 +120,7 @@ RUN = (
 
 
 def options(*chosen: Callable[[Command], Command]) -> Callable[[Command], Command]:
-    """Several options at once, in the order of the help text."""
+    """A decorator that adds several options, in the order of the help text."""
 
     def decorate(command: Command) -> Command:
         for option in reversed(chosen):
@@ -129,7 +131,7 @@ def options(*chosen: Callable[[Command], Command]) -> Callable[[Command], Comman
 
 
 def names_of(views: tuple[View, ...], eye: Vector3 | None) -> list[str]:
-    """Views as they are called in file names. Raises OptionError where the eye says already what the view says."""
+    """The names of views in file names. Raises OptionError where both an eye and a view are given."""
     if eye is not None:
         if views:
             raise OptionError("--eye and --view contradict one another: both say where to look from; leave out one")
@@ -140,7 +142,7 @@ def names_of(views: tuple[View, ...], eye: Vector3 | None) -> list[str]:
 def perspective_of(
     perspective: bool, eye: Vector3 | None, target: Vector3 | None, fov: float | None
 ) -> Perspective | None:
-    """The camera that the options ask for; eye, target or field of view alone ask for perspective."""
+    """The camera of these options; None for a parallel view. Eye, target or field of view imply perspective."""
     from hlr.request.options import Perspective
 
     if perspective or eye is not None or target is not None or fov is not None:

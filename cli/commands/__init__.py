@@ -1,1 +1,1 @@
-"""One module per verb, each with a click command of the module's name."""
+"""One module per subcommand. Each has a click command with the name of the module."""

@@ -1,4 +1,4 @@
-"""`hlr cache`: the models that are kept, how many bytes they take, and their end."""
+"""`hlr cache`: show the cache of models, or clear it."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
 _FILES = file_titles(lambda reader: reader.cached)
 
-_HELP = f"""{_FILES} files that were read before need not be read again: what they hold is kept.
+_HELP = f"""The cache of {_FILES} files that were read before, so that they need not be read again.
 
 \b
-  HLR_CACHE=DIR        the folder, instead of the usual one for such files
-  HLR_CACHE=off        nothing is kept, and nothing of it used; --no-cache does so once
-  HLR_CACHE_SIZE=1GB   how large it may become; what was not used for longest goes first
+  HLR_CACHE=DIR        the folder, instead of the system's usual one for caches
+  HLR_CACHE=off        no cache; --no-cache does so for one command
+  HLR_CACHE_SIZE=1GB   its largest size; the least recently used models are removed first
 """
 
 
@@ -29,9 +29,9 @@ def cache() -> None:
 
 
 @cache.command()
-@click.option("--json", "as_json", is_flag=True, help="For machines.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def info(as_json: bool) -> None:
-    """Say where the cache is, and how large."""
+    """Show where the cache is, and how large."""
     store = _store()
     entries = [] if store is None else store.entries()
     size = sum(kept.size for kept in entries)

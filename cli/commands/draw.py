@@ -1,4 +1,4 @@
-"""`hlr draw`: a model in, drawings out."""
+"""`hlr draw`: draw a model."""
 
 from __future__ import annotations
 
@@ -76,11 +76,11 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     metavar="TIME",
     help="Draw coarsely first, then finer while time lasts: 2s, 500ms, 1min. Not finer than --accuracy.",
 )
-@click.option("--report", is_flag=True, help="Measure what accuracy was reached; takes longer than the drawing.")
+@click.option("--report", is_flag=True, help="Measure the accuracy that was reached; takes longer than the drawing.")
 @options(*CAMERA, *RUN)
 @click.option("--format", type=click.Choice(list(WRITERS)), help="Format, where the name does not say it.")
-@click.option("--explain", is_flag=True, help="Say what the scene and the request called for, why, and what it cost.")
-@click.option("--json", "as_json", is_flag=True, help="Print a summary for machines.")
+@click.option("--explain", is_flag=True, help="Print which steps were needed, why, and what they cost.")
+@click.option("--json", "as_json", is_flag=True, help="Print a summary as JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
 def draw(
     *,
@@ -91,7 +91,7 @@ def draw(
     explain: bool,
     as_json: bool,
     quiet: bool,
-    **wishes: Any,
+    **chosen: Any,
 ) -> None:
     """Draw SOURCE with its visible and hidden lines.
 
@@ -102,14 +102,14 @@ def draw(
 
     A CadQuery or build123d script is run to get its model.
     """
-    started = time.perf_counter() - time.process_time()  # what loading has taken counts as well
-    names = names_of(views, wishes["eye"])
+    started = time.perf_counter() - time.process_time()  # the time of loading counts as well
+    names = names_of(views, chosen["eye"])
     views = views or ("iso",)
-    request = request_of(**wishes)
+    request = request_of(**chosen)
     targets = targets_of(outputs, source, names, format, as_json)
 
     start(source)
-    # While anything runs that is not ours, standard output is out of its reach.
+    # Scripts and libraries may print: meanwhile only the result can reach standard output.
     with result_only() as out:
         with meter(quiet) as progress:
             import hlr
@@ -141,7 +141,7 @@ def request_of(
     fov: float | None,
     **others: Any,
 ) -> Options:
-    """The options of the command line as a request. Raises OptionError where they contradict one another."""
+    """The options of the command line as a request. Raises OptionError where they contradict each other."""
     from hlr.request.options import Options
 
     if scale is not None and fit is not None:
@@ -159,7 +159,7 @@ def _within(
     out: Output,
     started: float,
 ) -> list[Drawing]:
-    """Each finished drawing is written at once, so that the last one stays, however the process ends."""
+    """Draw within a time. Each finished drawing is written at once: the last one stays however the process ends."""
     from contextlib import ExitStack
 
     from hlr.pipeline.within import draw_within
@@ -168,7 +168,7 @@ def _within(
     from hlr.source.selection import open_selected
 
     with ExitStack() as stack:
-        # What is measured afterwards is written again, with what was reached; standard output takes only one.
+        # With --report the drawing is written once more, with its measure; standard output takes only one drawing.
         put: Callable[[bytes], None] = out.put
         if to_stdout(targets):
             from ..keeper import kept

@@ -1,4 +1,4 @@
-"""`hlr info`: what a model consists of, and what is wrong with it."""
+"""`hlr info`: the parts of a model, and its defects."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ _LONGEST_NAME = 40
     type=click.FloatRange(0.0, 180.0),
     metavar="DEG",
     default=30.0,
-    help="Meshes: fold that counts as an edge. Default: 30.",
+    help="Meshes: angle between two triangles from which there is an edge. Default: 30.",
 )
 @click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
 @ANNOTATIONS
 @NO_CACHE
-@click.option("--json", "as_json", is_flag=True, help="For machines.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def info(source: str, crease: float, var: str | None, annotations: bool, as_json: bool, quiet: bool) -> None:
-    """Say what SOURCE consists of, part by part, and what is wrong with it.
+    """List the parts of SOURCE, and their defects.
 
-    closed: every edge has a face on both sides, and the faces agree on what is outside.
+    closed: every edge has a face on both sides, and all faces are oriented alike.
     """
     start(source)
     encoding = sys.stdout.encoding if sys.stdout is not None else "utf-8"

@@ -1,4 +1,4 @@
-"""`hlr methods`: the visible-surface methods timed side by side."""
+"""`hlr methods`: time the visible-surface methods side by side."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     "methods",
     metavar="NAME",
     multiple=True,
-    help='Only this one, or a variant: "scan-line z-buffer, per polygon", "ray casting, flat"; may be repeated.',
+    help='Only this method or variant: "scan-line z-buffer, per polygon", "ray casting, flat"; may be repeated.',
 )
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="View of SOURCE. Default: iso.")
 @click.option(
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     type=click.FloatRange(min=0.0, min_open=True),
     metavar="S",
     default=10.0,
-    help="Seconds of the processor, as in the tables, for each method and scene. Default: 10.",
+    help="Processor time for each method and scene, in seconds. Default: 10.",
 )
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
 def methods(  # noqa: PLR0913 - one for each option of the command

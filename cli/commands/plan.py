@@ -1,4 +1,4 @@
-"""`hlr plan`: which effects a drawing would need, and why, without drawing it."""
+"""`hlr plan`: which steps a drawing needs, and why, without drawing it."""
 
 from __future__ import annotations
 
@@ -21,20 +21,21 @@ if TYPE_CHECKING:
 @click.argument("source")
 @VIEW
 @options(*CHOICE, *LINES, *SIZE, WINDOW, *CARE, *CAMERA, *RUN)
-@click.option("--json", "as_json", is_flag=True, help="For machines.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **wishes: Any) -> None:
-    """Say which effects a drawing of SOURCE needs, and why.
+def plan(*, source: str, views: tuple[View, ...], as_json: bool, quiet: bool, **chosen: Any) -> None:
+    """Show which steps a drawing of SOURCE needs, and why.
 
     \b
       hlr plan part.step
       hlr plan part.step --view front --perspective --json
 
-    The model is read and meshed, but nothing is hidden or drawn. `hlr draw --explain` says besides what each has cost.
+    The model is read and meshed; visibility is not computed and nothing is drawn. `hlr draw --explain` adds what each
+    step has cost.
     """
-    names_of(views, wishes["eye"])
+    names_of(views, chosen["eye"])
     views = views or ("iso",)
-    request = request_of(**wishes)
+    request = request_of(**chosen)
     start(source)
     with result_only() as out:
         with meter(quiet) as progress:

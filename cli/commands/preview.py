@@ -1,4 +1,4 @@
-"""`hlr preview`: a model in, shaded pictures out."""
+"""`hlr preview`: shaded pictures of a model."""
 
 from __future__ import annotations
 
@@ -40,24 +40,24 @@ if TYPE_CHECKING:
     "--look",
     type=click.Choice(["shaded", "wireframe", "depth-cued"]),
     default="shaded",
-    help="Faces; or all lines, hidden or not, and no faces; or these lines, paler with distance. Default: shaded.",
+    help="Shaded faces; all lines, hidden or not, without faces; or these lines, paler with distance. Default: shaded.",
 )
 @click.option("--edges", is_flag=True, help="The visible lines of the drawing on top; behind glass, lighter.")
 @click.option("--smooth", is_flag=True, help="With --edges: also tangent edges, thin.")
 @click.option(
     "--background", metavar="COLOUR", default="white", help="A CSS name, #rrggbb or transparent. Default: white."
 )
-@click.option("--antialias/--no-antialias", default=True, help="Sixteen samples a pixel. Default: on.")
+@click.option("--antialias/--no-antialias", default=True, help="Sixteen samples per pixel. Default: on.")
 @click.option("--shadows", is_flag=True, help="The light casts shadows.")
-@click.option("--occlusion", is_flag=True, help="Corners and crevices are darker.")
+@click.option("--occlusion", is_flag=True, help="Ambient occlusion: corners and crevices are darker.")
 @click.option("--specular", is_flag=True, help="Highlights.")
-@click.option("--depth", metavar="FILE", help="Also a depth map: 16-bit grey, 0 nearest, 65535 nothing.")
-@click.option("--ids", metavar="FILE", help="Also a map of the faces: their numbers as colours.")
+@click.option("--depth", metavar="FILE", help="Also write a depth map: 16-bit grey, 0 is nearest, 65535 is background.")
+@click.option("--ids", metavar="FILE", help="Also write a map of the faces: their numbers as colours.")
 @options(*CARE, *CAMERA, *RUN)
-@click.option("--explain", is_flag=True, help="Say what the scene and the request called for, and why.")
+@click.option("--explain", is_flag=True, help="Print which steps were needed, and why.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress and no summary on the terminal.")
 def preview(
-    *, source: str, output: str | None, views: tuple[View, ...], explain: bool, quiet: bool, **wishes: Any
+    *, source: str, output: str | None, views: tuple[View, ...], explain: bool, quiet: bool, **chosen: Any
 ) -> None:
     """Show SOURCE shaded, in its own colours.
 
@@ -66,16 +66,16 @@ def preview(
       hlr preview part.step -o "{stem}-{view}.png" --view front --view iso --size 800x600
       hlr preview part.step --shadows --occlusion --background "#223344" --perspective
 
-    Where the file says that a part is transparent, it is.
+    Parts that are transparent in the file are drawn transparent.
     """
-    names = names_of(views, wishes["eye"])
+    names = names_of(views, chosen["eye"])
     views = views or ("iso",)
-    maps = {name: wishes.pop(name) for name in ("depth", "ids")}
-    request = _options(**wishes, depth=maps["depth"] is not None, ids=maps["ids"] is not None)
+    maps = {name: chosen.pop(name) for name in ("depth", "ids")}
+    request = _options(**chosen, depth=maps["depth"] is not None, ids=maps["ids"] is not None)
     targets = _targets(output, maps, source, names)
 
     start(source)
-    # While anything runs that is not ours, standard output is out of its reach.
+    # Scripts and libraries may print: meanwhile only the result can reach standard output.
     with result_only() as out:
         with meter(quiet) as progress:
             import hlr
@@ -104,7 +104,7 @@ def _options(
 
 
 def _targets(output: str | None, maps: dict[str, str | None], source: str, names: list[str]) -> list[dict[str, Target]]:
-    """Per view what is written where. What cannot be written is refused before any work."""
+    """For each view, where its pictures are written. What cannot be written is refused before any work."""
     from hlr.drawing.saving import check_png
 
     if output == STDOUT and len(names) > 1:
@@ -132,7 +132,7 @@ def _targets(output: str | None, maps: dict[str, str | None], source: str, names
 def _encoded(
     pictures: list[Picture], targets: list[dict[str, Target]], put: Callable[[bytes], None]
 ) -> list[tuple[Target, bytes]]:
-    """What goes into files, after what goes to standard output."""
+    """Encode all pictures: write those for standard output, return those for files."""
     from hlr.writers.png import depth_png, ids_png, picture_png
 
     make = {"picture": picture_png, "depth": depth_png, "ids": ids_png}

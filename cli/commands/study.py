@@ -1,4 +1,4 @@
-"""`hlr study`: what accuracy costs, beside others, on one model."""
+"""`hlr study`: measure what accuracy costs on one model, and compare with other programs."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
 @click.option("--view", type=ViewName(), metavar="NAME|X,Y,Z", default="iso", help="Default: iso.")
 @options(*CHOICE)
 @click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model.")
-@click.option("--fit", type=Size(), metavar="WxH|A4", help="Fit into so many millimetres. Default: A4-landscape.")
+@click.option("--fit", type=Size(), metavar="WxH|A4", help="Size in millimetres, or a sheet. Default: A4-landscape.")
 @click.option(
     "--accuracy",
     "accuracies",
@@ -49,16 +49,16 @@ _MILLIMETRES = click.FloatRange(min=0.0, min_open=True)
     multiple=True,
     help="Along the longer side of a depth buffer; may be repeated. Default: 512, 1024, 2048, 4096 and 8192.",
 )
-@click.option("--rivals/--no-rivals", default=True, help="OpenCASCADE and a z-buffer on the same axes. Default: on.")
+@click.option("--rivals/--no-rivals", default=True, help="Compare with OpenCASCADE and a z-buffer. Default: on.")
 @click.option(
-    "--reached/--no-reached", default=True, help="Measure errors class by class too; it takes long. Default: on."
+    "--reached/--no-reached", default=True, help="Measure the errors of each class of line; takes long. Default: on."
 )
 @click.option(
     "--limit",
     type=_MILLIMETRES,
     metavar="S",
     default=30.0,
-    help="Processor seconds for each point, reading included. Default: 30.",
+    help="Processor time for each point in seconds, reading included. Default: 30.",
 )
 @click.option("--runs", type=click.IntRange(min=1), metavar="N", default=3, help="Runs of each point. Default: 3.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
@@ -78,13 +78,13 @@ def study(  # noqa: PLR0913 - one for each option of the command
     quiet: bool,
     **chosen: Any,
 ) -> None:
-    """Measure what accuracy costs on SOURCE, beside OpenCASCADE, a z-buffer, and predicates that round.
+    """Measure what accuracy costs on SOURCE, and compare with OpenCASCADE, a z-buffer, and rounding predicates.
 
     \b
       hlr study part.step -o figures
       hlr study part.step -o figures --accuracy 0.5 --accuracy 0.05 --no-rivals --runs 1
 
-    Ctrl-C leaves what is finished.
+    After Ctrl-C the points that are finished are written.
     """
     targets = {target.name: target for target in in_folder(output, FILES, source)}
     if scale is not None and fit is not None:
@@ -105,7 +105,7 @@ def study(  # noqa: PLR0913 - one for each option of the command
         reached=reached,
     )
     found = Study(source, view, limit, runs)
-    # No worker process as for a drawing: the work is done in processes of its own, and this one has to outlive Ctrl-C.
+    # Without a worker process: each point runs in a process of its own, and this one writes the result after Ctrl-C.
     end_when_orphaned()
     with tidily():
         try:
@@ -130,7 +130,7 @@ def study(  # noqa: PLR0913 - one for each option of the command
 
 
 def _write(targets: dict[str, Target], found: Study) -> None:
-    """All files; none where nothing was measured."""
+    """Write all files; none where nothing was measured."""
     from hlr.lab.study import plot, report, table
 
     if not any(point.failure is None for point in found.points):

@@ -1,1 +1,1 @@
-"""A folder in which something that took long to find out is kept, and found again."""
+"""The cache: a folder that keeps models which were read once, so that they need not be read again."""

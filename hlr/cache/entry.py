@@ -1,13 +1,13 @@
-"""One entry of the cache as bytes: a header, JSON, then arrays one after another; no pickle, nothing that is run.
+"""One entry of the cache as bytes: a header, JSON, then arrays. No pickle: nothing in it is executed.
 
     bytes    what
     8        MARK
     32       BLAKE2b of all that follows
     4, 8     lengths of the JSON and of the data, little-endian
     ...      JSON, an object; its "key" is the entry's own name
-    ...      data: what the JSON says of it is up to the reader
+    ...      data, which the JSON describes
 
-An entry that is not exactly so is damaged, whatever made it so.
+An entry in any other form is damaged and is not used.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ HEAD = len(MARK) + _DIGEST + _LENGTHS.size
 
 
 class DamagedError(Exception):
-    """An entry that cannot be used."""
+    """An entry cannot be used; says why."""
 
 
 def packed(key: str, facts: dict[str, Any], data: Sequence[bytes]) -> list[bytes]:
-    """The bytes of an entry, in pieces; facts: becomes JSON, so it holds texts, numbers, lists and dictionaries."""
+    """The bytes of an entry, in pieces. facts: what becomes JSON: text, numbers, lists and dictionaries."""
     text = json.dumps({**facts, "key": key}, separators=(",", ":"), allow_nan=False).encode("ascii")
     lengths = _LENGTHS.pack(len(text), sum(map(len, data)))
     return [MARK, _digest(lengths, text, *data), lengths, text, *data]
@@ -39,7 +39,7 @@ def unpacked(key: str, entry: bytes) -> tuple[dict[str, Any], memoryview]:
     """The facts and the data of an entry.
 
     Raises:
-        DamagedError: it is no entry, it is damaged, or it is that of another key.
+        DamagedError: the bytes are no entry, are damaged, or belong to another key.
     """
     if len(entry) < HEAD or not entry.startswith(MARK):
         raise DamagedError("it is of another kind")

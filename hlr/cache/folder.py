@@ -1,4 +1,4 @@
-"""Where the cache is, and how large it may become: HLR_CACHE and HLR_CACHE_SIZE."""
+"""The cache's folder and its largest size, as HLR_CACHE and HLR_CACHE_SIZE set them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _UNITS = {"": 1, "b": 1, "kb": 10**3, "mb": 10**6, "gb": 10**9, "tb": 10**12} | 
 
 
 def folder() -> Path | None:
-    """The cache's folder, which need not be there yet; None where the cache is off."""
+    """The cache's folder, which may not exist yet; None where the cache is off."""
     named = os.environ.get(VARIABLE, "").strip()
     if named.lower() in _OFF:
         return None
@@ -37,10 +37,10 @@ def folder() -> Path | None:
 
 
 def most_bytes() -> int:
-    """How many bytes all entries together may have.
+    """The most bytes that all entries together may take.
 
     Raises:
-        OptionError: HLR_CACHE_SIZE is no size.
+        OptionError: HLR_CACHE_SIZE is not a size.
     """
     text = os.environ.get(SIZE_VARIABLE, "").strip()
     if not text:
@@ -53,7 +53,7 @@ def most_bytes() -> int:
 
 @contextmanager
 def without_cache() -> Iterator[None]:
-    """No cache meanwhile, neither here nor in programs that are started from here."""
+    """Within this block the cache is off, here and in programs started from here."""
     before = os.environ.get(VARIABLE)
     os.environ[VARIABLE] = "off"
     try:

@@ -1,4 +1,6 @@
-"""The folder of entries: one file each, written beside and renamed, the least recently used removed when it is full."""
+"""The folder of entries, one file each. When it is full, the least recently used entries are removed.
+
+A file is written under a temporary name and renamed when it is complete."""
 
 from __future__ import annotations
 
@@ -11,21 +13,21 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-_OURS = re.compile(r"[0-9a-f]{40}\.model")
-_HALF = re.compile(r"[0-9a-f]{40}\.model\.\w+\.part")
-"""What is being written, or was when its writer ended."""
+_ENTRY = re.compile(r"[0-9a-f]{40}\.model")
+_UNFINISHED = re.compile(r"[0-9a-f]{40}\.model\.\w+\.part")
+"""A file that is being written, or that was left unfinished."""
 
-_FORGOTTEN = 3600.0
-"""Seconds after which nobody is writing a file any more."""
+_ABANDONED = 3600.0
+"""Seconds after which an unfinished file counts as abandoned."""
 
 
 class NotKeptError(Exception):
-    """Why an entry was not written, in a few words."""
+    """An entry was not written; says why in a few words."""
 
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """A file of the folder, its bytes, and when it was last used (seconds since the epoch)."""
+    """A file of the folder: its size in bytes, and when it was last used (seconds since the epoch)."""
 
     path: Path
     size: int
@@ -33,18 +35,18 @@ class Kept:
 
 
 class Store:
-    """Entries by key, forty hexadecimal digits. Files of other names are nobody's business here."""
+    """Entries by key, forty hexadecimal digits. Files with other names are ignored."""
 
     def __init__(self, folder: Path, most: int) -> None:
-        """most: bytes that all entries together may have."""
+        """most: the most bytes that all entries together may take."""
         self.folder, self.most = folder, most
 
     def path(self, key: str) -> Path:
-        """The file of an entry, whether it is there or not."""
+        """The path of an entry's file, which may not exist."""
         return self.folder / f"{key}.model"
 
     def read(self, key: str) -> bytes | None:
-        """An entry as it was written, or whatever lies in its place; None: nothing that can be read."""
+        """The bytes of an entry's file, unchecked; None where there is no file that can be read."""
         flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
         with suppress(OSError):
             number = os.open(self.path(key), flags)
@@ -56,19 +58,19 @@ class Store:
         return None
 
     def touch(self, key: str) -> None:
-        """The entry was of use: it is the last to go."""
+        """Mark an entry as used now, so that it is removed last."""
         with suppress(OSError):
             os.utime(self.path(key))
 
     def write(self, key: str, entry: Sequence[bytes]) -> int:
-        """Put an entry, in pieces, in the place of any other one of this key; its number of bytes.
+        """Write an entry, given in pieces, in place of any older one with this key. Returns its size in bytes.
 
         Raises:
             NotKeptError: the folder is read-only or full, or the entry is larger than the whole cache may be.
         """
         size = sum(map(len, entry))
         if size > self.most:
-            raise NotKeptError(f"it has {_mega(size)}, and the cache may have {_mega(self.most)}")
+            raise NotKeptError(f"it takes {_mega(size)}, and the cache may take {_mega(self.most)}")
         try:
             self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
             self._write(key, entry)
@@ -94,15 +96,15 @@ class Store:
 
     def entries(self) -> list[Kept]:
         """All entries, the least recently used first."""
-        return sorted(self._files(_OURS), key=lambda kept: (kept.used, kept.path.name))
+        return sorted(self._files(_ENTRY), key=lambda kept: (kept.used, kept.path.name))
 
     def clear(self) -> list[Kept]:
-        """Remove all entries, and halves of entries; what was removed.
+        """Remove all entries and unfinished files. Returns what was removed.
 
         Raises:
             OSError: one could not be removed.
         """
-        found = [*self.entries(), *self._files(_HALF)]
+        found = [*self.entries(), *self._files(_UNFINISHED)]
         for kept in found:
             kept.path.unlink(missing_ok=True)
         return found
@@ -116,8 +118,8 @@ class Store:
             with suppress(OSError):
                 kept.path.unlink()
                 over -= kept.size
-        for kept in self._files(_HALF):
-            if kept.used < time.time() - _FORGOTTEN:
+        for kept in self._files(_UNFINISHED):
+            if kept.used < time.time() - _ABANDONED:
                 with suppress(OSError):
                     kept.path.unlink()
 

@@ -1,1 +1,1 @@
-"""What every room uses, and what knows nothing of drawings: clocks, values, processes."""
+"""Helpers that every other package may use and that know nothing of drawings: clocks, values, processes."""

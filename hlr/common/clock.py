@@ -1,4 +1,4 @@
-"""Seconds of the stages of one run."""
+"""Clock: the seconds that each stage of one run has taken."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ Clock = dict[str, float]
 
 
 def lap(clock: Clock, stage: str, started: float) -> float:
-    """Add the time since `started` to a stage's; returns now."""
+    """Add the seconds since `started` to a stage; returns the present time (`perf_counter`)."""
     now = perf_counter()
     clock[stage] = clock.get(stage, 0.0) + now - started
     return now

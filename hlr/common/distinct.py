@@ -1,4 +1,4 @@
-"""Each of several numbers once."""
+"""The distinct values of an array."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Number = TypeVar("Number", bound=np.generic)
 def distinct(values: npt.NDArray[Number]) -> npt.NDArray[Number]:
     """The different values of an array of any shape, ascending, as (n,).
 
-    What `np.unique` does, too, but that loads masked arrays for it, which takes longer than many a drawing.
+    `np.unique` does the same, but loads NumPy's masked arrays, which takes longer than many drawings.
     """
     ordered: npt.NDArray[Any] = np.sort(values, axis=None)
     first = np.ones(len(ordered), bool)

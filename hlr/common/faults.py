@@ -1,6 +1,6 @@
-"""Faults of the kernel: a panic of Rust becomes an error like any other.
+"""Panics of the Rust kernel as Python exceptions.
 
-The kernel puts all that it exports behind `guarded` when it is loaded.
+When the kernel is loaded, it wraps every function that it exports in `guarded`.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 PANIC = "PanicException"
-"""What Rust's panics are called in Python. They are no `Exception`, so that nobody catches them."""
+"""Name of the class of Rust's panics in Python. It is no subclass of `Exception`."""
 
 
 def guarded(function: Callable[P, T], told: Callable[[], str | None]) -> Callable[P, T]:
-    """The function, whose panics are KernelErrors; told: where and why the last one happened."""
+    """The function, its panics raised as KernelError. told: returns where and why the last panic happened."""
 
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> T:
@@ -34,7 +34,7 @@ def guarded(function: Callable[P, T], told: Callable[[], str | None]) -> Callabl
 
 
 def fault(what: str) -> KernelError:
-    """The error for a panic."""
+    """The error for a panic. what: its place and message."""
     return KernelError(
         f"internal error in the kernel at {what}; this is a fault of hlr, please report it with the call or command "
         "and, if you may share it, the model"

@@ -1,4 +1,4 @@
-"""Keywords of a function that are the fields of a record: `help` shows them, a wrong one is refused in a sentence."""
+"""Functions whose keywords are the fields of a record: `help` shows them, and a wrong one is refused in a sentence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def record_of(kind: type[Record], keywords: Mapping[str, Any], function: str) -> Record:
-    """The record with these fields; raises OptionError for a keyword that is none of them, with the nearest that is."""
+    """The record with these fields. Raises OptionError for an unknown keyword, and names the nearest known one."""
     fields = kind.__dataclass_fields__  # type: ignore[attr-defined]
     for name in keywords:
         if name not in fields:

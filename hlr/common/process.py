@@ -1,4 +1,4 @@
-"""Whether this process is hlr's own: that of the command line, in which nobody else imports anything."""
+"""Whether this process belongs to the command line alone, so that no other program imports modules in it."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ class _Process:
 
 
 def claim() -> None:
-    """From now on it is."""
+    """Declare that this process is the command line's own."""
     _Process.own = True
 
 
 def is_own() -> bool:
-    """Whether it was claimed."""
+    """Whether this process is the command line's own."""
     return _Process.own

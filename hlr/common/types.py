@@ -1,4 +1,4 @@
-"""Types that all rooms share: arrays of numbers, colours, progress."""
+"""Types that all packages share: arrays, colours, progress callbacks."""
 
 from __future__ import annotations
 
@@ -14,4 +14,4 @@ Color = tuple[float, float, float]
 Rgba = tuple[float, float, float, float]
 """The same, and opacity; 0 to 1."""
 Progress = Callable[[str, float], None]
-"""Called with a stage's name and the fraction done (0..1)."""
+"""Called with the name of a stage and the fraction of it that is done, 0 to 1."""

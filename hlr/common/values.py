@@ -1,4 +1,4 @@
-"""Records compared by value, though they hold arrays; and lists of records that are made late."""
+"""Records with arrays, compared by value; and sequences whose records are made on first use."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ R = TypeVar("R")
 class ByValue:
     """Base of frozen dataclasses declared with eq=False. Fields declared with compare=False do not count.
 
-    Arrays are equal that have the same shape and the same values, a NaN being equal to a NaN. Fields declared with
-    hash=False, such as mappings, count in the comparison alone.
+    Arrays are equal if they have the same shape and the same values; NaN equals NaN. Fields declared with hash=False,
+    such as mappings, count in comparisons but not in the hash.
     """
 
     __slots__ = ()
@@ -63,9 +63,9 @@ def _key(value: Any) -> Any:
 
 
 class LateRecords(Sequence[R]):
-    """Records that are made when the first of them is looked at; equal to a tuple of the same records.
+    """A sequence whose records are made on first use. It equals a tuple of the same records.
 
-    Pickled and copied as that tuple.
+    It is pickled and copied as that tuple.
     """
 
     __slots__ = ("_known",)

@@ -1,4 +1,4 @@
-"""A request is checked before any work is done for it."""
+"""Check a request before any work is done for it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NARROWEST, WIDEST = 0.01, 170.0
 
 
 def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for each option
-    """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
+    """The same options, checked: types, ranges, contradictions. Raises OptionError that says what is allowed."""
     for name in (
         "hidden", "smooth", "seam", "intersections", "see_through", "fill", "circles", "strict", "report", "annotations"
     ):  # fmt: skip
@@ -36,7 +36,7 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
     within = options.within
     if within is not None and (not _is_real(within) or not (math.isfinite(within) and within > 0.0)):
-        raise OptionError(f"{_shown(within)} s leave no time: give a positive number of seconds")
+        raise OptionError(f"within needs a positive number of seconds, not {_shown(within)}")
     if options.fit is not None and (
         not _is_vector(options.fit, 2) or min(options.fit) < SMALLEST_FIT or max(options.fit) > LARGEST_FIT
     ):
@@ -65,16 +65,16 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
 
 
 def check_crease(crease: float) -> None:
-    """Raises OptionError for what is no angle of a fold, in degrees."""
+    """Raises OptionError unless the crease angle is 0 to 180 degrees."""
     if not _is_real(crease) or not 0.0 <= crease <= 180.0:
-        raise OptionError(f"crease {_shown(crease)} is no fold: give 0 to 180 degrees")
+        raise OptionError(f"crease {_shown(crease)} is not a crease angle: give 0 to 180 degrees")
 
 
-def checked_views(views: Sequence[View], options: Looking) -> list[View]:
+def checked_views(views: Sequence[View], options: CameraOptions) -> list[View]:
     """The views as a list, names in small letters; a single name or direction is understood as one view.
 
-    Raises ViewError where one is neither a name nor three numbers, or is no view together with the options, which are
-    checked already: whatever is wrong with it is known before the model is read.
+    options: checked already. Raises ViewError where a view is neither a name nor three numbers, or contradicts `up` or
+    the camera. So a wrong view is refused before the model is read.
     """
     if isinstance(views, str):
         views = [cast(View, views)]
@@ -91,12 +91,12 @@ def checked_views(views: Sequence[View], options: Looking) -> list[View]:
     return found
 
 
-class Looking(Protocol):
-    """The options that say how a view is seen."""
+class CameraOptions(Protocol):
+    """The options of a camera, of a drawing or a picture."""
 
     @property
     def up(self) -> Vector | None:
-        """What points up on paper."""
+        """The direction that points up on paper, world axes."""
 
     @property
     def perspective(self) -> Perspective | None:

@@ -1,6 +1,7 @@
-"""Views before there is a model: their names, directions and what points up.
+"""Named views, view directions, and what points up: all that a camera knows before the model is read.
 
-A named view is the direction from the object toward the viewer and what points up on paper (z-up world).
+`NAMED` holds for each name the direction from the object toward the viewer, and the direction that points up on paper
+(world axes, z up).
 
 Front looks along +y with x to the right, as in FreeCAD and ISO 5456-2; the isometrics are named by the compass corner
 the viewer stands at, as in AutoCAD.
@@ -29,14 +30,14 @@ NAMED: dict[ViewName, tuple[Vector, Vector]] = {
 }
 
 EYE = "eye"
-"""What a view is called whose eye was given: it looks from there, whatever other view was named."""
+"""Name of a view from a given eye point."""
 
 CLOSEST = 1e-9
-"""Of their coordinates and the model's size: an eye nearer to its target looks nowhere."""
+"""Share of the coordinates and of the model's size: an eye nearer to its target than this has no direction."""
 
 
 def check_directions(views: Sequence[View], up: Vector | None, perspective: Perspective | None) -> None:
-    """What is known of cameras before there is a model.
+    """Check cameras as far as that is possible before the model is read.
 
     Raises ViewError for an unknown name, a zero direction, up parallel to a direction, and several views from one eye.
     """
@@ -62,7 +63,7 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def normalized(v: Sequence[float], what: str) -> Vector:
-    """v / |v|; raises ViewError where it has no direction."""
+    """The unit vector v / |v|. what: its name in errors. Raises ViewError for a vector without direction."""
     if len(v) != 3 or not all(map(math.isfinite, v)):
         raise ViewError(f"{what} needs three finite numbers, not {', '.join(str(c) for c in v)}")
     x, y, z = map(float, v)
@@ -76,7 +77,7 @@ def normalized(v: Sequence[float], what: str) -> Vector:
 
 
 def directed(view: View) -> tuple[str, Vector, Vector | None]:
-    """A view's name, its direction, and the up that its name stands for; world axes."""
+    """A view's name, its unit direction toward the viewer, and the up direction that a named view has; world axes."""
     if isinstance(view, str):
         if view not in NAMED:
             raise ViewError(f"no view is called '{view}': use {', '.join(NAMED)}, or a direction such as 1,-1,1")
@@ -89,7 +90,7 @@ def directed(view: View) -> tuple[str, Vector, Vector | None]:
 
 
 def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
-    """What points right and up on paper, world axes."""
+    """The unit vectors that point right and up on paper, world axes. Raises ViewError for an up along the view."""
     if up_hint is None:
         # Looking along z, y points up: the top view turned by nothing.
         along_z = abs(direction[2]) > 1.0 - 1e-12
@@ -103,7 +104,7 @@ def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
 
 
 def apart(eye: Vector, target: Vector, radius: float) -> None:
-    """Raises ViewError where eye and target are the same but for rounding; radius: half the model's diagonal."""
+    """Raises ViewError where eye and target are the same point up to rounding. radius: half the model's diagonal."""
     largest = max(radius, *(abs(c) for c in (*eye, *target)))
     if max(abs(e - t) for e, t in zip(eye, target, strict=True)) <= CLOSEST * largest:
         raise ViewError("eye and target are one point: move the eye away from what it looks at, or the target nearer")

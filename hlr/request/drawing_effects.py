@@ -1,6 +1,6 @@
 """The effects of a drawing, in the order in which they are decided: the table that `hlr draw --explain` prints.
 
-It says nothing of how things are done, and imports no stage: any stage may ask it.
+The table imports no stage, so that every stage can ask it.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from hlr.tables.line_classes import LineClass, counted
 from hlr.tables.readers import is_brep, of_kind
 
 DEEP_GROUPS, DEEP_EDGES = 400, 8000
-"""Below, the pyramid costs more than it saves: measured (`hlr/request/README.md`)."""
+"""With fewer surfaces or edges the depth pyramid costs more than it saves: measured (`hlr/request/README.md`)."""
 
 Answer = tuple[bool, str]
 
@@ -20,8 +20,8 @@ def _count(number: int, what: str, plural: str = "") -> str:
     return f"{number:,} {what if number == 1 else plural or what + 's'}"
 
 
-def _wish(option: str, title: str, counter: str, off: str = "not asked for") -> Effect:
-    """An effect that is nothing but an option."""
+def _option_effect(option: str, title: str, counter: str, off: str = "not asked for") -> Effect:
+    """An effect that an option alone decides."""
 
     def needed(_facts: Facts, options: Options) -> Answer:
         return (True, "asked for") if getattr(options, option) else (False, off)
@@ -33,7 +33,7 @@ def _lines_of(row: LineClass) -> Effect:
     """Lines of one class."""
     counter = str(row.counter)
     if row.option is not None:
-        return _wish(row.option, row.title, counter)
+        return _option_effect(row.option, row.title, counter)
     return Effect(row.title, ASKED, lambda _facts, _options: (True, "drawn in every drawing"), (counter,))
 
 
@@ -200,13 +200,13 @@ _BEFORE: tuple[Effect, ...] = (
     Effect("depth pyramid", SCENE, _pyramid, ("pyramid_parts", "hidden_by_pyramid")),
     Effect("piercing search", SCENE, _piercings, ("piercing_tests",)),
     Effect("contact tolerance", SCENE, _contact, ("contacts",)),
-    _wish("hidden", "hidden lines", "hidden_lines", "not asked for: what nothing shows of goes no further"),
+    _option_effect("hidden", "hidden lines", "hidden_lines", "not asked for: what nothing shows of goes no further"),
 )
 
 _AFTER: tuple[Effect, ...] = (
-    _wish("circles", "circles of meshes", "circles"),
+    _option_effect("circles", "circles of meshes", "circles"),
     Effect("exact curves", SCENE, _exact, ("curves_sought",)),
-    _wish("fill", "fill", "filled_faces"),
+    _option_effect("fill", "fill", "filled_faces"),
     Effect("window", ASKED, _window, ("window_cuts",)),
     Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),
 )

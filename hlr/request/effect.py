@@ -1,8 +1,7 @@
-"""Effects: what a drawing or a picture may or may not need, each decided from facts, with its reason and its cost.
+"""Effects: steps that a drawing or a picture may need. Each is decided from facts, with its reason and its cost.
 
-An effect is one row of a table (`hlr.request.drawing_effects`, `hlr.request.picture_effects`). A stage that is about to
-do something costly states what it has found out and asks the planner; what is off is not done at all, and its counters
-stay zero.
+An effect is one row of a table (`hlr.request.drawing_effects`, `hlr.request.picture_effects`). Before a costly step a
+stage states the facts and asks the planner. An effect that is off is not done at all, and its counters stay zero.
 """
 
 from __future__ import annotations
@@ -17,33 +16,33 @@ from typing import Any, NamedTuple
 from hlr.common.values import LateRecords
 
 ASKED, SCENE = "asked", "scene"
-"""Who calls for an effect: the request, or what is there to be drawn."""
+"""What calls for an effect: the request, or the model and its view."""
 
 PLAN = "the plan itself"
-"""Name of the last decision, which says how long deciding took."""
+"""Name of the last decision: the time that all deciding took."""
 
 
 class Facts(NamedTuple):
-    """What stages find out; each effect looks at the few that its stage has filled in.
+    """What the stages have found out. Each effect reads the few facts that its stage fills in.
 
     kind           of the source (`hlr.source.model.Source.kind`)
-    parts, groups  how many there are; groups: surfaces that the visibility pass treats as one
-    curved, planar faces of either kind
-    faces          planar and curved ones together are known at all: there is a B-rep
-    failed         faces that the kernel could not mesh
+    parts, groups  numbers of parts, and of groups: surfaces that the visibility pass treats as one
+    curved, planar numbers of curved and of planar faces
+    faces          the model has faces with equations: a B-rep
+    failed         number of faces that the kernel could not mesh
     repeated       two triangles of a part have the same corners, or two of its points the same place
-    borders        of parts without B-rep: sides that only one triangle has
-    meeting        groups whose boxes meet those of others
-    folded         groups that are not one convex body, and may pass through themselves
-    culled         groups that are closed and turned outward
-    convex         all there is is one convex body
-    unsound        groups that may pass through themselves
-    perspective    the camera has an eye
-    crossed        planes of the view volume that something crosses
-    bent           edges and outlines that may be other than straight
-    edges          that may be drawn
-    opacity        the least of what is shown
-    depth, pixel   how far apart depths of a picture are to be told apart, and how wide a pixel is: millimetres
+    borders        number of border edges of meshes: sides that only one triangle has
+    meeting        number of groups whose boxes meet those of others
+    folded         number of groups that are not one convex body, and may pass through themselves
+    culled         number of groups that are closed and oriented outward
+    convex         the whole model is one convex body
+    unsound        number of groups that may pass through themselves
+    perspective    the view is in perspective
+    crossed        number of planes of the view volume that the model crosses
+    bent           number of edges and outlines that may be curved
+    edges          number of edges that may be drawn
+    opacity        the least opacity of a part, 0 to 1
+    depth, pixel   of a picture: the smallest difference in depth it resolves, and a pixel's width; millimetres
     """
 
     kind: str = ""
@@ -75,7 +74,7 @@ Needed = Callable[[Facts, Any], tuple[bool, str]]
 
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """A row of the table. counters: of the drawing, zero where the effect is off; they tell what it cost."""
+    """A row of the table. counters: those of the drawing's counters that tell its cost; zero where it is off."""
 
     name: str
     origin: str
@@ -85,14 +84,14 @@ class Effect:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What was decided of an effect, and, after the run, what it cost.
+    """The decision about one effect, and, after the run, its cost.
 
     name     the effect, such as "outlines"
     on       whether it was needed
     origin   "asked" (by the request) or "scene"
     reason   why or why not, in words
     seconds  None where the effect is no step of its own that could be timed
-    counts   what was found or done, by the names of the drawing's counters
+    counts   how much was found or done, by the names of the drawing's counters
 
     >>> import hlr
     >>> plan = hlr.draw("part.step").plan
@@ -123,7 +122,7 @@ _FORCED: ContextVar[bool] = ContextVar("hlr_everything_on", default=False)
 
 @contextmanager
 def everything_on() -> Iterator[None]:
-    """Within it nothing that the scene decides is left out: for tests and measurements of what leaving out saves."""
+    """Within this block every effect that the scene decides is on: to test and to measure what leaving out saves."""
     before = _FORCED.set(True)
     try:
         yield
@@ -132,7 +131,7 @@ def everything_on() -> Iterator[None]:
 
 
 class _Made:
-    """A decision while stages still add to what it cost."""
+    """A decision to whose cost stages still add."""
 
     __slots__ = ("counts", "on", "reason", "seconds")
 
@@ -144,7 +143,7 @@ _NOTHING = Facts()
 
 
 class Planner:
-    """Decides the effects of one table when it is asked, and remembers what was decided and what it cost."""
+    """Decides the effects of one table on demand, and keeps each decision with its cost."""
 
     def __init__(self, table: Sequence[Effect], options: Any, force: bool | None = None) -> None:
         """options: the request. force: every effect that the scene decides is on; None: as `everything_on` says."""
@@ -160,7 +159,7 @@ class Planner:
         return self._force
 
     def on(self, name: str, facts: Facts = _NOTHING) -> bool:
-        """Whether the effect is needed; decided anew each time."""
+        """Decide whether the effect is needed, by these facts; the last decision counts."""
         begin = perf_counter()
         effect = self._rows[name]
         on, reason = effect.needed(facts, self._options)
@@ -185,7 +184,7 @@ class Planner:
             self._took += perf_counter() - begin
 
     def spent(self, name: str, seconds: float | None = None, **counts: int) -> None:
-        """Add to what a decided effect has cost."""
+        """Add to the cost of an effect that has been decided."""
         known = self._decided[name]
         if seconds is not None:
             known.seconds = (known.seconds or 0.0) + seconds
@@ -202,12 +201,12 @@ class Planner:
             self.spent(name, perf_counter() - begin)
 
     def revised(self, name: str, on: bool, reason: str) -> None:
-        """What turned out otherwise while it was done."""
+        """Change a decision that proved wrong while the work was done."""
         made = self._decided[name]
         made.on, made.reason = on, reason
 
     def fork(self) -> Planner:
-        """A planner for one view, which knows what was decided for all."""
+        """A planner for one view, which begins with the decisions made for all views."""
         other = Planner((), self._options, self._force)
         other._rows = self._rows
         other._decided = {
@@ -217,7 +216,7 @@ class Planner:
         return other
 
     def cost(self, name: str) -> Mapping[str, int]:
-        """What an effect has cost so far, by counter; nothing where it was not decided."""
+        """The cost of an effect so far, by counter; empty where it was not decided."""
         made = self._decided.get(name)
         return {} if made is None else made.counts
 
@@ -236,7 +235,7 @@ class Planner:
 
 
 class Decisions(LateRecords[Decision]):
-    """What a planner has decided that decides no more; counters: of the finished drawing."""
+    """The decisions of a planner that has finished. counters: those of the finished drawing."""
 
     __slots__ = ("_counters", "_planner")
 
@@ -250,7 +249,7 @@ class Decisions(LateRecords[Decision]):
 
 
 def explained(decisions: Sequence[Decision]) -> str:
-    """A table for people."""
+    """The decisions as a text table: effect, on or off, who asked, time, counts, reason."""
     rows = [("effect", "", "by", "time", "counts", "why")]
     for d in decisions:
         time = "" if d.seconds is None else f"{1000.0 * d.seconds:.1f} ms"

@@ -1,4 +1,4 @@
-"""What a preview is asked for, and which effects the request and the scene call for."""
+"""The request for a preview, and the table of its effects: which of them the request and the scene call for."""
 
 from __future__ import annotations
 
@@ -16,31 +16,29 @@ from hlr.request.options import Options, Perspective, Vector
 
 MOST_PIXELS_A_SIDE = 16384
 MOST_PIXELS = 100_000_000
-"""Of a picture: 400 MB while it is made."""
+"""The largest picture, which takes 400 MB while it is made."""
 
 PIXELS_PER_MM = 4.0
-"""A picture is a sheet of paper with so many pixels a millimetre: lines have their ISO 128 widths on it, and the
-accuracy of 0.05 mm is a fifth of a pixel."""
+"""A picture counts as a sheet of paper with this many pixels per millimetre: lines have their ISO 128 widths on it, and
+the accuracy of 0.05 mm is a fifth of a pixel."""
 
 AMBIENT, DIFFUSE = 0.2, 0.8
-"""Shares of the light: from everywhere, and from the viewer's shoulder. In linear light; they add up to one."""
+"""Shares of the light, in linear light: from everywhere, and from a light beside the viewer. They add up to one."""
 
 SHOULDER = (-0.3, 0.45, 1.0)
-"""Toward the light: to the right, up and toward the viewer."""
+"""Direction toward the light: right, up, toward the viewer."""
 
 SPECULAR = 0.35
-"""Strength of highlights, of full light."""
+"""Strength of highlights, as a share of full light."""
 
 OCCLUSION = 0.045
-"""Radius within which things take the sky from one another, of the picture's smaller side."""
-
+"""Radius of ambient occlusion, as a share of the picture's smaller side."""
 
 LEAST_TEXELS, MOST_TEXELS = 1024, 4096
-"""Along a side of what the light sees; else one for each pixel along the picture's longer side."""
-
+"""Texels along a side of the shadow map. Between the two: one for each pixel along the picture's longer side."""
 
 LOOKS = ("shaded", "wireframe", "depth-cued")
-"""Faces; all lines and no faces; the same lines, the paler the farther away."""
+"""Shaded faces; all lines without faces; the same lines, paler with distance."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,14 +120,14 @@ class Effects:
     """The kernel's instructions.
 
     faces      are shaded
-    lines      the line drawing is made as well
-    behind     lines that only glass hides are drawn too, lighter
-    cued       lines fade with their distance
-    antialias  sixteen samples a pixel
-    shadows    the light sees the scene too, in a map of so many texels a side; 0: no shadows
-    occlusion  radius in pixels; 0: none
+    lines      are drawn
+    behind     lines that only transparent parts hide are drawn too, lighter
+    cued       lines are paler with distance
+    antialias  sixteen samples per pixel
+    shadows    texels along a side of the shadow map; 0: no shadows
+    occlusion  radius of ambient occlusion in pixels; 0: none
     specular   strength of highlights; 0: none
-    glass      some of what is shown is transparent: its back is seen through its front
+    glass      some parts are transparent: their back faces are seen through their front faces
     """
 
     faces: bool
@@ -143,7 +141,7 @@ class Effects:
     glass: bool
 
 
-def _wish(name: str, option: str) -> Effect:
+def _option_effect(name: str, option: str) -> Effect:
     def needed(_facts: Facts, options: PreviewOptions) -> tuple[bool, str]:
         return (True, "asked for") if getattr(options, option) else (False, "not asked for")
 
@@ -198,20 +196,20 @@ PREVIEW: tuple[Effect, ...] = (
     Effect("lines", ASKED, _lines),
     Effect("lines behind glass", SCENE, _behind),
     Effect("depth cueing", ASKED, _cued),
-    _wish("antialiasing", "antialias"),
-    _wish("shadows", "shadows"),
-    _wish("ambient occlusion", "occlusion"),
-    _wish("specular light", "specular"),
-    _wish("depth map", "depth"),
-    _wish("map of faces", "ids"),
+    _option_effect("antialiasing", "antialias"),
+    _option_effect("shadows", "shadows"),
+    _option_effect("ambient occlusion", "occlusion"),
+    _option_effect("specular light", "specular"),
+    _option_effect("depth map", "depth"),
+    _option_effect("map of faces", "ids"),
 )
-"""The effects of a preview, in the scheme of those of a drawing."""
+"""The table of a preview's effects."""
 
 
 def decide_effects(
     options: PreviewOptions, opacity: float, facts: Facts | None = None, planner: Planner | None = None
 ) -> Effects:
-    """What a request and a scene, whose least opacity is given, call for; planner: remembers it."""
+    """Decide the effects of a picture. opacity: the least of a part, 0 to 1; planner: keeps the decisions."""
     planner = planner or Planner(PREVIEW, options)
     facts = (facts or Facts())._replace(opacity=opacity)
     on = {effect.name: planner.on(effect.name, facts) for effect in PREVIEW}
@@ -229,7 +227,7 @@ def decide_effects(
 
 
 def checked_preview(options: PreviewOptions) -> PreviewOptions:
-    """The options, all of their types and within their ranges; raises OptionError with what is allowed."""
+    """The same options, checked: types, ranges, contradictions. Raises OptionError that says what is allowed."""
     for name in ("edges", "antialias", "shadows", "occlusion", "specular", "depth", "ids"):
         value = getattr(options, name)
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
@@ -247,7 +245,7 @@ def checked_preview(options: PreviewOptions) -> PreviewOptions:
 
 
 def check_size(size: Any) -> None:
-    """Raises OptionError for what is no size of a picture in pixels."""
+    """Raises OptionError unless the size is a width and a height in pixels that a picture can have."""
     sides = list(size) if isinstance(size, Sequence) and not isinstance(size, str) else []
     if len(sides) != 2 or not all(isinstance(s, Integral) and not isinstance(s, bool) for s in sides):
         raise OptionError(f"size needs a width and a height in whole pixels, such as 1920x1080, not {size!r}")
@@ -260,7 +258,7 @@ def check_size(size: Any) -> None:
 
 
 def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale: float = 1.0) -> Options:
-    """The request for the drawing under the same camera; fit in millimetres of paper."""
+    """The request for a picture's line drawing, with the same camera. fit: (width, height), millimetres on paper."""
     return Options(
         hidden=options.look != "shaded",
         smooth=options.smooth,

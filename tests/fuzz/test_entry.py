@@ -172,7 +172,7 @@ def test_each_option_with_a_sound_value(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name in ("view", *OPTIONS) if not isinstance(USUAL.get(name), bool)])
 def test_an_array_as_an_option(name: str) -> None:
-    words = {"within": "leave no time", "eye": "eye"}
+    words = {"eye": "eye"}
     with pytest.raises(HlrError, match=words.get(name, name)):
         hlr.draw(TETRAHEDRON, **{name: np.zeros((4, 1))})
     with_option(name, np.zeros((4, 1)), False)
