@@ -1,5 +1,5 @@
-"""Drop-in replacements: what CadQuery, build123d and FreeCAD call a projection, drawn by hlr.
+"""Drop-in replacements for the projections of CadQuery, build123d and FreeCAD, drawn by hlr.
 
-One module per neighbour, under the neighbour's own names, arguments and results. Importing one loads neither the
-neighbour nor OpenCASCADE; calling it does.
+One module per program, with its names, arguments and results. Importing a module loads neither the program nor
+OpenCASCADE; calling a function does.
 """

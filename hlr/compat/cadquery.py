@@ -19,11 +19,11 @@ WRITERS = {"SVG": to_svg, "PDF": to_pdf}
 
 
 def getSVG(shape: Any, opts: Mapping[str, Any] | None = None) -> str:
-    """A shape as SVG text: CadQuery's picture, options and placement.
+    """A shape as SVG text, with CadQuery's options, size and placement.
 
     Args:
         shape: a CadQuery shape, a Workplane, or whatever else `hlr.draw` takes.
-        opts: the keys of CadQuery: width, height (pixels; None for one of them: as the other asks), marginLeft,
+        opts: the keys of CadQuery: width, height (pixels; one may be None and follows from the other), marginLeft,
             marginTop, projectionDir, showAxes, strokeWidth (model units; -1: one pixel), strokeColor, hiddenColor,
             showHidden, focus.
 

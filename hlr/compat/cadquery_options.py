@@ -1,4 +1,4 @@
-"""The options of CadQuery's getSVG: its names, defaults and meanings, checked before any work is done."""
+"""The options of CadQuery's getSVG, with its names and defaults, and their check."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from hlr.compat.viewport import check_number, check_positive, check_vector
 from hlr.errors import OptionError
 
 DEFAULT_DIRECTION = (-1.75, 1.1, 5.0)
-"""The only direction that the picture of the axes belongs to."""
+"""CadQuery's default direction; its picture of the axes is right for this one only."""
 
 FILL_SHARE = 0.75
-"""Of width and height, where both are given: the larger share the drawing takes."""
+"""Share of the width or height that the drawing fills at most, where both are given."""
 
 Number = int | float
 Color = tuple[Number, Number, Number]

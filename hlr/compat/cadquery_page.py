@@ -1,4 +1,4 @@
-"""CadQuery's picture: its size, its placement, its groups and its axes, around hlr's lines.
+"""CadQuery's picture (size, placement, groups, axes) with hlr's lines, as SVG and PDF.
 
 Coordinates in the file are those of the projected model, in model units with y up, as in CadQuery's own files: the
 outer group scales and moves them into the picture. Where CadQuery has one path per edge, there is one per stroke here,

@@ -13,7 +13,7 @@ from hlr.drawing.line import Line, Points
 from hlr.source.cad.occt_collections import new_collection
 
 CIRCLE_TOLERANCE = 1e-9
-"""Relative: an ellipse whose radii differ by no more is a circle."""
+"""Share of the major radius: an ellipse whose radii differ by no more is written as a circle."""
 
 SHORTEST_EDGE = 1e-7
 """Model units: OpenCASCADE makes no edge between points closer than this."""
@@ -22,7 +22,7 @@ SHORTEST_EDGE = 1e-7
 def occt_edges(line: Line, shift: Points) -> list[Any]:
     """The TopoDS_Edges of one line, moved by `shift` (2,): one for a curve, for a polyline one per segment.
 
-    A curve that is too short for OpenCASCADE gives none. Edges run with growing parameter, whichever way the line does.
+    A curve too short for OpenCASCADE gives none. The parameter of an edge rises, whatever the direction of the line.
     """
     curve = line.curve
     if isinstance(curve, Arc):

@@ -1,7 +1,7 @@
-"""The neighbours' projectors as cameras: lines in model units, in the same plane and place as OpenCASCADE puts them.
+"""OpenCASCADE's projectors as views: lines in model units, in the coordinates of the projector's plane.
 
-OpenCASCADE's projector is an origin, a direction toward the viewer, and a direction that points up in the plane. With
-a focus the eye stands that far before the origin, and what lies in the plane through the origin keeps its size.
+A projector is an origin, a direction toward the viewer, and an up direction in the plane. With a focus it is a
+perspective: the eye is that far in front of the origin, and the plane through the origin keeps its size.
 """
 
 from __future__ import annotations
@@ -31,7 +31,13 @@ from hlr.source.model import Source
 
 @dataclass(frozen=True, slots=True)
 class Viewport:
-    """An OpenCASCADE projector. direction and up as given; up need not be perpendicular, but must not be parallel."""
+    """An OpenCASCADE projector, lengths in model units.
+
+    origin     point of the plane
+    direction  toward the viewer, of any length
+    up         points up in the plane; need not be perpendicular to direction, must not be parallel
+    focus      distance of the eye in front of the origin; None: parallel projection
+    """
 
     origin: Vector
     direction: Vector
@@ -41,21 +47,28 @@ class Viewport:
 
 @dataclass(frozen=True, slots=True)
 class ViewportDrawing:
-    """A drawing at the model's own scale, and what to add to its points to get coordinates in the viewport's plane."""
+    """A drawing in model units. `shift` (2,) added to its points gives coordinates in the viewport's plane."""
 
     drawing: Drawing
     shift: Points
 
     def lines(self, kinds: Iterable[str], visible: bool) -> list[Line]:
-        """Its lines of some kinds."""
+        """The visible or hidden lines of these kinds."""
         wanted = set(kinds)
         return [line for line in self.drawing.lines if line.visible == visible and line.kind in wanted]
 
 
 def viewport_along(direction: Any, what: str, focus: float | None = None) -> Viewport:
-    """The projector that OpenCASCADE makes of a direction alone: at the world's origin, with an up of its own choice.
+    """The projector that OpenCASCADE makes of a direction alone: at the world's origin, with its default up direction.
 
-    Raises OptionError, or ViewError for a direction of no length.
+    Args:
+        direction: toward the viewer, three numbers.
+        what: name of the argument, for errors.
+        focus: model units; None: parallel projection.
+
+    Raises:
+        OptionError: these are not three finite numbers.
+        ViewError: the direction has no length.
     """
     given = check_vector(direction, what)
     normalized(given, what)
@@ -74,13 +87,19 @@ def draw_viewport(
     seam: bool = False,
     accuracy: Callable[[Floats], float] | None = None,
 ) -> ViewportDrawing:
-    """The lines of anything that can be drawn, as a viewport shows them.
+    """The lines of a model in a viewport. Warnings of the drawing become Python warnings.
 
-    accuracy: model units, chosen from the model's bounds (2, 3). What a drawing notes becomes a Python warning.
-    Raises what `hlr.draw_views` raises.
+    Args:
+        thing: whatever `hlr.draw` takes.
+        viewport: the projector.
+        hidden, smooth, seam: whether these lines are drawn.
+        accuracy: from the model's bounds (2, 3) to the accuracy, both in model units.
+
+    Raises:
+        HlrError: as `hlr.draw_views`.
     """
     opened = open_source(thing)
-    used = (accuracy or _fine)(opened.bounds())
+    used = (accuracy or _default_accuracy)(opened.bounds())
     perspective = None
     if viewport.focus is not None:
         toward = normalized(viewport.direction, "the view direction")
@@ -91,9 +110,9 @@ def draw_viewport(
     )
     (drawing,) = draw_views(opened, [viewport.direction], options)
     for note in drawing.notes:
-        if note.is_warning:  # remarks are on paper and on files
-            warnings.warn(str(note), stacklevel=_caller())
-    drawing = replace(drawing, lines=_sewn(drawing, opened, seam))
+        if note.is_warning:  # remarks are about the page and the file
+            warnings.warn(str(note), stacklevel=_caller_level())
+    drawing = replace(drawing, lines=_lines_with_seams(drawing, opened, seam))
     shift = np.array(drawing.origin)
     if perspective is None:
         # In perspective the axis through the eye is the origin of the plane already.
@@ -101,11 +120,10 @@ def draw_viewport(
     return ViewportDrawing(drawing, shift)
 
 
-def _sewn(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
-    """A drawing's lines; tangent edges that OpenCASCADE knows to be more than tangent are seams.
+def _lines_with_seams(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
+    """A drawing's lines; smooth edges of curvature continuity (G2) become seams, or are left out where `seam` is False.
 
-    Such edges only divide a surface, as those between the halves of a cylinder do. Where no seams are drawn, they are
-    not drawn either.
+    Such edges only divide a surface, as those between the halves of a cylinder do.
     """
     from hlr.source.cad.brep_source import BrepSource
 
@@ -164,15 +182,15 @@ def check_positive(value: Any, what: str) -> float:
     return number
 
 
-def _caller() -> int:
-    """The stack level, for whoever asks, of the first caller that is not hlr itself."""
+def _caller_level() -> int:
+    """The stack level, as `warnings.warn` counts, of the first caller outside hlr."""
     frame, level = sys._getframe(1), 1
     while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("hlr."):
         frame, level = frame.f_back, level + 1
     return level
 
 
-def _fine(bounds: Floats) -> float:
+def _default_accuracy(bounds: Floats) -> float:
     diagonal = math.sqrt(float(((bounds[1] - bounds[0]) ** 2).sum()))
     return min(DEFAULT_ACCURACY, SMALL_GEOMETRY * diagonal) or DEFAULT_ACCURACY
 

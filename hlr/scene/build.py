@@ -1,4 +1,4 @@
-"""From meshed parts to the scene: one set of arrays, checked part by part."""
+"""The scene of all parts: repaired, stitched, with creases, intersection lines and defects."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     points, triangles, brep = tables.points, found.triangles, tables.brep
     group_of, group_part, edge_part = found.triangle_group, found.group_part, found.edge_part
     edges, offsets, edge_group, kind = mesh.edges, mesh.offsets, found.edge_group, found.edge_kind
-    walks, facets, drawn = _source_walks(found), None, None
+    chains, facets, drawn = _source_chains(found), None, None
     if not brep.all() and len(edges):
-        sure = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
+        reliable = reliable_normals(mesh, points, tables.triangles, found.triangle_part, tables.precision)
         turned = found.turned
-        facets = sure.normals if turned is None else np.where(turned[:, None], -sure.normals, sure.normals)
-        bare = creases(mesh, sure.fold, edge_part, ~brep, crease, points)
-        walks = merge_chains(walks, crease_chains(points, edges, bare, edge_part))
+        facets = reliable.normals if turned is None else np.where(turned[:, None], -reliable.normals, reliable.normals)
+        crease_kind = creases(mesh, reliable.fold, edge_part, ~brep, crease, points)
+        chains = merge_chains(chains, crease_chains(points, edges, crease_kind, edge_part))
         kind = kind.copy()
-        np.copyto(kind[: len(bare)], bare, where=bare != INTERIOR)
-        drawn = np.bincount(edge_part[bare != INTERIOR], minlength=len(brep)).tolist()
+        np.copyto(kind[: len(crease_kind)], crease_kind, where=crease_kind != INTERIOR)
+        drawn = np.bincount(edge_part[crease_kind != INTERIOR], minlength=len(brep)).tolist()
     groups = groups_of(found, brep)
     with plan.deciding():
         meeting = int(np.count_nonzero(_kernel.boxes_meet(groups.low, groups.high)))
@@ -65,7 +65,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     groups = mark_unsound(groups, met.through | found.welded)
 
     if len(found.loose):
-        # Wires of no face: edges without triangles, in a group of their own part.
+        # Free edges: no triangles; in a group of their own per part.
         vertex_part = np.repeat(np.arange(len(brep), dtype=np.int32), np.diff(tables.point_start))
         owner = vertex_part[found.loose[:, 0]]
         groups, own_group = add_wires(groups, points, found.loose, owner, tight=False)
@@ -74,7 +74,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
     if len(met.edges):
         lines = met.edges + np.int32(len(points))
         points = np.concatenate([points, met.points])
-        walks = merge_chains(walks, intersection_chains(met, group_part, len(edges)))
+        chains = merge_chains(chains, intersection_chains(met, group_part, len(edges)))
         pair = met.group[:, 0].astype(np.int64) << 32 | met.group[:, 1]
         groups, own_group = add_wires(groups, points, lines, pair, tight=True)
         edges, edge_part = (
@@ -102,7 +102,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
         edge_kind=kind,
         edge_curved=np.concatenate([found.edge_curved, np.zeros(added, bool)]) if added else found.edge_curved,
         groups=groups,
-        chains=walks,
+        chains=chains,
         parts=parts,
         notes=(*meshed.notes, *defect_notes(parts)),
         true_surfaces=_true_surfaces(whole, found),
@@ -112,7 +112,7 @@ def build(meshed: Tessellation, crease: float, deflection: float, planner: Plann
 
 
 def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, list[int]]:
-    """The parts without what is there twice, their edges, and how many triangles that left out of each."""
+    """The parts without duplicates, their edges, and the number of triangles left out of each."""
     mesh, doubled = _facts(whole), [0] * len(whole)
     with plan.deciding():
         repeated = mesh.repeated or whole.tables.places_repeated()
@@ -129,7 +129,7 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
 
 
 def _stitched(whole: PartMeshes, mesh: MeshFacts, deflection: float, plan: Planner) -> tuple[PartMeshes, MeshFacts]:
-    """The parts with borders that run along one another joined."""
+    """The parts with their borders stitched, and their edges."""
     with plan.deciding():
         borders = mesh.bare_borders()
     begin, seams = perf_counter(), 0
@@ -150,7 +150,7 @@ def _facts(whole: PartMeshes) -> MeshFacts:
     return whole.tables.facts()
 
 
-def _source_walks(found: MeshScene) -> Chains:
+def _source_chains(found: MeshScene) -> Chains:
     none = np.full(len(found.walk_kind), -1, np.int32)
     return Chains(
         offsets=found.walk_offsets,

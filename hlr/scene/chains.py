@@ -1,4 +1,4 @@
-"""Walks over mesh edges."""
+"""Chains: mesh edges joined end to end into the lines of a source edge, a crease or a border."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from hlr.common.types import Floats, Ints
 from hlr.scene.scene import Chains
 
 STRAIGHT_ON = 30.0
-"""Degrees: where more than two creases meet, a line goes on along the straightest if it turns by no more than this, and
-no other is nearly as straight. A rim of twelve chords still does; the edges of a box never."""
+"""Degrees: where more than two creases meet, a chain continues along the straightest one if it turns by no more than
+this, and no other is nearly as straight. A rim of twelve chords continues; the edges of a box never do."""
 
 Keys = npt.NDArray[np.int64]
 
@@ -22,7 +22,10 @@ def edge_keys(edges: Ints, n: int) -> Keys:
 
 
 def crease_chains(points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part: Ints) -> Chains:
-    """Creases and borders of bare meshes, joined where exactly two of a kind meet, and where one goes straight on."""
+    """Chains of creases and borders of meshes, joined where exactly two of a kind meet, or one goes straight on.
+
+    points (n, 3); edges (e, 2); kind (e,): EdgeClass or 255 for none; part (e,).
+    """
     chosen = np.flatnonzero(kind != 255).astype(np.int32)
     key = part[chosen].astype(np.int32) * 8 + kind[chosen]
     offsets, order, backward = _kernel.chain(
@@ -44,7 +47,7 @@ def crease_chains(points: Floats, edges: Ints, kind: npt.NDArray[np.uint8], part
 
 
 def merge_chains(a: Chains, b: Chains) -> Chains:
-    """All walks, sorted by part; within a part in the order given."""
+    """All chains, sorted by part; within a part those of `a` first."""
     count = np.concatenate([np.diff(a.offsets), np.diff(b.offsets)])
     part = np.concatenate([a.part, b.part])
     order = np.argsort(part, kind="stable")

@@ -1,8 +1,8 @@
-"""Where surfaces pass through one another: intersection lines, and solids that pass through themselves.
+"""Interpenetration: intersection lines of parts, and solids that intersect themselves.
 
-Two surfaces that only touch cross as well, here and there, by what tessellation and files round. What counts is how
-deep they go: a figure of connected segments is real where at least one of its triangles reaches beyond the other's
-plane, on both sides, by more than the contact tolerance.
+Triangles of surfaces that only touch cross here and there, because tessellation and files round. The depth decides: a
+connected set of segments is an intersection where at least one of its triangles reaches beyond the other's plane, on
+both sides, by more than the contact tolerance.
 
 ::
 
@@ -34,8 +34,10 @@ from hlr.tables.line_classes import EdgeClass
 class Clashes:
     """Segments of intersection lines.
 
-    points (n, 3); edges (m, 2) into them; group (m, 2) per edge, the lower first; through (g,) bool: the group passes
-    through itself.
+    points   (n, 3)
+    edges    (m, 2) into points
+    group    (m, 2) the two groups of each edge, the lower first
+    through  (g,) bool: the group intersects itself
     """
 
     points: Floats
@@ -43,26 +45,26 @@ class Clashes:
     group: Ints
     through: npt.NDArray[np.bool_]
     tests: int = 0
-    """Pairs of triangles that were looked at."""
+    """Pairs of triangles that were tested."""
 
 
 def no_clashes(groups: int) -> Clashes:
-    """What is found where there is nothing to find."""
+    """The result without intersections. groups: their number."""
     none = np.zeros((0, 2), np.int32)
     return Clashes(np.zeros((0, 3)), none, none, np.zeros(groups, bool))
 
 
 def find_clashes(found: MeshScene, groups: Groups, deflection: float) -> Clashes:
-    """All real intersections of different groups, and of those with themselves that may not be one convex body."""
+    """All intersections between groups, and of groups with themselves. deflection: model units."""
     touch = contact_depths(groups, CONTACT * deflection, CONTACT_CROSSING * deflection)
     points, edges, group, through, tests = found.crossings(touch, deflection)
     return Clashes(points, edges, group, through, tests)
 
 
 def intersection_chains(met: Clashes, part_of_group: Ints, first: int) -> Chains:
-    """The segments chained per pair of groups, the scene's number of the first is `first`.
+    """Intersection lines: the segments chained per pair of groups. first: number of the first segment in the scene.
 
-    Where two lines cross, as those of two cylinders of one radius do, each goes straight on.
+    Where two lines cross, as for two cylinders of one radius, each goes straight on.
     """
     group = met.group
     _, key = np.unique(group[:, 0].astype(np.int64) << 32 | group[:, 1], return_inverse=True)
@@ -82,7 +84,7 @@ def intersection_chains(met: Clashes, part_of_group: Ints, first: int) -> Chains
 
 
 def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
-    """Parts of which one surface passes through another, or through itself."""
+    """Indices of the parts that intersect themselves."""
     if not len(met.group) and not met.through.any():
         return np.zeros(0, np.int32)
     a, b = part_of_group[met.group[:, 0]], part_of_group[met.group[:, 1]]
@@ -90,5 +92,5 @@ def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
 
 
 def mark_unsound(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
-    """Groups that pass through or touch themselves are looked at from both sides, and searched for where."""
+    """The groups with those in `which` (g,) marked as self-intersecting: neither sound nor culled."""
     return replace(groups, sound=groups.sound & ~which, cull=groups.cull & ~which)

@@ -1,4 +1,4 @@
-"""The colour at each corner of each triangle, in linear light."""
+"""Colours at the corners of triangles, in linear light."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Colours = npt.NDArray[np.float32]
 
 
 def corner_colors(scene: Geometry, looks: Mapping[str, Appearance]) -> tuple[Colours, Ints]:
-    """Colours (k, 4), linear light and opacity, and (t, 3) which of them each corner has."""
+    """Colours (k, 4), linear RGB and opacity, and (t, 3) the index of the colour at each corner."""
     table: dict[Rgba, int] = {}
     painted: list[npt.NDArray[np.float32]] = []
     paint = np.zeros((len(scene.triangles), 3), np.int32)
@@ -29,13 +29,15 @@ def corner_colors(scene: Geometry, looks: Mapping[str, Appearance]) -> tuple[Col
         for face, color in look.faces.items():
             paint[a:b][scene.triangle_face[a:b] == face] = table.setdefault(color, len(table))
         if look.corners is not None and look.points is not None and look.triangles is not None:
-            # Numbers from the end on, until it is known how many others there are.
+            # Negative indices, until the number of colours of whole parts and faces is known.
             first = sum(map(len, painted))
             corners = scene.triangles[a:b].copy()
             turned = scene.turned[a:b]
             corners[turned] = corners[turned][:, [0, 2, 1]]
             origin = scene.triangle_origin[a:b]
-            own = _at(scene.points[corners], look.points[look.triangles[origin]], _linear(look.corners[origin]))
+            own = _interpolated(
+                scene.points[corners], look.points[look.triangles[origin]], _linear(look.corners[origin])
+            )
             own[turned] = own[turned][:, [0, 2, 1]]
             painted.append(own.reshape(-1, 4))
             paint[a:b] = -1 - first - np.arange(3 * (b - a), dtype=np.int32).reshape(-1, 3)
@@ -44,8 +46,8 @@ def corner_colors(scene: Geometry, looks: Mapping[str, Appearance]) -> tuple[Col
     return np.concatenate([_linear(plain), *painted]), np.ascontiguousarray(paint)
 
 
-def _at(now: Floats, before: Floats, colours: Colours) -> Colours:
-    """(m, 3, 4) the colours at the corners (m, 3, 3) of triangles that are, or are pieces of, those that had them."""
+def _interpolated(now: Floats, before: Floats, colours: Colours) -> Colours:
+    """(m, 3, 4) colours at corners `now` (m, 3, 3) of triangles that are pieces of triangles `before` (m, 3, 3)."""
     out = colours.copy()
     cut = ~(now == before).all(axis=(1, 2))
     share = barycentric_weights(now[cut], before[cut])
@@ -54,7 +56,7 @@ def _at(now: Floats, before: Floats, colours: Colours) -> Colours:
 
 
 def _linear(srgb: Colours) -> Colours:
-    """Colours as numbers of a screen -> linear light; opacity stays."""
+    """sRGB to linear RGB; opacity stays."""
     out = srgb.copy()
     c = np.clip(srgb[..., :3], 0.0, 1.0)
     out[..., :3] = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
@@ -62,7 +64,7 @@ def _linear(srgb: Colours) -> Colours:
 
 
 def barycentric_weights(corners: Floats, triangles: Floats) -> Floats:
-    """(m, 3, 3) of corners (m, 3, 3) their shares of the corners of `triangles` (m, 3, 3), on which they nearly lie."""
+    """(m, 3, 3) barycentric coordinates of points `corners` (m, 3, 3) on, or near, `triangles` (m, 3, 3)."""
     a = triangles[:, None, 0]
     u, v, w = triangles[:, None, 1] - a, triangles[:, None, 2] - a, corners - a
     uu, uv, vv = (u * u).sum(-1), (u * v).sum(-1), (v * v).sum(-1)

@@ -1,8 +1,8 @@
-"""Which edges of a bare mesh are creases: by the fold there, and by what the edge continues.
+"""Creases of meshes without B-rep, from the fold (dihedral) angle with hysteresis.
 
-A limit alone makes lines that come and go where the fold is near it. As in Canny's edge detector there are two: a gap
-in a crease is closed where the fold stays near the crease angle, and what is nowhere clearly a crease and ends within
-smooth surfaces is none.
+A single limit breaks lines where the fold is near it. As in Canny's edge detector there are two limits: a gap in a
+crease is closed where the fold stays near the crease angle; a chain that exceeds it nowhere clearly, and ends within
+smooth surfaces, is dropped.
 """
 
 from __future__ import annotations
@@ -22,22 +22,24 @@ Bools = npt.NDArray[np.bool_]
 Kinds = npt.NDArray[np.uint8]
 
 SLACK = 0.05
-"""Degrees: a fold of the crease angle itself is a crease, however its coordinates were rounded."""
+"""Degrees: with rounded coordinates, a fold of exactly the crease angle is still a crease."""
 
 NEAR_FOLD = 0.8
-"""Of the crease angle: edges that fold by more close a gap between two creases."""
+"""Share of the crease angle: edges with a larger fold close a gap between two creases."""
 
 CLEAR_FOLD = 1.5
-"""Crease angles: what folds by more is an edge of the shape, wherever it ends."""
+"""Multiple of the crease angle: an edge with a larger fold is clear, and stays wherever its chain ends."""
 
 LONE_EDGES = 4
-"""Fewer connected edges than this, none of them clear, are a scan's roughness even if they close."""
+"""A closed chain of fewer edges, none of them clear, is noise of a scan."""
 
 
 LONG_CREASE = 12
-"""As many connected edges are a crease of the shape, even if none is clear and both ends lie in smooth surfaces: the
-roughness of scans goes on for eleven at most (a skull, a bunny, a turbine blade), faint creases of parts for fourteen
-or more."""
+"""A chain of this many edges is a crease even if none is clear and both ends lie in smooth surfaces.
+
+Measured: noise of scans makes chains of eleven edges at most (a skull, a bunny, a turbine blade), faint creases of
+parts of fourteen or more.
+"""
 
 
 def creases(mesh: MeshFacts, fold: Floats, edge_part: Ints, bare: Bools, crease: float, points: Floats) -> Kinds:
@@ -47,8 +49,8 @@ def creases(mesh: MeshFacts, fold: Floats, edge_part: Ints, bare: Bools, crease:
     """
     sharp, near_fold = _cosine(crease - SLACK), _cosine(NEAR_FOLD * crease)
     kind, near = _kernel.edge_kinds(mesh.offsets, fold, edge_part, bare, sharp, near_fold)
-    kind[_continuing(kind, mesh.edges, near, points)] = EdgeClass.SHARP
-    kind[_slight(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))] = 255
+    kind[_gap_edges(kind, mesh.edges, near, points)] = EdgeClass.SHARP
+    kind[_noise_edges(kind, mesh.edges, fold, _cosine(CLEAR_FOLD * crease), len(points))] = 255
     return kind
 
 
@@ -56,12 +58,12 @@ def _cosine(degrees: float) -> float:
     return math.cos(math.radians(min(max(degrees, 0.0), 180.0)))
 
 
-def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Floats) -> list[int]:
-    """Of the edges `near`, those that go straight on from where a crease would end to where another begins.
+def _gap_edges(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Floats) -> list[int]:
+    """Edges of `near` that close the gaps: straight on from the end of one crease to the end of another.
 
-    A gap is no longer, in edges, than the longer of the two creases. A crease that fades ends where it fades: to go on
-    would draw the facets of a smooth surface. What branches off a crease is not part of it: the sides of a prism of 14
-    faces end at its rims, and stay smooth.
+    A gap has at most as many edges as the longer of its two creases. A crease that fades out ends there: continuing it
+    would draw the facets of a smooth surface. An edge that branches off a crease is not part of it: the sides of a
+    prism of 14 faces end at its rims, and stay smooth.
     """
     chosen = np.flatnonzero(kind != 255)
     if not len(chosen) or not len(near):
@@ -104,13 +106,13 @@ def _continuing(kind: Kinds, edges: Ints, near: npt.NDArray[np.intp], points: Fl
     return found
 
 
-def _slight(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: int) -> Ints:
-    """Edges of figures of which none is clear, and which are short or end within smooth surfaces."""
+def _noise_edges(kind: Kinds, edges: Ints, fold: Floats, clear_fold: float, n: int) -> Ints:
+    """Edges of connected sets without a clear edge that are short, or end within smooth surfaces."""
     chosen = np.flatnonzero(kind != 255).astype(np.int32)
     if len(chosen) == 0:
         return chosen
     ends = edges[chosen]
-    # Also where there is no fold, at a border.
+    # An edge without a fold, at a border, is clear as well.
     clear = ~(fold[chosen] >= clear_fold)
     figure = _kernel.edge_components(np.ascontiguousarray(ends), n)
     single = (np.bincount(ends.ravel(), minlength=n) == 1)[ends].sum(axis=1)

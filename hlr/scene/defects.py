@@ -1,4 +1,4 @@
-"""What is wrong with a part, in words."""
+"""Defects of parts, in words."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from hlr.scene.scene import ScenePart
 from hlr.source.part_meshes import PartMeshes
 
 MAX_NOTES = 5
-"""Parts that are named in the notes; how many more there are is said in one sentence."""
+"""Defective parts with a note of their own; one more note has the number of all others."""
 
 
 def part_reports(
@@ -18,7 +18,7 @@ def part_reports(
     drawn: list[int] | None,
     crossed: Ints,
 ) -> tuple[ScenePart, ...]:
-    """Per part what it is and what is wrong with it.
+    """One report per part: identity, counts and defects.
 
     counts: what `_kernel.MeshScene.reports` tells; doubled: triangles already left out as duplicates; drawn: edges of
     parts without B-rep, None where there are none; crossed: numbers of parts whose surfaces pass through one another.
@@ -34,7 +34,7 @@ def part_reports(
         defects = []
         if doubled[i]:
             defects.append(_count(doubled[i], "duplicated triangle"))
-        if flat and not brep[i]:  # those of a B-rep are the triangulator's, not the model's
+        if flat and not brep[i]:  # in a B-rep they are due to the tessellation, not to the model
             defects.append(_count(flat, "triangle") + " without area")
         if border:
             defects.append("open: " + _count(border, "border edge"))
@@ -64,7 +64,7 @@ def part_reports(
 
 
 def defect_notes(parts: tuple[ScenePart, ...]) -> list[Note]:
-    """One sentence per defective part, for the first few."""
+    """One note per defective part, MAX_NOTES at most, and one for all others."""
     bad = [p for p in parts if p.defects]
     out = [Note("defects", f'Part "{p.name}" is drawn as it is: {"; ".join(p.defects)}.') for p in bad[:MAX_NOTES]]
     if len(bad) > MAX_NOTES:

@@ -1,4 +1,4 @@
-"""Which of several triangles on the same three corners stays, whatever the order in which they are listed."""
+"""Of triangles with the same three corners one stays, whatever the order in which they are listed."""
 
 from __future__ import annotations
 
@@ -10,16 +10,18 @@ from hlr.common.types import Floats, Ints
 
 
 def unique_triangles(points: Floats, triangles: Ints, face: Ints) -> Ints:
-    """(m,) indices, ascending: of each set of triangles on the same corners one, turned as most of the set are.
+    """(m,) ascending indices: of each set of triangles with the same corners one, oriented as most of them.
 
-    Where as many are turned one way as the other, the mesh is drawn from both sides. Then a whole side stays, from
-    neighbour to neighbour: the one that triangles without a double belong to, else the one that encloses a volume.
+    Where both orientations are equally frequent, the mesh is two-sided. Then one side stays, consistently from
+    neighbour to neighbour: the side of adjoining triangles without duplicate, else the one that encloses a volume.
+
+    points (n, 3); triangles (t, 3); face (t,): of equal ones the triangle of the lowest face stays.
     """
     number = row_numbers(np.sort(triangles, axis=1), len(points))
     sets = int(number.max(initial=-1)) + 1
     if sets == len(triangles):
         return np.arange(len(triangles), dtype=np.int32)
-    # Even: the corners run up, as often as they are turned. It names the two ways round without asking for the order.
+    # Even: an even permutation of the ascending corners, whichever is first. It tells the two orientations apart.
     even = ((triangles[:, 1] > triangles[:, 0]) ^ (triangles[:, 2] > triangles[:, 1])) == (
         triangles[:, 0] < triangles[:, 2]
     )
@@ -29,14 +31,14 @@ def unique_triangles(points: Floats, triangles: Ints, face: Ints) -> Ints:
     tied = np.flatnonzero(balance == 0)
     chosen = order[np.searchsorted(number[order], np.arange(sets))]
     if len(tied):
-        want = even[chosen] ^ _turned(points, triangles[chosen], balance != 0)
+        want = even[chosen] ^ _to_reverse(points, triangles[chosen], balance != 0)
         order = np.lexsort((face, even != want[number], number))
         chosen = np.where(balance == 0, order[np.searchsorted(number[order], np.arange(sets))], chosen)
     return np.sort(chosen).astype(np.int32)
 
 
 def row_numbers(corners: Ints, count: int) -> npt.NDArray[np.int64]:
-    """(t,) for rows of three numbers below `count`: the same number for the same row, ascending with the rows."""
+    """(t,) ranks of rows of three numbers below `count`: equal for equal rows, ascending with the rows."""
     wide = corners.astype(np.int64)
     # Three indices do not fit 64 bits for large meshes: the first two are ranked, then joined with the third.
     _, pair = np.unique(wide[:, 0] * count + wide[:, 1], return_inverse=True)
@@ -44,11 +46,11 @@ def row_numbers(corners: Ints, count: int) -> npt.NDArray[np.int64]:
     return np.asarray(number.ravel(), np.int64)
 
 
-def _turned(points: Floats, triangles: Ints, fixed: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """(t,) bool: the triangle has to be turned over so that sides run from neighbour to neighbour.
+def _to_reverse(points: Floats, triangles: Ints, fixed: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+    """(t,) bool: the triangle must be reversed for a consistent orientation with its neighbours.
 
-    Every triangle stands for two, one a side; those that pass their common edge in opposite directions hang together,
-    and a mesh that can be told inside from outside falls apart into two sheets. Triangles that are `fixed` have one.
+    Every triangle stands for two, one of each orientation. Two that run through their common edge in opposite
+    directions are connected, so an orientable mesh falls apart into two sheets. A `fixed` triangle has one orientation.
     """
     both = np.concatenate([triangles, triangles[:, ::-1]])
     count = len(triangles)
@@ -58,7 +60,7 @@ def _turned(points: Floats, triangles: Ints, fixed: npt.NDArray[np.bool_]) -> np
     low, high = np.minimum(start, end), np.maximum(start, end)
     _, side, uses = np.unique(low * np.int64(len(points)) + high, return_inverse=True, return_counts=True)
     side = side.ravel()
-    # Both copies of two triangles: four uses. Where more meet nothing is handed on.
+    # Both copies of two triangles make four uses. A non-manifold edge connects nothing.
     live = uses[side] == 4
     order = np.flatnonzero(live)[np.lexsort((owner[live], start[live] > end[live], side[live]))]
     up, down = order.reshape(-1, 4)[:, :2], order.reshape(-1, 4)[:, 2:]
@@ -77,7 +79,7 @@ def _turned(points: Floats, triangles: Ints, fixed: npt.NDArray[np.bool_]) -> np
     volume = np.bincount(sheet[there], np.einsum("ij,ij->i", a, np.cross(b, c))[there], sheet.max() + 1)
     singles = np.bincount(sheet[:count][fixed], minlength=len(volume))
     mine, reverse = sheet[:count], sheet[count:]
-    # The last word has the lower number, so that a sheet without volume is turned one way throughout.
+    # A tie goes to the sheet with the lower number, so that a sheet without volume has one orientation throughout.
     better = reverse < mine
     for score in (volume, singles):
         better = np.where(score[mine] != score[reverse], score[reverse] > score[mine], better)

@@ -1,4 +1,4 @@
-"""Per part, before anything is built on it: drop what cannot be seen or is there twice."""
+"""Duplicated triangles and faces of a part are left out."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ Indices = npt.NDArray[np.intp]
 def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
     """The part without repeated triangles and faces, and how many triangles that left out.
 
-    Of several one is kept: duplicated faces neither hide more nor bound a volume, but they would make every edge
-    between them non-manifold, or follow one another as two surfaces in contact.
+    One of each set of duplicates stays. Duplicates would make every edge between them non-manifold, or count as two
+    surfaces in contact.
     """
     found = len(part.triangles)
     part = _without_repeated_triangles(part)
@@ -28,53 +28,53 @@ def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
 
 
 def _without_repeated_triangles(part: PartMesh) -> PartMesh:
-    """Without triangles of the same corners as another one, in either orientation."""
+    """The part without triangles that have the corners of another one, in either orientation."""
     kept = np.zeros(len(part.triangles), bool)
     kept[unique_triangles(part.points, part.triangles, part.triangle_face)] = True
-    return _only(part, kept)
+    return _with_triangles(part, kept)
 
 
 def _without_repeated_faces(part: PartMesh) -> PartMesh:
-    """Without faces that lie triangle by triangle on others, the same way round, but have nodes of their own.
+    """The part without faces whose triangles all coincide with those of others, with the same orientation.
 
-    Such are two equal solids in one place. Only whole faces: slivers of neighbours may coincide where they lap over
-    each other, and without them there would be holes. And only the same way round: two bodies that touch with equal
-    faces are each closed by its own.
+    Two equal solids in one place have such faces. Only whole faces are left out: single triangles of overlapping
+    neighbours may coincide, and leaving them out would make holes. The orientation must be the same: two bodies in
+    contact at equal faces each need their own.
     """
     if not _may_coincide(part.points):
         return part
-    _, place = equal_rows(part.points + 0.0)  # minus zero becomes zero: equal numbers, equal bits
+    _, place = equal_rows(part.points + 0.0)  # minus zero becomes zero, so that equal numbers have equal bits
     turned = np.argmin(place[part.triangles], axis=1)[:, None]
     nodes = np.take_along_axis(part.triangles, (turned + np.arange(3)) % 3, axis=1)
     first = _first_equal(place[nodes], len(part.points))
     own = first == np.arange(len(first))
-    # A face that holds the first of its kind keeps it, so nothing that is left out is lost.
+    # A face that has the first of a set of equal triangles stays whole, so that one of each set stays.
     kept = np.bincount(part.triangle_face, weights=own, minlength=len(part.face_planar))[part.triangle_face] > 0
     if kept.all():
         return part
-    # What runs along the lost nodes, such as the edges of the lost faces, now runs along those that they lay on.
+    # Edges of the removed faces now use the coincident nodes of the faces that stay.
     node = np.arange(len(part.points), dtype=np.int32)
     node[nodes[~kept]] = nodes[first[~kept]]
     used = distinct(part.triangles[kept])
     node[used] = used
-    return replace(_only(part, kept), edge_nodes=node[part.edge_nodes])
+    return replace(_with_triangles(part, kept), edge_nodes=node[part.edge_nodes])
 
 
 def _may_coincide(points: Floats) -> bool:
-    """Whether two points may be equal; this costs little where none are, as in most parts."""
+    """Whether two points may be equal; a quick test that most parts fail."""
     x, y, z = points.T
     key = np.sort(x + 0.7548776662466927 * y + 0.5698402909980532 * z)
     return bool((key[1:] == key[:-1]).any())
 
 
 def _first_equal(corners: Ints, n: int) -> Indices:
-    """(t,) for each row of three numbers below n the first equal row."""
+    """(t,) for each row of three numbers below n the index of the first equal row."""
     number = row_numbers(corners, n)
     _, first = np.unique(number, return_index=True)
     return np.asarray(first[number], np.intp)
 
 
-def _only(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
+def _with_triangles(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
     if kept.all():
         return part
     on = part.surface_parameters
@@ -89,7 +89,7 @@ def _only(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
 
 
 def equal_rows(points: Floats) -> tuple[npt.NDArray[np.intp], Ints]:
-    """(first occurrence of each distinct row, in order; for every row the rank of its first occurrence)."""
+    """Index of the first occurrence of each distinct row, ascending; and for every row which of them it equals."""
     if not len(points):
         return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.int32)
     bits = np.ascontiguousarray(points).view(np.uint64)

@@ -1,4 +1,4 @@
-"""What may be assumed of triangles that the visibility pass treats as one surface."""
+"""Properties of groups: triangles that the visibility pass treats as one surface."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hlr.scene.scene import Groups
 
 
 def groups_of(found: MeshScene, brep: npt.NDArray[np.bool_]) -> Groups:
-    """Per group what can be told from its triangles; brep: per part."""
+    """Properties of each group. brep (p,) bool: the part has a B-rep."""
     solid = brep[found.group_part]
     return Groups(
         closed=found.closed,
@@ -31,9 +31,9 @@ def groups_of(found: MeshScene, brep: npt.NDArray[np.bool_]) -> Groups:
 
 
 def add_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: bool) -> tuple[Groups, Ints]:
-    """Open groups more for mesh edges that have no triangles: one per distinct owner; and the group of each wire.
+    """Add an open group per distinct owner of edges without triangles; returns the groups, and that of each edge (m,).
 
-    wires (m, 2), owner (m,). tight: they lie exactly on triangles of other groups.
+    wires (m, 2) into points; owner (m,) any key; tight: the edges lie exactly on triangles of other groups.
     """
     owners, which = np.unique(owner, return_inverse=True)
     n, m = len(groups.closed), len(owners)
@@ -59,9 +59,9 @@ def add_wires(groups: Groups, points: Floats, wires: Ints, owner: Ints, tight: b
 
 
 def contact_depths(groups: Groups, curved: float, planar: float) -> Floats:
-    """(g,) model units: nearer than this to another surface, a group touches it.
+    """(g,) contact depth of each group, model units: a surface nearer than this touches it.
 
-    curved, planar: for groups with a B-rep. A bare mesh does not tell what it was made with: a share of the model.
+    curved, planar: depths for groups with a B-rep. For a mesh without B-rep it is a share of the model.
     """
     depth = np.where(groups.planar, planar, curved)
     used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])

@@ -1,7 +1,7 @@
-"""Triangles too low for their coordinates: the normal of a needle is rounding noise, and so are the folds at its edges.
+"""Needles: triangles so low that their normals, and the folds at their edges, are rounding noise.
 
-Exporters put needles where vertices of a neighbour lie on an edge; the third corner lies on the longest side but for
-what the file rounds:
+Exporters make them at T-junctions, where a vertex of a neighbour lies on an edge; but for rounding, the third corner
+lies on the longest side:
 
     ::
 
@@ -10,7 +10,7 @@ what the file rounds:
          `--.. r ..--'              and against B and C the folds of A
             B  |  C
 
-So an edge between two surfaces keeps its fold, and where all around is flat or smooth there is none.
+So an edge between two surfaces keeps its fold, and there is none where the surroundings are flat or smooth.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ from hlr.source.mesh.cleaning import NEEDLE_HEIGHT
 Indices = npt.NDArray[np.intp]
 
 MAX_STEPS = 32
-"""Needles side by side, of each the longest side on the next one, before what lies beyond is taken as not known."""
+"""Needles in a row, each with its longest side on the next, that are followed; beyond that the normal is unknown."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReliableNormals:
-    """normals (t, 3), zero where there is none; fold (e,): cosines, NaN where there is none."""
+    """normals (t, 3), zero where unknown; fold (e,): cosines of fold angles, NaN where unknown."""
 
     normals: Floats
     fold: Floats
@@ -44,14 +44,14 @@ class ReliableNormals:
 def reliable_normals(
     mesh: MeshFacts, points: Floats, triangles: Ints, part_of: Ints, precision: Floats
 ) -> ReliableNormals:
-    """The normals and folds that the coordinates of a mesh support; a triangle without area is a needle, too.
+    """Normals and folds, those of needles taken from their neighbours; a triangle without area is a needle as well.
 
-    part_of (t,); precision (p,): how far coordinates of each part may be off, in model units; 0 where they are exact
+    part_of (t,): part of each triangle; precision (p,): rounding error of each part's coordinates, model units, or 0
     """
     low, longest = _kernel.needles(points, triangles, mesh.normals, part_of, NEEDLE_HEIGHT * precision)
     if not len(low):
         return ReliableNormals(mesh.normals, mesh.fold)
-    # Chains from needle to needle, in terms of needles; what is none ends them.
+    # Follow needle to needle until the neighbour is none.
     beyond, sense = _across(mesh, triangles, low, longest)
     place = np.minimum(np.searchsorted(low, beyond), len(low) - 1)
     follows = low[place] == beyond
@@ -72,7 +72,7 @@ def reliable_normals(
 
 
 def _across(mesh: MeshFacts, triangles: Ints, low: Indices, longest: Indices) -> tuple[Indices, Floats]:
-    """The triangles beyond the longest sides, and -1 where they run the other way round; themselves at a border."""
+    """The neighbour of each needle at its longest side, itself at a border; and -1 where it is reversed, else 1."""
     n = int(triangles.max(initial=-1)) + 1
     ends = np.stack([triangles[low, longest], triangles[low, (longest + 1) % 3]], axis=1)
     edge = np.searchsorted(edge_keys(mesh.edges, n), edge_keys(np.sort(ends, axis=1), n))
@@ -84,7 +84,7 @@ def _across(mesh: MeshFacts, triangles: Ints, low: Indices, longest: Indices) ->
 
 
 def _folds(mesh: MeshFacts, normals: Floats, changed: npt.NDArray[np.bool_]) -> Floats:
-    """Cosines of all folds, those at the changed triangles anew."""
+    """Cosines of all folds, computed again at the changed triangles."""
     at_changed = np.flatnonzero(changed[mesh.incident])
     edge = np.searchsorted(mesh.offsets, at_changed, side="right") - 1
     two = distinct(edge[mesh.offsets[edge + 1] - mesh.offsets[edge] == 2])

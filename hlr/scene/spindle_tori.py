@@ -1,6 +1,6 @@
-"""Tori whose tube reaches beyond their axis: such a surface passes through itself in two points of the axis.
+"""Spindle tori, whose tube reaches beyond the axis: such a surface intersects itself at two points of the axis.
 
-Triangles show that only where their corners happen to lie well. The surface says it.
+The triangles need not show it; the parameters of the surface do.
 
 ::
 
@@ -19,11 +19,11 @@ from hlr._kernel import MeshScene
 from hlr.source.part_meshes import PartMeshes
 
 ROUNDING = 1e-9
-"""Of the minor radius: what is no further beyond the axis lies on it."""
+"""Share of the minor radius within which a point counts as on the axis."""
 
 
 def self_intersecting_tori(whole: PartMeshes, found: MeshScene) -> npt.NDArray[np.bool_]:
-    """(g,) bool: groups with a face on both sides of the axis of its torus."""
+    """(g,) bool: the group has a torus face that lies on both sides of the axis."""
     out = np.zeros(len(found.group_part), bool)
     spindles = () if whole.surfaces is None else whole.surfaces.spindles()
     if not spindles:

@@ -1,8 +1,8 @@
-"""Borders within a part of a mesh that run along one another, joined: its faces were meshed one by one.
+"""Stitching: borders of a mesh part that run along one another are joined.
 
-CAD programs mesh face by face, each border as finely as its own face asks. Where two faces meet, the corners of one
-then differ from those of the other by the modelling tolerance, or lie within the other's edges; so a smooth surface
-would show its borders as lines, in fragments.
+CAD programs mesh face by face. Where two faces meet, the vertices of one then differ from those of the other by the
+modelling tolerance, or lie within the other's edges (T-junctions). Without stitching, a smooth surface would show these
+borders as fragments of lines.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ found; what lies farther apart is a gap of the model's own."""
 
 
 def stitch_borders(parts: list[PartMesh], borders: list[int], deflection: float) -> tuple[list[PartMesh], int]:
-    """The parts, those with `borders` (p,) stitched; and how many pieces of borders were joined.
+    """The parts, stitched where `borders` (p,) is not 0; and the number of border pieces that were joined.
 
-    No corner moves by more than MAX_GAP_SHARE and STITCH allow. A triangle that gets corners of its neighbours is cut.
+    No vertex moves by more than MAX_GAP_SHARE and STITCH allow. Vertices of a neighbour on its border split a triangle.
     """
     out, seams = [], 0
     for part, count in zip(parts, borders, strict=True):

@@ -1,4 +1,4 @@
-"""How large and how small a model may be."""
+"""Bounding boxes of points, and limits on the size of a model."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from hlr.common.types import Floats
 from hlr.errors import SourceError
 
 LARGEST_COORDINATE, SMALLEST_SIZE = 1e60, 1e-60
-"""Model units. Products of five lengths neither overflow nor vanish; no true model comes near."""
+"""Model units: products of five such lengths neither overflow nor vanish in floating point."""
 
 
 def check_bounds(name: str, bounds: Floats) -> Floats:
-    """The bounds (2, 3), if they can be calculated with.
+    """Return the bounds (2, 3) of a model if its coordinates are within the limits.
 
     Raises:
         SourceError: a coordinate is beyond LARGEST or is no number; or no side reaches SMALLEST, and not all are zero.
@@ -29,8 +29,8 @@ ROWS_AT_ONCE = 64
 
 
 def bounding_box(points: Floats) -> Floats:
-    """(2, 3) lower and upper corner of points (n, 3), of which there is one at least."""
-    # So many rows side by side: along an axis of three NumPy takes ten times as long.
+    """(2, 3) lower and upper corner of points (n, 3), n > 0."""
+    # Many rows side by side: along an axis of length three NumPy takes ten times as long.
     whole = len(points) - len(points) % ROWS_AT_ONCE
     wide, rest = points[:whole].reshape(-1, 3 * ROWS_AT_ONCE), points[whole:]
     low, high = [rest], [rest]

@@ -1,13 +1,13 @@
-"""The curves of B-rep edges as flat records that the kernel evaluates without OpenCASCADE.
+"""Records of curves: the flat arrays in which edges and fitted curves go to and from the kernel.
 
-All curves are affine forms, so that a placement, a mirror image or a scale moves their vectors and nothing else:
+All curves are affine forms: a placement, a mirror image or a scale changes their vectors and nothing else.
 
     LINE        p + t a                        p, a, 0
     ELLIPSE     p + cos t a + sin t b          p, a, b; circles as well
     PARABOLA    p + t^2 a + t b                p, a, b
     HYPERBOLA   p + cosh t a + sinh t b        p, a, b
     SPLINE      B-spline                       degree, poles, rational, flat knots, then x y z w per pole;
-                                               rational 2: places of another curve, which it follows closely
+                                               rational 2: an approximation of a curve of another kind
 
 Bezier curves become B-splines, periodic B-splines are unrolled as far as the edge goes, offset curves are approximated.
 """
@@ -31,7 +31,7 @@ UNKNOWN: Record = (NONE, 0.0, 0.0, np.zeros(0))
 
 
 def offsets_of(counts: Ints | list[int]) -> Ints:
-    """(n+1,) running sums from 0: where each of n consecutive groups begins."""
+    """(n+1,) int32 running sums of counts, from 0: the offsets of n consecutive groups."""
     result = np.zeros(len(counts) + 1, dtype=np.int64)
     np.cumsum(counts, out=result[1:])
     if result[-1] >= 2**31:
@@ -40,7 +40,7 @@ def offsets_of(counts: Ints | list[int]) -> Ints:
 
 
 def pack_curves(records: Sequence[Record]) -> Curves:
-    """Records of single curves as one."""
+    """Single records as one set of arrays."""
     return Curves(
         kind=np.array([r[0] for r in records], np.uint8),
         range=np.array([(r[1], r[2]) for r in records], np.float64).reshape(-1, 2),
@@ -49,11 +49,11 @@ def pack_curves(records: Sequence[Record]) -> Curves:
     )
 
 
-def concatenate_curves(one: Curves, other: Curves) -> Curves:
-    """The records of one, then those of the other."""
+def concatenate_curves(first: Curves, second: Curves) -> Curves:
+    """The records of the first set, then those of the second."""
     return Curves(
-        kind=np.concatenate([one.kind, other.kind]),
-        range=np.concatenate([one.range, other.range]),
-        offsets=np.concatenate([one.offsets, other.offsets[1:] + one.offsets[-1]]).astype(np.int32),
-        values=np.concatenate([one.values, other.values]),
+        kind=np.concatenate([first.kind, second.kind]),
+        range=np.concatenate([first.range, second.range]),
+        offsets=np.concatenate([first.offsets, second.offsets[1:] + first.offsets[-1]]).astype(np.int32),
+        values=np.concatenate([first.values, second.values]),
     )

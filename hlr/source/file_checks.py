@@ -1,4 +1,4 @@
-"""What every reader of files checks first."""
+"""Checks of a file before it is read, and errors that say what it looks like."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from hlr.errors import SourceError
 
 
 def check_readable(path: Path) -> None:
-    """One sentence for a path that cannot be a model.
+    """Check that a path is a file that can be read.
 
     Raises:
-        SourceError: missing, a folder, not readable, or empty.
+        SourceError: it is missing, a folder, not readable, or empty.
     """
     try:
         if path.is_dir():
@@ -32,10 +32,10 @@ def check_readable(path: Path) -> None:
 
 
 def check_signature(path: Path, mark: bytes, what: str) -> None:
-    """A file that must hold `mark` near its beginning.
+    """Check that the first 4096 bytes of a file contain `mark`. what: the format, for the error.
 
     Raises:
-        SourceError: it does not; the sentence says what the content looks like.
+        SourceError: they do not; the message says what the content looks like.
     """
     with path.open("rb") as file:
         head = file.read(4096)
@@ -44,19 +44,19 @@ def check_signature(path: Path, mark: bytes, what: str) -> None:
 
 
 def wrong_format(path: Path, what: str, head: bytes) -> SourceError:
-    """That a file is not `what` it should be, by what its first bytes look like."""
+    """The error that a file is not of the format `what`; head: its first bytes, which say what it looks like."""
     return SourceError(f"{path.name} is not {what}: it looks like {describe_content(head)}.")
 
 
 def describe_content(head: bytes) -> str:
-    """What the first bytes of a file tell a reader."""
+    """The kind of content that the first bytes of a file suggest, in words."""
     text = head.lstrip(b"\xef\xbb\xbf \t\r\n")
     lower = text[:200].lower()
     if lower.startswith((b"<!doctype html", b"<html")):
         return "a web page (was the download a login or error page?)"
     if text.startswith(b"version https://git-lfs"):
         return "a Git LFS pointer (run: git lfs pull)"
-    for mark, name in _MARKS:
+    for mark, name in _SIGNATURES:
         if text.startswith(mark):
             return name
     if b"\0" in head:
@@ -64,7 +64,7 @@ def describe_content(head: bytes) -> str:
     return "text of another kind"
 
 
-_MARKS = (
+_SIGNATURES = (
     (b"ISO-10303-21", "a STEP file"),
     (b"solid", "a text STL file"),
     (b"glTF", "a GLB file"),

@@ -1,4 +1,4 @@
-"""What a source hands to the scene: parts as meshes whose triangles and edges keep their B-rep identity."""
+"""Types that sources return: part meshes whose triangles and edges keep their B-rep identity, colours, curves."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hlr.common.types import Color, Floats, Ints, Progress, Rgba
 from hlr.drawing.notes import Note
 
 DEFAULT_COLOR: Rgba = (0.70, 0.74, 0.79, 1.0)
-"""What nobody gave a colour."""
+"""Colour and opacity of parts without a colour."""
 
 
 class Surfaces(Protocol):

@@ -8,6 +8,6 @@ _KNOWN = {"cadquery", "build123d", "OCP", "trimesh", "manifold3d"}
 
 
 def package_of(thing: Any) -> str:
-    """The top-level package that some class of the object's ancestry comes from, those that hlr knows first."""
+    """The top-level package of the object's class or a base class; a package that hlr knows where there is one."""
     roots = [cls.__module__.split(".")[0] for cls in type(thing).__mro__]
     return next((root for root in roots if root in _KNOWN), roots[0])

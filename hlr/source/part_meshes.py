@@ -1,4 +1,4 @@
-"""The meshes of all parts in one set of arrays, which the kernel holds; and the parts one by one."""
+"""Meshes of all parts in one set of arrays that the kernel holds; a sequence of single parts as well."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from hlr.source.cad.parts import Part
 
 MAX_TRIANGLES = 2**31 // 3 - 1
-"""Indices are 32 bits wide; three sides a triangle."""
+"""Limit of 32-bit indices of triangles' sides, three per triangle."""
 
 
 @dataclass(frozen=True, slots=True)
 class PartLabel:
-    """Who a part is; transform (4, 4): where it stands."""
+    """Name, colour and placement (4, 4) of a part."""
 
     name: str
     color: Color | None
@@ -31,9 +31,11 @@ class PartLabel:
 
 
 class PartMeshes(Sequence[PartMesh]):
-    """Parts whose meshes lie together; each is taken out when it is asked for.
+    """Meshes of all parts in common arrays; a single part is cut out when it is asked for.
 
-    labels: who they are; tables: their meshes; surfaces: those under their faces, None where no part has any
+    labels    name, colour and placement of each part
+    tables    the meshes
+    surfaces  those of the parts' faces; None where no part has any
     """
 
     def __init__(
@@ -49,33 +51,33 @@ class PartMeshes(Sequence[PartMesh]):
     @overload
     def __getitem__(self, i: slice) -> list[PartMesh]: ...
     def __getitem__(self, i: int | slice) -> PartMesh | list[PartMesh]:
-        """Arrays are read-only where they are those of the whole."""
+        """The part with this index. Its arrays may be read-only views of the common ones."""
         if isinstance(i, slice):
-            return [_part(self, k) for k in range(len(self))[i]]
-        return _part(self, range(len(self))[i])
+            return [_single_part(self, k) for k in range(len(self))[i]]
+        return _single_part(self, range(len(self))[i])
 
 
 def check_triangle_count(triangles: int) -> None:
-    """Raise SourceError where so many triangles cannot be numbered."""
+    """Raise SourceError where a model has more triangles than 32-bit indices allow."""
     if triangles > MAX_TRIANGLES:
         raise SourceError("the model has more than 700 million triangles: give a coarser accuracy")
 
 
 def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
-    """The parts in one set of arrays. Raises SourceError where there are too many triangles."""
+    """The meshes of parts in common arrays. Raises SourceError where there are too many triangles."""
     if isinstance(parts, PartMeshes):
         return parts
     check_triangle_count(sum(len(part.triangles) for part in parts))
-    points = _starts([len(part.points) for part in parts])
+    points = _offsets([len(part.points) for part in parts])
     on = [part.surface_parameters for part in parts]
     known = [o for o in on if o is not None]
-    nodes = _starts([0 if o is None else len(o.uv) for o in on])
-    chains = _starts([len(part.edge_nodes) for part in parts])
+    nodes = _offsets([0 if o is None else len(o.uv) for o in on])
+    chains = _offsets([len(part.edge_nodes) for part in parts])
     counts = [len(part.face_planar) for part in parts]
 
     def of_faces(of: Callable[[SurfaceParameters], npt.NDArray[Any]], none: npt.NDArray[Any]) -> npt.NDArray[Any]:
         rows = [np.repeat(none[None], n, axis=0) if o is None else of(o) for o, n in zip(on, counts, strict=True)]
-        return _joined(rows, none.shape, none.dtype)
+        return _concatenated(rows, none.shape, none.dtype)
 
     corner = [
         np.full((len(part.triangles), 3), -1, np.int32) if o is None else o.corner + first
@@ -85,29 +87,33 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
         labels=[PartLabel(part.name, part.color, part.transform) for part in parts],
         tables=_kernel.PartTables(
             point_start=points,
-            points=_joined([part.points for part in parts], (3,), np.float64),
-            triangle_start=_starts([len(part.triangles) for part in parts]),
-            triangles=_joined([p.triangles + n for p, n in zip(parts, points.tolist(), strict=False)], (3,), np.int32),
-            triangle_face=_joined([part.triangle_face for part in parts], (), np.int32),
-            origin=_joined([_origin(part) for part in parts], (), np.int32),
-            face_start=_starts(counts),
-            face_planar=_joined([part.face_planar for part in parts], (), np.bool_),
-            edge_start=_starts([len(part.edge_index) for part in parts]),
-            edge_offsets=_joined(
+            points=_concatenated([part.points for part in parts], (3,), np.float64),
+            triangle_start=_offsets([len(part.triangles) for part in parts]),
+            triangles=_concatenated(
+                [p.triangles + n for p, n in zip(parts, points.tolist(), strict=False)], (3,), np.int32
+            ),
+            triangle_face=_concatenated([part.triangle_face for part in parts], (), np.int32),
+            origin=_concatenated([_origin(part) for part in parts], (), np.int32),
+            face_start=_offsets(counts),
+            face_planar=_concatenated([part.face_planar for part in parts], (), np.bool_),
+            edge_start=_offsets([len(part.edge_index) for part in parts]),
+            edge_offsets=_concatenated(
                 [np.zeros(1), *[p.edge_offsets[1:] + n for p, n in zip(parts, chains.tolist(), strict=False)]],
                 (),
                 np.int32,
             ),
-            edge_nodes=_joined([p.edge_nodes + n for p, n in zip(parts, points.tolist(), strict=False)], (), np.int32),
-            edge_index=_joined([part.edge_index for part in parts], (), np.int32),
-            edge_class=_joined([part.edge_class for part in parts], (), np.uint8),
+            edge_nodes=_concatenated(
+                [p.edge_nodes + n for p, n in zip(parts, points.tolist(), strict=False)], (), np.int32
+            ),
+            edge_index=_concatenated([part.edge_index for part in parts], (), np.int32),
+            edge_class=_concatenated([part.edge_class for part in parts], (), np.uint8),
             brep=np.array([part.brep for part in parts], np.bool_),
             joined=np.array([part.joined for part in parts], np.bool_),
-            transform=_joined([part.transform[None, :3] for part in parts], (3, 4), np.float64),
+            transform=_concatenated([part.transform[None, :3] for part in parts], (3, 4), np.float64),
             precision=np.array([part.precision for part in parts], np.float64),
             node_start=nodes,
-            corner=_joined(corner if known else [], (3,), np.int32),
-            uv=_joined([o.uv for o in known], (2,), np.float64),
+            corner=_concatenated(corner if known else [], (3,), np.int32),
+            uv=_concatenated([o.uv for o in known], (2,), np.float64),
             face_shape=of_faces(lambda o: o.number, np.array(-1, np.int32)),
             face_place=of_faces(lambda o: o.place, np.eye(3, 4)),
             face_reversed=of_faces(lambda o: o.reversed, np.array(False)),
@@ -116,7 +122,7 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
     )
 
 
-def _part(whole: PartMeshes, i: int) -> PartMesh:
+def _single_part(whole: PartMeshes, i: int) -> PartMesh:
     t, label = whole.tables, whole.labels[i]
     starts = (t.point_start, t.triangle_start, t.face_start, t.edge_start, t.node_start)
     points, triangles, faces, edges, nodes = (slice(*start[i : i + 2].tolist()) for start in starts)
@@ -155,14 +161,14 @@ def _origin(part: PartMesh) -> Ints:
     return np.arange(len(part.triangles), dtype=np.int32) if part.origin is None else part.origin
 
 
-def _starts(counts: list[int]) -> Ints:
+def _offsets(counts: list[int]) -> Ints:
     out = np.zeros(len(counts) + 1, np.int32)
     np.cumsum(counts, out=out[1:])
     return out
 
 
-def _joined(tables: Sequence[npt.NDArray[Any]], row: tuple[int, ...], dtype: Any) -> npt.NDArray[Any]:
-    """The tables one after another, rows of that shape and numbers of that type."""
+def _concatenated(tables: Sequence[npt.NDArray[Any]], row: tuple[int, ...], dtype: Any) -> npt.NDArray[Any]:
+    """The tables one after another: rows of shape `row`, numbers of type `dtype`."""
     if not tables:
         return np.zeros((0, *row), dtype)
     whole = tables[0] if len(tables) == 1 else np.concatenate(tables)

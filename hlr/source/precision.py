@@ -1,4 +1,4 @@
-"""How exactly the coordinates of a mesh were written: files keep seven digits, or a fixed number of decimals."""
+"""Precision of a mesh's coordinates, estimated from their digits: files keep seven digits, or some decimals."""
 
 from __future__ import annotations
 
@@ -13,28 +13,31 @@ from hlr.common.types import Floats
 from hlr.source.bounds import bounding_box
 
 FINEST_GRID = 2.0**-31
-"""Of the size: a finer grid is no rounding."""
+"""Share of the largest coordinate: a finer grid is not taken for rounding."""
 
-SAMPLE = 1 << 17
-DIFFERENCES = 256
-"""Coordinates, and differences between neighbours, among which the step of a grid is looked for."""
+MAX_SAMPLES = 1 << 17
+MAX_DIFFERENCES = 256
+"""Coordinates, and differences between neighbouring ones, in which the step of a grid is searched."""
 
-PIECE = 1 << 16
-"""Coordinates that are looked at in one go."""
+BLOCK = 1 << 16
+"""Coordinates per block."""
 
-DIGITS = 9
-"""Single numbers need so many digits to be written and read without loss."""
+SINGLE_DIGITS = 9
+"""Digits that a single-precision number needs to be written and read without loss."""
 
 
-COARSEST = 1e-5
-"""Of a mesh's extent: nobody rounds more coarsely and has a model left, though short numbers may look like it."""
+COARSEST_GRID = 1e-5
+"""Share of a mesh's extent: a coarser grid is chance (short numbers), not rounding."""
 
-USED = 0.01
-"""Of single numbers that were rounded, nearly all use their last bits; of short ones (0.5, 1000) none do."""
+LOW_BITS_SHARE = 0.01
+"""Share of single-precision numbers with their last bits in use, above which they count as rounded.
+
+Of rounded numbers nearly all use the last bits; of short ones (0.5, 1000) none do.
+"""
 
 
 def coordinate_precision(points: Floats) -> float:
-    """How far coordinates (n, 3) may be off by what they were rounded to, in their own unit; 0 without points."""
+    """Largest rounding error of coordinates (n, 3), in their own unit; 0 without points."""
     if not len(points):
         return 0.0
     corners = bounding_box(points)
@@ -42,40 +45,40 @@ def coordinate_precision(points: Floats) -> float:
     # From half the largest number on differences overflow.
     if size == 0.0 or not np.isfinite(2.0 * size):
         return 0.0
-    rounded = _rounded(points, corners, size)
-    return rounded if rounded <= COARSEST * float((corners[1] - corners[0]).max()) else 2.0**-53 * size
+    rounded = _suggested_error(points, corners, size)
+    return rounded if rounded <= COARSEST_GRID * float((corners[1] - corners[0]).max()) else 2.0**-53 * size
 
 
-def _rounded(points: Floats, corners: Floats, size: float) -> float:
-    """What the digits of the coordinates say, whether it is likely or not."""
+def _suggested_error(points: Floats, corners: Floats, size: float) -> float:
+    """The rounding error that the digits suggest, before it is checked against the mesh's extent."""
     single = 2.0**-24 * size
-    if size < 3e38 and _every(lambda some: some.astype(np.float32) == some, points):
-        used = sum(int(np.count_nonzero(some.astype(np.float32).view(np.uint32) & 0xF)) for some in _pieces(points))
-        return single if used / points.size > USED else 2.0**-53 * size
-    step = _step(points, corners, size)
+    if size < 3e38 and _all(lambda block: block.astype(np.float32) == block, points):
+        used = sum(int(np.count_nonzero(block.astype(np.float32).view(np.uint32) & 0xF)) for block in _blocks(points))
+        return single if used / points.size > LOW_BITS_SHARE else 2.0**-53 * size
+    step = _grid_step(points, corners, size)
     if step > 0.0:
         return max(0.5 * step, single)
-    return single if _every(_short, points) else 2.0**-53 * size
+    return single if _all(_is_short, points) else 2.0**-53 * size
 
 
-def _short(numbers: Floats) -> npt.NDArray[np.bool_]:
-    """Which of the numbers have nine digits at most."""
+def _is_short(numbers: Floats) -> npt.NDArray[np.bool_]:
+    """(k,) bool: the number has nine digits at most. Zeros are left out."""
     present = numbers[numbers != 0.0]
-    digits = DIGITS - 1 - np.floor(np.log10(np.abs(present)))
-    return _whole(present * 10.0**digits)
+    digits = SINGLE_DIGITS - 1 - np.floor(np.log10(np.abs(present)))
+    return _is_whole(present * 10.0**digits)
 
 
-def _pieces(points: Floats) -> Iterator[Floats]:
-    """All coordinates, so many at a time: what is looked for in them takes copies, and most end it early."""
+def _blocks(points: Floats) -> Iterator[Floats]:
+    """All coordinates in blocks: a test copies what it looks at, and mostly ends early."""
     flat = points.ravel()
-    return (flat[k : k + PIECE] for k in range(0, len(flat), PIECE))
+    return (flat[k : k + BLOCK] for k in range(0, len(flat), BLOCK))
 
 
-def _every(test: Callable[[Floats], npt.NDArray[np.bool_]], points: Floats) -> bool:
-    return all(bool(test(some).all()) for some in _pieces(points))
+def _all(test: Callable[[Floats], npt.NDArray[np.bool_]], points: Floats) -> bool:
+    return all(bool(test(block).all()) for block in _blocks(points))
 
 
-def _step(points: Floats, corners: Floats, size: float) -> float:
+def _grid_step(points: Floats, corners: Floats, size: float) -> float:
     """The step of the grid on which all coordinates lie, such as 0.001 where there are three decimals; 0 without one.
 
     Euclid's algorithm on the smallest differences finds it in any unit: a file in inches has its decimals there, and a
@@ -83,30 +86,30 @@ def _step(points: Floats, corners: Floats, size: float) -> float:
     """
     finest = FINEST_GRID * size
     origin = points[0]
-    every = np.arange(0, points.size, max(1, points.size // SAMPLE))
+    every = np.arange(0, points.size, max(1, points.size // MAX_SAMPLES))
     sampled = points.ravel()[every] - origin[every % 3]
-    apart = np.diff(distinct(sampled))
-    apart = distinct(apart[apart > finest])[:DIFFERENCES]
+    differences = np.diff(distinct(sampled))
+    differences = distinct(differences[differences > finest])[:MAX_DIFFERENCES]
     farthest = float(np.maximum(corners[1] - origin, origin - corners[0]).max())
     step = 0.0
-    for difference in [*apart.tolist(), farthest]:
-        step = _divisor(step, difference, finest)
+    for difference in [*differences.tolist(), farthest]:
+        step = _common_divisor(step, difference, finest)
         if step == 0.0:
             return 0.0
-        # The further apart two coordinates are, the more exactly they tell the step.
+        # The further apart two coordinates are, the more exact the step.
         step = difference / max(1, round(difference / step))
-    rows = (points[k : k + PIECE] - origin for k in range(0, len(points), PIECE))
+    rows = (points[k : k + BLOCK] - origin for k in range(0, len(points), BLOCK))
     return step if all((np.abs(v / step - np.round(v / step)) < 1e-3).all() for v in rows) else 0.0
 
 
-def _divisor(a: float, b: float, finest: float) -> float:
-    """The greatest length of which both are multiples; remainders up to `finest` are none."""
+def _common_divisor(a: float, b: float, finest: float) -> float:
+    """Greatest common divisor of two lengths; remainders up to `finest` count as zero."""
     while b > finest:
         rest = math.fmod(a, b)
         a, b = b, min(rest, b - rest)
     return a
 
 
-def _whole(numbers: Floats) -> npt.NDArray[np.bool_]:
-    """Which are whole numbers, but for the rounding of the multiplication that made them."""
+def _is_whole(numbers: Floats) -> npt.NDArray[np.bool_]:
+    """(k,) bool: a whole number, but for the rounding of the multiplication that made it."""
     return np.asarray(np.abs(numbers - np.round(numbers)) <= 1e-15 * np.abs(numbers) + 1e-12)

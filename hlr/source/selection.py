@@ -1,4 +1,4 @@
-"""Which parts of a source are drawn: all, only those named, or all but those named."""
+"""Selection of parts: all, only those that patterns name, or all but those."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from hlr.errors import OptionError
 from hlr.source import open_source
 from hlr.source.model import Source
 
-_NAMED = 5
-"""So many parts are named where a pattern matches none."""
+MAX_LISTED = 5
+"""Parts that an error names where a pattern matches none."""
 
 
 class PartSelection(Protocol):
-    """The options that choose what is drawn."""
+    """The options that select parts."""
 
     @property
     def only(self) -> Sequence[str]:
@@ -33,13 +33,15 @@ class PartSelection(Protocol):
 
     @property
     def annotations(self) -> bool:
-        """Also faces of annotation."""
+        """Whether faces of annotation are read as well."""
 
 
 def open_selected(thing: Any, options: PartSelection) -> Source:
-    """Open whatever `open_source` opens, and leave out what the options leave out.
+    """Open anything that `open_source` opens, with the selected parts only.
 
-    Raises SourceError; OptionError for a pattern that matches no part, and where no part would be left.
+    Raises:
+        SourceError: it cannot be opened.
+        OptionError: a pattern matches no part, or no part is left.
     """
     source = open_source(thing, options.var, options.annotations)
     only, hide = tuple(options.only), tuple(options.hide)
@@ -54,30 +56,30 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
 
 
 def _matching(patterns: Sequence[str], names: Sequence[str], option: str) -> set[str]:
-    """Names that match any of the patterns; each must match some."""
+    """Names that match any of the patterns. Raises OptionError for a pattern that matches none."""
     found: set[str] = set()
     for pattern in patterns:
         some = {name for name in names if matches(name, pattern)}
         if not some:
-            raise OptionError(f'{option} "{pattern}" matches no part: {_instead(pattern, names)}.')
+            raise OptionError(f'{option} "{pattern}" matches no part: {_suggestion(pattern, names)}.')
         found |= some
     return found
 
 
 def matches(name: str, pattern: str) -> bool:
-    """Whether a pattern means a part: letters of any case, * and ? and [abc] as in file names.
+    """Whether a pattern matches the name of a part. Case does not count; * ? and [abc] are wildcards, as in file names.
 
-    It may be the whole name, the name without its number (bolt for bolt:2), or an assembly that the part is in.
+    The pattern may stand for the whole name, the name without its number (bolt for bolt:2), or an assembly of the part.
     """
     name, pattern = name.lower(), pattern.lower()
     steps = name.split("/")
-    meant = [name, re.sub(r"(:loose)?(:\d+)?$", "", name), *("/".join(steps[:i]) for i in range(1, len(steps)))]
-    return any(each == pattern or fnmatchcase(each, pattern) for each in meant)
+    candidates = [name, re.sub(r"(:loose)?(:\d+)?$", "", name), *("/".join(steps[:i]) for i in range(1, len(steps)))]
+    return any(candidate == pattern or fnmatchcase(candidate, pattern) for candidate in candidates)
 
 
-def _instead(pattern: str, names: Sequence[str]) -> str:
+def _suggestion(pattern: str, names: Sequence[str]) -> str:
     close = get_close_matches(pattern, names, 3, 0.5)
     if close:
         return "perhaps " + " or ".join(f'"{name}"' for name in close)
-    shown = ", ".join(f'"{name}"' for name in names[:_NAMED])
-    return f"there are {shown}" + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
+    shown = ", ".join(f'"{name}"' for name in names[:MAX_LISTED])
+    return f"there are {shown}" + (f" and {len(names) - MAX_LISTED} more" if len(names) > MAX_LISTED else "")

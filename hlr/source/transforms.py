@@ -1,4 +1,4 @@
-"""Placements as matrices: put one upon the other, and applied to points."""
+"""Placements as matrices: composition, sign of the determinant, application to points."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import numpy as np
 from hlr.common.types import Floats
 
 MatrixRows = tuple[float, ...]
-"""The twelve numbers of a (3, 4) matrix, row by row: for one placement quicker than an array."""
+"""The twelve numbers of a (3, 4) matrix, row by row: faster than an array for a single placement."""
 
 IDENTITY: MatrixRows = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
-"""What moves nothing."""
+"""The placement that moves nothing."""
 
 
 def compose(outer: MatrixRows, inner: MatrixRows) -> MatrixRows:
-    """What moves by `inner`, then by `outer`."""
+    """The placement that applies `inner`, then `outer`."""
     if inner is IDENTITY:
         return outer
     if outer is IDENTITY:
@@ -29,7 +29,7 @@ def compose(outer: MatrixRows, inner: MatrixRows) -> MatrixRows:
 
 
 def matrix4(rows: MatrixRows) -> Floats:
-    """The same as an array (4, 4), without minus zeros."""
+    """The matrix (4, 4) of a placement; minus zeros become zeros."""
     whole: Floats = np.array((*rows, 0.0, 0.0, 0.0, 1.0)).reshape(4, 4)
     whole += 0.0
     return whole
@@ -47,7 +47,7 @@ def determinant_sign(matrix: Floats) -> int:
 
 
 def transform_points(points: Floats, matrix: Floats) -> Floats:
-    """(n, 3) points moved by one (3, 4) or (4, 4) matrix, elementwise."""
+    """Points (n, 3) transformed by a (3, 4) or (4, 4) matrix, element by element: the same bits on every machine."""
     x, y, z = points[:, 0], points[:, 1], points[:, 2]
     result = np.empty_like(points)
     for i in range(3):

@@ -1,4 +1,4 @@
-"""Curves of OpenCASCADE's edges as records, by a way of their own: the lab compares the kernel's records with these."""
+"""Records of edges' curves, read from OpenCASCADE: the lab compares the kernel's records with them."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from hlr.source.model import Curves
 from hlr.source.transforms import transform_points
 
 APPROXIMATION = 1e-6
-"""Model units: how closely curves of other kinds are approximated."""
+"""Model units: tolerance for curves of other kinds, which become B-splines."""
 
 
 MOST_SEGMENTS, MOST_DEGREE = 500, 8
-"""Of such an approximation; a curve that needs more stays unknown."""
+"""Limits of such a B-spline; a curve that needs more is UNKNOWN."""
 
 
 def edge_record(edge: Any) -> Record:
-    """The record of a TopoDS_Edge where it stands; UNKNOWN where it has no curve in space."""
+    """The record of a TopoDS_Edge with its placement; UNKNOWN where it has no 3-D curve."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve
 
     try:
@@ -38,7 +38,7 @@ def edge_record(edge: Any) -> Record:
 
 
 def transform_record(record: Record, matrix: Floats) -> Record:
-    """A record moved by a (3, 4) or (4, 4) matrix."""
+    """A record transformed by a (3, 4) or (4, 4) matrix."""
     kind, first, last, values = record
     if kind == NONE:
         return record

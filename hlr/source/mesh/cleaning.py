@@ -1,4 +1,4 @@
-"""Clean triangle meshes: equal corners joined, impossible triangles left out, needles removed by edge flips."""
+"""Cleaning of triangle meshes: equal vertices are welded, invalid triangles left out, needles removed by edge flips."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ NEEDLE_HEIGHT = 64.0
 
 @dataclass(frozen=True, slots=True)
 class FlippedTriangles:
-    """The triangles (k,) that edge flips changed, numbered among those that were kept.
+    """Triangles that edge flips changed, as indices into the kept ones.
 
-    like (k,): whose face each has now; stood (k, 3): where its corners stood, three times a triangle plus 0..2
+    triangle (k,)    the changed triangle
+    like     (k,)    the triangle whose attributes it takes over
+    stood    (k, 3)  for each of its corners the same corner before: three times a triangle, plus 0, 1 or 2
     """
 
     triangle: npt.NDArray[np.uint32]
@@ -30,10 +32,12 @@ class FlippedTriangles:
 
 @dataclass(frozen=True, slots=True)
 class CleanMesh:
-    """points (n, 3), each used and each once; triangles (m, 3) without repeated corners; what was left out.
+    """A mesh without repeated or unused points and without invalid triangles.
 
-    kept: of the triangles that were given (m,) which each of these was, None if all of them are there; turned: which of
-    these have other corners now; precision: how far coordinates may be off.
+    points (n, 3), triangles (m, 3); numbers of triangles left out: not_finite, out_of_range, degenerate
+    kept       (m,) index of each triangle in the given mesh; None: all are kept
+    turned     triangles that edge flips changed; None: there are none
+    precision  largest rounding error of the coordinates
     """
 
     points: Floats
@@ -46,7 +50,7 @@ class CleanMesh:
     precision: float
 
     def of_triangles(self, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Rows for the triangles that were given, as rows for those that are here."""
+        """Attributes of the given triangles, one row each, as rows of the cleaned triangles."""
         rows = self._of_kept(rows)
         if self.turned is not None:
             rows = rows.copy()
@@ -54,7 +58,7 @@ class CleanMesh:
         return rows
 
     def of_corners(self, table: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """(m, 3) for the corners of the triangles that were given, as (m, 3) for those that are here."""
+        """Attributes (m, 3) of the corners of the given triangles, as (m, 3) of the cleaned triangles."""
         table = self._of_kept(table)
         if self.turned is not None:
             table = table.copy()
@@ -66,20 +70,20 @@ class CleanMesh:
 
 
 def clean_mesh(points: npt.NDArray[np.floating], triangles: npt.NDArray[np.integer]) -> CleanMesh:
-    """Join corners with exactly equal coordinates, drop triangles that have none, NaN or repeated corners, and turn the
-    longest sides of needles: triangles that are no higher than coordinates are exact.
+    """Weld vertices with equal coordinates, drop invalid triangles, and flip the longest edges of needles.
 
-    Kept points are in order of first use by number, so the result depends on the input alone.
+    Invalid: a corner does not exist, is not finite, or is repeated. Needle: no higher than the rounding of coordinates.
+    The result depends on the input alone.
     """
     points = np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 3)
     faces = np.asarray(triangles).reshape(-1, 3)
-    if faces.dtype != np.int32:  # what does not fit 32 bits is out of range there, too
+    if faces.dtype != np.int32:  # an index beyond 32 bits is out of range in any case
         faces = np.where((faces >= 0) & (faces < len(points)), faces, -1)
     found, corners, kept, left_out = _kernel.clean_mesh(points, np.ascontiguousarray(faces, dtype=np.int32))
     not_finite, out_of_range, degenerate = left_out
-    exact = coordinate_precision(found)
+    rounding = coordinate_precision(found)
     turned = None
-    if (needles := _kernel.without_needles(found, corners, NEEDLE_HEIGHT * exact)) is not None:
+    if (needles := _kernel.without_needles(found, corners, NEEDLE_HEIGHT * rounding)) is not None:
         turned = FlippedTriangles(needles[0], needles[2], needles[3])
         corners[turned.triangle] = needles[1]
-    return CleanMesh(found, corners, not_finite, out_of_range, degenerate, kept, turned, exact)
+    return CleanMesh(found, corners, not_finite, out_of_range, degenerate, kept, turned, rounding)

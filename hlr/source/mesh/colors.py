@@ -1,4 +1,4 @@
-"""Colours of meshes: materials, else vertices or faces."""
+"""Colours of mesh parts: from materials, else from vertices or faces."""
 
 from __future__ import annotations
 
@@ -19,8 +19,7 @@ Corners = npt.NDArray[np.float32]
 
 @dataclass(frozen=True, slots=True)
 class FileColors:
-    """Colours as a file has them: (k, 4) uint8, one per point of the triangles (m, 3), or per triangle where that is
-    None."""
+    """Colours of a file: (k, 4) uint8, one per point of the triangles (m, 3); one per triangle where that is None."""
 
     colors: npt.NDArray[np.uint8]
     triangles: Ints | None
@@ -32,12 +31,12 @@ def mesh_appearance(part: PartMesh, mesh: Any, clean: CleanMesh) -> Appearance:
     material = getattr(visual, "material", None)
     whole: Rgba | None = rgba(part.color, _opacity(material))
     corners = None
-    # What cannot be told of a colour is no reason to refuse a model; broken tables make trimesh raise what they will.
+    # Unreadable colours are no reason to refuse a model, and trimesh raises any exception for broken tables.
     with suppress(Exception):
         corners = _corners(mesh, visual, material, clean)
     if corners is None:
         return Appearance(whole)
-    if determinant_sign(part.transform) < 0:  # the part's triangles are turned round then
+    if determinant_sign(part.transform) < 0:  # the part's triangles are reversed then
         corners = corners[:, [0, 2, 1]]
     first = corners[0, 0]
     if (corners == first).all():
@@ -47,7 +46,7 @@ def mesh_appearance(part: PartMesh, mesh: Any, clean: CleanMesh) -> Appearance:
 
 
 def _opacity(material: Any) -> float:
-    """glTF says by a mode whether the fourth number of a colour means anything."""
+    """Opacity of a material, 0 to 1. In glTF the fourth number of a colour counts only in the alpha mode BLEND."""
     factor = getattr(material, "baseColorFactor", None)
     if factor is not None and str(getattr(material, "alphaMode", None) or "OPAQUE").upper() != "BLEND":
         return 1.0
@@ -58,7 +57,7 @@ def _opacity(material: Any) -> float:
 
 
 def _corners(mesh: Any, visual: Any, material: Any, clean: CleanMesh) -> Corners | None:
-    """(m, 3, 4) sRGB and opacity; None where nothing is painted finer than by part."""
+    """(m, 3, 4) sRGB and opacity; None where the part has one colour."""
     if isinstance(mesh, FileColors):
         if mesh.triangles is not None:
             return np.asarray(_scaled(mesh.colors)[clean.of_corners(mesh.triangles)])
@@ -71,7 +70,7 @@ def _corners(mesh: Any, visual: Any, material: Any, clean: CleanMesh) -> Corners
     image = getattr(material, "image", None)
     image = getattr(material, "baseColorTexture", None) if image is None else image
     if kind == "texture" and image is not None and visual.uv is not None:
-        # A texture is seen only at the vertices.
+        # A texture is sampled at the vertices only.
         return np.asarray(_scaled(visual.to_color().vertex_colors)[clean.of_corners(np.asarray(mesh.faces))])
     return None
 

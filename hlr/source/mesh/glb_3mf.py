@@ -1,4 +1,4 @@
-"""3MF and GLB files through trimesh: checked before they are loaded, so that a header cannot ask for endless memory."""
+"""3MF and GLB files, read by trimesh: checked first, so that a false header cannot take all memory."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ def open_glb_or_3mf(path: Path, kind: str) -> MeshSource:
 
 def _load(path: Path, kind: str) -> Any:
     trimesh = _trimesh(kind)
-    # From memory, not from the folder: a file cannot make the reader open its neighbours.
+    # From memory, not by path: a file cannot make the reader open other files of its folder.
     data = io.BytesIO(path.read_bytes())
-    # It reports what it tried in vain, with tracebacks; without a handler they would go to standard error.
+    # trimesh logs failed attempts with tracebacks; without a handler they would go to standard error.
     logging.getLogger("trimesh").addHandler(_SILENT)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -64,12 +64,14 @@ _UNUSED = (
     "scipy",
     "shapely",
 )
-"""What trimesh imports at once where it is there, and has no use of when it reads these files: four fifths of the time.
-Only 3MF needs networkx."""
+"""Packages that trimesh imports but does not use for these files, at four fifths of its import time.
+
+Only 3MF needs networkx.
+"""
 
 
 def _trimesh(kind: str) -> Any:
-    """The module; in hlr's own process without what is not used of it. In another's, somebody may use all of it."""
+    """The module trimesh: without its unused imports in hlr's own process, whole in a caller's."""
     wanted = "networkx" if kind == "3mf" else ""
     hidden = [name for name in _UNUSED if name != wanted and name not in sys.modules] if is_own() else []
     sys.modules.update(dict.fromkeys(hidden))  # type: ignore[arg-type]
@@ -88,7 +90,7 @@ def _frame(kind: str, scene: Any) -> Frame:
 
 
 def _detail(error: Exception) -> str:
-    """What the reader says, where it says it in words."""
+    """The reader's message, where it is a sentence."""
     text = " ".join(str(error).split())
     return f" ({text[:100]})" if isinstance(error, ValueError) and " " in text else ""
 

@@ -1,4 +1,4 @@
-"""STL, OBJ, PLY and OFF files: looked at before they are read, so that what is something else is called by its name."""
+"""STL, OBJ, PLY and OFF files: checked first, so that the error for another format names it."""
 
 from __future__ import annotations
 
@@ -44,21 +44,21 @@ def open_mesh_file(path: Path, kind: str) -> MeshSource:
     geometries: list[tuple[Floats, Ints]] = []
     instances: list[Instance] = []
     for name, triangles in pieces:
-        used, own = _own(triangles) if len(pieces) > 1 else (slice(None), triangles)
+        used, renumbered = _used_points(triangles) if len(pieces) > 1 else (slice(None), triangles)
         paint = None
         if vertex_colors is not None:
-            paint = FileColors(vertex_colors[used], own)
+            paint = FileColors(vertex_colors[used], renumbered)
         elif face_colors is not None:
             paint = FileColors(face_colors, None)
         instances.append(Instance(node_name(name, name, path.stem), len(geometries), np.eye(4), None, paint))
-        geometries.append((points[used], own))
+        geometries.append((points[used], renumbered))
     return MeshSource(path.name, kind, geometries, instances)
 
 
-def _own(triangles: Ints) -> tuple[Ints, Ints]:
-    """The numbers of the points that these triangles use, and the triangles in terms of them."""
-    used, own = np.unique(triangles, return_inverse=True)
-    return used, own.reshape(-1, 3).astype(np.int32)
+def _used_points(triangles: Ints) -> tuple[Ints, Ints]:
+    """Indices (k,) of the points that triangles (m, 3) use, and the triangles as indices into those."""
+    used, renumbered = np.unique(triangles, return_inverse=True)
+    return used, renumbered.reshape(-1, 3).astype(np.int32)
 
 
 def _check_stl(path: Path, head: bytes, size: int) -> None:

@@ -1,4 +1,4 @@
-"""Triangle meshes as a source: from trimesh and manifold3d objects, and from plain arrays."""
+"""Triangle meshes as a source."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from hlr.source.transforms import determinant_sign, transform_points
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """One mesh standing somewhere: the number of its geometry and a (4, 4) transform.
+    """A placed mesh: the index of its geometry, and a (4, 4) transform.
 
-    mesh: what knows its colours: the trimesh object that it comes from, or `Painted`; None for bare arrays.
+    mesh: the source of its colours, a trimesh object or `FileColors`; None for plain arrays.
     """
 
     name: str
@@ -33,7 +33,7 @@ class Instance:
 
 
 class MeshSource:
-    """Parts that are triangles already: `mesh` hands them over whatever the deflection."""
+    """Parts that are triangles already. The deflection does not change them."""
 
     def __init__(
         self,
@@ -43,7 +43,7 @@ class MeshSource:
         instances: Sequence[Instance],
         frame: Frame | None = None,
     ) -> None:
-        """Clean each geometry, given as (points, triangles), once.
+        """Clean each geometry (points (n, 3), triangles (m, 3)).
 
         Raises:
             SourceError: no triangle is left, or the model is too large to calculate with.
@@ -109,7 +109,7 @@ class MeshSource:
         return bounding_box(np.concatenate(self.boxes()))
 
     def names(self) -> list[str]:
-        """Of every part."""
+        """Name of every part."""
         return [part.name for part in self._parts]
 
     def infos(self) -> list[PartInfo]:
@@ -129,11 +129,11 @@ class MeshSource:
         return chosen
 
     def transparent(self) -> bool:
-        """The file says something of colours."""
+        """Whether the file has colours: only then can a part be transparent."""
         return any(instance.mesh is not None for _, instance, _ in self._drawn)
 
     def appearances(self) -> dict[str, Appearance]:
-        """Materials, and colours of vertices and faces where there is no material."""
+        """Colours of materials; where there is no material, of vertices or faces."""
         from hlr.source.mesh.colors import mesh_appearance
 
         return {part.name: mesh_appearance(part, instance.mesh, mesh) for part, instance, mesh in self._drawn}
@@ -163,9 +163,9 @@ def unique_names(names: Sequence[str]) -> list[str]:
 
 def _part(name: str, mesh: CleanMesh, instance: Instance) -> PartMesh:
     points, triangles = mesh.points, mesh.triangles
-    moved_away = not (instance.transform == np.eye(4)).all()
-    if moved_away:
-        with np.errstate(over="ignore", invalid="ignore"):  # such a size is refused in a sentence
+    is_moved = not (instance.transform == np.eye(4)).all()
+    if is_moved:
+        with np.errstate(over="ignore", invalid="ignore"):  # too large a model is refused later, in one sentence
             points = transform_points(points, instance.transform)
             mirrored = determinant_sign(instance.transform) < 0
         if mirrored:
@@ -184,6 +184,6 @@ def _part(name: str, mesh: CleanMesh, instance: Instance) -> PartMesh:
         edge_index=none,
         edge_class=np.empty(0, dtype=np.uint8),
         brep=False,
-        joined=not moved_away,
+        joined=not is_moved,
         precision=mesh.precision * float(np.sqrt((instance.transform[:3, :3] ** 2).sum(axis=0).max())),
     )

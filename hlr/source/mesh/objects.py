@@ -34,7 +34,7 @@ MM_PER_UNIT = {
     "feet": 304.8,
     "ft": 304.8,
 }
-"""Millimetres per unit, by the names that files and trimesh use."""
+"""Millimetres per unit, by the names of units in files and trimesh."""
 
 
 Y_UP = ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
@@ -76,7 +76,7 @@ def open_trimesh(thing: Any) -> MeshSource:
 
 
 def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> MeshSource:
-    """Meshes of a trimesh object under its own names; `part` names a single nameless one.
+    """The meshes of a trimesh object, with its names; a nameless one is named `part`.
 
     Raises:
         SourceError: it holds no triangles.
@@ -105,7 +105,7 @@ def from_trimesh(name: str, kind: str, thing: Any, frame: Frame, part: str) -> M
 
 
 def _arrays(name: str, mesh: Any) -> tuple[Any, Any]:
-    """Vertices and faces; some readers of trimesh hand on whatever number of columns a file has."""
+    """Vertices (n, 3) and faces (m, 3). Some readers of trimesh pass on other numbers of columns: SourceError."""
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     if any(table.size and table.shape[1:] != (3,) for table in (vertices, faces)):
         raise SourceError(f"{name} holds vertices or faces that are not three numbers each: export it again.")
@@ -113,7 +113,10 @@ def _arrays(name: str, mesh: Any) -> tuple[Any, Any]:
 
 
 def _placement(graph: Any, node: str) -> tuple[Floats, str]:
-    """(4, 4) transform of a node, multiplied up to the base without BLAS: the same bits on every machine."""
+    """The (4, 4) transform of a node relative to the base, and its geometry's key.
+
+    Multiplied without BLAS: the same bits on every machine.
+    """
     from hlr.source.transforms import IDENTITY, compose, matrix4
 
     transforms = graph.transforms
@@ -132,7 +135,7 @@ def _placement(graph: Any, node: str) -> tuple[Floats, str]:
 
 
 def node_name(node: str, key: str, part: str) -> str:
-    """A readable name: trimesh invents some for nameless geometry."""
+    """The name of a node; `part` where trimesh made up one."""
     for text in (key, node):
         plain = str(text)
         if plain and not plain.startswith(("geometry_", "GLTF", "world")) and "." not in plain[-5:]:
@@ -141,7 +144,7 @@ def node_name(node: str, key: str, part: str) -> str:
 
 
 def _color(mesh: Any) -> Color | None:
-    """The one colour of a mesh's material; vertex and face colours are no colour of the part."""
+    """The colour of a mesh's material; colours of vertices and faces do not count."""
     material = getattr(getattr(mesh, "visual", None), "material", None)
     factor = getattr(material, "baseColorFactor", None)
     linear = factor is not None
@@ -153,11 +156,11 @@ def _color(mesh: Any) -> Color | None:
     if values.shape not in ((3,), (4,)):
         return None
     scaled = values.astype(np.float64) / (255.0 if values.dtype.kind in "ui" else 1.0)
-    red, green, blue = (_srgb(float(v)) if linear else round(float(v), 6) for v in scaled[:3])
+    red, green, blue = (_linear_to_srgb(float(v)) if linear else round(float(v), 6) for v in scaled[:3])
     return red, green, blue
 
 
-def _srgb(value: float) -> float:
+def _linear_to_srgb(value: float) -> float:
     value = min(max(value, 0.0), 1.0)
     return round(12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055, 6)
 

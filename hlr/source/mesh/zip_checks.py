@@ -1,4 +1,4 @@
-"""What a 3MF file, a ZIP archive of XML, may ask for before it is read."""
+"""Limits of 3MF files (ZIP archives of XML), checked before they are read."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from pathlib import Path
 from hlr.errors import SourceError
 
 MAX_EXPANDED = 4 << 30
-"""Bytes: no 3MF archive may unpack to more."""
+"""Bytes that a 3MF archive may unpack to."""
 
 MAX_RATIO = 300
-"""No archive of plain XML shrinks below this; a bomb does."""
+"""Ratio of compression that only a ZIP bomb exceeds; plain XML does not."""
 
 
 MAX_PLACED = 1_000_000
-"""No build has more bodies; components of components double with every level."""
+"""Bodies that a file may place: nested components can double them with every level."""
 
 _TAG = re.compile(rb"<(?:\w+:)?(object|component|item)\b([^>]*)>")
 _ID = re.compile(rb"\b(?:object)?id\s*=\s*[\"'](\d+)")
 
 
 def check_3mf_archive(path: Path, size: int) -> None:
-    """A 3MF archive of this size that can be unpacked, parsed and placed within reason.
+    """Check that a 3MF archive of `size` bytes can be unpacked, parsed and placed within the limits.
 
     Raises:
-        SourceError: it cannot.
+        SourceError: it cannot; the message says why.
     """
     try:
         with zipfile.ZipFile(path) as archive:
@@ -55,7 +55,7 @@ def check_3mf_archive(path: Path, size: int) -> None:
 
 
 def _prolog(start: bytes) -> str:
-    """What stands before the root element <model>; all of it where there is none."""
+    """The text before the root element <model>; all of it where there is none."""
     wide = start[:2] in (b"\xff\xfe", b"\xfe\xff")
     text = start.decode("utf-16" if wide else "latin-1", errors="replace").replace("\0", "")
     root = re.search(r"<(?:\w+:)?model[\s>]", text)
@@ -63,7 +63,7 @@ def _prolog(start: bytes) -> str:
 
 
 def _placed(text: bytes) -> float:
-    """How many bodies a model places, components of components counted out; infinite where one contains itself."""
+    """Number of bodies that a model places, nested components included; infinite where one contains itself."""
     if b"component" not in text:
         return 0.0
     inside: dict[bytes, list[bytes]] = {}
