@@ -74,8 +74,6 @@ def needing(package: str) -> list[str]:
     while more := {path for path, names in files.items() if names & wanted} - found:
         found |= more
         wanted |= {".".join(path.relative_to(HERE).with_suffix("").parts) for path in more}
-        # Some folders stand on the path themselves.
-        wanted |= {path.stem for path in more}
     return [str(path) for path in found]
 
 
