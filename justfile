@@ -2,7 +2,7 @@
 
 set positional-arguments
 
-# A profile of the kernel that is built in seconds after a change, and runs at half the speed of a release or better.
+# A profile of the kernel that is built in seconds after a change, and takes two to three times as long to run.
 export SETUPTOOLS_RUST_CARGO_PROFILE := "quick"
 
 # List the tasks
@@ -17,7 +17,7 @@ setup:
 build:
     python -W ignore -c 'from setuptools import setup; setup()' --quiet build_rust --inplace
 
-# Run the tests that are given, or all: just test tests/hard/test_sphere.py -k picture
+# Run the tests that are given, or all: just test tests/hard/test_terrain.py -k border
 test *arguments:
     pytest "$@"
 

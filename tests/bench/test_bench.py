@@ -101,6 +101,7 @@ def test_all_that_can_be_measured_can(who) -> None:
     assert ("svg" in who or "build123d" in who) == ("bytes" in result) and result.get("lines", 1) > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", loads.FILES)
 def test_mesh_files_of_all_kinds_hold_the_same_torus(name, tmp_path) -> None:
     from hlr.source import open_source

@@ -171,6 +171,7 @@ def test_a_file_that_cannot_be_drawn_is_not_kept(own_cache, tmp_path):
     assert not own_cache.exists()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", ["content", "name", "code", "bindings"])
 def test_what_was_read_from_something_else_or_by_something_else_is_not_used(change, tmp_path, own_cache, monkeypatch):
     part = tmp_path / "part.step"
@@ -355,6 +356,7 @@ def test_nothing_is_kept_and_all_is_drawn_where_the_folder_cannot_be_written(tmp
     assert not any("cache" in str(note) for note in drawing.notes)
 
 
+@pytest.mark.slow
 def test_how_a_model_was_come_by_is_no_part_of_the_drawing():
     once, again = hlr.draw(ASSEMBLY), hlr.draw(ASSEMBLY)
     assert once.reading != again.reading

@@ -84,6 +84,7 @@ def test_ctrl_c_ends_the_process_at_once_while_the_interpreter_is_held(child, tm
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_while_writing_leaves_no_partial_file(slow_writer, tmp_path, number):
@@ -104,6 +105,7 @@ def _deaf():
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT, signal.SIGTERM])
 
 
+@pytest.mark.slow
 @posix
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_inherited_deafness_does_not_matter(child, number):

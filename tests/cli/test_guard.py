@@ -72,6 +72,7 @@ def test_a_reader_that_crashes(patched, tmp_path, verb, body, reason):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.svg", "part.step"]
 
 
+@pytest.mark.slow
 def test_a_full_stack(patched):
     body = "f = ctypes.PYFUNCTYPE(None)(lambda: f()); sys.setrecursionlimit(10**9); f()"
     code, out, err = finished(patched(body))
@@ -86,6 +87,7 @@ def test_killed_for_want_of_memory(patched, tmp_path):
     assert (tmp_path / "a.svg").read_bytes() == OLD
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("body", ["import ctypes; ctypes.string_at(0)", "import os; os.abort()"])
 def test_a_script_that_crashes(tmp_path, body):
     (tmp_path / "part.py").write_text(body)
@@ -140,6 +142,7 @@ def test_exit_codes_and_output_pass_through(child, tmp_path):
     assert run("draw", "a.step", "--nonsense")[0] == 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
 def test_whatever_ends_the_command_ends_the_worker(child, number):
     process = child("draw", "forever.step", stderr=subprocess.PIPE)

@@ -15,6 +15,7 @@ def test_a_long_job_shows_its_stage_and_then_clears_it(on_terminal):
     assert re.fullmatch(r"a\.svg: iso, 1:1, 6 visible and 4 hidden lines, [\d.]+ s\r\n", summary)
 
 
+@pytest.mark.slow
 def test_a_short_job_shows_only_what_was_written(on_terminal):
     shown, code = on_terminal("draw", "a.step", "-o", "a.svg")
     assert code == 0

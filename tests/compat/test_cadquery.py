@@ -60,6 +60,7 @@ def whole(model):
     return cq.Compound.makeCompound(model.vals())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("opts", OPTIONS, ids=str)
 def test_the_frame_is_that_of_cadquery(opts):
     ours, theirs = facts(getSVG(plate().val(), opts)), facts(original(plate().val(), opts))
@@ -207,6 +208,7 @@ def test_other_types_are_left_to_cadquery(tmp_path):
         export(plate(), str(tmp_path / "a.dwg"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "opts, error, words",
     [

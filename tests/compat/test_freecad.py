@@ -20,6 +20,7 @@ def whole(model):
     return cq.Compound.makeCompound(model.vals()).wrapped
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("direction", GENERAL)
 @pytest.mark.parametrize("name", MODELS)
 def test_the_same_lines_in_the_same_place(name, direction):

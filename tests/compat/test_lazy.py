@@ -6,6 +6,7 @@ import sys
 import pytest
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cadquery", "build123d", "freecad"])
 def test_importing_a_drop_in_loads_no_neighbour(name):
     program = f"import sys, hlr.compat.{name}; print(*sys.modules)"

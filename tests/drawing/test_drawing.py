@@ -33,6 +33,7 @@ MAKERS = [
 """Of everything that holds an array."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("make", MAKERS)
 def test_equal_values_are_equal_and_have_one_hash(make):
     one, other = make(), make()

@@ -28,6 +28,7 @@ def brep():
     return cq.Workplane().box(20, 30, 40)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["mesh", "brep"])
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("tilt", TILTS)

@@ -24,6 +24,7 @@ def book(count, opening=2 * np.pi, turned=False):
     return merged(*(turned_over(p) if turned and k % 2 else p for k, p in enumerate(pages)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 7, 16])
 @pytest.mark.parametrize("view", ["iso", (1, 0.2, 0), (-1, 0.5, -2), "top"])
 @pytest.mark.parametrize("turned", [False, True])

@@ -43,6 +43,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("name", BROKEN)
 def test_what_lies_inside_is_seen_only_through_what_is_open(picture, name, view):

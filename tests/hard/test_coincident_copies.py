@@ -19,6 +19,7 @@ def cube_alone(drawing):
     return by_oracle(drawing, *CUBE, BOX_EDGES)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 3, 50])
 @pytest.mark.parametrize("view", ["iso", "front", (2, -1, 0.5)])
 def test_copies_in_one_place_are_drawn_once(picture, count, view):

@@ -24,6 +24,7 @@ def sides(corners):
     return [(corners[i], corners[i - 1]) for i in range(len(corners))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 @pytest.mark.parametrize("mirror", MIRRORS)
 @pytest.mark.parametrize("turn", TURNS)

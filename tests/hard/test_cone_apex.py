@@ -27,6 +27,7 @@ def tilted(degrees):
     return turn((0, 0, 1), (0, 1, 0), degrees)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 1e-7, 5, 20, HALF - 1, HALF, 180, 180 - 20])
 def test_within_its_angle_only_the_rim(degrees, picture):
     drawing = hlr.draw(cone(), tilted(degrees))

@@ -44,6 +44,7 @@ VIEWS = ["iso", (2, -1, 0.5), (-1, -3, -1), "front", "top"]
 EDGES = [*BOX_EDGES, *((i + 8, j + 8) for i, j in BOX_EDGES)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("name", CONTACTS)

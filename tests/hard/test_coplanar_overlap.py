@@ -33,6 +33,7 @@ def seen(how, turn, order, toward):
     agrees(drawing, expect(drawing, [s for f in faces for s in turned(turn, f)]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("order", [1, -1])

@@ -35,6 +35,7 @@ def plate(degrees: float) -> cq.Shape:
     return made.val()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [30, 60])
 def test_by_rays(degrees):
     shape = plate(degrees)
@@ -48,6 +49,7 @@ def heights(points, triangles):
     return np.linalg.norm(np.cross(q - p, r - p), axis=1) / np.linalg.norm(sides, axis=2).max(axis=0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [30, 45, 60])
 def test_there_are_no_needles(degrees):
     (part,) = open_source(plate(degrees)).mesh(0.05, 0.3).parts
@@ -91,6 +93,7 @@ def written(kind, points, triangles, folder):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["arrays", "stl", "obj"])
 @pytest.mark.parametrize("degrees", [30, 60])
 def test_a_mesh_with_needles_by_rays(degrees, kind, tmp_path):
@@ -105,6 +108,7 @@ def test_a_mesh_with_needles_by_rays(degrees, kind, tmp_path):
     assert heights(part.points, part.triangles).min() > 1e-3
 
 
+@pytest.mark.slow
 def test_without_the_turning_edges_are_lost(monkeypatch):
     monkeypatch.setattr(_kernel, "without_needles", lambda *_: None)
     shape = plate(60)

@@ -43,6 +43,7 @@ def test_along_the_pipe(picture):
     picture(drawing, "pipe")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 1e-9, -1e-7, 1e-5, 2e-4])
 @pytest.mark.parametrize("seam", [False, True])
 def test_a_cylinder_is_one_circle_on_its_axis_and_hardly_off_it(degrees, seam):

@@ -42,6 +42,7 @@ def test_a_box_by_hand_by_the_oracle_and_by_rays(drawing):
     assert (judged, wrong) == (60, 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective(eye=(60, -20, 40))])
 def test_every_change_is_noticed(perspective):
     drawing = hlr.draw(MESH, (3, -1, 2), perspective=perspective)

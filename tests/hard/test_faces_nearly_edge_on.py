@@ -27,6 +27,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "accuracy", "view"), CASES)
 def test_what_is_seen_is_drawn_and_nothing_else(name, accuracy, view, picture):
     shape = sheets.SHEETS[name]()

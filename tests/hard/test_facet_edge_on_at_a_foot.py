@@ -66,6 +66,7 @@ def test_its_outline_is_whole(tilt, view):
     assert not judged.row.bad, [str(judged.row), *judged.why()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", "iso-sw", (1, 2, 3)])
 @pytest.mark.parametrize("lid", [True, False])
 @pytest.mark.parametrize("tilt", TILTS)

@@ -19,6 +19,7 @@ def part():
     return cq.Workplane().box(1, 1, 0.5).faces(">Z").workplane().hole(0.4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["front", "top", "iso", (1, -2, 0.7)])
 @pytest.mark.parametrize("place", [FAR, (1e6, 1e6, 1e6), (0, 0, -3e6)])
 def test_the_same_drawing_as_at_the_origin(view, place):

@@ -15,6 +15,7 @@ import hlr
 MODEL = Path(__file__).parents[2] / "examples" / "models" / "nist_ftc_06_asme1_ap242-e2.stp"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("accuracy", [0.1, 0.2])
 def test_no_outline_runs_from_hole_to_hole(accuracy):
     pytest.importorskip("OCP")

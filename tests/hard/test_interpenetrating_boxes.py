@@ -36,6 +36,7 @@ def mesh(*boxes):
 KINDS = pytest.mark.parametrize("kind", [mesh, brep])
 
 
+@pytest.mark.slow
 @KINDS
 @pytest.mark.parametrize("other", [BAR, POST])
 @pytest.mark.parametrize("view", ["iso", "iso-nw", "front", "top", "right", (3, 2, -1), (3, -2, 2)])

@@ -28,6 +28,7 @@ def cone(radii):
     return np.concatenate([[(0, 0, HEIGHT)], rim, [(0, 0, 0)]]), np.concatenate([sides, base])
 
 
+@pytest.mark.slow
 def test_from_the_side_a_cone_is_a_triangle(picture):
     points, triangles = cone(np.full(COUNT, RADIUS))
     drawing = hlr.draw((points, triangles), "front")

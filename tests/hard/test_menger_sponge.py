@@ -55,6 +55,7 @@ def test_there_are_as_many_faces_as_the_formula_says(level, faces):
     assert len(sponge(level)[1]) == 2 * faces == 2 * (2 * 20**level + 4 * 8**level)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [1, 2, 3])
 @pytest.mark.parametrize("view", ["front", "top"])
 def test_along_an_axis_it_is_a_carpet_and_nothing_shows_through_the_holes(picture, level, view):
@@ -70,6 +71,7 @@ def test_along_an_axis_it_is_a_carpet_and_nothing_shows_through_the_holes(pictur
         picture(drawing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [1, 2])
 @pytest.mark.parametrize("view", ["iso", (3, -1, 2)])
 def test_obliquely_every_edge_is_there_and_rays_agree(picture, level, view):

@@ -29,6 +29,7 @@ def strip(n=240, m=9, twists=TWISTS):
     return points, cells(number)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("twists", [0, 1, 2, 3])
 @pytest.mark.parametrize("view", ["iso", "front", (1, 3, -1)])
 def test_rays_agree_and_the_border_is_all_there(picture, twists, view):

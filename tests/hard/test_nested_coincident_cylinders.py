@@ -69,6 +69,7 @@ def test_a_tube_around_a_cylinder_of_its_own_bore(picture):
     picture(drawing, "tube")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", (0.2, -1, 0.6)])
 def test_a_cylinder_inside_a_longer_one_shows_its_rims_in_front(view):
     """They lie in the surface of the other: like coplanar faces, neither hides the other's lines."""

@@ -26,6 +26,7 @@ def radius_seen(radius):
 NOTHING = np.zeros((0, 2, 2))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 def test_through_the_hole_the_first_is_seen_and_hides_the_second(picture, how):
     model = how(sphere(20, N, M, HOLE), sphere(10, N, M), sphere(5, N, M))
@@ -35,6 +36,7 @@ def test_through_the_hole_the_first_is_seen_and_hides_the_second(picture, how):
     picture(drawing)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 def test_from_below_nothing_is_seen_of_it(how):
     model = how(sphere(20, N, M, HOLE), sphere(10, N, M), sphere(5, N, M))
@@ -42,6 +44,7 @@ def test_from_below_nothing_is_seen_of_it(how):
     agrees(drawing, Ink(radius_seen(20), np.concatenate([radius_seen(r) for r in (20 * np.cos(HOLE), 10, 5)])))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 def test_closed_spheres_hide_all_that_they_hold(how):
     drawing = hlr.draw(how(*(sphere(r, N, M) for r in (20, 15, 10, 5))), "top")

@@ -30,6 +30,7 @@ def stack_lines(shrink):
     return merged(*stack(np.eye(3), shrink))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", [merged, as_parts])
 @pytest.mark.parametrize("turn", TURNS)
 @pytest.mark.parametrize("toward", TOWARDS)

@@ -51,6 +51,7 @@ def test_the_sound_part() -> None:
     assert ink(drawing) == pytest.approx(2 * (100 + 60) + 2 * 24 + 16 * np.pi, abs=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", [(0,), (1,), (0, 1), (0, 1, 2, 3)])
 @pytest.mark.parametrize("shift", [(0.0, 3.4), (0.0, -3.4)])
 def test_lines_follow_the_curves_in_space(shift: tuple[float, float], which: tuple[int, ...]) -> None:

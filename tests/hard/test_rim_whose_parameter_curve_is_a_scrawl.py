@@ -44,6 +44,7 @@ def test_it_becomes_a_closed_mesh_on_its_surface():
     assert np.abs(np.hypot(middle[:, 0], middle[:, 1]) - 3).max() < 0.03
 
 
+@pytest.mark.slow
 def test_what_was_rescued_is_counted_and_told():
     sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3)), hlr.draw(scrawled_cylinder()[0])
     assert [drawing.counters[name] for name in ("rescued_faces", "lost_faces")] == [1, 0]
@@ -63,6 +64,7 @@ def test_it_is_a_remark_and_no_warning():
     assert hlr.draw(scrawled_cylinder()[0], strict=True).notes == (NOTE,)
 
 
+@pytest.mark.slow
 def test_the_caller_s_shape_stays_as_it_is():
     from OCP.BRep import BRep_Tool
     from OCP.BRepAdaptor import BRepAdaptor_Curve2d

@@ -46,6 +46,7 @@ def mesh() -> tuple[np.ndarray, np.ndarray]:
     return points, number.ravel()[np.concatenate([a, b + len(one)])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", "iso-sw", "iso-ne", "iso-nw", (0.3, -0.8, 0.6)])
 def test_the_rim_is_seen_where_it_lies_on_the_sleeve(view: object, picture: Callable[[Drawing], None]) -> None:
     points, triangles = mesh()

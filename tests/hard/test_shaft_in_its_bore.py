@@ -30,6 +30,7 @@ NEAR = 20
 radius beside the generator."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turned", [0, 17.3])
 @pytest.mark.parametrize("degrees", [0, 35, 70])
 def test_by_hand(turned, degrees, picture):

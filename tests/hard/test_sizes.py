@@ -18,6 +18,7 @@ SHAPE = merged(box((-1, -1, -1), (1, 1, 1)), box((-0.5, -3, -0.25), (0.5, 0, 0.5
 FIT = (60.0, 60.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1e-30, 1e-12, 1e-9, 1e-6, 1.0, 1e6, 1e9, 1e12, 1e30])
 @pytest.mark.parametrize("view", ["iso", (1, -2, 0.5)])
 def test_any_size_gives_the_same_drawing(picture, size, view):

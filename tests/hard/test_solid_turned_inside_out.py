@@ -39,6 +39,7 @@ def one_face_turned():
     return cq.Shape.cast(solid)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("broken", [inverted, one_face_turned])
 def test_it_is_drawn_like_the_sound_one(view, broken, picture):
@@ -48,6 +49,7 @@ def test_it_is_drawn_like_the_sound_one(view, broken, picture):
         picture(drawing, twice=1.0)
 
 
+@pytest.mark.slow
 def test_by_rays():
     for drawing in faultless(inverted(), model(), VIEWS):
         assert drawing.lines

@@ -23,6 +23,7 @@ def great_circle(drawing):
     return expect(drawing, arc(CENTRE, u, v))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 def test_only_a_great_circle(picture, view):
     drawing = hlr.draw(cq.Workplane().sphere(RADIUS).translate(CENTRE), view)

@@ -40,6 +40,7 @@ def test_from_the_side_the_lemon_is_hidden():
     like(drawing, expect(drawing, seen, unseen), ends=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", (0.3, -1, 0.2), (0.1, 0.2, -1)])
 def test_by_rays(view):
     """What is missing is not asked: the referee's mesh has sharp edges about its poles, which the solid has not."""

@@ -66,6 +66,7 @@ def ridge(drawing, size=1.0):
     return sorted(found, key=lambda row: row[1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1.0, 0.01, 1000.0])
 def test_sharp_between_places_where_it_is_tangent(size, picture):
     drawing = hlr.draw(sheet(WAVY, size), "iso", fit=(150, 150))

@@ -92,6 +92,7 @@ def test_the_cut_is_there_in_the_model_too():
         assert np.abs(flat - line.points).max() < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["iso", (1, 2, 0.7), (-0.4, -1, 0.2), (1, 0.05, 0.02)])
 def test_nothing_behind_the_face_shows(view):
     model = compound(solid(), wall(), cq.Solid.makeBox(30, 10, 8, cq.Vector(40, 30, -8)))

@@ -16,6 +16,7 @@ from support.expected import expect
 MAJOR, MINOR = 20.0, 5.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 1e-9, 17, 45, 90])
 def test_a_stadium_and_two_hidden_half_circles(degrees, picture):
     """Turned about its axis too: the seams lie elsewhere, the drawing is the same."""

@@ -22,6 +22,7 @@ def half(side, start, end):
     return circle(MINOR, M // 2, start, end) + [side * MAJOR, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 1e-12, 1e-9, 1e-6])
 def test_edge_on_it_is_a_stadium_with_two_hidden_half_circles(picture, turn):
     drawing = hlr.draw(torus(MAJOR, MINOR, N, M), (turn, -1, turn))

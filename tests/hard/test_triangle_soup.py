@@ -17,6 +17,7 @@ from support.referee import reference
 SOUP = Path(__file__).parents[1] / "data" / "soup.stl"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["front", "iso", (0.36, 0.86, 0.35)])
 def test_each_edge_by_the_oracle(view):
     """How much is seen: where an edge pierces a triangle at a small angle, contact tolerance moves the place."""
@@ -32,6 +33,7 @@ def test_each_edge_by_the_oracle(view):
     assert judged > 1000 and not wrong
 
 
+@pytest.mark.slow
 def test_picture(picture):
     drawing = hlr.draw(SOUP, "iso", fit=(60, 60), hidden=False, accuracy=0.1)
     picture(drawing, twice=1.0)

@@ -51,6 +51,7 @@ def test_two_half_walls_meet_in_one_line():
     like(drawing, expect(drawing, seen, [*ring(10, 0, 90, 270), ((-10, 0, 0), (-10, 0, cut))]), ends=0.05)
 
 
+@pytest.mark.slow
 def test_by_rays():
     bracket = cq.Workplane().box(40, 30, 6).faces(">Z").workplane().circle(8).extrude(12).edges("|Z").fillet(4).val()
     for drawing in faultless(apart(bracket), bracket, ["iso", "front", (0.36, 0.86, 0.35)]):

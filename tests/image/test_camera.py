@@ -62,6 +62,7 @@ numbers = st.floats(-1e6, 1e6).filter(lambda x: x == 0 or abs(x) > 1e-6)
 directions = st.tuples(numbers, numbers, numbers).filter(any)
 
 
+@pytest.mark.slow
 @given(directions, st.sampled_from([Frame(), Y_UP]))
 def test_any_direction_gives_a_right_handed_frame(direction, frame):
     found = camera(direction, frame)

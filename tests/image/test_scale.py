@@ -11,6 +11,7 @@ from hlr.drawing.notes import Note
 from support.models import box, parts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["front", "iso", (3, 1, -2)])
 @pytest.mark.parametrize("fit", [(100.0, 100.0), (200.0, 50.0), (10.0, 300.0)])
 @pytest.mark.parametrize("kind", ["box", "ball", "perspective"])

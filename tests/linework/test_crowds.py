@@ -59,6 +59,7 @@ def edges_of(boxes):
                 yield corner, corner + np.eye(3)[k] * size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["brep", "mesh"])
 @pytest.mark.parametrize("seed", range(6))
 def test_boxes_on_a_lattice(kind, seed):

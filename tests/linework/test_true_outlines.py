@@ -121,6 +121,7 @@ def count(drawing):
     return sum(kinds), len(kinds) - sum(kinds)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("camera", CAMERAS, ids=["parallel", "perspective"])
 def test_spheres_have_one_outline_and_cylinders_two(camera):
     sphere, cylinder = cq.Workplane().sphere(10), cq.Solid.makeCylinder(5, 20)

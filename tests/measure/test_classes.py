@@ -49,6 +49,7 @@ def moved(line, by):
     return replace(line, points=line.points + shift, curve=curve)
 
 
+@pytest.mark.slow
 def test_what_is_drawn_keeps_its_promise(model, drawing, finer):
     reached = measured(model, drawing, finer=finer)
     assert reached.kept()
@@ -61,6 +62,7 @@ def test_what_is_drawn_keeps_its_promise(model, drawing, finer):
     assert reached.meshes.worst is None and "mesh" in reached.meshes.why
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind, name", [("sharp", "edges"), ("outline", "outlines")])
 def test_a_line_beside_its_curve_is_found(model, drawing, finer, kind, name):
     i = next(i for i, x in enumerate(drawing.lines) if x.kind == kind and x.curve is not None)
@@ -80,6 +82,7 @@ def test_a_lost_line_is_found(model, drawing, finer):
     assert reached.lost.worst == pytest.approx(length, abs=4.0 * ACCURACY)
 
 
+@pytest.mark.slow
 def test_a_wrong_label_is_found(model, drawing, finer):
     straight = [x for x in drawing.lines if x.curve is None and x.visible]
     wrong = max(straight, key=lambda x: np.hypot(*(x.points[-1] - x.points[0])))
@@ -153,6 +156,7 @@ def test_what_is_written_is_what_is_drawn(drawing, cubic):
             assert np.abs(points[[0, -1]] - line.points[[0, -1]]).max() < 0.2 * ACCURACY
 
 
+@pytest.mark.slow
 def test_a_triangle_seen_edge_on_may_fold_at_any_of_its_edges():
     """Flanks of these gears are seen edge-on: rounding says how they are turned, and not the same in the drawing."""
     gears = open_source(Path(__file__).parents[1] / "data" / "cube_gears.3mf")
@@ -161,6 +165,7 @@ def test_a_triangle_seen_edge_on_may_fold_at_any_of_its_edges():
     assert len(off) > 2000 and off.max() <= 0.05
 
 
+@pytest.mark.slow
 def test_intersections_are_measured_where_the_surfaces_cross():
     import cadquery as cq
 

@@ -12,6 +12,7 @@ from hlr.source import open_source
 DATA = Path(__file__).parents[1] / "data"
 
 
+@pytest.mark.slow
 def test_an_assembly_of_a_metre_at_1_to_10_keeps_it():
     model = open_source(frame())
     drawing = hlr.draw(model, "iso", scale=0.1)
@@ -34,10 +35,12 @@ def test_a_screw_at_5_to_1_keeps_it(screw):
     assert screw.short.worst >= screw.accuracy
 
 
+@pytest.mark.slow
 def test_the_changes_of_a_screw_keep_it(screw):
     assert screw.changes.worst <= screw.accuracy
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("accuracy", [0.5, 0.1, 0.01])
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective()])
 def test_every_accuracy_is_kept(accuracy, perspective):

@@ -42,12 +42,14 @@ def test_a_right_drawing_passes(name: str, tmp_path: Path) -> None:
         assert each.row.asked > 300 and not each.row.bad, [str(each.row), *each.why()]
 
 
+@pytest.mark.slow
 def test_a_drawing_of_nothing_is_refused(tmp_path: Path) -> None:
     found = judged(models.save("clash", tmp_path), lambda drawings: [replace(d, lines=[]) for d in drawings])
     for each in found:
         assert each.row.faults and each.row.missing == each.row.asked > 300
 
 
+@pytest.mark.slow
 def test_a_drawing_of_everything_as_visible_is_refused(tmp_path: Path) -> None:
     def all_visible(drawings: Sequence[Drawing]) -> list[Drawing]:
         return [replace(d, lines=[replace(line, visible=True) for line in d.lines]) for d in drawings]
@@ -72,6 +74,7 @@ def longest(document: dict[str, Any], **fits: Any) -> dict[str, Any]:
     return max(lines, key=lambda line: float(np.linalg.norm(np.ptp(line["points"], axis=0))))  # type: ignore[no-any-return]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["sharp", "outline"])
 def test_a_line_that_is_not_drawn_is_missed(bracket: Any, kind: str) -> None:
     _, judging, document = bracket
@@ -111,6 +114,7 @@ def test_an_edge_off_its_curve_is_noticed(bracket: Any, accuracies: float) -> No
         assert found.row.bad and any("off its curve" in text for text in found.why())
 
 
+@pytest.mark.slow
 def test_a_face_that_is_lost_is_noticed_both_ways(bracket: Any) -> None:
     path, _, document = bracket
     whole, drawing = reference.load(path, QUICK), exchange.parse(document)

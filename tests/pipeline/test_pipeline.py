@@ -39,6 +39,7 @@ CAMERAS = {
 PARALLEL = [(model, camera) for model in MODELS for camera in ("parallel", "half")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "camera"), [*PARALLEL, ("ball", "perspective"), ("ball", "eye"), ("mesh", "eye")])
 def test_points_on_paper_are_points_of_the_model(model, camera):
     views = VIEWS[:1] if camera == "eye" else VIEWS

@@ -157,6 +157,7 @@ HEAVY = {
 COMMAND = "from hlr.cli import main; main()"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [["--help"], ["--version"], ["draw", "--help"], ["preview", "--help"], ["info", "--help"], ["study", "--help"]],
@@ -262,6 +263,7 @@ def test_no_import_leads_upward():
     assert not wrong, "\n".join(wrong)
 
 
+@pytest.mark.slow
 def test_no_modules_import_one_another():
     assert not circles(ROOT)
 

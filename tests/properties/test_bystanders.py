@@ -62,6 +62,7 @@ def own(drawing, count, visible=None):
 solids = st.sampled_from(["box", "pentagon", "cylinder", "tetrahedron"])
 
 
+@pytest.mark.slow
 @few
 @given(standing_apart(("box", "wedge", "pentagon", "cylinder")), views, solids)
 def test_behind_parts_that_stand_apart_the_visible_lines_are_the_same(several, view, kind):
@@ -79,12 +80,14 @@ def expect_identical_before(model, view, accuracy, kind):
         assert (one.points == other.points).all() and (one.points3 == other.points3).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [models.SCREW, models.PLATE])
 @pytest.mark.parametrize("view", ["front", "iso"])
 def test_behind_a_model_of_one_part(name, view):
     expect_identical_before(models.model(name), view, models.accuracy(models.model(name)), "cylinder")
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), st.booleans(), views, st.sampled_from(["behind", "beside"]), solids)
 def test_of_any_assembly_the_visible_ink_stays(several, brep, view, where, kind):

@@ -97,6 +97,7 @@ def test_an_assembly_moved_by_a_million_times_its_size(pieces, brep, view, offse
     expect_shifted(model, view, np.array(offset) * model.diagonal, ACCURACY, **PLAIN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.SOLIDS)
 def test_a_model_moved_by_a_million_times_its_size(name):
     model = models.model(name)
@@ -180,6 +181,7 @@ def expect_scaled(model, view, factor, accuracy, **options):
     expect_same_ink(before, after)
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views, st.floats(1e-4, 1e4))
 def test_an_assembly_scaled_by_any_factor(pieces, brep, view, factor):
@@ -202,12 +204,14 @@ def expect_mirrored(model, view, accuracy, **options):
     expect_same_ink(before, after, back=lambda p: p * [-1.0, 1.0])
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), kinds, views)
 def test_an_assembly_in_a_mirror(pieces, brep, view):
     expect_mirrored(assembly(pieces, brep), view, ACCURACY, **PLAIN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.SOLIDS)
 @pytest.mark.parametrize("view", ["front", "iso"])
 def test_a_model_in_a_mirror(name, view):

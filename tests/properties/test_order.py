@@ -163,6 +163,7 @@ def test_points_of_an_assembly(several, brep, view, rng):
     expect_any_order_of_points(assembly(several, brep), view, ACCURACY, rng)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.SOLIDS)
 def test_points_of_a_model(name):
     model = models.model(name)

@@ -33,6 +33,7 @@ def expect_one(drawings):
     assert len({tuple(sorted(drawing.counters.items())) for drawing in drawings}) == 1
 
 
+@pytest.mark.slow
 @examples(15)
 @given(assemblies(), st.booleans(), views, st.sampled_from([None, CAMERA]))
 def test_threads_and_an_assembly(pieces, brep, view, camera):

@@ -40,6 +40,7 @@ def expect_stable(model, view, accuracy, rng, jiggle=JIGGLE, **options):
     assert found.share <= SHARE, str(found)
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(upright), st.booleans(), views, generators)
 def test_solids_on_a_lattice(pieces, brep, view, rng):
@@ -47,12 +48,14 @@ def test_solids_on_a_lattice(pieces, brep, view, rng):
     expect_stable(assembly(pieces, brep), view, ACCURACY, rng, intersections=False)
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(), st.booleans(), views, generators)
 def test_turned_solids(pieces, brep, view, rng):
     expect_stable(assembly(pieces, brep), view, ACCURACY, rng, intersections=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.SOLIDS)
 @pytest.mark.parametrize("view", ["iso", (3, -1, 2)])
 def test_a_model(name, view):
@@ -60,6 +63,7 @@ def test_a_model(name, view):
     expect_stable(model, view, models.accuracy(model), np.random.default_rng(1))
 
 
+@pytest.mark.slow
 @few
 @given(assemblies(upright), st.booleans(), views, st.tuples(*[st.floats(-1, 1)] * 3))
 def test_a_camera_turned_by_a_hair(pieces, brep, view, hair):

@@ -30,6 +30,7 @@ few = examples(20)
 generators = st.integers(0, 10**6).map(np.random.default_rng)
 
 
+@pytest.mark.slow
 @few
 @given(standing_apart(["box"]), generators)
 def test_boxes_on_a_lattice_give_the_same_lines(several, rng):
@@ -72,6 +73,7 @@ def test_intersection_lines_of_parts_that_cross_deeply():
     expect_same_ink(*(draw(m, "iso", ACCURACY) for m in (model, changes.split(model, np.random.default_rng(0)))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", models.SOLIDS)
 @pytest.mark.parametrize("view", ["front", "iso"])
 def test_a_model(name, view):

@@ -92,6 +92,7 @@ def test_every_effect_of_the_scene_has_its_scenes():
     assert set(SCENES) == {effect.name for effect in drawing_effects() if effect.origin == SCENE}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_scene_that_calls_for_it_and_one_that_does_not(name):
     (calls, its), (not_, other) = SCENES[name]
@@ -114,6 +115,7 @@ ASKED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ASKED)
 def test_what_is_asked_for_is_on_and_nothing_else(name):
     model = cq.Workplane().cylinder(20, 8).faces(">Z").edges().fillet(2).union(cq.Workplane().box(4, 40, 4))
@@ -174,6 +176,7 @@ def test_forcing_changes_nothing_of_real_models(name, camera):
     expect_neutral(lambda: DATA / name, [(1, -2, 1.5)], fit=(180, 120), **CAMERAS[camera])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", ["front", "top", "iso", (1.0, 0.3, 0.2)])
 @pytest.mark.parametrize(
     "perspective", [None, Perspective(), Perspective(eye=(60, -80, 50), target=(1, 2, 3), fov=20.0)]

@@ -184,6 +184,7 @@ def test_a_thin_cylinder_enters_and_leaves_a_thick_one(deflection):
         assert (sign * z > 5).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deflection", DEFLECTIONS)
 @pytest.mark.parametrize("name", TOUCHING)
 def test_what_touches_does_not_cross(name, deflection):

@@ -68,6 +68,7 @@ def test_parts_in_the_other_order(accuracy):
     assert not differences(ink(one), ink(other), accuracy)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("accuracy", [0.5, 0.05, 0.01])
 @pytest.mark.parametrize("name", ["shaft in its bore, turned", "stack", "oblique stack", "coplanar", "ball on a plate"])
 def test_what_touches_has_none(name, accuracy):

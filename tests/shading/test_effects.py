@@ -133,6 +133,7 @@ def test_a_post_casts_a_shadow_where_the_light_says():
     assert (darker[:80, :80] == 0).all()
 
 
+@pytest.mark.slow
 def test_glass_casts_the_shadow_that_its_opacity_says():
     def floor_under(*opacities):
         panes = [colored((wall(0)[0][:, [0, 2, 1]] * (1, 1, 0) + (0, 0, 2 + k), wall(0)[1]), (90, 90, 200, o))

@@ -102,6 +102,7 @@ def test_parts_keep_their_colours(tmp_path):
     assert len(drawing.fill.part) == 6
 
 
+@pytest.mark.slow
 def test_perspective_and_what_stands_behind_the_eye():
     camera = hlr.Perspective(eye=(60, -50, 40), target=(10, 10, 10))
     assert len(cube(perspective=camera).fill.part) == 3

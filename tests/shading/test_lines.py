@@ -7,6 +7,7 @@ import pytest
 import hlr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective(), hlr.Perspective(eye=(60, -80, 50), fov=30)])
 def test_outlines_lie_on_the_border_of_what_is_covered(perspective):
     part = cq.Workplane().circle(10).extrude(6).union(cq.Workplane("XY", origin=(0, 0, 6)).sphere(6))
@@ -45,6 +46,7 @@ def boxed(opacity):
     return assembly
 
 
+@pytest.mark.slow
 def test_lines_behind_glass_are_seen_through_it_and_lighter():
     """The cube's square from the front, and of the case's own far side nothing that its near side does not show."""
 

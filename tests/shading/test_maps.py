@@ -75,6 +75,7 @@ def test_what_a_picture_shows_is_kept_in_it(picture):
     assert np.array_equal(np.asarray(image), picture.pixels[:, :, :3])
 
 
+@pytest.mark.slow
 def test_the_same_bytes_every_time_and_with_any_number_of_threads(tmp_path):
     part = cq.Workplane().box(10, 10, 10).edges().fillet(2).faces(">Z").workplane().hole(3)
     options = dict(size=(200, 150), edges=True, shadows=True, occlusion=True, specular=True, depth=True, ids=True)

@@ -47,6 +47,7 @@ def _inner(picture: np.ndarray) -> tuple[int, int]:
     return picture.shape[0] - AROUND + 1, picture.shape[1] - AROUND + 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS, ids=str)
 @pytest.mark.parametrize("name", MODELS)
 def test_no_pixel_is_alone_in_the_shade(name: str, view: object) -> None:

@@ -49,6 +49,7 @@ def ball():
 SHAPES = {"plate": plate, "sleeve": sleeve, "ball": ball}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("turned", [{0}, {1}, {0, 1}], ids=["outline", "hole", "both"])
 @pytest.mark.parametrize("name", SHAPES)
 def test_it_is_drawn_as_it_is_meant(name, turned):

@@ -22,6 +22,7 @@ def dump():
     return binary_dump([terrain(40).wrapped])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals as in POSIX")
 @pytest.mark.parametrize("seconds", [0.1, 0.5, 1.5])
 def test_an_interrupt_ends_the_work_within_the_face(dump, seconds, tmp_path):

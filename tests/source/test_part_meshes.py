@@ -57,6 +57,7 @@ def test_nobody_can_write_to_what_lies_in_the_kernel():
     assert np.array_equal(points, before), "an array keeps what it lies in"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "change"),
     [

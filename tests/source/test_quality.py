@@ -29,6 +29,7 @@ FACES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("deflection", [0.3, 0.02, 0.003])
 @pytest.mark.parametrize("name", FACES)
 def test_the_chord_error_is_kept(name, deflection):

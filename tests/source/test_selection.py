@@ -78,6 +78,7 @@ def test_what_is_left_is_drawn_as_if_it_were_alone(kind):
         assert any(line.curve is not None for line in nut.lines)
 
 
+@pytest.mark.slow
 def test_it_holds_for_every_kind_of_picture():
     scene = mesh_scene()
     assert [part.name for part in hlr.preview(scene, size=(20, 20), hide=("nut",)).parts] == ["bolt", "plate"]

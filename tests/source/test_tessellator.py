@@ -96,6 +96,7 @@ def test_a_seam_that_folds_is_a_crease():
     assert EdgeClass.SHARP in fold
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["M6-1x12-countersunk-screw.step", "as1-oc-214.stp"])
 def test_indices_are_those_of_the_index_maps(name, data):
     from OCP.BRepAdaptor import BRepAdaptor_Curve
@@ -129,6 +130,7 @@ def test_indices_are_those_of_the_index_maps(name, data):
                 assert np.allclose(point, (exact_point.X(), exact_point.Y(), exact_point.Z()), atol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["as1-oc-214.stp", "M6-1x12-countersunk-screw.step", "nist_ctc_01_asme1_ap242-e1.stp"])
 def test_real_solids_are_closed(name, data, gaps):
     source = open_source(data / name)
@@ -164,6 +166,7 @@ def same(a: PartMesh, b: PartMesh) -> bool:
     return equal(a, b, own) and equal(a.surface_parameters, b.surface_parameters, on)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sinks", "fillets", "sphere", "revolved", "union"])
 def test_triangles_of_another_mesher_are_joined_to_the_edges(name):
     """As they are where ours fails: here for every face of a sound solid, one by one and all."""

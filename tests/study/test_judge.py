@@ -67,6 +67,7 @@ def test_an_empty_drawing_misses_everything():
     assert found["missing"] == pytest.approx(150) and found["wrong"] == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chord", [0.1, 1e-4])
 def test_chords_stay_as_near_as_asked(chord):
     arc = Arc(np.zeros(2), np.array([[30.0, 0.0], [0.0, 20.0]]), np.array([0.2, 4.0]))

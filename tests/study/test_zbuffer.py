@@ -60,6 +60,7 @@ def test_an_edge_ends_behind_a_box_within_a_pixel(pixels):
     assert not any(4 + pixel < x < 6 - pixel for x in ends)
 
 
+@pytest.mark.slow
 def test_detail_below_a_pixel_is_not_seen():
     # A post of 0.02 before the lath's edge: 64 pixels do not know it, 8192 do.
     model = boxes(((5, 0, 0), (0.02, 1, 10)), ((0, 5, 5), (10, 1, 1)))

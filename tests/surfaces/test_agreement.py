@@ -54,6 +54,7 @@ def side_by_side(seed):
     return [wall, left, right]
 
 
+@pytest.mark.slow
 def test_rounding_lays_neighbours_over_one_another():
     for seed in range(1500):
         polygons = side_by_side(seed)

@@ -87,6 +87,7 @@ def test_memory_does_not_abort_the_process():
     assert done.stdout.startswith("refused: bsp needs more than")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals as in POSIX")
 @pytest.mark.parametrize(
     "work",

@@ -17,6 +17,7 @@ def test_10_memory_of_a_frame():
     assert frame_memory(1024, 1, colour=0, depth=4) == 4 << 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [(1024, 1024), (3840, 2160)])
 @pytest.mark.parametrize("method", METHODS)
 def test_10_methods_hold_what_is_stated(method, size):

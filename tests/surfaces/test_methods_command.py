@@ -37,6 +37,7 @@ def test_tables_and_files(tmp_path):
     assert "| z-buffer |" in (folder / "methods.md").read_text()
 
 
+@pytest.mark.slow
 def test_on_a_model(tmp_path):
     path = tmp_path / "one.stl"
     path.write_text(
@@ -103,6 +104,7 @@ def test_the_limit_counts_what_the_table_shows():
     assert found[0].seconds is None and found[0].limit == 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [

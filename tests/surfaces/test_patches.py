@@ -94,6 +94,7 @@ def test_three_crossings_of_a_cubic_in_one_span():
     assert render([box(0, 0, 80, 60, lambda x, y: 0.0), cubic], SCREEN, SIZE, "scan line").statistics.splits == 3 * 60
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(30))
 def test_random_patches_and_polygons_by_all_methods(seed):
     rng = np.random.default_rng(seed)

@@ -31,6 +31,7 @@ def test_t_at_the_eye_at_the_pixel_and_behind():
     assert hits[2].point == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 def test_the_first_with_positive_t_is_what_is_seen(seed):
     random = np.random.default_rng(seed)

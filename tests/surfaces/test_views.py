@@ -70,6 +70,7 @@ def test_all_methods_agree(view, warp):
         alike(polygons(rng, 9, warp), camera(rng, view), told=f"seed {seed}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize(("shift", "scale"), [(1e6, 1.0), (1e9, 1.0), (0.0, 1e-9), (0.0, 1e100), (1e109, 1e100)])
 def test_far_large_and_small(view, shift, scale):

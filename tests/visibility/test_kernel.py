@@ -31,6 +31,7 @@ def test_random_scenes(kind: int, way: str) -> None:
         expect_agreement(scenes.scene(seed), WAYS[way])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bias", [0, 1])
 def test_trusted_parts(bias: int) -> None:
     """Culling what is turned away, and no search for piercings inside a part, change nothing where they are allowed."""
@@ -101,6 +102,7 @@ def merged(copies: int) -> Scene:
     return Scene(tuple(points), tuple(faces), tuple(wires))
 
 
+@pytest.mark.slow
 def test_a_large_scene_and_any_number_of_threads() -> None:
     scene = merged(60)
     assert len(scene.edges()) > 1000

@@ -58,6 +58,7 @@ def test_invisibility_counts_faces_not_parts() -> None:
     assert oracle.intervals(((1, 2, 5), (7, 2, 5)), SQUARE * 3)[0].invisibility == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(80))
 def test_intervals_against_counting_at_their_middles(seed: int) -> None:
     scene = scenes.scene(seed)
@@ -95,6 +96,7 @@ def test_winding_does_not_matter_and_triangles_add_up(
         assert count == sum(i.invisibility for each in alone for i in each if i.t0 < place < i.t1)
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(st.tuples(point, point), st.lists(triangle, max_size=5))
 def test_a_segment_may_be_drawn_from_either_end(segment: Segment, triangles: list[Triangle]) -> None:

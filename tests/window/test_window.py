@@ -65,6 +65,7 @@ def tolerant(found):
 CAMERAS = [{}, {"perspective": hlr.Perspective(fov=70.0)}]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", CAMERAS)
 @pytest.mark.parametrize("across", [0, 1])
 def test_two_windows_side_by_side_make_the_whole(options, across):
@@ -104,6 +105,7 @@ def expect_ends_of_curves(each):
         assert along(each.curve)[[0, -1]] == pytest.approx(each.points[[0, -1]], abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", CAMERAS)
 def test_points_in_the_model_are_those_that_are_seen(options):
     whole = hlr.draw(housing(), **options)
@@ -236,6 +238,7 @@ def test_no_seam_is_left_where_there_is_no_face():
         assert np.ptp(cut.points[start:end, 1]) == 2  # two teeth, nothing between them
 
 
+@pytest.mark.slow
 def test_fill_and_its_gradients_are_cut():
     whole = hlr.draw(housing(), fill=True, hidden=False)
     b = whole.bounds

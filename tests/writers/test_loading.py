@@ -44,6 +44,7 @@ DRAWINGS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", DRAWINGS)
 def test_a_drawing_comes_back_as_it_was(tmp_path, name):
     drawing = DRAWINGS[name]()
