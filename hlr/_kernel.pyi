@@ -1,6 +1,7 @@
-"""The Rust kernel. Arrays are C-contiguous; int32 indices; every call may raise ValueError on a wrong shape.
+"""The Rust kernel. Arrays are C-contiguous, indices int32; every call raises ValueError on an array of wrong shape.
 
-Lengths are of the model unless another unit is named. Groups are those of a scene; they share no points.
+Lengths are in model units unless another unit is named. A group is a set of triangles that the visibility pass treats
+as one surface (`hlr.scene.scene.Groups`); groups share no points.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,41 +24,74 @@ def read_mesh(
     Each says what is wrong as the end of a sentence. A corner that does not exist is out of range in the answer.
     """
 
-def edge_table(triangles: Ints, n_points: int) -> tuple[Ints, Ints, Ints]: ...
+def edge_table(triangles: Ints, n_points: int) -> tuple[Ints, Ints, Ints]:
+    """Edges (e, 2) of triangles (t, 3), lower vertex first, ascending; and the triangles at edge i, ascending:
+    incident[offsets[i]:offsets[i + 1]]."""
+
 def clean_mesh(
     points: Floats, triangles: Ints
 ) -> tuple[Floats, Ints, npt.NDArray[np.uint32] | None, tuple[int, int, int]]:
-    """Points (n, 3) with equal ones joined, triangles (m, 3) without impossible ones, which of the given these are
-    (None: all), and how many were left out: not finite, out of range, degenerate."""
+    """Joins equal points and leaves out impossible triangles.
+
+    Points (n, 3), triangles (m, 3), which of the given triangles these are (None: all), and how many were left out
+    because they were not finite, out of range, or degenerate.
+    """
 
 def without_needles(
     points: Floats, triangles: Ints, low: float
 ) -> tuple[npt.NDArray[np.uint32], Ints, npt.NDArray[np.uint32], npt.NDArray[np.uint32]] | None:
-    """Needles, hardly higher than low, turned out of a mesh: the triangles (k,) that changed, ascending, their corners
-    (k, 3), the triangle (k,) before whose face each has now, and where its corners (k, 3) stood before: three times a
-    triangle, plus 0..2. None: nothing changed."""
+    """Removes needles (triangles lower than `low`) from a mesh by edge flips; None if nothing changed.
+
+    The triangles (k,) that changed, ascending; their new corners (k, 3); the old triangle (k,) whose face and colour
+    each takes over; and where each corner (k, 3) was before, as three times a triangle plus 0..2.
+    """
 
 def needles(
     points: Floats, triangles: Ints, normals: Floats, part: Ints, least: Floats
 ) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Triangles lower than least (p,) of their part, or without area, ascending; and which side (0..2) is longest."""
+    """Needles: triangles lower than `least` (p,) of their part, or without area; and their longest side (0..2).
+
+    normals (t, 3); part (t,). The triangles ascend.
+    """
 
 def edge_kinds(
-    offsets: Ints, fold: Floats, edge_part: Ints, bare: Bools, sharp: float, near: float
+    offsets: Ints, fold: Floats, edge_part: Ints, without_brep: Bools, sharp: float, near: float
 ) -> tuple[Bytes, npt.NDArray[np.int64]]:
-    """(e,) EdgeClass of the edges of parts that are bare (p,), 255 for others; and which of these are nearly creases.
+    """(e,) EdgeClass of the edges of parts without B-rep (without_brep (p,)), 255 for others; and which of these are
+    nearly creases.
 
     sharp, near: cosines of folds, below which an edge is a crease, or nearly one.
     """
 
-def stitched(points: Floats, triangles: Ints, reach: float) -> tuple[Ints, Ints, int]: ...
-def components(triangles: Ints, n_points: int) -> Ints: ...
-def edge_components(edges: Ints, n_points: int) -> Ints: ...
-def clashes(points: Floats, triangles: Ints, triangle_part: Ints, itself: Bools) -> dict[str, Any]: ...
-def boxes_meet(low: Floats, high: Floats) -> Bools: ...
+def stitched(points: Floats, triangles: Ints, reach: float) -> tuple[Ints, Ints, int]:
+    """Joins borders of a mesh that run within `reach` of one another.
+
+    Triangles (m, 3) among the given points, the given triangle (m,) of which each is or is a piece of, and how many
+    pieces of borders were joined.
+    """
+
+def components(triangles: Ints, n_points: int) -> Ints:
+    """(t,) the connected component of each triangle, numbered in order of appearance. Shared vertices connect."""
+
+def edge_components(edges: Ints, n_points: int) -> Ints:
+    """(e,) the connected component of each edge, numbered in order of appearance. Shared vertices connect."""
+
+def clashes(points: Floats, triangles: Ints, triangle_group: Ints, itself: Bools) -> dict[str, Any]:
+    """Every pair of triangles that cross, of different groups, or of one group where `itself` (g,) is set.
+
+    points (n, 3) and edges (m, 2) of the common segments; per segment triangles (m, 2), depth (m,): how far they reach
+    beyond each other, and sine (m,) of the angle between them; searched and tests: pairs that were counted on the way.
+    """
+
+def boxes_meet(low: Floats, high: Floats) -> Bools:
+    """(n,) whether each box, low (n, 3) to high (n, 3), comes near another: False only where it certainly does not."""
+
 def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floats]:
-    """Corners (p, 8, 3) of boxes (r, 2, 3), of each part that of its root, moved by matrices (p, 4, 4); the box (2, 3)
-    around them. A box whose lower corner lies beyond the upper one is void: its corners are 0, and do not count."""
+    """Corners (p, 8, 3) of the bounding boxes of parts, and the box (2, 3) around all of them.
+
+    boxes (r, 2, 3): lower and upper corners; root (p,): the box of each part; place (p, 4, 4): the matrix that moves
+    it. A box whose lower corner lies beyond its upper one is empty: its corners are 0 and do not count.
+    """
 
 class Mesh:
     """points (n, 3), triangles (t, 3), edges (e, 2) and, at edge i, triangles incident[offsets[i]:offsets[i + 1]].
@@ -69,12 +103,12 @@ class Mesh:
     def __new__(cls, points: Floats, triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Mesh: ...
 
 class Groups:
-    """triangle (t,), edge (e,): the group of each; per group (g,) what may be assumed of it.
+    """triangle (t,), edge (e,): the group of each; the other columns are properties of each group (g,).
 
-    cull: closed and turned outward, so that faces turned away need not be looked at; sound: does not pass through
-    itself; delta: contact tolerance, cap: the most that anything may be moved before it is compared with this group,
-    both in depth units of the view; tight: lines that lie exactly on triangles of other groups. ValueError where they
-    do not fit. The numbers of groups are not copied.
+    cull: closed and oriented outward, so that back faces are left out; sound: does not pass through itself; delta:
+    contact tolerance, and cap: the most that anything is moved before it is compared with this group, both in depth
+    units of the view; tight: lines that lie exactly on triangles of other groups. ValueError where they do not fit. The
+    numbers of groups are not copied.
     """
 
     def __new__(
@@ -109,7 +143,7 @@ class OwnFaces:
     ) -> OwnFaces: ...
 
 class Visibility:
-    """Pieces of edges, sorted by edge and parameter; arrays are read-only.
+    """Visible and hidden pieces of edges, sorted by edge and parameter; arrays are read-only.
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,): 0 visible, 1
     hidden, 2 hidden by less than the contact tolerance, 3 the same on the way to hidden; facing (t,): sign of each
@@ -137,11 +171,11 @@ def visibility(
     arithmetic: str = "exact",
     threads: int = 0,
 ) -> Visibility:
-    """Which pieces of the edges are seen; projected (n, 3): x right, y up, z away from the viewer.
+    """Decides which pieces of the edges are visible; projected (n, 3): x right, y up, z away from the viewer.
 
-    role (e,): 1 drawn, 2 drawn where it is a contour, 0 not. crossings, piercings, pyramid: the steps gone through, as
-    `hlr.visibility.plan.Plan` has them. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a
-    coordinate is not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
+    role (e,): 1 drawn, 2 drawn where it is a contour, 0 not drawn. crossings, piercings, pyramid: the steps to run, as
+    in `hlr.visibility.plan.Plan`. arithmetic: exact, f64 or f32. ValueError where shapes do not fit or a coordinate is
+    not finite, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
 class Curves:
@@ -185,14 +219,20 @@ class TrueSurfaces:
         curved: Bools,
     ) -> TrueSurfaces: ...
 
-def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]: ...
+def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.0) -> tuple[Ints, Ints, Bools]:
+    """Joins edges (e, 2) of equal key (e,) into chains: where exactly two meet, and where more meet, the one pair that
+    turns by less than `turn` degrees, measured at points (n, 3).
+
+    Chain c is edges[offsets[c]:offsets[c + 1]]: offsets, edges, and whether each is walked from second to first vertex.
+    """
 
 class Outlines:
-    """The curves on true surfaces that are seen edge-on: outline o is points[offsets[o]:offsets[o + 1]].
+    """Outlines: the curves where true surfaces are seen edge-on. Outline o is points[offsets[o]:offsets[o + 1]].
 
-    points (n, 3), normals (n, 3): outward; rise (n,): how far triangles stand out beyond them; face (o,); source (o,):
-    the source edge that it runs along, -1 for none; concave (o,): its own body hides it; curve_*: records of their
-    curves, as in `Curves`; traced (f,): faces whose outlines these are. grazing: borders seen nearly edge-on.
+    points (n, 3), normals (n, 3): outward; rise (n,): how far triangles there stand out beyond the surface; face (o,);
+    source (o,): the source edge that it runs along, -1 for none; concave (o,): its own body hides it; curve_*: records
+    of their curves, as in `Curves`; traced (f,): faces that were searched. grazing: borders of faces seen nearly
+    edge-on.
     """
 
     offsets: Ints
@@ -241,20 +281,51 @@ def silhouettes(
     milliseconds of Ctrl-C.
     """
 
-Lens = tuple[
-    tuple[float, float, float],
-    tuple[float, float, float],
-    tuple[float, float, float],
-    tuple[float, float, float],
-    float,
-    tuple[float, float],
-    float,
-    tuple[float, float],
-    tuple[int, int],
-]
-"""right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: `preview/src/lens.rs`."""
-
 _Vector = tuple[float, float, float]
+
+class Lens:
+    """A view of the model as a picture in pixels, y down.
+
+    right, up, ahead: unit vectors of the picture in the model; origin: the eye, or any point for parallel views; scale:
+    pixels per model unit in the image plane; centre: where the origin is in the picture, pixels; distance: from the eye
+    to the image plane, model units, 0 for parallel views; range: least and greatest distance ahead, model units; size:
+    width and height, pixels. ValueError for a size, scale or range that no picture has.
+    """
+
+    def __new__(
+        cls,
+        *,
+        right: _Vector,
+        up: _Vector,
+        ahead: _Vector,
+        origin: _Vector,
+        scale: float,
+        centre: tuple[float, float],
+        distance: float,
+        range: tuple[float, float],
+        size: tuple[int, int],
+    ) -> Lens: ...
+    @property
+    def ahead(self) -> _Vector: ...
+    @property
+    def origin(self) -> _Vector: ...
+    @property
+    def scale(self) -> float: ...
+    @property
+    def centre(self) -> tuple[float, float]: ...
+    @property
+    def distance(self) -> float: ...
+    @property
+    def range(self) -> tuple[float, float]: ...
+
+class Light:
+    """The light on a picture.
+
+    toward: unit vector from the model to the light; ambient: what a surface reflects whichever way it faces; diffuse:
+    what it reflects in addition when it faces the light; specular: strength of highlights, 0 for none.
+    """
+
+    def __new__(cls, *, toward: _Vector, ambient: float, diffuse: float, specular: float = 0.0) -> Light: ...
 
 class Camera:
     """Unit vectors in model coordinates, direction from the object toward the viewer; eye: of a perspective view, and
@@ -336,10 +407,10 @@ class Chains:
         """(c,) known to be, so that no curve is looked for."""
 
 class LineTolerances:
-    """What lines may be off by, and what is too short: those of `Tolerances`, millimetres on paper.
+    """Tolerances of linework, as in `Tolerances`: millimetres on paper, with four exceptions.
 
-    But thin_model, closed (what closes a curve) and contact (what touches), in the model; and chord: the share of the
-    accuracy that points along circles may be off.
+    thin_model, closed (a gap that closes a curve) and contact (a depth within which curves touch) are in model units;
+    chord is the share of the accuracy that chords between points along circles may be off.
     """
 
     def __new__(
@@ -359,12 +430,12 @@ class LineTolerances:
     ) -> LineTolerances: ...
 
 class Cut:
-    """Lines on paper: chained, of coincident ones one, without what is shorter than the accuracy, thinned out.
+    """Lines on paper: pieces joined along chains, coincident lines merged, short figures dropped, vertices thinned out.
 
     projected (n, 3) as Camera.project gives it, of the mesh's points; pieces: edge, start, end and state of the
     visibility pass, by edge; rank (c,) uint8: of coincident lines the lower sixteen is drawn, of equal ones the nearer,
-    then the lower; bare (c,): of a mesh without faces; hidden: whether hidden lines are drawn. ValueError where they do
-    not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    then the lower; without_brep (c,): of a mesh without faces; hidden: whether hidden lines are drawn. ValueError where
+    they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
     def __new__(
@@ -375,7 +446,7 @@ class Cut:
         pieces: tuple[Ints, Floats, Floats, Bytes],
         chains: Chains,
         rank: Bytes,
-        bare: Bools,
+        without_brep: Bools,
         tolerances: LineTolerances,
         hidden: bool,
         threads: int,
@@ -385,12 +456,12 @@ class Cut:
 
     @property
     def chain(self) -> Ints:
-        """(lines,) the chain of each, also of hidden ones that are there only for others to end on."""
+        """(lines,) the chain of each line; hidden lines that only bound others, and are not drawn, are included."""
 
     def finished(
         self, curves: Curves | None, places: Floats, curve: Ints, place: Ints, bulge: Floats, threads: int
     ) -> tuple[Lines, tuple[float, float]]:
-        """The lines on their curves, sorted by part, kind, edge and face, and their lower left corner; only once.
+        """The lines on their curves, sorted by part, kind, edge and face, and their lower left corner. Call it once.
 
         curves: None where there are none; places (p, 3, 4); curve (c,) of each chain, -1 for none, place (c,) and bulge
         (c,), millimetres on paper.
@@ -494,23 +565,47 @@ class BrepModel:
     def n_faces(self) -> int: ...
     @property
     def faces_of_parts(self) -> list[int]: ...
-    def planar(self, tolerance: float) -> Bools: ...
-    def surface_records(self, numbers: Ints) -> tuple[Bytes, Ints, Floats]: ...
-    def spindles(self) -> list[tuple[int, float, float]]: ...
-    def edge_curves(self, part: Ints, edge: Ints) -> tuple[Bytes, Floats, Ints, Floats]: ...
+    def planar(self, tolerance: float) -> Bools:
+        """(faces,) whether each face departs from a plane by no more than the tolerance."""
+
+    def surface_records(self, numbers: Ints) -> tuple[Bytes, Ints, Floats]:
+        """kind, offsets and data of the surfaces of faces, as in `Surfaces`."""
+
+    def spindles(self) -> list[tuple[int, float, float]]:
+        """Faces on tori whose tube reaches beyond the axis: number, major and minor radius."""
+
+    def edge_curves(self, part: Ints, edge: Ints) -> tuple[Bytes, Floats, Ints, Floats]:
+        """kind, range, offsets and values of edges' curves, as in `Curves`, in the frame of the part.
+
+        edge: numbers in the parts' TopExp edge maps.
+        """
+
     def mesh(
         self, deflection: float, angle: float, progress: Callable[[float], None] | None = None, threads: int = 0
-    ) -> BrepMesh: ...
+    ) -> BrepMesh:
+        """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
+        faces that are done."""
 
 class BrepMesh:
     """The mesh of a model at one chord error (model units) and turning angle (radians)."""
 
-    def faults(self) -> list[tuple[int, str]]: ...
-    def turned(self) -> list[tuple[int, int]]: ...
+    def faults(self) -> list[tuple[int, str]]:
+        """Faces without a mesh: number and reason."""
+
+    def turned(self) -> list[tuple[int, int]]:
+        """Faces with loops that run the wrong way: number, and how many loops."""
+
     def replace(
         self, face: int, points: Floats, uv: Floats, triangles: Ints, borders: list[tuple[list[int], list[float]]]
-    ) -> bool: ...
-    def parts(self, planar: Bools, threads: int = 0) -> PartTables: ...
+    ) -> bool:
+        """Gives a face the triangles of another mesher; False if they do not fit the face.
+
+        points (n, 3) in the face's frame; uv (n, 2); triangles (m, 3) counterclockwise in (u, v); borders: for each
+        edge in each wire the numbers of its points and their parameters, in the direction of the edge.
+        """
+
+    def parts(self, planar: Bools, threads: int = 0) -> PartTables:
+        """The meshes of all parts. planar (faces,): as `BrepModel.planar` gives it."""
 
 class PartTables:
     """The meshes of all parts, one after another: part p owns points[point_start[p]:point_start[p + 1]] and so on.
@@ -531,6 +626,7 @@ class PartTables:
 
     def __new__(
         cls,
+        *,
         point_start: Ints,
         points: Floats,
         triangle_start: Ints,
@@ -609,7 +705,7 @@ class MeshFacts:
     normals: Floats
     flat: npt.NDArray[np.int64]
     repeated: bool
-    def bare_borders(self) -> list[int]:
+    def borders_without_brep(self) -> list[int]:
         """How many borders each part without B-rep has."""
 
     def scene(self) -> MeshScene: ...
@@ -680,32 +776,41 @@ class ShadedModel:
     def picture(
         self,
         lens: Lens,
-        light: tuple[float, float, float],
-        ambient: float,
-        diffuse: float,
-        specular: float,
+        light: Light,
         background: tuple[float, float, float, float],
         antialias: bool,
         shadow: Lens | None = None,
         occlusion: float = 0.0,
         threads: int = 0,
         out: Bytes | None = None,
-    ) -> Bytes: ...
-    def maps(self, lens: Lens, threads: int = 0) -> tuple[Floats, Ints]: ...
+    ) -> Bytes:
+        """(h, w, 4) RGBA, straight sRGB.
+
+        background: linear light, premultiplied by opacity; antialias: sixteen samples per pixel instead of one; shadow:
+        the view from the light, None for no shadows; occlusion: radius of ambient occlusion in pixels, 0 for none; out:
+        a picture of that shape to draw over instead of a new one. ValueError where `out` does not fit,
+        KeyboardInterrupt within milliseconds of Ctrl-C.
+        """
+
+    def maps(self, lens: Lens, threads: int = 0) -> tuple[Floats, Ints]:
+        """At the centre of each pixel: distance ahead (h, w), model units, infinite for nothing; and the triangle (h,
+        w) in front, -1 for none. Transparent triangles count as opaque."""
 
 def stroke_picture(
     picture: Bytes, pieces: Floats, width: float, colour: tuple[int, int, int, int], threads: int = 0
 ) -> None: ...
 def filled_areas(
-    model: ShadedModel,
-    lens: Lens,
-    light: tuple[float, float, float],
-    ambient: float,
-    diffuse: float,
-    label: Ints,
-    fine: float,
-    threads: int = 0,
-) -> dict[str, Any]: ...
+    model: ShadedModel, lens: Lens, light: Light, label: Ints, fine: float, threads: int = 0
+) -> dict[str, Any]:
+    """What `ShadedModel.picture` shows, as areas in the order of painting.
+
+    label (t,): triangles of one number belong to one face; fine: least width of a band of equal light, pixels.
+
+    points (n, 2) pixels, y down; loops (l + 1,) into points; areas (a + 1,) into loops; colours (a, 4) sRGB and
+    opacity; triangle (a,): one of the face; gradient (a,): -1 for none; lines (g, 4): from x, y to x, y; stops (g + 1,)
+    into shares (s,) and shades (s, 4). ValueError where labels are negative or a band is narrower than a pixel.
+    """
+
 def surface_normals(mesh: Mesh, on: TrueSurfaces, threads: int = 0) -> npt.NDArray[np.float32]:
     """(k, 3) unit normals at the places uv, on the outer side; nought where the surface has none."""
 

@@ -34,7 +34,7 @@ from hlr.request.picture_effects import (
     line_options,
 )
 from hlr.scene.scene import Scene
-from hlr.shading.lens import Lens, depth_step, frame_scale, lens
+from hlr.shading.lens import depth_step, frame_scale, lens
 from hlr.shading.lines import cues, pieces, pieces_by_depth
 from hlr.shading.picture import Pixels, before_the_eye, empty_picture, first_faces, maps, shaded_picture
 from hlr.shading.scene import shaded_scene
@@ -114,7 +114,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     return Picture(
         source=source.name,
         view=drawn_view(camera),
-        scale=eye[4] / unit,
+        scale=eye.scale / unit,
         pixels=pixels,
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in scene.parts),
         first_face=first_faces(scene),
@@ -126,12 +126,14 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     )
 
 
-def _ink(pixels: Pixels, drawing: Drawing, eye: Lens, inks: Sequence[tuple[int, int, int, int]], threads: int) -> None:
+def _ink(
+    pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tuple[int, int, int, int]], threads: int
+) -> None:
     """The lines over a picture, in place: in one ink, or in as many as tell depths apart, the farthest first."""
     widths = [LINE_CLASSES[line.kind].width_mm for line in drawing.lines]
     for wide in sorted(set(widths)):
         lines = [line for line, own in zip(drawing.lines, widths, strict=True) if own == wide]
-        levels = [pieces(lines, drawing.origin, PIXELS_PER_MM, eye[5])]
+        levels = [pieces(lines, drawing.origin, PIXELS_PER_MM, eye.centre)]
         if len(inks) > 1:
             levels = pieces_by_depth(lines, drawing.origin, PIXELS_PER_MM, eye, len(inks))
         for ink, strokes in zip(inks, levels, strict=True):
@@ -146,14 +148,14 @@ def _coarse(facts: Facts) -> Note:
     return Note("depth-coarse", text)
 
 
-def _facts(scene: Scene, camera: Camera, eye: Lens, unit: float) -> Facts:
+def _facts(scene: Scene, camera: Camera, eye: _kernel.Lens, unit: float) -> Facts:
     surfaces = scene.true_surfaces
     return Facts(
         curved=0 if surfaces is None else int((~surfaces.planar).sum()),
         faces=surfaces is not None,
         perspective=camera.eye is not None,
         depth=depth_step(eye) * unit,
-        pixel=unit / eye[4],
+        pixel=unit / eye.scale,
     )
 
 

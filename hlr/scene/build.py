@@ -131,7 +131,7 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
 def _stitched(whole: PartMeshes, mesh: MeshFacts, deflection: float, plan: Planner) -> tuple[PartMeshes, MeshFacts]:
     """The parts with their borders stitched, and their edges."""
     with plan.deciding():
-        borders = mesh.bare_borders()
+        borders = mesh.borders_without_brep()
     begin, seams = perf_counter(), 0
     if plan.on("stitching of borders", Facts(borders=sum(borders))):
         parts, seams = stitch_borders(list(whole), borders, deflection)

@@ -63,9 +63,7 @@ def filled(
     found = _kernel.filled_areas(
         shaded.model,
         eye,
-        toward_light(camera, SHOULDER),
-        AMBIENT,
-        DIFFUSE,
+        _kernel.Light(toward=toward_light(camera, SHOULDER), ambient=AMBIENT, diffuse=DIFFUSE),
         _labels(scene),
         max(1.0, BAND * pixels / per_model),
         threads,
@@ -73,7 +71,7 @@ def filled(
 
     def paper(places: Floats) -> Floats:
         """Pixels -> millimetres."""
-        off = (places - np.asarray(eye[5])) * [per_model / pixels, -per_model / pixels]
+        off = (places - np.asarray(eye.centre)) * [per_model / pixels, -per_model / pixels]
         return np.asarray(off - np.asarray(origin), np.float64)
 
     return Fill(

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from hlr._kernel import Lens
 from hlr.common.types import Floats
 from hlr.image.camera import NEAR, Camera, dot
 from hlr.request.directions import cross, normalized
@@ -13,10 +14,6 @@ from hlr.request.options import Vector
 
 SINGLE = 2.0**-23
 """Of 1: what numbers of single precision are off by, twice: at the corners, and between them."""
-
-Lens = tuple[Vector, Vector, Vector, Vector, float, tuple[float, float], float, tuple[float, float], tuple[int, int]]
-"""right, up, ahead, origin, pixels per model unit, centre in pixels, distance of the image plane (0: parallel), nearest
-and farthest depth, (width, height)."""
 
 ROOM = 1e-6
 """Of the depth's range: so much wider it is taken, that rounding keeps all within."""
@@ -46,16 +43,16 @@ def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int],
         farthest = max(farthest, 2.0 * nearest)
     room = ROOM * (farthest - nearest) or ROOM * max(1.0, abs(nearest))
     d = camera.direction
-    return (
-        camera.right,
-        camera.up,
-        (-d[0], -d[1], -d[2]),
-        camera.eye or (0.0, 0.0, 0.0),
-        scale,
-        (0.5 * size[0] - middle[0] * scale, 0.5 * size[1] + middle[1] * scale),
-        distance,
-        (nearest - (0.0 if distance else room), farthest + room),
-        size,
+    return Lens(
+        right=camera.right,
+        up=camera.up,
+        ahead=(-d[0], -d[1], -d[2]),
+        origin=camera.eye or (0.0, 0.0, 0.0),
+        scale=scale,
+        centre=(0.5 * size[0] - middle[0] * scale, 0.5 * size[1] + middle[1] * scale),
+        distance=distance,
+        range=(nearest - (0.0 if distance else room), farthest + room),
+        size=size,
     )
 
 
@@ -64,8 +61,8 @@ def depth_step(eye: Lens) -> float:
 
     The picture keeps them in single precision, 0 to 1; in perspective as 1 - nearest / depth, over the farthest of it.
     """
-    nearest, farthest = eye[7]
-    if not eye[6]:
+    nearest, farthest = eye.range
+    if not eye.distance:
         return (farthest - nearest) * SINGLE
     return (farthest - nearest) * farthest / nearest * SINGLE
 
@@ -97,4 +94,14 @@ def light_lens(toward: Vector, camera: Camera, points: Floats, texels: int) -> L
     )
     low, high = float(z.min()), float(z.max())
     room = ROOM * (high - low) or ROOM * max(1.0, abs(low))
-    return (right, up, ahead, (0.0, 0.0, 0.0), scale, centre, 0.0, (low - room, high + room), (texels, texels))
+    return Lens(
+        right=right,
+        up=up,
+        ahead=ahead,
+        origin=(0.0, 0.0, 0.0),
+        scale=scale,
+        centre=centre,
+        distance=0.0,
+        range=(low - room, high + room),
+        size=(texels, texels),
+    )

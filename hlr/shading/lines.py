@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
+from hlr._kernel import Lens
 from hlr.drawing.curve import Arc, Bezier, raised
 from hlr.drawing.line import Line, Points
-from hlr.shading.lens import Lens
 
 FLATNESS = 0.02
 """Pixels: how far a chord may be off its curve."""
@@ -46,7 +46,7 @@ def pieces_by_depth(
     lines: list[Line], origin: tuple[float, float], per_mm: float, eye: Lens, levels: int
 ) -> list[Points]:
     """The pieces in so many lists, from far to near; each is divided where it goes from one level to the next."""
-    centre, ahead, at_eye = eye[5], np.array(eye[2]), np.array(eye[3])
+    centre, ahead, at_eye = eye.centre, np.array(eye.ahead), np.array(eye.origin)
     found, depths = [], []
     for line in lines:
         x = (line.points[:, 0] + origin[0]) * per_mm + centre[0]

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from hlr._kernel import Lens, Light
 from hlr.common.types import Floats, Ints
 from hlr.image.camera import NEAR, Camera
 from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER, Effects, PreviewOptions
 from hlr.scene.scene import Scene
-from hlr.shading.lens import Lens, light_lens, toward_light
+from hlr.shading.lens import light_lens, toward_light
 from hlr.shading.scene import ShadedScene
 
 Pixels = npt.NDArray[np.uint8]
@@ -28,10 +29,7 @@ def shaded_picture(
     sun = light_lens(toward, camera, shaded.points, effects.shadows) if effects.shadows else None
     return shaded.model.picture(
         eye,
-        toward,
-        AMBIENT,
-        DIFFUSE,
-        effects.specular,
+        Light(toward=toward, ambient=AMBIENT, diffuse=DIFFUSE, specular=effects.specular),
         _linear_light(background),
         effects.antialias,
         sun,

@@ -96,11 +96,9 @@ def ours(given: Arrays, antialias: bool, threads: int) -> Run:
     def run(frame: int) -> tuple[np.ndarray, float]:
         camera = resolve(direction(frame), Options(), Frame(), bounds)
         eye = lens(camera, points, scale, SIZE)
-        light = toward_light(camera, SHOULDER)
+        light = _kernel.Light(toward=toward_light(camera, SHOULDER), ambient=AMBIENT, diffuse=DIFFUSE)
         started = clocks()
-        pixels = model.picture(
-            eye, light, AMBIENT, DIFFUSE, 0.0, (1.0, 1.0, 1.0, 1.0), antialias, threads=threads, out=frame_buffer
-        )
+        pixels = model.picture(eye, light, (1.0, 1.0, 1.0, 1.0), antialias, threads=threads, out=frame_buffer)
         return clocks() - started, float((pixels[:, :, 0] < 255).mean())
 
     return run

@@ -211,15 +211,15 @@ def test_threads_are_no_matter():
         lambda a: a.update(points=np.full((3, 3), np.nan)),
         lambda a: a.update(triangles=a["triangles"] + 1),
         lambda a: a.update(triangles=a["triangles"] - 1),
-        lambda a: a.update(triangle_part=a["triangle_part"] + 1),
-        lambda a: a.update(triangle_part=np.zeros(2, np.int32)),
+        lambda a: a.update(triangle_group=a["triangle_group"] + 1),
+        lambda a: a.update(triangle_group=np.zeros(2, np.int32)),
     ],
 )
 def test_wrong_arrays_are_refused(spoil):
     arrays = {
         "points": np.eye(3),
         "triangles": np.array([[0, 1, 2]], np.int32),
-        "triangle_part": np.zeros(1, np.int32),
+        "triangle_group": np.zeros(1, np.int32),
         "itself": np.ones(1, bool),
     }
     assert not len(_kernel.clashes(**arrays)["edges"])

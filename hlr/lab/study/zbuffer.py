@@ -53,7 +53,7 @@ def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: 
     watch("linework")
     chains, offsets, kinds = _edges(image, role, normals)
     # Pixels, y down.
-    picture = np.stack([flat[:, 0] * scale + eye[5][0], eye[5][1] - flat[:, 1] * scale, flat[:, 2]], axis=1)
+    picture = np.stack([flat[:, 0] * scale + eye.centre[0], eye.centre[1] - flat[:, 1] * scale, flat[:, 2]], axis=1)
     return _cut(picture[chains], flat[chains, :2] * per_model, offsets, kinds, allowed)
 
 

@@ -64,7 +64,8 @@ pub const CURVE_FIT: f64 = 0.1;
 pub const CURVE_STRAIGHT: f64 = 0.05;
 /// Of the accuracy: an end of a line this close to the end of its curve is that end.
 pub const CURVE_END: f64 = 0.02;
-/// Of the accuracy: how far a line may be from its curve between two vertices, where the mesh is off by more than at them.
+/// Of the accuracy: how far a line may be from its curve between two vertices, where the mesh is off by more than at
+/// them.
 pub const CURVE_BETWEEN: f64 = 4.0;
 /// Of the accuracy: ends of one edge's lines this close are one point, parted by rounding.
 pub const CURVE_SHARED_END: f64 = 1e-6;
@@ -110,7 +111,8 @@ pub const COVER_INK: f64 = 6.0;
 
 /// Of the accuracy: how far an SVG arc may be from the true one once its ends, radii and rotation are rounded.
 pub const ARC_FIT: f64 = 0.2;
-/// Of the accuracy: an ellipse whose radii differ by less is a circle, and a rotation that moves it by less is rounded off.
+/// Of the accuracy: an ellipse whose radii differ by less is a circle, and a rotation that moves it by less is rounded
+/// off.
 pub const ARC_ROUND: f64 = 0.01;
 /// Of the accuracy: how far the cubic curves of an arc in PDF may be from it.
 pub const ARC_CUBIC: f64 = 0.1;

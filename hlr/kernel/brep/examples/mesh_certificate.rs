@@ -8,7 +8,7 @@
 //!
 //! ```text
 //! proved    no triangle of a curved face is farther off its surface
-//! seen      one place is as far off as that
+//! measured      one place is as far off as that
 //! above     triangles that the proof does not show to keep the deflection
 //! unproved  triangles across the ends of a period, and on surfaces that are known by their values only
 //! ```
@@ -28,7 +28,7 @@ fn main() {
         std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
     let [share, rest @ ..] = arguments.as_slice() else { panic!("SHARE FILE SIZE ...") };
     let share: f64 = share.parse().expect("a share");
-    println!("{:32} {:>9} {:>9} {:>7} {:>7} {:>9}", "model", "triangles", "proved", "seen", "above", "unproved");
+    println!("{:32} {:>9} {:>9} {:>7} {:>7} {:>9}", "model", "triangles", "proved", "measured", "above", "unproved");
     for pair in rest.chunks_exact(2) {
         let model = Model::read(&std::fs::read(&pair[0]).expect("a file"), None).expect("a dump");
         let deflection = share * pair[1].parse::<f64>().expect("a length");
@@ -56,6 +56,6 @@ fn main() {
 }
 
 fn told(found: &Certificate, deflection: f64) -> String {
-    let Certificate { bound, seen, triangles, above, unproved } = found;
-    format!("{triangles:9} {:9.3} {:7.3} {above:7} {unproved:9}", bound / deflection, seen / deflection)
+    let Certificate { bound, measured, triangles, above, unproved } = found;
+    format!("{triangles:9} {:9.3} {:7.3} {above:7} {unproved:9}", bound / deflection, measured / deflection)
 }

@@ -117,7 +117,7 @@ fn covers(surface: &Surface, foreign: &ForeignMesh, triangles: &[[u32; 3]]) -> b
     (flat - true_area).abs() <= OTHER_AREA * true_area
 }
 
-/// Of the area: what chords may leave out of it.
+/// Share of the area: what chords may leave out of it.
 const OTHER_AREA: f64 = 0.1;
 
 /// Whether no triangle is turned over in (u, v), and each side has its counterpart: a side of a neighbour, or a chord

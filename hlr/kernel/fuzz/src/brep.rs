@@ -1,6 +1,6 @@
-//! Bytes that may be a dump of a shape: read, its edges divided, the borders of its faces put together.
+//! Reads any bytes as a dump of a shape, divides its edges and joins the borders of its faces.
 //!
-//! Bytes that begin like no dump change a good one instead: each three of them are a place and what is written there.
+//! Bytes that do not begin like a dump alter a valid one instead: each three of them are a position and a new value.
 
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;

@@ -1,4 +1,4 @@
-//! Values from the bytes of a fuzzer. There is always a next one: after the end come zeros.
+//! Draws values from the bytes of a fuzzer; after the end of the bytes it draws zeros.
 
 pub struct Bytes<'a> {
     left: &'a [u8],

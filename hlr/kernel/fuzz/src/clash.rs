@@ -1,5 +1,5 @@
-//! Intersection segments of any triangles: on both of them, the same however the work is shared out, and for small
-//! coordinates just those that the triangles' planes cut out of one another.
+//! Checks the intersection segments of any triangles: they lie on both, do not depend on the number of threads, and for
+//! small coordinates equal an exact computation.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;

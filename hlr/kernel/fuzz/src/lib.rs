@@ -1,4 +1,4 @@
-//! What the fuzz targets do with their bytes: read a case, call the kernel, hold the answer against what must be true.
+//! The fuzz targets: each makes a case from bytes, calls the kernel, and checks the result.
 //!
 //! Plain functions without libFuzzer, so that `cargo test` replays the corpus with them on any toolchain.
 

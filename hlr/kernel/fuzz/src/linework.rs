@@ -1,5 +1,5 @@
-//! Linework on any points and pieces: it ends, stays finite, adds nothing and loses nothing. Step by step, and as
-//! drawings go through it.
+//! Checks linework on any points and pieces, step by step and as a whole: it terminates, stays finite, adds nothing and
+//! loses nothing.
 
 use hlr_linework::lines::candidates::{About, Chains};
 use hlr_linework::lines::coincident::{Widths, uncovered};
@@ -67,8 +67,8 @@ pub fn run(data: &[u8]) {
     let unthinned = lines.clone();
     for line in &mut lines {
         let before = line.clone();
-        let bare = case.traits[line.chain as usize].bare;
-        let kept: Vec<bool> = line.flat.iter().map(|p| bare && ends.meet(line, p)).collect();
+        let without_brep = case.traits[line.chain as usize].without_brep;
+        let kept: Vec<bool> = line.flat.iter().map(|p| without_brep && ends.meet(line, p)).collect();
         simplify(line, &kept, case.tolerances.flat, case.tolerances.space);
         check_thinned(&before, line, case.tolerances.flat);
     }
@@ -97,7 +97,7 @@ fn check_driver(case: &Case, geometry: &Geometry, unthinned: &[Polyline], thinne
     assert_eq!(found.lines.len(), thinned.len());
     for ((line, smooth), (before, after)) in found.lines.iter().zip(&found.smooth).zip(unthinned.iter().zip(thinned)) {
         let of = case.traits[line.chain as usize];
-        if !(of.noisy && of.bare) {
+        if !(of.noisy && of.without_brep) {
             assert!(smooth.is_none());
             assert_eq!(line, after);
             continue;
@@ -159,8 +159,10 @@ fn read(bytes: &mut Bytes) -> Case {
     // From the accuracy, as hlr derives them: at most a quarter of the drawing, at least what its grid can tell apart.
     let accuracy = if extent > 0.0 { extent * 0.25f64.powi(1 + (bytes.byte() % 12) as i32) } else { 0.05 };
     let noisy = bytes.bit();
-    let traits =
-        chains.iter().map(|_| Trait { noisy, rank: [0, 1, 3, 16][bytes.below(4)], bare: bytes.bit() }).collect();
+    let traits = chains
+        .iter()
+        .map(|_| Trait { noisy, rank: [0, 1, 3, 16][bytes.below(4)], without_brep: bytes.bit() })
+        .collect();
     Case {
         flat,
         space,

@@ -1,4 +1,4 @@
-//! Readers of mesh files: whatever the bytes, an answer that holds together, no larger than they allow.
+//! Checks the readers of mesh files on any bytes: the result is consistent, and no larger than the bytes allow.
 
 use hlr_mesh::meshfile::{Fault, MeshFile, Paint, obj, off, ply, stl};
 

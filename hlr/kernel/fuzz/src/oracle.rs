@@ -1,8 +1,8 @@
-//! Visibility once more: exact, slow, and sharing nothing with the kernel.
+//! A visibility oracle: exact, slow, and without any code of the kernel.
 //!
-//! Every drawn segment a -> b is held against every triangle. What a triangle hides is where four conditions hold, each
-//! linear in the segment's parameter t: inside the three sides of the triangle's image, and behind its plane. So it is
-//! one interval with rational ends, and the hidden part is the union.
+//! Every drawn segment a -> b is compared with every triangle. What a triangle hides is where four conditions hold,
+//! each linear in the segment's parameter t: inside the three sides of the triangle's image, and behind its plane. So
+//! it is one interval with rational ends, and the hidden part is the union.
 //!
 //! Coincidences: depth z grows away from the viewer; the segment alone is moved by (e^2, e^3, -e), e > 0 going to 0.
 //! Moving does not turn it: a condition alpha + beta t > 0 keeps its beta, so where beta is not 0 the unmoved end

@@ -1,4 +1,4 @@
-//! A scene from bytes: triangles and wires in groups, and what the kernel is told of them.
+//! A scene from bytes: triangles and wires in groups, and the assumptions that the kernel is given.
 
 use hlr_mesh::topology::topology;
 use hlr_visibility::scan::mesh::{DRAWN, OUTLINE};

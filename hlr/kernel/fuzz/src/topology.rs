@@ -1,4 +1,4 @@
-//! Edges, fans, folds and components of any triangles, against what a few nested loops say.
+//! Checks edges, fans, folds and components of any triangles against plain nested loops.
 
 use hlr_linework::lines::chain::chain;
 use hlr_mesh::topology::{balance, components, folds, normals, topology};

@@ -1,11 +1,11 @@
-//! The visibility pass on any scene: it ends, agrees with itself on any number of threads and, where the scene keeps
-//! the rules of the entry, with the oracle on every interval.
+//! Checks the visibility pass on any scene: it terminates, does not depend on the number of threads and, for scenes
+//! that keep the rules of the entry, agrees with the oracle on every interval.
 
 use std::sync::OnceLock;
 
 use hlr_visibility::scan::mesh::{DRAWN, Mesh};
 use hlr_visibility::scan::own_faces::OwnFaces;
-use hlr_visibility::scan::scene::{Group, Numbers, Scene as Seen, solve};
+use hlr_visibility::scan::scene::{Group, Numbers, Scene as SceneInView, solve};
 use hlr_visibility::scan::sweep::{Outcome, Steps};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -30,7 +30,7 @@ pub fn check(scene: &Scene) {
             tight: scene.tight[p],
         })
         .collect();
-    let seen = Seen {
+    let in_view = SceneInView {
         points: &scene.points,
         triangles: &scene.triangles,
         triangle_group: &scene.triangle_group,
@@ -41,12 +41,12 @@ pub fn check(scene: &Scene) {
         role: &scene.role,
         groups: &groups,
     };
-    let Some((mesh, _)) = seen.snapped() else { return };
+    let Some((mesh, _)) = in_view.snapped() else { return };
     for p in &mesh.points {
         assert!(p[0].abs() < 1 << 30 && p[1].abs() < 1 << 30 && p[2].abs() <= 1 << 29, "off the grid: {p:?}");
     }
     let [one, two] = pools().each_ref().map(|pool| {
-        pool.install(|| solve(&seen, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &|| false)).expect("an answer")
+        pool.install(|| solve(&in_view, OwnFaces::NONE, Steps::ALL, Numbers::Exact, &|| false)).expect("an answer")
     });
     assert_eq!(listed(&one), listed(&two), "another answer on two threads");
     assert_eq!((&one.facing, format!("{:?}", one.counters)), (&two.facing, format!("{:?}", two.counters)));

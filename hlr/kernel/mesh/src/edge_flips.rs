@@ -14,10 +14,10 @@
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 
-/// Of its longest side: what is lower is a needle however exact the coordinates are.
+/// Share of its longest side: what is lower is a needle however exact the coordinates are.
 const ROUNDING: f64 = 1e-6;
 
-/// Of its longest side: what is higher is none, however coarse they are.
+/// Share of its longest side: what is higher is none, however coarse they are.
 const SLENDER: f64 = 1e-3;
 
 /// The lower of the two new triangles is so many times as high as the lower of the two old ones.
@@ -89,7 +89,7 @@ impl Shapes<'_> {
         self.measures(t).0
     }
 
-    /// Of every triangle this is asked: no divisions, no roots.
+    /// Evaluated for every triangle, so without divisions and roots.
     fn is_needle(&self, t: [i32; 3]) -> bool {
         let [p, q, r] = t.map(|v| &self.points[v as usize]);
         let (u, v) = ([q[0] - p[0], q[1] - p[1], q[2] - p[2]], [r[0] - p[0], r[1] - p[1], r[2] - p[2]]);

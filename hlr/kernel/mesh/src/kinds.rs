@@ -13,25 +13,25 @@ pub struct Limits {
     pub near: f64,
 }
 
-/// Of edges whose owner is `bare` the kind, and which of the interior ones are nearly creases.
+/// Of edges whose owner is `without_brep` the kind, and which of the interior ones are nearly creases.
 pub fn kinds(
     offsets: &[i32],
     fold: &[f64],
-    bare: &(dyn Fn(usize) -> bool + Sync),
+    without_brep: &(dyn Fn(usize) -> bool + Sync),
     limits: Limits,
 ) -> (Vec<u8>, Vec<i64>) {
     let kind: Vec<u8> = (0..fold.len())
         .into_par_iter()
         .with_min_len(1 << 12)
         .map(|e| match offsets[e + 1] - offsets[e] {
-            _ if !bare(e) => INTERIOR,
+            _ if !without_brep(e) => INTERIOR,
             1 => BOUNDARY,
             3.. => SHARP,
             _ if fold[e] < limits.sharp => SHARP,
             _ => INTERIOR,
         })
         .collect();
-    let is_near = |e: &usize| kind[*e] == INTERIOR && fold[*e] < limits.near && bare(*e);
+    let is_near = |e: &usize| kind[*e] == INTERIOR && fold[*e] < limits.near && without_brep(*e);
     let near = (0..fold.len()).into_par_iter().with_min_len(1 << 12).filter(is_near).map(|e| e as i64).collect();
     (kind, near)
 }

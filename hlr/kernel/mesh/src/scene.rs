@@ -14,20 +14,20 @@ const SMOOTH: u8 = 1;
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     pub triangle_part: Vec<i32>,
-    /// Of every edge with triangles: those of its first.
+    /// Per edge with triangles: those of its first.
     pub edge_part: Vec<i32>,
     pub edge_group: Vec<i32>,
     pub walks: Walks,
-    /// Of each walk: two planar faces meet there at an angle.
+    /// Per walk: two planar faces meet there at an angle.
     pub straight: Vec<bool>,
     /// Of every edge, those without triangles at the end; INTERIOR where no edge of the source runs.
     pub kind: Vec<u8>,
-    /// Of each triangle: its face may show an outline.
+    /// Per triangle: its face may show an outline.
     pub curved: Vec<bool>,
-    /// Of every edge with triangles: one of its faces may show an outline, or is a plane that such a face runs into.
+    /// Per edge with triangles: one of its faces may show an outline, or is a plane that such a face runs into.
     pub edge_curved: Vec<bool>,
     pub bodies: Bodies,
-    /// Of each group: not surely one convex body.
+    /// Per group: not surely one convex body.
     pub folded: Vec<bool>,
     /// Triangles and facts where something was turned the right way round: of these alone, else as they were.
     pub turned: Option<Turned>,
@@ -57,7 +57,7 @@ pub struct Surfaces {
 }
 
 impl Scene {
-    /// Of each triangle the planar face that it is of, counted over all parts; None where its face is curved.
+    /// Per triangle: the planar face that it is of, counted over all parts; None where its face is curved.
     pub fn planar_face(&self, tables: &Tables) -> impl Iterator<Item = Option<i32>> {
         let face = |t: usize| tables.face_start[self.triangle_part[t] as usize] + tables.triangle_face[t];
         (0..self.curved.len()).map(move |t| (!self.curved[t]).then(|| face(t)))

@@ -57,7 +57,7 @@ pub fn topology(triangles: &[[i32; 3]], n_points: usize) -> Topology {
 /// Sides below which one thread does all.
 const FEW: usize = 1 << 14;
 
-/// Of each side the lower and the higher corner, and whether they differ.
+/// Per side: the lower and the higher corner, and whether they differ.
 fn sides(t: &[i32; 3]) -> [(usize, u64, bool); 3] {
     let [p, q, r] = *t;
     [(p, q), (q, r), (r, p)].map(|(a, b)| (a.min(b) as usize, a.max(b) as u64, a != b))

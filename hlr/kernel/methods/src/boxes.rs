@@ -1,4 +1,4 @@
-//! Boxes around facets, and a hierarchy of them: what a ray misses as a whole is not looked at.
+//! Bounding boxes of facets, and a hierarchy of them: a ray skips every subtree whose box it misses.
 //!
 //! S. Rubin, T. Whitted, "A 3-dimensional representation for fast rendering of complex scenes", 1980.
 

@@ -31,10 +31,10 @@ use super::view::View;
 const NIL: u32 = u32::MAX;
 /// Polygons tried as a node's plane; the one that splits least is taken.
 const TRIED: usize = 5;
-/// Of the scene's extent: nearer to a plane is on it. What floating point is off by, and no more: on the screen that is
-/// less than a 256th of a pixel, whatever part of the scene the picture shows.
+/// Share of the scene's extent: nearer to a plane is on it. What floating point is off by, and no more: on the screen
+/// that is less than a 256th of a pixel, whatever part of the scene the picture shows.
 const ON: f64 = 1.0 / (1u64 << 50) as f64;
-/// Of the largest coordinate: what it was rounded to before it came here.
+/// Share of the largest coordinate: what it was rounded to before it came here.
 const GIVEN: f64 = f64::EPSILON;
 
 /// What the planes above have left of a polygon.

@@ -1,4 +1,4 @@
-//! The frame of facet numbers that all methods fill, and the trace of what was written in which order.
+//! The frame buffer of facet numbers that all methods fill, and an optional trace of the order of writes.
 
 use super::screen::NONE;
 use super::statistics::Statistics;

@@ -1,4 +1,4 @@
-//! Depth in whole steps, and what is lost before it is rounded.
+//! Rounds depth to whole steps, and bounds the floating-point error before the rounding.
 
 use super::plane::{DEPTH_LIMIT, Point, STEPS};
 use super::scene::{Camera, Scene};
@@ -10,7 +10,7 @@ pub struct DepthGrid {
     step: f64,
 }
 
-/// Of a polygon's extent in depth: so much a corner's depth may change with its place.
+/// Share of a polygon's extent in depth: so much a corner's depth may change with its place.
 const SHARE: f64 = 1.0 / 16.0;
 
 impl DepthGrid {
@@ -81,7 +81,7 @@ pub struct Noise {
     w: f64,
 }
 
-/// Of the numbers of the model: what a few operations are off by.
+/// Share of the numbers of the model: what a few operations are off by.
 const ROUNDING: f64 = 1.0 / (1u64 << 48) as f64;
 
 impl Noise {

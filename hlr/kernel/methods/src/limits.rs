@@ -1,4 +1,4 @@
-//! When to give up: the caller interrupts, the time is over, or too much memory is held.
+//! Limits of work: stops it when the caller interrupts, the time is over, or too much memory is held.
 
 use super::stopwatch::Stopwatch;
 use crate::memory::held;

@@ -1,6 +1,6 @@
-//! How much memory a thread holds, so that work can be given up before there is none left.
+//! Counts the memory that a thread holds, so that work can stop before memory runs out.
 //!
-//! A refused allocation ends the process: Rust has no way back from it. So the system's allocator is counted here,
+//! A refused allocation ends the process; Rust cannot recover from it. So the system's allocator is counted here,
 //! thread by thread, and long work looks at the count as it looks at the clock (`limits`).
 
 use std::alloc::{GlobalAlloc, Layout, System};

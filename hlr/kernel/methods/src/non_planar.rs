@@ -1,5 +1,4 @@
-//! Polygons that lie in no plane, in the model: each is triangulated before anything else, and its triangles keep its
-//! id.
+//! Non-planar polygons of the model: each is triangulated first, and its triangles keep its id.
 //!
 //! What rounding alone bends is left to `screen`, which looks at the rounded corners.
 
@@ -8,7 +7,7 @@ use super::plane::Point;
 use super::scene::Scene;
 use super::triangulate::triangulate;
 
-/// Of a polygon's size: what lies nearer to its plane is planar.
+/// Share of a polygon's size: what lies nearer to its plane is planar.
 const FLAT: f64 = 1e-7;
 /// Steps across a polygon, for its triangulation.
 const GRID: f64 = (1 << 21) as f64;

@@ -1,4 +1,4 @@
-//! From the model to facets on the screen: project, clip, round, plane, cull, triangulate. Every method starts here.
+//! Prepares the facets that every method starts from: project, clip, round, compute planes, cull, triangulate.
 
 use super::back_face::{Facing, facing};
 use super::clip::{Corner, Wall, clip_loop, walls};
@@ -14,8 +14,8 @@ use std::ops::Range;
 
 /// A corner this many steps off the plane of a polygon is on it.
 const LEVEL: i128 = 4;
-/// Of the depths that a facet's plane reaches: how far off a plane a corner may be that was cut out by it, cut after
-/// cut.
+/// Share of the depths that a facet's plane reaches: how far off a plane a corner may be that was cut out by it, cut
+/// after cut.
 const CUT: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// What becomes of polygons whose corners rounding has moved out of their plane.

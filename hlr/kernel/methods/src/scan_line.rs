@@ -178,7 +178,7 @@ impl Scan<'_> {
         let inside = &self.polygons.inside;
         let mut walks: Vec<Option<Walk>> =
             inside.iter().map(|&f| screen.patch_of(&screen.facets[f as usize]).map(|p| p.walk(from, row))).collect();
-        let (mut start, mut seen) = (from, NONE);
+        let (mut start, mut shown) = (from, NONE);
         for column in from..to {
             if watch.over() {
                 return None;
@@ -197,18 +197,18 @@ impl Scan<'_> {
                     (best, depth) = (f, z);
                 }
             }
-            if best != seen {
+            if best != shown {
                 if start < column {
                     statistics.spans += 1;
-                    self.canvas.write(row, start, column, seen, statistics);
+                    self.canvas.write(row, start, column, shown, statistics);
                 }
-                statistics.splits += u64::from(seen != NONE);
-                (start, seen) = (column, best);
+                statistics.splits += u64::from(shown != NONE);
+                (start, shown) = (column, best);
             }
         }
         statistics.spans += 1;
-        self.canvas.write(row, start, to, seen, statistics);
-        self.visible = seen;
+        self.canvas.write(row, start, to, shown, statistics);
+        self.visible = shown;
         Some(())
     }
 

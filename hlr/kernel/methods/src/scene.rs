@@ -1,4 +1,4 @@
-//! Polygons as they come: loops of points in one set of arrays.
+//! The input scene: polygons as loops of points in one set of arrays, and the camera.
 
 /// What is inside where loops overlap or cross themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Facets on the screen: what every method starts from, and their depths compared. `prepare` makes them.
+//! Facets on the screen, which `prepare` makes and every method starts from, and exact comparison of their depths.
 
 use super::depth_grid::DepthGrid;
 use super::patch::Patch;

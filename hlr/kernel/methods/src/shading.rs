@@ -1,5 +1,5 @@
-//! Values along spans: colours (Gouraud 1971) or normals (Phong 1975), from the corners along the edges, from the edges
-//! along the row.
+//! Interpolates values along spans: colours (Gouraud 1971) or normals (Phong 1975), first along the edges, then along
+//! the row.
 //!
 //! The textbook interpolates on the screen, where equal steps are not equal steps on the surface: in perspective the
 //! far half of a polygon gets too little. Value / w and 1 / w are linear on the screen, so their quotient is right
@@ -44,14 +44,14 @@ fn rows<const CORRECT: bool>(screen: &Screen, frame: &[u32], watch: &Watch) -> O
             a.facet.cmp(&b.facet).then_with(|| a.compare(b)).then(a.number.cmp(&b.number))
         });
         let start = row as usize * width;
-        let (seen, values) = (&frame[start..start + width], &mut out[start..start + width]);
+        let (facets, values) = (&frame[start..start + width], &mut out[start..start + width]);
         for pair in order.windows(2) {
             if watch.over() {
                 return None;
             }
             let (left, right) = (edge(pair[0]), edge(pair[1]));
             if left.edge.facet == right.edge.facet {
-                between(left, right, seen, values);
+                between(left, right, facets, values);
             }
         }
     }
@@ -62,12 +62,12 @@ fn rows<const CORRECT: bool>(screen: &Screen, frame: &[u32], watch: &Watch) -> O
 fn between<const CORRECT: bool>(
     left: &Active<Colour<CORRECT>>,
     right: &Active<Colour<CORRECT>>,
-    seen: &[u32],
+    facets: &[u32],
     out: &mut [[f64; 3]],
 ) {
-    let within = |column: i64| column.clamp(0, seen.len() as i64) as usize;
+    let within = |column: i64| column.clamp(0, facets.len() as i64) as usize;
     let (from, to) = (within(left.edge.column), within(right.edge.column));
-    if from >= to || !seen[from..to].contains(&left.edge.facet) {
+    if from >= to || !facets[from..to].contains(&left.edge.facet) {
         return;
     }
     let (p, q) = (&left.carried.value, &right.carried.value);
@@ -75,7 +75,7 @@ fn between<const CORRECT: bool>(
     let step: [f64; 4] = std::array::from_fn(|k| (q[k] - p[k]) / (end - start));
     let mut here: [f64; 4] = std::array::from_fn(|k| p[k] + step[k] * (from as f64 + 0.5 - start));
     for column in from..to {
-        if seen[column] == left.edge.facet {
+        if facets[column] == left.edge.facet {
             out[column] = [here[0] / here[3], here[1] / here[3], here[2] / here[3]];
         }
         for k in 0..4 {

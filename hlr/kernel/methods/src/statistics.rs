@@ -1,4 +1,4 @@
-//! What a method did, counted alike in all of them.
+//! Counters of work, the same for all methods.
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {

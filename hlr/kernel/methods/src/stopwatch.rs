@@ -1,4 +1,4 @@
-//! Time that this thread has worked, so that a method's cost does not depend on what else the machine does.
+//! Measures the processor time of this thread, so that a method's cost does not depend on other load.
 //!
 //! Linux tells it, in nanoseconds; elsewhere it is the time that has passed.
 

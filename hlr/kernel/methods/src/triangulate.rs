@@ -1,4 +1,4 @@
-//! Polygons that lie in no plane become triangles, which always do.
+//! Triangulates polygons that are not planar.
 //!
 //! Ear clipping (Meisters 1975), holes joined to the outline by bridges first (Eberly), all in integers on the image.
 //! Edges are kept, and the triangles' outlines add up to the polygon's: so the pixels of the triangles together are

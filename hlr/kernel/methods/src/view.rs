@@ -1,4 +1,4 @@
-//! Planes of the model as the camera sees them.
+//! Transforms planes of the model into the camera's coordinates.
 
 use super::non_planar::Flat;
 use super::scene::Camera;

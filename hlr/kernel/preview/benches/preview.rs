@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use hlr_preview::Model;
-use hlr_preview::depth_map::seen;
+use hlr_preview::depth_map::depth_map;
 use hlr_preview::faces::faces;
 use hlr_preview::lens::Lens;
 use hlr_preview::picture::picture;
@@ -126,7 +126,7 @@ fn main() {
             time("faces", &mut |space| {
                 faces(&model, &lens, &Sampling::CENTRES, space, &go);
             });
-            time("depth and owners", &mut |space| drop(seen(&model, &lens, space, &go)));
+            time("depth and owners", &mut |space| drop(depth_map(&model, &lens, space, &go)));
             for (what, sampling) in [("picture", Sampling::CENTRES), ("antialiased", Sampling::SIXTEEN)] {
                 time(what, &mut |space| {
                     picture(&scene, &sampling, [1.0; 4], space, &mut pixels, &go);

@@ -1,4 +1,4 @@
-//! What is seen at the centre of each pixel: its depth and its triangle.
+//! The depth map: depth and triangle at the centre of each pixel.
 
 use super::faces::faces;
 use super::grid::{TILE_HEIGHT, TILE_WIDTH};
@@ -10,24 +10,24 @@ use super::{Model, NOTHING};
 
 /// Depth (0 nearest, 1 farthest, 2 nothing) and triangle (NOTHING for none).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct MapSample {
     pub depth: f32,
     pub triangle: u32,
 }
 
 /// Row by row. Glass counts as solid. None when stopped.
-pub fn seen(
+pub fn depth_map(
     model: &Model,
     lens: &Lens,
     space: &mut Workspace,
     stopped: &(dyn Fn() -> bool + Sync),
-) -> Option<Vec<Seen>> {
+) -> Option<Vec<MapSample>> {
     let sampling = Sampling::CENTRES;
     if !faces(model, lens, &sampling, space, stopped) {
         return None;
     }
     let [width, height] = lens.size;
-    let nothing = Seen { depth: 2.0, triangle: NOTHING };
+    let nothing = MapSample { depth: 2.0, triangle: NOTHING };
     let mut out = vec![nothing; width * height];
     let solid = vec![false; model.triangles.len()];
     each_tile(
@@ -42,8 +42,8 @@ pub fn seen(
         |(), filled, rows| {
             let wide = TILE_WIDTH.min(width - filled.first[0]);
             for (j, row) in rows.chunks_mut(width).take(TILE_HEIGHT).enumerate() {
-                for (i, seen) in row[filled.first[0]..filled.first[0] + wide].iter_mut().enumerate() {
-                    *seen = Seen { depth: filled.tile.depth(i, j), triangle: filled.tile.triangle(i, j) };
+                for (i, sample) in row[filled.first[0]..filled.first[0] + wide].iter_mut().enumerate() {
+                    *sample = MapSample { depth: filled.tile.depth(i, j), triangle: filled.tile.triangle(i, j) };
                 }
             }
         },

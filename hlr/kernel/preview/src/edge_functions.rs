@@ -1,4 +1,5 @@
-//! Sixteen samples a pixel: edge functions followed from sample to sample, eight columns at a time.
+//! Rasterizes faces with sixteen samples per pixel: edge functions, evaluated incrementally for eight columns at a
+//! time.
 //!
 //! J. Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH 1988. The samples are sheared, so that an edge
 //! function is not affine in column and row; but it is, with the same growth, for every fourth of either. So there are
@@ -143,12 +144,12 @@ impl Ready {
 pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
     let ready = Ready::new(face, first, sampling);
     for row in ready.rows[0]..ready.rows[1] {
-        let seen = tile.row(row);
+        let samples = tile.row(row);
         let [from, to] = ready.spans.row(row, ready.chunks);
         for chunk in from..to {
             let (outside, z) = ready.lanes(row, chunk, sampling);
             let at = chunk * LANES;
-            if let Some(lanes) = seen[at..].first_chunk_mut::<LANES>() {
+            if let Some(lanes) = samples[at..].first_chunk_mut::<LANES>() {
                 nearer(&outside, &z, face.triangle, lanes);
             }
         }

@@ -1,4 +1,4 @@
-//! Triangles in the picture: corners on the grid of 1/256 pixel, with the depth at each.
+//! Faces: triangles in the picture, with corners on the grid of 1/256 pixel and a depth at each.
 
 use super::sampling::Sampling;
 

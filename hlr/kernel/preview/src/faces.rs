@@ -1,4 +1,5 @@
-//! Triangles of the model as faces of the picture, rounded to its grid, roughly from near to far.
+//! Projects the triangles of the model, rounds them to the grid of the picture, and sorts them roughly from near to
+//! far.
 
 use rayon::prelude::*;
 

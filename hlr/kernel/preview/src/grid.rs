@@ -1,4 +1,4 @@
-//! The sizes in which a picture is counted.
+//! Sizes of the picture's units: steps per pixel, samples per tile, samples per vector.
 
 /// Steps of the grid in a pixel.
 pub const GRID: i32 = 256;

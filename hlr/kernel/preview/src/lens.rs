@@ -1,4 +1,5 @@
-//! From the model into the picture: x right, y down, in pixels; depth grows away from the viewer.
+//! The lens: projects points of the model into the picture. x right and y down in pixels; depth grows away from the
+//! viewer.
 
 use hlr_brep::geometry::vector::{Vector, dot, sub};
 
@@ -12,11 +13,11 @@ pub struct Lens {
     pub origin: Vector,
     /// Pixels per model unit, in the image plane.
     pub scale: f64,
-    /// Where the origin is seen, in pixels from the upper left corner.
+    /// The origin in the picture, in pixels from the upper left corner.
     pub centre: [f64; 2],
     /// From the eye to the image plane; None for parallel views.
     pub distance: Option<f64>,
-    /// Of all that is to be seen, least and greatest distance ahead; both positive in perspective.
+    /// Least and greatest distance ahead of all that is in view; both positive in perspective.
     pub range: [f64; 2],
     /// Width and height in pixels.
     pub size: [usize; 2],

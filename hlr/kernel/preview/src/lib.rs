@@ -1,14 +1,15 @@
 //! The shaded preview: a z-buffer in tiles, shaded once per pixel and triangle.
 //!
 //! ```text
-//! 1. `lens`       model -> view -> picture, depth that is linear in the picture
-//! 2. `near_clip`       the six-plane cut, only of triangles that cross the near plane or leave the range of integers
-//! 3. `faces`      triangles as integers in 1/256 pixel, what cannot be seen left out, sorted into strips of the picture
-//! 4. `tiles`      each strip's faces sorted into tiles that stay in the first cache; one tile after another:
-//! 5. `raster`     which samples a face owns (top-left rule, exact), and which are nearer than what was there: `row_spans`
-//!                with one sample a pixel, `narrow_faces` for narrow faces, `edge_functions` with sixteen; `pyramid` leaves out what lies behind all that is there
-//! 6. `transparent`        transparent faces: all layers before the nearest opaque one, sorted by depth
-//! 7. `surface`      the point of the true triangle under a sample: perspective-correct, no clipping needed
+//! 1. `lens`         model -> view -> picture, with a depth that is linear in the picture
+//! 2. `near_clip`    clips by six planes, only triangles that cross the near plane or leave the range of integers
+//! 3. `faces`        triangles in integers of 1/256 pixel, without what cannot be visible, sorted by depth in chunks
+//! 4. `tiles`        lists the faces of each tile (`tile_lists`), and goes through the tiles, which fit the first cache
+//! 5. `raster`       which samples a face owns (top-left rule, exact), and depth test into the z-buffer (`tile`):
+//!                   `row_spans` and `narrow_faces` for one sample per pixel, `edge_functions` for sixteen;
+//!                   `pyramid` skips faces that are hidden as a whole
+//! 6. `transparent`  all layers of transparent faces before the nearest opaque one, sorted by depth
+//! 7. `surface`      the point of the unrounded triangle under a sample: perspective-correct, no clipping needed
 //! 8. `shade`        light
 //! 9. `resolve`      samples to a pixel, in linear light
 //! ```

@@ -1,6 +1,6 @@
-//! One sample a pixel, of faces so narrow that a row or two of lanes hold them: the three edge functions at their
-//! columns, and one addition each from row to row. Most faces of a fine mesh are like that, and finding the span of
-//! each row (`row_spans`) would cost more than looking at a few columns too many.
+//! Rasterizes narrow faces with one sample per pixel: all columns fit into one or two vectors, the three edge functions
+//! at their columns, and one addition each from row to row. Most faces of a fine mesh are like that, and finding the
+//! span of each row (`row_spans`) would cost more than looking at a few columns too many.
 //!
 //! ```text
 //!            columns at .. at + 7
@@ -31,7 +31,7 @@ pub fn lanes(face: &Face) -> usize {
 /// `rows`: of the tile, that the face reaches.
 #[inline(always)]
 pub fn fill<const N: usize>(
-    seen: &mut [[f64; TILE_WIDTH]; TILE_HEIGHT],
+    samples: &mut [[f64; TILE_WIDTH]; TILE_HEIGHT],
     face: &Face,
     first: [i32; 2],
     rows: [usize; 2],
@@ -73,10 +73,10 @@ pub fn fill<const N: usize>(
     }
 
     let at = at as usize;
-    for (row, seen) in seen[rows[0]..rows[1]].iter_mut().enumerate() {
+    for (row, samples) in samples[rows[0]..rows[1]].iter_mut().enumerate() {
         let fall = dy * row as f32;
-        let (lanes, _) = seen[at..].as_chunks_mut::<LANES>();
-        for (n, seen) in lanes.iter_mut().take(N).enumerate() {
+        let (lanes, _) = samples[at..].as_chunks_mut::<LANES>();
+        for (n, samples) in lanes.iter_mut().take(N).enumerate() {
             let (mut outside, mut z) = ([0i32; LANES], depth[n]);
             for l in 0..LANES {
                 outside[l] = (one[n][l] | two[n][l] | three[n][l]) >> 31;
@@ -89,7 +89,7 @@ pub fn fill<const N: usize>(
                 let v2 = if v2 > low { v2 } else { low };
                 *v = if v2 < high { v2 } else { high };
             }
-            nearer(&outside, &z, face.triangle, seen);
+            nearer(&outside, &z, face.triangle, samples);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The cut of a triangle by the view volume, before it is projected.
+//! Clips a triangle by the view volume before it is projected.
 //!
 //! I. E. Sutherland, G. W. Hodgman, "Reentrant polygon clipping", CACM 17, 1974: one plane after another, each keeping
 //! the side where its height is not negative. Only what crosses the near plane must be cut, and what would leave the

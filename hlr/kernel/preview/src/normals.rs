@@ -21,7 +21,7 @@ pub struct OnSurfaces<'a> {
 
 /// Per place in `uv` the unit normal on the outer side; nought where the surface has none.
 ///
-/// Which side is the outer one is asked of the triangles: all of a face vote, each with its area.
+/// The triangles of a face decide by majority, weighted by area, which side is the outer one.
 pub fn normals(on: &OnSurfaces) -> Vec<[f32; 3]> {
     // Where a node is singular, its normal is that of a place beside it, toward the middle of a triangle.
     let mut owner = vec![(u32::MAX, [0.0; 2]); on.uv.len()];

@@ -1,8 +1,8 @@
-//! Ambient occlusion: how much of the sky above a point its surroundings in the picture hide.
+//! Ambient occlusion in screen space: the share of the hemisphere above a point that nearby surfaces block.
 //!
 //! M. McGuire, B. Osman, M. Bukowski, P. Hennessy, "The Alchemy screen-space ambient obscurance algorithm", High
 //! Performance Graphics 2011: samples on a spiral around the pixel; each point v away along which something rises above
-//! the tangent plane takes
+//! the tangent plane reduces the light by
 //!
 //! ```text
 //!     max(0, v . n - bias) / (v . v + epsilon)
@@ -13,7 +13,7 @@
 
 use rayon::prelude::*;
 
-use super::depth_map::Seen;
+use super::depth_map::MapSample;
 use super::lens::Lens;
 use super::surface::Surface;
 use super::{Model, NOTHING};
@@ -21,7 +21,7 @@ use hlr_brep::geometry::vector::{Vector, along, dot, sub};
 
 const SAMPLES: usize = 20;
 const TURNS: f64 = 7.0;
-/// Of the radius: what rises less counts as flat.
+/// Share of the radius: what rises less counts as flat.
 const BIAS: f64 = 0.02;
 const STRENGTH: f64 = 1.1;
 
@@ -38,7 +38,7 @@ impl Occlusion {
     pub fn new(
         model: &Model,
         lens: &Lens,
-        seen: &[Seen],
+        map: &[MapSample],
         radius: f64,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Option<Occlusion> {
@@ -52,7 +52,7 @@ impl Occlusion {
             }
             let mut last: Option<(u32, Surface)> = None;
             for (i, open) in row.iter_mut().enumerate() {
-                let here = seen[j * width + i];
+                let here = map[j * width + i];
                 if here.triangle == NOTHING {
                     continue;
                 }
@@ -60,20 +60,20 @@ impl Occlusion {
                     last = Some((here.triangle, Surface::new(model, lens, here.triangle)));
                 }
                 if let Some((_, surface)) = &last {
-                    *open = openness(lens, seen, [i, j], surface, reach);
+                    *open = openness(lens, map, [i, j], surface, reach);
                 }
             }
         });
         let map = (0..height)
             .into_par_iter()
             .flat_map_iter(|j| {
-                let (raw, seen) = (&raw, &seen);
+                let (raw, map) = (&raw, &map);
                 (0..width).map(move |i| {
-                    let here = seen[j * width + i].depth;
+                    let here = map[j * width + i].depth;
                     let (mut sum, mut count) = (0.0, 0.0);
                     for y in j.saturating_sub(2)..(j + 2).min(height) {
                         for x in i.saturating_sub(2)..(i + 2).min(width) {
-                            if (seen[y * width + x].depth - here).abs() <= alike {
+                            if (map[y * width + x].depth - here).abs() <= alike {
                                 sum += raw[y * width + x];
                                 count += 1.0;
                             }
@@ -101,7 +101,7 @@ impl Occlusion {
     }
 }
 
-fn openness(lens: &Lens, seen: &[Seen], [i, j]: [usize; 2], surface: &Surface, reach: f64) -> f32 {
+fn openness(lens: &Lens, map: &[MapSample], [i, j]: [usize; 2], surface: &Surface, reach: f64) -> f32 {
     let [width, height] = lens.size;
     let place = [i as f64 + 0.5, j as f64 + 0.5];
     let w = surface.weights([place[0] - lens.centre[0], place[1] - lens.centre[1]]);
@@ -119,7 +119,7 @@ fn openness(lens: &Lens, seen: &[Seen], [i, j]: [usize; 2], surface: &Surface, r
         if x < 0.0 || y < 0.0 || x >= width as f64 || y >= height as f64 {
             continue;
         }
-        let there = seen[y as usize * width + x as usize];
+        let there = map[y as usize * width + x as usize];
         if there.triangle == NOTHING {
             continue;
         }

@@ -1,4 +1,4 @@
-//! The picture: each tile's samples shaded, once per pixel and triangle, and put together.
+//! Shades the samples of each tile, once per pixel and triangle, and resolves them to pixels.
 
 use super::NOTHING;
 use super::faces::faces;
@@ -135,7 +135,7 @@ fn opaque(c: [f32; 4]) -> [f32; 4] {
 }
 
 fn premultiplied(c: [f32; 4]) -> [f32; 4] {
-    // Highlights lie on the transparent, but here they fade with it: close enough, and never brighter than white.
+    // Highlights lie on the transparent face, but here they fade with it: close enough, and never brighter than white.
     [c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]]
 }
 

@@ -1,4 +1,4 @@
-//! The farthest depth of each block of a tile: a face that begins beyond it is hidden there, whatever its shape.
+//! The farthest depth of each block of a tile: a face whose nearest depth is beyond it is hidden there.
 //!
 //! N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", SIGGRAPH 1993, with the two lowest levels of
 //! their pyramid only: a tile is small. A block is looked at anew only when it is asked for after something was drawn
@@ -39,7 +39,7 @@ impl Pyramid {
     #[inline(always)]
     pub fn hides(
         &mut self,
-        seen: &[[f64; TILE_WIDTH]; TILE_HEIGHT],
+        samples: &[[f64; TILE_WIDTH]; TILE_HEIGHT],
         rows: [usize; 2],
         chunks: [usize; 2],
         nearest: f32,
@@ -48,7 +48,7 @@ impl Pyramid {
             for across in chunks[0]..chunks[1] {
                 if self.stale[down] >> across & 1 == 1 {
                     self.stale[down] &= !(1 << across);
-                    self.farthest[down][across] = farthest(seen, down, across);
+                    self.farthest[down][across] = farthest(samples, down, across);
                 }
                 if nearest <= self.farthest[down][across] {
                     return false;
@@ -76,9 +76,9 @@ impl Pyramid {
 }
 
 #[inline(always)]
-fn farthest(seen: &[[f64; TILE_WIDTH]; TILE_HEIGHT], down: usize, across: usize) -> f32 {
+fn farthest(samples: &[[f64; TILE_WIDTH]; TILE_HEIGHT], down: usize, across: usize) -> f32 {
     let mut most = [0.0f64; LANES];
-    for row in &seen[down * ROWS..(down + 1) * ROWS] {
+    for row in &samples[down * ROWS..(down + 1) * ROWS] {
         if let Some(lanes) = row[across * LANES..].first_chunk::<LANES>() {
             for (m, v) in most.iter_mut().zip(lanes) {
                 *m = if *v > *m { *v } else { *m };

@@ -1,4 +1,4 @@
-//! Which samples a face owns, and which of those are nearer than what was there: the z-buffer of one tile.
+//! Rasterizes faces into the z-buffer of one tile: which samples a face owns, and which of these it is nearest at.
 //!
 //! J. Pineda, "A parallel algorithm for polygon rasterization", SIGGRAPH 1988: three edge functions, each positive on
 //! the inner side, followed from sample to sample by additions.
@@ -42,14 +42,14 @@ fn fill_any(tile: &mut Tile, faces: &[&Face], first: [i32; 2], sampling: &Sampli
     for face in faces {
         let (rows, chunks) = window(face, first);
         let nearest = face.depth[0].min(face.depth[1]).min(face.depth[2]);
-        if tile.pyramid.hides(&tile.seen, rows, chunks, nearest) {
+        if tile.pyramid.hides(&tile.samples, rows, chunks, nearest) {
             continue;
         }
         tile.pyramid.touch(rows, chunks);
         if sampling.side == 1 && narrow_faces::lanes(face) == 1 {
-            narrow_faces::fill::<1>(&mut tile.seen, face, first, rows);
+            narrow_faces::fill::<1>(&mut tile.samples, face, first, rows);
         } else if sampling.side == 1 && narrow_faces::lanes(face) == 2 {
-            narrow_faces::fill::<2>(&mut tile.seen, face, first, rows);
+            narrow_faces::fill::<2>(&mut tile.samples, face, first, rows);
         } else if sampling.side == 1 {
             row_spans::fill(tile, face, first, sampling);
         } else {
@@ -179,9 +179,9 @@ mod tests {
                 };
                 let one = filled(&faces);
                 faces.sort_by(|a, b| a.depth[0].total_cmp(&b.depth[0]));
-                assert!(one.seen == filled(&faces).seen, "from near to far");
+                assert!(one.samples == filled(&faces).samples, "from near to far");
                 faces.reverse();
-                assert!(one.seen == filled(&faces).seen, "from far to near");
+                assert!(one.samples == filled(&faces).samples, "from far to near");
             }
         }
     }
@@ -202,7 +202,7 @@ mod tests {
             let faces: Vec<&Face> = faces.iter().collect();
             one.fill(&faces, [0, 0], &sampling);
             fill_any(&mut two, &faces, [0, 0], &sampling);
-            assert!(one.seen == two.seen);
+            assert!(one.samples == two.samples);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! From linear light to the numbers of a picture (sRGB, IEC 61966-2-1), and back.
+//! Converts linear light to sRGB (IEC 61966-2-1), and back.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! One sample a pixel: the exact span of each row, followed from row to row by whole numbers.
+//! Rasterizes faces with one sample per pixel: the exact span of each row, updated from row to row in integers.
 //!
 //! J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4, 1965, for polygons:
 //! with n(j) = E(0, j), floored to steps of the grid, a left edge (a > 0) owns the columns
@@ -64,7 +64,7 @@ fn divided(n: i64, d: i64, over: f64) -> (i64, i64) {
 pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) {
     let mut scan = Scan::new(face, first, sampling);
     while let Some((row, from, to)) = scan.next_span() {
-        let seen = tile.row(row);
+        let samples = tile.row(row);
         let mut column = from;
         while column < to {
             // Eight lanes that begin with the span, or end with the tile.
@@ -75,7 +75,7 @@ pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) 
                 let i = (at + l) as i32;
                 *v = (i.wrapping_sub(column as i32) | (to as i32 - 1).wrapping_sub(i)) >> 31;
             }
-            if let Some(lanes) = seen[at..].first_chunk_mut::<LANES>() {
+            if let Some(lanes) = samples[at..].first_chunk_mut::<LANES>() {
                 nearer(&outside, &z, face.triangle, lanes);
             }
             column = at + LANES;

@@ -1,4 +1,4 @@
-//! Where the picture is looked at: one place a pixel, or sixteen.
+//! The sample positions of a pixel: one at its centre, or sixteen.
 //!
 //! ```text
 //!   one sample a pixel        sixteen: a grid of 4 x 4, sheared so that all x and all y differ (rooks)
@@ -9,7 +9,7 @@
 
 use super::grid::{GRID, TILE_HEIGHT};
 
-/// Where a pixel is looked at.
+/// The sample positions of a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Sampling {
     /// Samples along a side of a pixel: 1 or 4.

@@ -1,4 +1,5 @@
-//! Light: Lambert's, in linear light, from the viewer's shoulder; highlights, shadows and occlusion where asked for.
+//! Shading: Lambert's law in linear light, one light over the viewer's shoulder; highlights, shadows and ambient
+//! occlusion as options.
 
 use super::Model;
 use super::lens::Lens;
@@ -8,12 +9,13 @@ use super::shadow::Shadow;
 use super::surface::{Surface, normals};
 use hlr_brep::geometry::vector::{add, dot, sub, unit};
 
+#[derive(Clone, Copy, Debug)]
 pub struct Light {
     /// Unit vector from the model toward the light, in the model.
     pub toward: [f64; 3],
-    /// What a surface gives back wherever it is turned.
+    /// Share that a surface reflects whichever way it faces.
     pub ambient: f32,
-    /// What it gives back more where it is turned to the light.
+    /// Share that it reflects in addition where it faces the light.
     pub diffuse: f32,
     /// Strength of highlights; 0 for none.
     pub specular: f32,
@@ -30,7 +32,7 @@ pub struct Scene<'a> {
     pub occlusion: Option<Occlusion>,
 }
 
-/// A triangle made ready: what is the same wherever on it one looks.
+/// A triangle prepared for shading: all that is constant over it.
 #[derive(Clone, Debug)]
 pub enum Ready {
     /// One normal, one colour: one light.

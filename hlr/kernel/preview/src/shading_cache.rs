@@ -1,5 +1,4 @@
-//! What was made ready of the triangles of one tile, found again by their numbers: open addressing, and forgotten at
-//! once.
+//! Caches the shading data of the triangles of one tile: a hash table with open addressing, emptied in constant time.
 
 use super::shade::Ready;
 

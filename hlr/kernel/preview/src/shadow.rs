@@ -1,4 +1,4 @@
-//! Shadows: what the light sees, looked up from what the viewer sees.
+//! Shadows: a depth map from the light, looked up for each visible point.
 //!
 //! L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978, with the edges softened after W. T. Reeves,
 //! D. H. Salesin, R. L. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: not depths are averaged
@@ -7,7 +7,7 @@
 //! Glass takes the share of the light that its opacity says. A texel holds where its first layer lies and where its
 //! last: between them a point has the first one before it, beyond them all.
 
-use super::depth_map::seen;
+use super::depth_map::depth_map;
 use super::faces::faces;
 use super::grid::{TILE_HEIGHT, TILE_WIDTH};
 use super::lens::Lens;
@@ -23,7 +23,7 @@ const LIFT: f64 = 3.0;
 /// Texels along a side of the square over which answers are averaged: about two pixels of the picture.
 const WIDE: usize = 5;
 
-/// The layers of transparent that the light goes through in a texel, before it meets what is opaque.
+/// The transparent layers that the light passes through in a texel, before it meets what is opaque.
 #[derive(Clone, Copy)]
 struct Glass {
     /// Depth of the first layer, and of the last; 2 for none.
@@ -68,7 +68,7 @@ impl Shadow {
     ) -> Option<Shadow> {
         let texel = 1.0 / lens.scale;
         if !model.transparent.contains(&true) {
-            let depth = seen(model, &lens, space, stopped)?.iter().map(|s| s.depth).collect();
+            let depth = depth_map(model, &lens, space, stopped)?.iter().map(|s| s.depth).collect();
             return Some(Shadow { lens, depth, transparent: Vec::new(), texel });
         }
         let sampling = Sampling::CENTRES;

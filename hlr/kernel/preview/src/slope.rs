@@ -1,4 +1,4 @@
-//! Depth along the rows of a tile, eight samples at once, and the test of each against what was nearest before.
+//! Depth of a face along the rows of a tile, eight samples at once, and the depth test against the nearest so far.
 
 use super::face::Face;
 use super::grid::{LANES, TILE_HEIGHT, TILE_WIDTH};
@@ -72,11 +72,11 @@ pub fn window(face: &Face, first: [i32; 2]) -> ([usize; 2], [usize; 2]) {
 
 /// Where nothing is masked as outside, and z is less than the depth, the triangle takes its place.
 #[inline(always)]
-pub fn nearer(outside: &[i32; LANES], z: &[f32; LANES], triangle: u32, seen: &mut [f64; LANES]) {
+pub fn nearer(outside: &[i32; LANES], z: &[f32; LANES], triangle: u32, samples: &mut [f64; LANES]) {
     for l in 0..LANES {
         // What is outside is farther than anything, and still a number.
         let z = z[l].to_bits() | (outside[l] as u32 & 0x7000_0000);
         let here = f64::from_bits(u64::from(z) << 32 | u64::from(triangle));
-        seen[l] = if here < seen[l] { here } else { seen[l] };
+        samples[l] = if here < samples[l] { here } else { samples[l] };
     }
 }

@@ -1,4 +1,4 @@
-//! Lines on top of a picture, antialiased.
+//! Draws antialiased lines on top of a picture.
 //!
 //! Coverage of a pixel is taken across the line only: the length that a box of one pixel, centred at the distance d
 //! from the axis, shares with the line's width. Where several pieces cover a pixel the greatest counts, so that a line

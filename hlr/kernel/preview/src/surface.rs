@@ -1,5 +1,4 @@
-//! The point of a triangle that is seen at a place of the picture, found on the triangle as it is, not as it was
-//! snapped.
+//! The point of a triangle that is visible at a sample, found on the unrounded triangle.
 //!
 //! M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", Graphics Hardware 1997: with the
 //! corners' homogeneous coordinates h_i = (x w, y w, w) as columns of H, the place p = (x, y, 1) is H m, and m / sum(m)

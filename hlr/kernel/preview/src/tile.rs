@@ -11,17 +11,17 @@ const EMPTY: f64 = f64::from_bits((2f32.to_bits() as u64) << 32 | NOTHING as u64
 /// triangle. So the nearer of two is the smaller number, and of equal depths that of the first triangle. It is kept as
 /// the double of those bits, which compares alike, because processors have an instruction for the lesser of doubles.
 pub struct Tile {
-    pub(super) seen: [[f64; TILE_WIDTH]; TILE_HEIGHT],
+    pub(super) samples: [[f64; TILE_WIDTH]; TILE_HEIGHT],
     pub(super) pyramid: Pyramid,
 }
 
 impl Tile {
     pub fn new() -> Tile {
-        Tile { seen: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT], pyramid: Pyramid::EMPTY }
+        Tile { samples: [[EMPTY; TILE_WIDTH]; TILE_HEIGHT], pyramid: Pyramid::EMPTY }
     }
 
     pub fn clear(&mut self) {
-        self.seen.as_flattened_mut().fill(EMPTY);
+        self.samples.as_flattened_mut().fill(EMPTY);
         self.pyramid.clear();
     }
 
@@ -29,13 +29,13 @@ impl Tile {
     /// triangle.
     #[inline(always)]
     pub fn run(&self, row: usize, from: usize) -> Option<(usize, usize, u32)> {
-        let (seen, drawn) = (&self.seen[row], self.pyramid.drawn(row));
+        let (samples, drawn) = (&self.samples[row], self.pyramid.drawn(row));
         let mut at = from;
         while at < TILE_WIDTH {
-            let triangle = seen[at].to_bits() as u32;
+            let triangle = samples[at].to_bits() as u32;
             if triangle != NOTHING {
                 let mut to = at + 1;
-                while to < TILE_WIDTH && seen[to].to_bits() as u32 == triangle {
+                while to < TILE_WIDTH && samples[to].to_bits() as u32 == triangle {
                     to += 1;
                 }
                 return Some((at, to, triangle));
@@ -51,18 +51,18 @@ impl Tile {
     /// What is seen along a row.
     #[inline(always)]
     pub fn row(&mut self, row: usize) -> &mut [f64; TILE_WIDTH] {
-        &mut self.seen[row]
+        &mut self.samples[row]
     }
 
     #[inline(always)]
     pub fn depth(&self, i: usize, j: usize) -> f32 {
-        f32::from_bits((self.seen[j][i].to_bits() >> 32) as u32)
+        f32::from_bits((self.samples[j][i].to_bits() >> 32) as u32)
     }
 
     /// NOTHING for none.
     #[inline(always)]
     pub fn triangle(&self, i: usize, j: usize) -> u32 {
-        self.seen[j][i].to_bits() as u32
+        self.samples[j][i].to_bits() as u32
     }
 }
 

@@ -1,4 +1,4 @@
-//! Which faces reach into which tile.
+//! Lists the faces that reach into each tile.
 
 use super::face::{Chunk, Face};
 use super::grid::{TILE_HEIGHT, TILE_WIDTH};

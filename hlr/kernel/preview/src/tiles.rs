@@ -1,4 +1,4 @@
-//! Strip by strip on all cores, tile by tile within a strip.
+//! Rasterizes the picture strip by strip on all cores, tile by tile within a strip.
 //!
 //! ```text
 //!   strip 0  | tile | tile | tile |      faces are listed for each tile that they reach: chunks of them side by side,

@@ -1,4 +1,4 @@
-//! Transparent faces: every layer that lies before the nearest opaque one, sorted by depth.
+//! Transparent faces: collects every layer in front of the nearest opaque face, sorted by depth.
 //!
 //! L. Carpenter, "The A-buffer, an antialiased hidden surface method", SIGGRAPH 1984: each sample keeps a list of what
 //! covers it. A tile's lists are one array, sorted by sample, then farthest first.
@@ -17,7 +17,7 @@ pub struct Layer {
     pub triangle: u32,
 }
 
-/// Of the depth's range: transparent that lies this near on something opaque is not told apart from it, by whatever
+/// Share of the depth's range: a transparent face this near to an opaque one is not told apart from it, by whatever
 /// rounding.
 const APART: f32 = 2e-6;
 

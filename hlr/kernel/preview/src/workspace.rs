@@ -1,5 +1,5 @@
-//! What a picture needs on its way and the next one needs again: memory, had once. A turning model is drawn many times,
-//! and fresh memory costs as much as filling it.
+//! Memory that one picture needs and the next one reuses: a turning model is drawn many times, and allocating costs as
+//! much as filling.
 
 use super::face::{Chunk, Vertex};
 use super::tile_lists::List;

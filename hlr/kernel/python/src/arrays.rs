@@ -1,4 +1,5 @@
-//! Arrays from Python: shapes and ranges are checked, with the name of the argument in what is said. And arrays for it.
+//! Checks the shapes and ranges of arrays from Python, with the argument's name in the error, and makes arrays for
+//! Python.
 
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;

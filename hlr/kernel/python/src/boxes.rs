@@ -1,4 +1,4 @@
-//! Boxes where parts stand, as Python sees them.
+//! Binding of `hlr_mesh::boxes`: bounding boxes of placed parts.
 
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;

@@ -1,4 +1,4 @@
-//! Boundary representations as Python sees them: a model from a dump, its meshes, their parts as arrays.
+//! Binding of `hlr_brep`: a model from a dump, its meshes, and their parts as arrays.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,4 +1,4 @@
-//! `chain`, and the chains of mesh edges that become lines, as Python sees them.
+//! Binding of `chain`, and of the chains of mesh edges that become lines.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Crossings of surfaces as Python sees them.
+//! Binding of `hlr_visibility::clash`: crossings of surfaces.
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -21,10 +21,10 @@ use hlr_visibility::clash::search::{Clash, Clashes, NO_PLANE, Surfaces};
 use hlr_visibility::clash::weld::weld;
 use hlr_visibility::scan::box_tree::{Aabb, BoxTree};
 
-/// Crossings of which it is told how deep they go, before it is worth while to ask another thread.
+/// Crossings whose depth one thread measures before it is worth waking another.
 const FEW_CLASHES: usize = 256;
 
-/// What a search tells: None where points are not finite, then None where it was stopped.
+/// Result of a search: the outer None for points that are not finite, the inner None for a search that was stopped.
 type Told<T> = Option<Option<T>>;
 
 fn told<T>(result: Told<T>) -> PyResult<T> {
@@ -53,15 +53,15 @@ pub fn clashes<'py>(
     py: Python<'py>,
     points: PyReadonlyArray2<'py, f64>,
     triangles: PyReadonlyArray2<'py, i32>,
-    triangle_part: PyReadonlyArray1<'py, i32>,
+    triangle_group: PyReadonlyArray1<'py, i32>,
     itself: PyReadonlyArray1<'py, bool>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let points = rows::<f64, 3>(&points, "points")?;
     let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-    let (group, itself) = (flat(&triangle_part, "triangle_part")?, flat(&itself, "itself")?);
-    expect_len("triangle_part", group.len(), triangles.len())?;
+    let (group, itself) = (flat(&triangle_group, "triangle_group")?, flat(&itself, "itself")?);
+    expect_len("triangle_group", group.len(), triangles.len())?;
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
-    expect_below("triangle_part", group.iter().copied(), itself.len())?;
+    expect_below("triangle_group", group.iter().copied(), itself.len())?;
     let (grid, found, points, edges) = told(run(py, 0, triangles.len(), |stopped| {
         let (grid, found) = search(points, (triangles, group, &vec![NO_PLANE; triangles.len()]), itself, stopped)?;
         let (points, edges) = weld(&found.found);
@@ -104,10 +104,10 @@ pub fn crossings<'py>(
         let (grid, found) = search(&tables.points, (triangles, group, &plane), &scene.folded, stopped)?;
         let (points, ends) = weld(&found.found);
         let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();
-        let bare: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
+        let without_brep: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
         let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
         let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, normals: &facts.normals };
-        let bodies = Bodies { sheet, group, curved: &scene.curved, bare: &bare, touch, deflection };
+        let bodies = Bodies { sheet, group, curved: &scene.curved, without_brep: &without_brep, touch, deflection };
         let depth = |(clash, [a, b]): (&Clash, &[i32; 2])| {
             let ends = [a, b].map(|&end| &points[end as usize]);
             bodies.depth(clash, &[0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2.0))

@@ -1,4 +1,4 @@
-//! The lines of a drawing, and their pen strokes, as Python sees them.
+//! Binding of the lines of a drawing and of their pen strokes.
 
 use std::sync::Arc as Shared;
 

@@ -1,4 +1,4 @@
-//! The areas of a filled drawing as Python sees them.
+//! Binding of `hlr_preview::fill`: the areas of a filled drawing.
 
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
@@ -6,10 +6,10 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::arrays::{expect_len, flat};
-use super::preview::{LensTuple, ShadedModel, lens_of, stopped_error};
+use super::preview::{PictureLens, PictureLight, ShadedModel, stopped_error};
 use super::threads::run;
 use hlr_preview::fill::areas;
-use hlr_preview::shade::{Light, Scene};
+use hlr_preview::shade::Scene;
 
 /// What `ShadedModel.picture` shows, as areas in the order of painting; `label` (t,): triangles with one number belong
 /// to one face; `fine`: pixels that a band of light is wide at least.
@@ -18,20 +18,17 @@ use hlr_preview::shade::{Light, Scene};
 /// opacity; triangle (a,): one of the face; gradient (a,): -1 for none; lines (g, 4): from x, y to x, y; stops (g + 1,)
 /// into shares (s,) and shades (s, 4).
 #[pyfunction]
-#[pyo3(signature = (model, lens, light, ambient, diffuse, label, fine, threads = 0))]
-#[allow(clippy::too_many_arguments)] // one argument per quantity: the stub names them
+#[pyo3(signature = (model, lens, light, label, fine, threads = 0))]
 pub fn filled_areas<'py>(
     py: Python<'py>,
     model: &ShadedModel,
-    lens: LensTuple,
-    light: [f64; 3],
-    ambient: f32,
-    diffuse: f32,
+    lens: &PictureLens,
+    light: &PictureLight,
     label: PyReadonlyArray1<'_, i32>,
     fine: f64,
     threads: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let lens = lens_of(lens)?;
+    let (lens, light) = (&lens.0, light.0);
     let label = flat(&label, "label")?;
     expect_len("label", label.len(), model.model().triangles.len())?;
     if label.iter().any(|&l| l < 0) || fine.is_nan() || fine < 1.0 {
@@ -39,8 +36,7 @@ pub fn filled_areas<'py>(
     }
     let found = run(py, threads, usize::MAX, |stopped| {
         model.with_space(|space| {
-            let light = Light { toward: light, ambient, diffuse, specular: 0.0 };
-            let scene = Scene { model: &model.model(), lens: &lens, light, shadow: None, occlusion: None };
+            let scene = Scene { model: &model.model(), lens, light, shadow: None, occlusion: None };
             areas(&scene, label, fine, space, stopped)
         })
     })?

@@ -1,4 +1,4 @@
-//! Curves of B-rep edges and surfaces of faces as Python sees them.
+//! Binding of the curves of B-rep edges.
 
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;

@@ -1,8 +1,7 @@
-//! No panic leaves the kernel: all that it exports stands behind `hlr.common.faults.guarded`, which makes errors of
-//! them.
+//! Turns every panic of the kernel into a Python error: `hlr.common.faults.guarded` wraps all that the kernel exports.
 //!
-//! One place, the end of the module's registration, wraps every function and every method of every class, so that no
-//! binding can forget it. Constructors cannot be replaced from outside; they call `caught`.
+//! The end of the module's registration wraps every function and every method of every class, so that no binding can be
+//! forgotten. Constructors cannot be replaced from outside; they call `caught`.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
@@ -10,14 +9,14 @@ use std::sync::Mutex;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
-/// The first panic since the last one was told: where, and why.
+/// The first panic since `take_fault` was last called: where, and why.
 static FAULT: Mutex<Option<String>> = Mutex::new(None);
 
 fn fault() -> std::sync::MutexGuard<'static, Option<String>> {
     FAULT.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// What the last panic said, once; None if the hook has noted none.
+/// The text of the last panic, once; None if there was none.
 #[pyfunction]
 pub fn take_fault() -> Option<String> {
     fault().take()
@@ -45,7 +44,7 @@ pub fn caught<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult
     }
 }
 
-/// Put everything in the module behind the guard, and let panics be told by it instead of on standard error.
+/// Wraps everything in the module, and keeps panics from being printed on standard error.
 pub fn guard(m: &Bound<'_, PyModule>) -> PyResult<()> {
     std::panic::set_hook(Box::new(|info| {
         let place = info.location().map_or("an unknown place".into(), |l| format!("{}:{}", l.file(), l.line()));

@@ -61,6 +61,8 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<parts::PartTables>()?;
     m.add_class::<parts::MeshFacts>()?;
     m.add_class::<parts::MeshScene>()?;
+    m.add_class::<preview::PictureLens>()?;
+    m.add_class::<preview::PictureLight>()?;
     m.add_class::<preview::ShadedModel>()?;
     m.add_function(wrap_pyfunction!(preview::stroke_picture, m)?)?;
     m.add_function(wrap_pyfunction!(fill::filled_areas, m)?)?;

@@ -1,4 +1,4 @@
-//! The way from pieces of mesh edges to the lines of a drawing, as Python sees it.
+//! Binding of `hlr_linework::lines`: from pieces of mesh edges to the lines of a drawing.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -14,7 +14,7 @@ use super::guard::caught;
 use super::mesh_input::Mesh;
 use super::threads::run;
 use hlr_linework::fit::routes::{Curves, Fit, Guide};
-use hlr_linework::lines::camera::Camera as Seen;
+use hlr_linework::lines::camera::Camera as PaperCamera;
 use hlr_linework::lines::candidates::Chains as Walks;
 use hlr_linework::lines::coincident::Widths;
 use hlr_linework::lines::cut::{Cut as Found, Tolerances, Trait, cut};
@@ -25,13 +25,13 @@ use hlr_visibility::scan::invisibility::State;
 type Vec3 = [f64; 3];
 
 #[pyclass(frozen)]
-pub struct Camera(pub(super) Seen);
+pub struct Camera(pub(super) PaperCamera);
 
 #[pymethods]
 impl Camera {
     #[new]
     fn new(direction: Vec3, right: Vec3, up: Vec3, eye: Option<(Vec3, f64)>, scale: f64) -> Camera {
-        Camera(Seen { direction, right, up, eye, scale })
+        Camera(PaperCamera { direction, right, up, eye, scale })
     }
 
     /// (n, 3) to the right, up, and away from the viewer, in model units.
@@ -82,7 +82,7 @@ impl LineTolerances {
 pub struct Cut {
     chains: Arc<Walks>,
     traits: Vec<Trait>,
-    camera: Seen,
+    camera: PaperCamera,
     fit: Fit,
     hidden: bool,
     /// Of each line.
@@ -103,7 +103,7 @@ impl Cut {
         pieces: Pieces<'_>,
         chains: &Chains,
         rank: PyReadonlyArray1<'_, u8>,
-        bare: PyReadonlyArray1<'_, bool>,
+        without_brep: PyReadonlyArray1<'_, bool>,
         tolerances: &LineTolerances,
         hidden: bool,
         threads: usize,
@@ -113,15 +113,16 @@ impl Cut {
             let reading = mesh.reading(py)?;
             let all = reading.slices()?;
             let (projected, space, edges) = (rows::<f64, 3>(&projected, "projected")?, all.points, all.edges);
-            let (rank, bare) = (flat(&rank, "rank")?, flat(&bare, "bare")?);
+            let (rank, without_brep) = (flat(&rank, "rank")?, flat(&without_brep, "without_brep")?);
             let (cutting, fit) = (tolerances.cut, tolerances.fit);
             expect_len("projected", projected.len(), space.len())?;
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
             expect_len("rank", rank.len(), chains.about.len())?;
-            expect_len("bare", bare.len(), chains.about.len())?;
+            expect_len("without_brep", without_brep.len(), chains.about.len())?;
             let (pieces, piece_offsets) = pieces_of(&pieces, edges.len())?;
-            let traits: Vec<Trait> =
-                (0..rank.len()).map(|c| Trait { rank: rank[c], bare: bare[c], noisy: chains.about[c].noisy }).collect();
+            let traits: Vec<Trait> = (0..rank.len())
+                .map(|c| Trait { rank: rank[c], without_brep: without_brep[c], noisy: chains.about[c].noisy })
+                .collect();
             let found = run(py, threads, projected.len(), |stopped| {
                 let flat: Vec<[f64; 2]> =
                     projected.iter().map(|p| [p[0] * camera.scale, p[1] * camera.scale]).collect();

@@ -1,4 +1,4 @@
-//! Yardsticks as Python sees them.
+//! Binding of `hlr_mesh::measure`: nearest segments and blocked rays.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Facts of meshes as Python sees them.
+//! Binding of mesh cleaning, needles and edge classes.
 
 use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -73,24 +73,25 @@ pub fn needles<'py>(
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }
 
-/// Kinds of the edges of bare parts, 255 for all others; and which of those are nearly creases. Cosines of folds:
-/// sharp, near.
+/// Kinds of the edges of parts without B-rep, 255 for all others; and which of those are nearly creases. Cosines of
+/// folds: sharp, near.
 #[pyfunction]
 pub fn edge_kinds<'py>(
     py: Python<'py>,
     offsets: PyReadonlyArray1<'py, i32>,
     fold: PyReadonlyArray1<'py, f64>,
     edge_part: PyReadonlyArray1<'py, i32>,
-    bare: PyReadonlyArray1<'py, bool>,
+    without_brep: PyReadonlyArray1<'py, bool>,
     sharp: f64,
     near: f64,
 ) -> PyResult<(Flat<'py, u8>, Flat<'py, i64>)> {
     let (offsets, fold) = (flat(&offsets, "offsets")?, flat(&fold, "fold")?);
-    let (edge_part, bare) = (flat(&edge_part, "edge_part")?, flat(&bare, "bare")?);
+    let (edge_part, without_brep) = (flat(&edge_part, "edge_part")?, flat(&without_brep, "without_brep")?);
     expect_len("offsets", offsets.len(), fold.len() + 1)?;
     expect_len("edge_part", edge_part.len(), fold.len())?;
-    expect_below("edge_part", edge_part.iter().copied(), bare.len())?;
-    let found =
-        run(py, 0, fold.len(), |_| kinds(offsets, fold, &|e| bare[edge_part[e] as usize], Limits { sharp, near }))?;
+    expect_below("edge_part", edge_part.iter().copied(), without_brep.len())?;
+    let found = run(py, 0, fold.len(), |_| {
+        kinds(offsets, fold, &|e| without_brep[edge_part[e] as usize], Limits { sharp, near })
+    })?;
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }

@@ -1,4 +1,4 @@
-//! What several calls are about, checked once: a mesh with its edges, and the groups of its triangles.
+//! A mesh with its edges, and the groups of its triangles: checked once, used by several calls.
 
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;

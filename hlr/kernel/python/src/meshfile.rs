@@ -1,4 +1,4 @@
-//! Mesh files as Python sees them: bytes in, arrays out.
+//! Binding of `hlr_mesh::meshfile`: bytes of a mesh file in, arrays out.
 
 use pyo3::exceptions::{PyEOFError, PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;

@@ -1,4 +1,4 @@
-//! The visible-surface methods by name, the camera, and what work may take.
+//! Runs a visible-surface method by name, with a camera, within limits of time and memory.
 
 use std::sync::Mutex;
 

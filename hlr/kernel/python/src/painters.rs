@@ -1,4 +1,4 @@
-//! Painters' lists, counters and quadrics as Python sees them.
+//! Binding of the painters' lists, the counters and the quadrics of the visible-surface methods.
 
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;

@@ -1,4 +1,4 @@
-//! Meshes of parts, and the scene that they make, as Python sees them.
+//! Binding of the meshes of parts and of the scene that they make.
 
 use std::sync::Arc;
 
@@ -16,8 +16,8 @@ use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
 use hlr_mesh::tables::{Placed, Tables, TooMany};
 
-/// Of so many triangles or points all that is known here is found while `run` thinks of one: in a tenth of a
-/// microsecond each. Below that other threads are woken for longer than they would work.
+/// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items waking
+/// other threads costs more than the work.
 const CHEAP: usize = 64;
 
 fn too_many(_: TooMany) -> PyErr {
@@ -55,6 +55,7 @@ arrays! { PartTables {
 }
 
     #[new]
+    #[pyo3(signature = (*, point_start, points, triangle_start, triangles, triangle_face, origin, face_start, face_planar, edge_start, edge_offsets, edge_nodes, edge_index, edge_class, brep, joined, transform, precision, node_start, corner, uv, face_shape, face_place, face_reversed))]
     #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
     fn new(
         py: Python<'_>,
@@ -226,7 +227,7 @@ arrays! { MeshFacts {
     }
 
     /// (p,) how many borders each part without B-rep has.
-    fn bare_borders(&self) -> Vec<i64> {
+    fn borders_without_brep(&self) -> Vec<i64> {
         let mut count = vec![0; self.tables.len()];
         if self.tables.brep.contains(&false) {
             let part = self.tables.triangle_part();
@@ -291,7 +292,7 @@ arrays! { MeshScene {
     face_curved: flat Flat<'py, bool> = |s| &s.scene.surfaces.curved;
 }
 
-    /// The mesh after what was inside out has been turned.
+    /// The mesh after closed surfaces that were inside out have been turned.
     #[getter]
     fn mesh(&self) -> MeshFacts {
         MeshFacts { tables: self.tables.clone(), facts: self.facts.clone() }

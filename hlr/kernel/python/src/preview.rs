@@ -1,4 +1,4 @@
-//! The shaded preview as Python sees it.
+//! Binding of `hlr_preview`: the shaded picture.
 
 use std::sync::Mutex;
 
@@ -12,7 +12,7 @@ use super::guard::caught;
 use super::mesh_input::Mesh;
 use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
-use hlr_preview::depth_map::seen;
+use hlr_preview::depth_map::depth_map;
 use hlr_preview::grid::MOST_PIXELS;
 use hlr_preview::lens::Lens;
 use hlr_preview::normals::{OnSurfaces, normals};
@@ -25,27 +25,87 @@ use hlr_preview::stroke::{Piece, stroke};
 use hlr_preview::workspace::Workspace;
 use hlr_preview::{Model, NOTHING};
 
-/// right, up, ahead, origin, scale, centre, distance (0: parallel), range, size: see `preview/src/lens.rs`.
-pub type LensTuple = ([f64; 3], [f64; 3], [f64; 3], [f64; 3], f64, [f64; 2], f64, [f64; 2], [usize; 2]);
+/// A view of the model as a picture in pixels: what `hlr_preview::lens::Lens` says of each field, distance 0 for
+/// parallel views.
+#[pyclass(frozen, name = "Lens")]
+pub struct PictureLens(pub Lens);
 
-pub fn lens_of(given: LensTuple) -> PyResult<Lens> {
-    let (right, up, ahead, origin, scale, centre, distance, range, size) = given;
-    if size.iter().any(|&s| s == 0 || s > MOST_PIXELS) {
-        return Err(PyValueError::new_err(format!("a picture has 1 to {MOST_PIXELS} pixels a side")));
+#[pymethods]
+impl PictureLens {
+    #[new]
+    #[pyo3(signature = (*, right, up, ahead, origin, scale, centre, distance, range, size))]
+    #[allow(clippy::too_many_arguments)] // one argument per field: the stub names them
+    fn new(
+        right: [f64; 3],
+        up: [f64; 3],
+        ahead: [f64; 3],
+        origin: [f64; 3],
+        scale: f64,
+        centre: [f64; 2],
+        distance: f64,
+        range: [f64; 2],
+        size: [usize; 2],
+    ) -> PyResult<PictureLens> {
+        if size.iter().any(|&s| s == 0 || s > MOST_PIXELS) {
+            return Err(PyValueError::new_err(format!("a picture has 1 to {MOST_PIXELS} pixels a side")));
+        }
+        let sound = scale > 0.0 && scale.is_finite() && range[0] < range[1] && range[1].is_finite() && distance >= 0.0;
+        if !sound || (distance > 0.0 && range[0] <= 0.0) {
+            return Err(PyValueError::new_err("scale and range must be positive, and finite"));
+        }
+        let distance = (distance > 0.0).then_some(distance);
+        Ok(PictureLens(Lens { right, up, ahead, origin, scale, centre, distance, range, size }))
     }
-    let sound = scale > 0.0 && scale.is_finite() && range[0] < range[1] && range[1].is_finite() && distance >= 0.0;
-    if !sound || (distance > 0.0 && range[0] <= 0.0) {
-        return Err(PyValueError::new_err("scale and range must be positive, and finite"));
+
+    #[getter]
+    fn ahead(&self) -> (f64, f64, f64) {
+        self.0.ahead.into()
     }
-    let distance = (distance > 0.0).then_some(distance);
-    Ok(Lens { right, up, ahead, origin, scale, centre, distance, range, size })
+
+    #[getter]
+    fn origin(&self) -> (f64, f64, f64) {
+        self.0.origin.into()
+    }
+
+    #[getter]
+    fn scale(&self) -> f64 {
+        self.0.scale
+    }
+
+    #[getter]
+    fn centre(&self) -> (f64, f64) {
+        self.0.centre.into()
+    }
+
+    #[getter]
+    fn distance(&self) -> f64 {
+        self.0.distance.unwrap_or(0.0)
+    }
+
+    #[getter]
+    fn range(&self) -> (f64, f64) {
+        self.0.range.into()
+    }
+}
+
+/// The light on a picture, and how much of it a surface reflects.
+#[pyclass(frozen, name = "Light")]
+pub struct PictureLight(pub Light);
+
+#[pymethods]
+impl PictureLight {
+    #[new]
+    #[pyo3(signature = (*, toward, ambient, diffuse, specular = 0.0))]
+    fn new(toward: [f64; 3], ambient: f32, diffuse: f32, specular: f32) -> PictureLight {
+        PictureLight(Light { toward, ambient, diffuse, specular })
+    }
 }
 
 pub fn stopped_error() -> PyErr {
     PyKeyboardInterrupt::new_err("stopped")
 }
 
-/// A model that has been checked, kept for any number of pictures.
+/// A checked model, for any number of pictures.
 #[pyclass(frozen)]
 pub struct ShadedModel {
     points: Vec<[f64; 3]>,
@@ -126,26 +186,21 @@ impl ShadedModel {
     }
 
     /// (h, w, 4) uint8; `out`: a picture of that shape to draw over instead of a new one.
-    #[pyo3(signature = (lens, light, ambient, diffuse, specular, background, antialias, shadow = None, occlusion = 0.0,
-        threads = 0, out = None))]
+    #[pyo3(signature = (lens, light, background, antialias, shadow = None, occlusion = 0.0, threads = 0, out = None))]
     #[allow(clippy::too_many_arguments)] // one argument per effect: the stub names them
     fn picture<'py>(
         &self,
         py: Python<'py>,
-        lens: LensTuple,
-        light: [f64; 3],
-        ambient: f32,
-        diffuse: f32,
-        specular: f32,
+        lens: &PictureLens,
+        light: &PictureLight,
         background: [f32; 4],
         antialias: bool,
-        shadow: Option<LensTuple>,
+        shadow: Option<&PictureLens>,
         occlusion: f64,
         threads: usize,
         out: Option<Bound<'py, PyArray3<u8>>>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let lens = lens_of(lens)?;
-        let shadow = shadow.map(lens_of).transpose()?;
+        let (lens, light, shadow) = (&lens.0, light.0, shadow.map(|lens| lens.0.clone()));
         let [width, height] = lens.size;
         let sampling = if antialias { Sampling::SIXTEEN } else { Sampling::CENTRES };
         let out = out.unwrap_or_else(|| PyArray3::zeros(py, [height, width, 4], false));
@@ -163,13 +218,12 @@ impl ShadedModel {
                     None => None,
                 };
                 let occlusion = if occlusion > 0.0 {
-                    let map = seen(&model, &lens, space, stopped)?;
-                    Some(Occlusion::new(&model, &lens, &map, occlusion, stopped)?)
+                    let map = depth_map(&model, lens, space, stopped)?;
+                    Some(Occlusion::new(&model, lens, &map, occlusion, stopped)?)
                 } else {
                     None
                 };
-                let light = Light { toward: light, ambient, diffuse, specular };
-                let scene = Scene { model: &model, lens: &lens, light, shadow, occlusion };
+                let scene = Scene { model: &model, lens, light, shadow, occlusion };
                 picture(&scene, &sampling, background, space, pixels, stopped).then_some(())
             })
         })?;
@@ -179,22 +233,22 @@ impl ShadedModel {
     }
 
     /// What is seen at the centres of pixels: distance ahead (h, w) float64, infinite for nothing; triangle (h, w)
-    /// int32, -1 for none. Glass counts as solid.
+    /// int32, -1 for none. Transparent triangles count as opaque.
     #[pyo3(signature = (lens, threads = 0))]
     #[allow(clippy::type_complexity)]
     fn maps<'py>(
         &self,
         py: Python<'py>,
-        lens: LensTuple,
+        lens: &PictureLens,
         threads: usize,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>)> {
-        let lens = lens_of(lens)?;
+        let lens = &lens.0;
         let [width, height] = lens.size;
         let found = run(py, threads, usize::MAX, |stopped| {
-            self.with_space(|space| seen(&self.model(), &lens, space, stopped))
+            self.with_space(|space| depth_map(&self.model(), lens, space, stopped))
         })?
         .ok_or_else(stopped_error)?;
-        let ahead = |s: &hlr_preview::depth_map::Seen| {
+        let ahead = |s: &hlr_preview::depth_map::MapSample| {
             if s.triangle == NOTHING { f64::INFINITY } else { lens.ahead_at(f64::from(s.depth)) }
         };
         let depth: Vec<f64> = found.iter().map(ahead).collect();

@@ -1,4 +1,4 @@
-//! The visible-surface methods as Python sees them: a scene of polygons that can be rendered by any of them.
+//! Binding of `hlr_methods`: a scene of polygons that any of the visible-surface methods renders.
 
 use std::sync::Mutex;
 

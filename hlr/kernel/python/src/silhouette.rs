@@ -1,4 +1,4 @@
-//! Outlines of true surfaces, as Python sees them.
+//! Binding of `hlr_linework::silhouette`: outlines of true surfaces.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};

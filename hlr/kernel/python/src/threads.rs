@@ -1,7 +1,7 @@
-//! Run Rust without the interpreter lock, on so many threads, and stop when Python has been interrupted.
+//! Runs Rust code without the interpreter lock on a given number of threads, and stops it on Ctrl-C.
 //!
-//! Starting threads takes a fifth of a millisecond, more than many a call on a small model: pools are kept, and what is
-//! done within about a millisecond is done where it is called.
+//! Starting threads takes a fifth of a millisecond, more than many calls on small models: thread pools are kept, and
+//! work of about a millisecond runs on the calling thread.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;

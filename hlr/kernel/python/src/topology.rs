@@ -1,4 +1,4 @@
-//! What can be said of triangles alone: edges, components, joined borders.
+//! Binding of mesh topology: edges, connected components, joined borders.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;

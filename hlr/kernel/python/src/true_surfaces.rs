@@ -1,4 +1,4 @@
-//! Where the triangles of faces lie on the surfaces of these faces.
+//! The surfaces of faces, and the parameters (u, v) of their triangles' corners.
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;

@@ -1,4 +1,4 @@
-//! Arrays that lie in an object of the kernel: nothing is copied, and nobody can write to them.
+//! Read-only NumPy arrays whose data lie in an object of the kernel: nothing is copied.
 
 use numpy::ndarray::{ArrayView1, ArrayView2, ArrayView3};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};

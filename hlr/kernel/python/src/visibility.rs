@@ -1,4 +1,4 @@
-//! The visibility pass as Python sees it.
+//! Binding of `hlr_visibility::scan`: the visibility pass.
 
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -68,7 +68,7 @@ impl OwnFaces {
     }
 }
 
-/// What is seen of the edges.
+/// Visible and hidden pieces of the edges.
 #[pyclass(frozen)]
 pub struct Visibility {
     edge: Vec<i32>,
@@ -99,7 +99,7 @@ arrays! { Visibility {
     }
 }
 
-/// Which pieces of the edges with a role are seen.
+/// Visible and hidden pieces of the edges that have a role.
 #[pyfunction]
 #[pyo3(signature = (mesh, projected, groups, role, own = None, *, crossings = true, piercings = true, pyramid = false,
     arithmetic = "exact", threads = 0))]

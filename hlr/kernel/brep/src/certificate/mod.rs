@@ -38,7 +38,7 @@ pub struct Certificate {
     /// Upper bound: no triangle is farther from the surface.
     pub bound: f64,
     /// Lower bound: some point of the surface is this far from its triangle.
-    pub seen: f64,
+    pub measured: f64,
     pub triangles: usize,
     /// Triangles that may be farther off than was asked, by the proof.
     pub above: usize,
@@ -51,7 +51,7 @@ impl Certificate {
     pub fn and(self, other: Certificate) -> Certificate {
         Certificate {
             bound: self.bound.max(other.bound),
-            seen: self.seen.max(other.seen),
+            measured: self.measured.max(other.measured),
             triangles: self.triangles + other.triangles,
             above: self.above + other.above,
             unproved: self.unproved + other.unproved,
@@ -80,23 +80,23 @@ pub fn certify(surface: &Surface, mesh: &FaceMesh, deflection: f64) -> Certifica
             let heights = points.map(|p| dot(&n, &sub(&p, &points[0])));
             let origin = points[0];
             let mut proof =
-                Proof { surface, bends: bends.as_ref()?, n, origin, uv, heights, limit: deflection, seen: 0.0 };
-            Some((proof.bound(uv, [0.0; 3], 0)?, proof.seen))
+                Proof { surface, bends: bends.as_ref()?, n, origin, uv, heights, limit: deflection, measured: 0.0 };
+            Some((proof.bound(uv, [0.0; 3], 0)?, proof.measured))
         });
         // The second one is asked where the first one does not do.
         let mut least: Option<(f64, f64)> = None;
-        for (bound, seen) in proofs {
-            least = Some(least.map_or((bound, seen), |(b, s)| (b.min(bound), s.min(seen))));
+        for (bound, measured) in proofs {
+            least = Some(least.map_or((bound, measured), |(b, s)| (b.min(bound), s.min(measured))));
             if bound <= deflection * (1.0 + ROUNDING) {
                 break;
             }
         }
-        let Some((bound, seen)) = least else {
+        let Some((bound, measured)) = least else {
             all.unproved += 1;
             continue;
         };
         all.bound = all.bound.max(bound);
-        all.seen = all.seen.max(seen);
+        all.measured = all.measured.max(measured);
         all.above += usize::from(bound > deflection * (1.0 + ROUNDING));
     }
     all
@@ -112,20 +112,20 @@ struct Proof<'a> {
     /// Of its corners.
     heights: [f64; 3],
     limit: f64,
-    seen: f64,
+    measured: f64,
 }
 
 impl Proof<'_> {
     /// A bound of the gap on a part of the triangle, from the gaps at the part's corners.
     fn bound(&mut self, uv: [[f64; 2]; 3], gaps: [f64; 3], depth: u32) -> Option<f64> {
         let known = gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-        self.seen = self.seen.max(known);
+        self.measured = self.measured.max(known);
         let rectangle: [Range; 2] =
             [0, 1].map(|k| uv.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| [l.min(p[k]), h.max(p[k])]));
         let ranges = self.bends.on(&self.n, &self.origin, rectangle);
         let bound = ranges.and_then(|ranges| self.at_once(uv, gaps, rectangle, &ranges));
         if let Some(bound) = bound
-            && (bound <= self.limit || (self.seen > self.limit && bound <= CLOSE * self.seen))
+            && (bound <= self.limit || (self.measured > self.limit && bound <= CLOSE * self.measured))
         {
             return Some(bound);
         }

@@ -53,7 +53,7 @@ impl Polyline {
 const POLE_PARTS: f64 = 16.0;
 /// How far from the vertex a polyline leaves its curve, in distances between vertex and curve.
 const LEAVES: f64 = 3.0;
-/// Of the first chord: where it would leave it beyond that, it is left as it is.
+/// Share of the first chord: where it would leave it beyond that, it is left as it is.
 const MOST_SHARE: f64 = 0.4;
 /// Tolerances from an end within which a polyline has no corner; what OpenCASCADE takes as the same point.
 const NEAR_END: f64 = 2.0;

@@ -4,7 +4,7 @@ use super::curve::Curve;
 
 type Matrix = [[f64; 4]; 3];
 
-/// Of a volume: less is rounding.
+/// Share of a volume: less is rounding.
 const LENGTHENS: f64 = 1e-9;
 
 /// The numbers of a record, as `Surface::read` takes them, moved by a (3, 4) matrix; None where they make no surface,

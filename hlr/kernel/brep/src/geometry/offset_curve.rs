@@ -4,7 +4,7 @@ use super::curve::{Curve, Vec3};
 use super::nurbs::Nurbs;
 use super::vector::{add, along, cross, dot, length, scaled, sub, unit};
 
-/// Of the curve's size: how closely it is followed.
+/// Share of the curve's size: how closely it is followed.
 const CLOSE: f64 = 1e-9;
 const MOST_PIECES: usize = 4000;
 

@@ -7,7 +7,7 @@ use super::jet::Jet;
 use super::spans::{Slopes, Spans};
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
-/// Of a surface's size: poles that are as near to where they would be are there.
+/// Share of a surface's size: poles that are as near to where they would be are there.
 const SAME: f64 = 1e-10;
 
 pub const MAX_DEGREE: usize = 25;

@@ -41,9 +41,9 @@ pub enum Surface {
     Offset(Box<Surface>, f64),
 }
 
-/// Of the longer derivative's square: an area below says that the surface has no normal there.
+/// Share of the longer derivative's square: an area below says that the surface has no normal there.
 const SINGULAR: f64 = 1e-13;
-/// Of the way to a point beside: where the normal of a singular point is taken, which turns by as little.
+/// Share of the way to a point beside: where the normal of a singular point is taken, which turns by as little.
 const BESIDE: f64 = 1e-8;
 
 impl Surface {

@@ -5,7 +5,7 @@ use rustc_hash::FxHashSet;
 use super::outline::Outline;
 use super::plane::area;
 
-/// Of the largest parameter times the triangle's width and height: what rounding makes of an area of nothing.
+/// Share of the largest parameter times the triangle's width and height: what rounding makes of an area of nothing.
 const ROUNDING: f64 = 4e-15;
 
 /// What is proved of triangles that fill what the loops enclose.

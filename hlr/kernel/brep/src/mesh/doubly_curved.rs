@@ -24,7 +24,8 @@ use hlr_accuracy::MESH_BESIDE_BORDER;
 const ROUNDS: usize = 16;
 /// Points inside one face.
 const MOST: usize = 8_000_000;
-/// Of the length of a chord: new points are kept so far off it in the chart; nearer only where there is no other way.
+/// Share of the length of a chord: new points are kept so far off it in the chart; nearer only where there is no other
+/// way.
 const OFF: [f64; 2] = [0.2, 0.02];
 
 /// `straight`: with a chart that is slower to be filled and never wrong. Faults of the loops as None beside their
@@ -60,7 +61,8 @@ pub fn triangulate(
     Ok(Ok(Draft { outline, corners, triangles: net.into_triangles(), stand_in, error, turned: Vec::new() }))
 }
 
-/// Of the work on a face, about: when its inner points are known, when they are joined, when they are judged once.
+/// Share of the work on a face, about: when its inner points are known, when they are joined, when they are judged
+/// once.
 const DONE: [f64; 3] = [0.2, 0.6, 0.8];
 
 struct Filled {

@@ -11,7 +11,7 @@ use crate::geometry::vector::{Vector, add, cross, dot, sub, unit};
 const SHARE: f64 = 0.06;
 /// What is measured at four places may be more beside these.
 const MARGIN: f64 = 1.1;
-/// Of the largest H along an edge: where it differs by more from corner to corner, it may change unevenly.
+/// Share of the largest H along an edge: where it differs by more from corner to corner, it may change unevenly.
 const UNEVEN: f64 = 0.3;
 
 /// A corner of triangles.

@@ -17,8 +17,8 @@ pub struct Outline {
 }
 
 const NONE: u32 = u32::MAX;
-/// Of the outline's extent: neighbours this close to one another in (u, v) are at one place there. What ends of edges
-/// that miss their vertex do between themselves is less than that.
+/// Share of the outline's extent: neighbours this close to one another in (u, v) are at one place there. What ends of
+/// edges that miss their vertex do between themselves is less than that.
 const SAME: f64 = 1e-6;
 
 impl Outline {

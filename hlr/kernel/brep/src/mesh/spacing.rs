@@ -21,8 +21,8 @@ const STEADY: f64 = 1.4;
 const STEADY_ROUND: f64 = 1.1;
 /// Triangles are at most so many times longer than wide where the surface bends in one direction only.
 const LONGEST: f64 = 12.0;
-/// Of the angle asked for: between the normals at the ends of an edge inside the face. Neighbouring triangles, whose
-/// middles are nearer to one another, differ by less than the angle.
+/// Share of the angle asked for: between the normals at the ends of an edge inside the face. Neighbouring triangles,
+/// whose middles are nearer to one another, differ by less than the angle.
 const TURN: f64 = 1.03;
 /// Radians between the directions of coordinate lines at the ends of an edge: about a pole.
 const FAN: f64 = 0.8;

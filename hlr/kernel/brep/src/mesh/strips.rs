@@ -14,7 +14,7 @@ use super::plane::area;
 use super::progress::Progress;
 use super::spacing::Field;
 
-/// Of the least spacing: points of the border may be so far off the rectangle's sides.
+/// Share of the least spacing: points of the border may be so far off the rectangle's sides.
 const OFF: f64 = 0.02;
 
 pub struct Strips {

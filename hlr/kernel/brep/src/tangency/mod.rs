@@ -41,10 +41,10 @@ const STEPS_AT_A_GLANCE: usize = 8;
 const PLACES: [f64; 3] = [1e-6, 0.5, 1.0 - 1e-6];
 /// Of one edge; surfaces with more knots across it are compared at fewer.
 const MOST_BREAKS: usize = 1000;
-/// Of an edge's length: an angle along less says nothing of the edge. Where a face runs out to a point, its surface has
-/// no normal to speak of.
+/// Share of an edge's length: an angle along less says nothing of the edge. Where a face runs out to a point, its
+/// surface has no normal to speak of.
 const SHORT_FOLD: f64 = 0.02;
-/// Of an edge's length: along less, faces that meet at an angle elsewhere may come tangent without the line being
+/// Share of an edge's length: along less, faces that meet at an angle elsewhere may come tangent without the line being
 /// interrupted, as where two pipes of one size cross.
 const LONG_REST: f64 = 0.1;
 /// Of the step between two places, to find where faces begin to meet at an angle.

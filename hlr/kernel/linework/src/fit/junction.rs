@@ -182,8 +182,8 @@ fn changes(routes: &[Route]) -> Vec<Change> {
         .into_values()
         .filter(|ends| {
             let alone = ends.len() == 1 && routes[ends[0].0].border == Border::Outline;
-            let seen = |visible| ends.iter().any(|e| routes[e.0].visible == visible);
-            (alone || seen(false)) && seen(true)
+            let any_is = |visible| ends.iter().any(|e| routes[e.0].visible == visible);
+            (alone || any_is(false)) && any_is(true)
         })
         .map(|ends| {
             let (i, end) = ends[0];
@@ -299,10 +299,10 @@ mod tests {
     #[test]
     fn a_change_moves_onto_the_line_that_hides() {
         let deep = [[0.0, 0.0, 5.0]; 2];
-        let (seen, hidden) = ([[0.0, 0.0], [1.02, 0.0]], [[1.02, 0.0], [3.0, 0.0]]);
+        let (visible, hidden) = ([[0.0, 0.0], [1.02, 0.0]], [[1.02, 0.0], [3.0, 0.0]]);
         let wall = [[1.0, -1.0], [1.0, 1.0]];
         let mut routes = vec![
-            straight(0, true, &seen, &deep),
+            straight(0, true, &visible, &deep),
             straight(0, false, &hidden, &deep),
             straight(1, true, &wall, &[[0.0; 3]; 2]),
         ];

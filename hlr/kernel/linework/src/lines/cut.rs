@@ -32,8 +32,8 @@ pub struct Tolerances {
 pub struct Trait {
     /// Which of two coincident lines is drawn: the lower sixteen, of equal ones the nearer, then the lower.
     pub rank: u8,
-    /// Of a mesh without faces.
-    pub bare: bool,
+    /// Of a mesh without B-rep.
+    pub without_brep: bool,
     pub noisy: bool,
 }
 
@@ -76,13 +76,13 @@ pub fn cut(
         .par_iter_mut()
         .map(|line| {
             let of = traits[line.chain as usize];
-            if of.noisy && of.bare {
+            if of.noisy && of.without_brep {
                 let (found, chain) = smooth(line, &|p| ends.meet(line, p), t.accuracy, t.space, view);
                 *line = found;
                 return chain;
             }
             // Where other lines end on a crease of a mesh, it keeps its vertex.
-            let kept: Vec<bool> = line.flat.iter().map(|p| of.bare && ends.meet(line, p)).collect();
+            let kept: Vec<bool> = line.flat.iter().map(|p| of.without_brep && ends.meet(line, p)).collect();
             simplify(line, &kept, t.flat, t.space);
             None
         })

@@ -26,11 +26,11 @@ pub fn guide(about: &About, of: &Trait, curve: Option<u32>, place: u32, bulge: f
     // Where a surface may end in the image. The outline of a mesh is an edge of it.
     let border = match about.kind {
         Kind::SHARP | Kind::BOUNDARY => Border::Edge,
-        Kind::OUTLINE if of.bare => Border::Edge,
+        Kind::OUTLINE if of.without_brep => Border::Edge,
         Kind::OUTLINE => Border::Outline,
         _ => Border::None,
     };
-    Guide { curve, place, border, bulge, smoothed: of.noisy && of.bare }
+    Guide { curve, place, border, bulge, smoothed: of.noisy && of.without_brep }
 }
 
 /// The lines, sorted by part, kind, edge, face and second part, and the lower left corner they were moved from.

@@ -39,7 +39,7 @@ impl Ring {
         let numbers: Vec<i32> = (0..edges.len() as i32).collect();
         let about = About { kind: self.kind, part: 3, edge: 7, face: -1, other: -1, noisy: false, straight: false };
         chains.push(&numbers, &vec![false; edges.len()], about);
-        let traits = [Trait { rank: 0, bare: false, noisy: false }];
+        let traits = [Trait { rank: 0, without_brep: false, noisy: false }];
         let flat: Vec<[f64; 2]> = self.space.iter().map(|p| CAMERA.point(p)).collect();
         let pieces: Vec<Piece> = (0..edges.len()).map(|e| Piece { start: 0.0, end: 1.0, state: state(e) }).collect();
         let piece_offsets: Vec<u32> = (0..=edges.len() as u32).collect();

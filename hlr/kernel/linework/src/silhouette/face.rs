@@ -224,7 +224,7 @@ pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
     (near && dot(&place.normal, &sight).abs() < 1e-8).then_some(place)
 }
 
-/// Of a chord: a curve over one triangle bows out by less, for the normals turn by half a radian at most.
+/// Share of a chord: a curve over one triangle bows out by less, for the normals turn by half a radian at most.
 const BOW: f64 = 0.2;
 
 /// The middle of two places of one face, moved onto the silhouette.

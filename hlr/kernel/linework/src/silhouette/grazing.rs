@@ -40,7 +40,7 @@ const GRAZE: f64 = 0.3;
 /// |N . v|: a face, or a triangle, seen at less is a wall along the sight: rounding decides what it hides.
 const WALL: f64 = 1e-6;
 
-/// Of the square of its longer side: a triangle with less area has no normal to be trusted.
+/// Share of the square of its longer side: a triangle with less area has no normal to be trusted.
 const NEEDLE: f64 = 1e-9;
 
 /// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single
@@ -120,10 +120,10 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     let f = [dot(&m, &sight), dot(&n, &sight)];
     let (front, back) = (f.iter().filter(|f| **f < -WALL).count(), f.iter().filter(|f| **f > WALL).count());
     match concave {
-        false if front > 0 => Beside::Seen,
+        false if front > 0 => Beside::Visible,
         false if back == 2 => Beside::Hidden,
         true if back > 0 => Beside::Hidden,
-        true if front == 2 => Beside::Seen,
+        true if front == 2 => Beside::Visible,
         _ => Beside::Unknown,
     }
 }

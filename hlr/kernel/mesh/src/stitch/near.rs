@@ -6,7 +6,7 @@ use super::border::{Border, Vec3, along, before, distance2};
 use crate::measure::boxes::{Bounds, Tree};
 
 pub struct Near {
-    /// Of each point its node: the corner of a border that stands for all corners there.
+    /// Per point: its node: the corner of a border that stands for all corners there.
     pub node: HashMap<u32, u32>,
     /// Per border the nodes on it, in its direction, with its own ends' first and last.
     pub chains: Vec<Vec<u32>>,

@@ -1,4 +1,4 @@
-//! Chains become closed loops again: the areas that are painted, in their order.
+//! Joins chains to closed loops: the areas to be painted, in the order of painting.
 //!
 //! Large faces come first, and transparent ones that have nothing behind them last. Bands of light lie on one another:
 //! the darkest is the whole face, and each that follows is what is at least as light. So between bands nothing shines
@@ -13,7 +13,7 @@ type Point = [f64; 2];
 /// What is painted, in the order of painting; places in pixels, y down; filled by the even-odd rule.
 pub struct Areas {
     pub loops: Vec<Vec<Point>>,
-    /// Of each area how many loops there are before it; one more for the end.
+    /// Per area: how many loops there are before it; one more for the end.
     pub starts: Vec<usize>,
     pub colours: Vec<[u8; 4]>,
     pub gradients: Vec<Option<Gradient>>,

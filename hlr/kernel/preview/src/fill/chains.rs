@@ -1,4 +1,5 @@
-//! The borders between areas: cracks between pixels, walked from where three areas meet to the next such place.
+//! Traces the borders between areas: chains of cracks between pixels, from one point where three areas meet to the
+//! next.
 //!
 //! ```text
 //!   1 1 1 | 2 2          a node: three or four cracks meet there

@@ -1,4 +1,4 @@
-//! Light that is equal along straight lines which meet in one place, as on cones: a function of the angle about it.
+//! Shading of cones: equal along straight lines that meet in one point, so a function of the angle about that point.
 //!
 //! Where the light does not change, a line runs to that place: (place - point) . slope = 0, with the slope of the light
 //! at the point. The least squares of that say roughly where it is, a search over the spread within slices exactly.
@@ -13,7 +13,7 @@ const TRIED: usize = 1500;
 const SLICES: usize = 128;
 /// Of what a slice holds in the mean: fewer points tell nothing.
 const FEW: f64 = 0.1;
-/// Of the extent: what lies nearer to the place is not asked.
+/// Share of the extent: what lies nearer to the place is not asked.
 const CLOSE: f64 = 0.1;
 /// Points to either side from which a slope is taken.
 const REACH: usize = 5;
@@ -26,27 +26,27 @@ pub struct Fan {
     pub known: Vec<(f64, f32)>,
 }
 
-type Seen = ([f64; 2], f32);
+type Tone = ([f64; 2], f32);
 
 impl Fan {
     /// The fan of a face's points; None where their light is none.
     pub fn find(grid: &Grid, points: &[u32], face: u32) -> Option<Fan> {
         let step = (points.len() / TRIED).max(1) | 1;
         let tried: Vec<u32> = points.iter().step_by(step).copied().collect();
-        let seen: Vec<Seen> = tried.iter().map(|&p| (place(grid, p), grid.samples[p as usize].tone)).collect();
-        if seen.len() < 64 {
+        let points: Vec<Tone> = tried.iter().map(|&p| (place(grid, p), grid.samples[p as usize].tone)).collect();
+        if points.len() < 64 {
             return None;
         }
         let mut centre = rough(grid, &tried, face)?;
-        let (low, high) = seen.iter().fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(l, h), (p, _)| {
+        let (low, high) = points.iter().fold(([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]), |(l, h), (p, _)| {
             ([l[0].min(p[0]), l[1].min(p[1])], [h[0].max(p[0]), h[1].max(p[1])])
         });
         let extent = (high[0] - low[0]).max(high[1] - low[1]);
-        let mut best = spread(&seen, centre);
+        let mut best = spread(&points, centre);
         let mut step = 0.1 * extent;
         while step > 0.05 {
             let around = [[step, 0.0], [-step, 0.0], [0.0, step], [0.0, -step]];
-            let found = around.map(|d| [centre[0] + d[0], centre[1] + d[1]]).map(|c| (spread(&seen, c), c));
+            let found = around.map(|d| [centre[0] + d[0], centre[1] + d[1]]).map(|c| (spread(&points, c), c));
             match found.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|f| f.0 < best) {
                 Some((least, there)) => (best, centre) = (least, there),
                 None => step *= 0.5,
@@ -54,15 +54,15 @@ impl Fan {
         }
         // Beside the place itself the light is what the facets there say, and not the surface.
         let far = |p: &[f64; 2]| (p[0] - centre[0]).hypot(p[1] - centre[1]) > CLOSE * extent;
-        let seen: Vec<Seen> = seen.into_iter().filter(|(p, _)| far(p)).collect();
-        let (cut, slices) = slices(&seen, centre);
-        let least = FEW * seen.len() as f64 / SLICES as f64;
+        let points: Vec<Tone> = points.into_iter().filter(|(p, _)| far(p)).collect();
+        let (cut, slices) = slices(&points, centre);
+        let least = FEW * points.len() as f64 / SLICES as f64;
         let known: Vec<_> = slices.iter().filter(|s| s.2 >= least).map(|s| (s.0 / s.2, (s.1 / s.2) as f32)).collect();
         if known.len() < 2 {
             return None;
         }
         let fan = Fan { centre, cut, known };
-        let mut off: Vec<f32> = seen.iter().map(|(p, tone)| (fan.tone(*p) - tone).abs()).collect();
+        let mut off: Vec<f32> = points.iter().map(|(p, tone)| (fan.tone(*p) - tone).abs()).collect();
         off.sort_unstable_by(f32::total_cmp);
         let square = off.iter().map(|o| o * o).sum::<f32>() / off.len() as f32;
         (square.sqrt() <= OFF[0] && off[off.len() * 99 / 100] <= OFF[1]).then_some(fan)
@@ -126,8 +126,8 @@ fn from(cut: f64, angle: f64) -> f64 {
 type Slice = (f64, f64, f64, f64, f64, f64);
 
 /// The angle of the cut, and all slices.
-fn slices(seen: &[Seen], centre: [f64; 2]) -> (f64, Vec<Slice>) {
-    let mut angles: Vec<f64> = seen.iter().map(|(p, _)| angle(*p, centre)).collect();
+fn slices(points: &[Tone], centre: [f64; 2]) -> (f64, Vec<Slice>) {
+    let mut angles: Vec<f64> = points.iter().map(|(p, _)| angle(*p, centre)).collect();
     angles.sort_unstable_by(f64::total_cmp);
     let around = [angles[0] + std::f64::consts::TAU];
     let ends = angles.iter().skip(1).chain(&around);
@@ -139,7 +139,7 @@ fn slices(seen: &[Seen], centre: [f64; 2]) -> (f64, Vec<Slice>) {
     let cut = widest.1;
     let (first, turn) = (0.5 * widest.0, std::f64::consts::TAU - widest.0);
     let mut out = vec![(0.0, 0.0, 0.0, 0.0, 0.0, 0.0); SLICES];
-    for (p, tone) in seen {
+    for (p, tone) in points {
         let (u, tone) = (from(cut, angle(*p, centre)), f64::from(*tone));
         let k = (((u - first) / turn.max(1e-9) * SLICES as f64) as usize).min(SLICES - 1);
         let s = &mut out[k];
@@ -149,7 +149,7 @@ fn slices(seen: &[Seen], centre: [f64; 2]) -> (f64, Vec<Slice>) {
 }
 
 /// The sum of squares by which points differ from the line through their slice.
-fn spread(seen: &[Seen], centre: [f64; 2]) -> f64 {
+fn spread(points: &[Tone], centre: [f64; 2]) -> f64 {
     let of = |&(u, t, n, uu, ut, tt): &Slice| {
         if n < 1.0 {
             return 0.0;
@@ -157,5 +157,5 @@ fn spread(seen: &[Seen], centre: [f64; 2]) -> f64 {
         let (uu, ut, tt) = (uu - u * u / n, ut - u * t / n, tt - t * t / n);
         tt - if uu > 1e-12 { ut * ut / uu } else { 0.0 }
     };
-    slices(seen, centre).1.iter().map(of).sum()
+    slices(points, centre).1.iter().map(of).sum()
 }

@@ -1,5 +1,4 @@
-//! Where the border between two areas runs between two neighbouring points of the grid: found on the triangles seen
-//! there.
+//! Locates the border between two areas between two neighbouring points of the grid, from the triangles visible there.
 //!
 //! ```text
 //!      p ----------|----- q       p is on triangle A, q on B, different faces.
@@ -22,7 +21,7 @@ pub struct Crossing<'a> {
 }
 
 /// Corners of a triangle in the picture: x, y, depth.
-type Seen = [[f64; 3]; 3];
+type Corners = [[f64; 3]; 3];
 
 impl Crossing<'_> {
     /// The place in pixels, and whether it is known exactly.
@@ -56,7 +55,7 @@ impl Crossing<'_> {
             return t.is_finite().then_some(t.clamp(0.02, 0.98));
         }
         let pair = self.pair(one)?;
-        let [a, b] = pair.map(|t| if t == NOTHING { None } else { self.seen(t) });
+        let [a, b] = pair.map(|t| if t == NOTHING { None } else { self.corners(t) });
         let (ends, begins) = (a.map(|a| leaves(&a, p, q)), b.map(|b| 1.0 - leaves(&b, q, p)));
         match (ends, begins) {
             (Some(t), None) if pair[1] == NOTHING => Some(t),
@@ -90,7 +89,7 @@ impl Crossing<'_> {
     }
 
     /// None where the triangle reaches behind the eye.
-    fn seen(&self, triangle: u32) -> Option<Seen> {
+    fn corners(&self, triangle: u32) -> Option<Corners> {
         let lens = self.scene.lens;
         let projector = lens.projector();
         let corners = self.scene.model.triangles[triangle as usize].map(|i| {
@@ -111,7 +110,7 @@ fn turn(a: &[f64; 3], b: &[f64; 3], p: [f64; 2]) -> f64 {
 }
 
 /// Where the way from p, which is on the triangle, to q leaves it; 1 where it does not.
-fn leaves(t: &Seen, p: [f64; 2], q: [f64; 2]) -> f64 {
+fn leaves(t: &Corners, p: [f64; 2], q: [f64; 2]) -> f64 {
     let side = turn(&t[0], &t[1], [t[2][0], t[2][1]]).signum();
     let mut out = 1.0f64;
     for k in 0..3 {
@@ -126,7 +125,7 @@ fn leaves(t: &Seen, p: [f64; 2], q: [f64; 2]) -> f64 {
 }
 
 /// On the triangle's plane.
-fn depth(t: &Seen, p: [f64; 2]) -> f64 {
+fn depth(t: &Corners, p: [f64; 2]) -> f64 {
     let area = turn(&t[0], &t[1], [t[2][0], t[2][1]]);
     let w = [turn(&t[1], &t[2], p) / area, turn(&t[2], &t[0], p) / area];
     w[0] * t[0][2] + w[1] * t[1][2] + (1.0 - w[0] - w[1]) * t[2][2]

@@ -1,4 +1,4 @@
-//! The faces under the lines of a filled drawing: the shaded preview as areas, each with one paint.
+//! The coloured areas under the lines of a filled drawing: the shaded preview as areas, each with one paint.
 //!
 //! ```text
 //! 1. `samples`   what is seen at the points of a grid, by the preview's z-buffer: faces, colour, and how light it is

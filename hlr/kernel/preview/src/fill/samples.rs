@@ -1,5 +1,4 @@
-//! What is seen at the points of a grid, one for each pixel: which faces lie above one another, and their colour
-//! together.
+//! Samples the picture at the points of a grid, one per pixel: the stack of visible faces, and their combined colour.
 
 use std::collections::HashMap;
 
@@ -35,7 +34,7 @@ pub struct Grid {
     pub samples: Vec<Sample>,
     /// Row by row the number of what is seen, from 0, nothing, on.
     pub faces: Vec<u32>,
-    /// Of each number the triangle by which it was first met.
+    /// Per number: the triangle by which it was first met.
     pub first: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! Pieces of a map that are too small to be seen go to a neighbour.
+//! Merges pieces of a map that are too small to be visible into a neighbour.
 
 /// `map`: row by row, 0 for nothing. Pieces of fewer than `least` places that hang together side by side become part of
 /// the largest piece beside them, of those that are most `alike`; of nothing only where there is nothing else.

@@ -1,4 +1,4 @@
-//! Few corners: each border becomes straight runs, and its corners are where these meet.
+//! Simplifies each border to straight runs; its corners are the points where these meet.
 //!
 //! D. H. Douglas, T. K. Peucker, "Algorithms for the reduction of the number of points required to represent a
 //! digitized line", Cartographica 10, 1973, says which points belong to one run. The line of a run is the one that fits
@@ -37,7 +37,7 @@ struct Runs {
     lines: Vec<Line>,
 }
 
-/// Of each chain its corners; an open one from node to node. None when stopped.
+/// Per chain: its corners; an open one from node to node. None when stopped.
 pub fn borders(
     chains: &[Chain],
     at: &Crossing,

@@ -44,7 +44,7 @@ enum Paint {
 
 /// Cells are bands of faces, faces one after another; 0 is nothing.
 pub struct Tones {
-    /// Of each cell its face, and its place among the bands.
+    /// Per cell: its face, and its place among the bands.
     pub face: Vec<u32>,
     pub band: Vec<u32>,
     pub colour: Vec<[u8; 4]>,
@@ -147,7 +147,7 @@ fn smoothed(sums: &[([f64; 4], f64)]) -> Vec<([f64; 4], f64)> {
     (0..sums.len()).map(at).collect()
 }
 
-/// Of each point its cell.
+/// Per point: its cell.
 pub fn cells(grid: &Grid, faces: &[u32], tones: &Tones) -> Vec<u32> {
     let mut first = vec![0usize; grid.first.len() + 1];
     for &f in &tones.face {
@@ -253,7 +253,7 @@ fn chosen(grid: &Grid, points: &[u32]) -> Tried {
 
 struct Slices {
     way: [f64; 2],
-    /// Of each slice: sums of place, tone, its square, and colour; and the number of points.
+    /// Per slice: sums of place, tone, its square, and colour; and the number of points.
     sums: Vec<([f64; 7], f64)>,
 }
 

@@ -145,7 +145,7 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     out
 }
 
-/// Of each figure of the chosen segments the longest side of its box.
+/// Per figure: of the chosen segments the longest side of its box.
 fn extents(all: &[Candidate], chosen: &[usize], figure: &[usize], count: usize, points: &[Vec3]) -> Vec<f64> {
     let mut boxes = vec![([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]); count];
     for (&i, &f) in chosen.iter().zip(figure) {
@@ -178,7 +178,7 @@ fn small(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes, poin
     }
     let of_one_solid = |i: usize| {
         let [a, b] = all[i].segment.groups;
-        a == b && !bodies.bare[a]
+        a == b && !bodies.without_brep[a]
     };
     kept.iter().zip(&figure).map(|(&i, &f)| of_one_solid(i) && extent[f] < SMALL * largest[f]).collect()
 }

@@ -6,9 +6,9 @@
 //!           |                    -----+       bottom, which goes no deeper
 //! ```
 //!
-//! Of bare meshes the facets may be the shape itself, and bend by any angle: what their corners say is all there is to
-//! know. Of B-reps the surface is followed near the crossing (`reach`): that a corner far away lies beyond the other's
-//! plane says nothing about how deep it goes here.
+//! In meshes without B-rep the facets may be the shape itself, and bend by any angle: what their corners say is all
+//! there is to know. Of B-reps the surface is followed near the crossing (`reach`): that a corner far away lies beyond
+//! the other's plane says nothing about how deep it goes here.
 
 use super::reach::{Sheet, Vec3, cross, dot, minus};
 use super::search::Clash;
@@ -16,16 +16,16 @@ use hlr_accuracy::{CONTACT_OF_ONE_SOLID, FLUSH};
 
 /// Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most.
 pub const SLIGHT_ANGLE: f64 = 0.35;
-/// Of a triangle's size: planar faces are flat within this share of it.
+/// Share of a triangle's size: planar faces are flat within this share of it.
 const ROUNDING: f64 = 1e-9;
 
-/// What is known of the surfaces. bare, touch: per group, a piece of a mesh without B-rep, and nearer than this to
-/// another surface it touches it; curved: per triangle, of a face that is not planar, or that may be anything.
+/// What is known of the surfaces. without_brep, touch: per group, a piece of a mesh without B-rep, and nearer than this
+/// to another surface it touches it; curved: per triangle, of a face that is not planar, or that may be anything.
 pub struct Bodies<'a> {
     pub sheet: Sheet<'a>,
     pub group: &'a [i32],
     pub curved: &'a [bool],
-    pub bare: &'a [bool],
+    pub without_brep: &'a [bool],
     pub touch: &'a [f64],
     pub deflection: f64,
 }
@@ -60,7 +60,7 @@ struct Around {
 }
 
 impl Bodies<'_> {
-    /// Of each whether it is of a bare mesh.
+    /// Per group: part of a mesh without B-rep.
     pub fn groups(&self, clash: &Clash) -> [usize; 2] {
         clash.triangles.map(|t| self.group[t as usize] as usize)
     }
@@ -68,7 +68,7 @@ impl Bodies<'_> {
     /// middle: of the segment in which the two cross.
     pub fn depth(&self, clash: &Clash, middle: &Vec3) -> Depth {
         let ([a, b], groups) = (clash.triangles, self.groups(clash));
-        let solid = !groups.iter().any(|&g| self.bare[g]);
+        let solid = !groups.iter().any(|&g| self.without_brep[g]);
         let mut touch = groups.iter().fold(0.0f64, |most, &g| most.max(self.touch[g]));
         if groups[0] == groups[1] && solid {
             touch *= CONTACT_OF_ONE_SOLID;

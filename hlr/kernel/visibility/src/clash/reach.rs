@@ -25,7 +25,7 @@ pub type Vec3 = [f64; 3];
 const SMOOTH: f64 = 0.77;
 /// Sine: what climbs less has turned parallel to the plane, and may go on to something else.
 const LEVEL: f64 = 0.1;
-/// Of the angle at which the surface begins: what begins flat may go on flatter.
+/// Share of the angle at which the surface begins: what begins flat may go on flatter.
 const FLATTER: f64 = 0.3;
 /// Planes that are parallel, but for rounding, have no section across.
 const PARALLEL: f64 = 1e-9;

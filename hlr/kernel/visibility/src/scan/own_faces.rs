@@ -33,14 +33,14 @@ use hlr_exact::arithmetic::Arithmetic;
 pub enum Beside {
     /// A face is a wall along the sight, or there are not two.
     Unknown = 0,
-    Seen = 1,
+    Visible = 1,
     Hidden = 2,
 }
 
 /// Edges, or stretches of them, whose own faces are seen nearly edge-on; edges ascend, and the stretches of one make it
 /// up.
 pub struct OwnFaces<'a> {
-    /// Of every stretch the edge, and its parameters there.
+    /// Per stretch: the edge, and its parameters there.
     pub edge: &'a [i32],
     pub range: &'a [[f64; 2]],
     /// The edge that is the stretch as it lies: the very same, or one without triangles.
@@ -98,7 +98,7 @@ impl Owned {
 /// where they do, far from the edge, they are what hides it.
 const EDGE_ON: f64 = 0.5;
 
-const SEEN: u8 = Beside::Seen as u8;
+const VISIBLE: u8 = Beside::Visible as u8;
 const HIDDEN: u8 = Beside::Hidden as u8;
 
 struct Decided {
@@ -179,7 +179,7 @@ impl OwnFaces<'_> {
         let (mut one, mut two) = (Vec::new(), Vec::new());
         let hidden = |s: usize| match self.beside[s] {
             HIDDEN => true,
-            SEEN => false,
+            VISIBLE => false,
             _ => culled,
         };
         let differ = stretches.iter().any(|&s| {
