@@ -82,7 +82,7 @@ def check(targets: Sequence[Target], source: str | None) -> None:
     if source is not None:
         originals.check_source([path for path, _ in paths], source)
     for path, make_folder in paths:
-        files.check(path, make_folder)
+        files.check_writable(path, make_folder)
 
 
 def in_folder(folder: str, names: Sequence[str], source: str | None) -> list[Target]:
@@ -102,7 +102,7 @@ def place(made: Sequence[tuple[Target, bytes]]) -> None:
     from .signals import tidily
 
     with tidily():
-        files.place(
+        files.write_all(
             {target.path: data for target, data in made if target.path is not None},
             dict.fromkeys(target.folder for target, _ in made if target.folder is not None),
         )

@@ -71,8 +71,8 @@ def export(
 
 
 def _save(shape: Any, path: Path, kind: str, opts: Mapping[str, Any] | None) -> None:
-    files.check(path)
-    files.place({path: WRITERS[kind](_page(shape, opts))})
+    files.check_writable(path)
+    files.write_all({path: WRITERS[kind](_page(shape, opts))})
 
 
 def _page(shape: Any, opts: Mapping[str, Any] | None) -> Page:

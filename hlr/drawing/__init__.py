@@ -1,1 +1,1 @@
-"""What comes out, as records: drawings, lines, curves, notes, pictures. They know neither the pipeline nor a writer."""
+"""The records of a result: drawings, lines, curves, notes, pictures. They import neither the pipeline nor a writer."""

@@ -1,4 +1,4 @@
-"""Curves on paper: what a line's geometry is where it is not straight."""
+"""Curves on paper: the geometry of lines that are not straight."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from hlr.common.values import ByValue
 Points = npt.NDArray[np.float64]
 
 WHOLE = 1e-9
-"""Of a turn: an arc that lacks no more than this is a full circle or ellipse."""
+"""Share of a turn: an arc that lacks no more than this is a full circle or ellipse."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Arc(ByValue):
-    """A piece of a circle or an ellipse, or all of it: centre + cos t axes[0] + sin t axes[1].
+    """An arc of a circle or an ellipse, or a whole one: centre + cos t axes[0] + sin t axes[1].
 
     centre   (2,) millimetres on paper, y up
     axes     (2, 2) two perpendicular half axes, the longer one first
-    angles   (2,) t at the start and at the end, radians; it runs backward where the second is less
+    angles   (2,) t at the start and at the end, radians; the arc runs backward where the second is less
 
     >>> import hlr
     >>> (hole,) = [line.curve for line in hlr.draw("part.step", view="top").visible if line.curve]
@@ -55,7 +55,7 @@ class Arc(ByValue):
 
     @property
     def whole(self) -> bool:
-        """Whether it closes."""
+        """Whether it is a full circle or ellipse."""
         return bool(abs(self.angles[1] - self.angles[0]) >= (1.0 - WHOLE) * tau)
 
     @property
@@ -147,4 +147,4 @@ def raised(chain: Bezier) -> Bezier:
 
 
 Curve = Arc | Bezier
-"""Of a line; None stands for its polyline."""
+"""The curve of a line; None where the line is its polyline."""

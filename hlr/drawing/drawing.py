@@ -93,9 +93,9 @@ class Drawing(ByValue):
     timings   seconds: source, tessellate, scene, plan, visibility, linework, total
     request   what was asked for; None for drawings that were made otherwise
     reached   the errors that were measured; None unless asked for
-    plan      what was decided of each effect, why, and what it cost
-    window    the rectangle on paper that lines and fill were cut by; None: nothing was cut off
-    reading   how a CAD file was come by, read or out of the cache, for people; in no file
+    plan      for each effect whether it was on, why, and what it cost
+    window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
+    reading   how a CAD file was obtained, for people: read, or taken from the cache; not written to files
 
     >>> import hlr
     >>> drawing = hlr.draw("part.step", view="front")
@@ -151,7 +151,7 @@ class Drawing(ByValue):
 
     @property
     def page(self) -> Bounds:
-        """What SVG and PDF show, with a margin around it: the window, or else the bounds."""
+        """The rectangle that SVG and PDF show, with a margin around it: the window, or else the bounds."""
         return self.bounds if self.window is None else self.window
 
     @overload
@@ -182,7 +182,7 @@ class Drawing(ByValue):
         return render(self, "json").decode("utf-8")
 
     def _repr_svg_(self) -> str:
-        """What a notebook shows."""
+        """For notebooks: the SVG."""
         return self.to_svg().partition("?>\n")[2]
 
 

@@ -1,4 +1,4 @@
-"""Files appear whole or not at all: written beside their place, then renamed into it."""
+"""Writing files: complete or not at all. Each is written under a temporary name, then renamed."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def path_of(file: Any) -> Path:
     return path
 
 
-def put(file: Any, data: bytes) -> None:
+def write_into(file: Any, data: bytes) -> None:
     """Write all of it into a file object that is open for bytes; raises WriteError where that is refused."""
     name = str(getattr(file, "name", "") or f"the {type(file).__name__}")
     try:
@@ -39,10 +39,10 @@ def put(file: Any, data: bytes) -> None:
         raise WriteError(f"cannot write into {name}: it took {written} of {len(data)} bytes; open it with buffering")
 
 
-def check(path: Path, make_folder: bool = False) -> os.stat_result | None:
+def check_writable(path: Path, make_folder: bool = False) -> os.stat_result | None:
     """Raise WriteError where `path` cannot be written: no folder, no permission, or a folder or a model in its place.
 
-    make_folder: `place` will make the folder, so that it need not be there. Returns what is there already, if anything.
+    make_folder: `write_all` will create the folder, so it need not exist. Returns the status of a file that exists.
     """
     try:
         there = os.stat(path)
@@ -71,7 +71,7 @@ def _check_folder(path: Path, make_folder: bool) -> None:
         raise WriteError(f"cannot write {path}: no permission to write into the folder {folder}")
 
 
-def place(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
+def write_all(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
     """Write all files, or none: earlier content stays until every new file is complete on disk.
 
     folders: are made first where they do not exist. Raises WriteError, in one sentence, where the system refuses.
@@ -82,7 +82,7 @@ def place(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
         for path in folders:
             path.mkdir(parents=True, exist_ok=True)
         for path, data in files.items():
-            there = check(path)
+            there = check_writable(path)
             if there is not None and not stat.S_ISREG(there.st_mode):  # a pipe or a device has no content to protect
                 path.write_bytes(data)
                 continue
@@ -109,7 +109,7 @@ def place(files: Mapping[Path, bytes], folders: Iterable[Path] = ()) -> None:
 
 
 def _write(file: RawIOBase, data: bytes) -> None:
-    """All of it, however much the system takes at a time."""
+    """Write all data, however many bytes the system accepts at a time."""
     rest = memoryview(data)
     while rest:
         rest = rest[file.write(rest) or 0 :]

@@ -29,12 +29,12 @@ class Gradient(ByValue):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Fill(ByValue):
-    """What is seen of the faces, under the lines, in the order of painting.
+    """The visible areas of the faces, under the lines, in the order of painting.
 
     points (n, 2) millimetres on paper, y up; loops (l + 1,) int32 into points, faces (f + 1,) int32 into loops, filled
     by the even-odd rule; colors (f, 4) uint8 sRGB and opacity; gradient (f,) int32 index into gradients, -1 where the
     colour is the same all over; part (f,) int32 index into Drawing.parts; spacing: millimetres between the points at
-    which was looked up what is seen
+    which visibility was sampled
     """
 
     points: Points

@@ -1,4 +1,4 @@
-"""A line of a drawing, and the rectangle around lines."""
+"""A line of a drawing, and the bounding rectangle of lines."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Bounds(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Line(ByValue):
-    """One visible or hidden piece of one edge. Lines are equal where all they hold is, number by number.
+    """One visible or hidden piece of one edge. Lines are equal where all their fields are, number by number.
 
     kind     the name of a class in `hlr.tables.line_classes`: sharp, smooth, seam, outline, boundary or intersection
     part     index into Drawing.parts
@@ -50,7 +50,7 @@ class Line(ByValue):
     face     index in the part's TopExp face map for outlines; else None
     points   (n, 2) millimetres on paper, y up; along a curve within the accuracy
     points3  (n, 3) model coordinates, same count
-    curve    what the line is on paper, in millimetres; None: its points
+    curve    the exact curve on paper, in millimetres; None: the polyline of its points
     other    of an intersection line: index of the second part (the same one where a part meets itself); else None
 
     >>> import hlr

@@ -1,4 +1,4 @@
-"""The lines of a drawing as the kernel holds them, and as records where somebody asks for them."""
+"""The lines of a drawing: held by the kernel, made into records on first use."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ POLYLINE, STRAIGHT, ARC, QUADRATIC, CUBIC = range(5)
 
 
 class Lines(LateRecords[Line]):
-    """The lines that the kernel holds."""
+    """Lines that the kernel holds, as a sequence of records."""
 
     __slots__ = ("held",)
 

@@ -1,4 +1,4 @@
-"""What `hlr info` says of a model."""
+"""The result of `hlr info`: a report on a model and its parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Notes: what a drawing warns of. Each has a code for programs and a sentence for people."""
+"""Notes: warnings and remarks on a drawing. Each has a code for programs and a sentence for people."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ REMARKS: frozenset[NoteCode] = frozenset(
         "stray-parts",
     }
 )
-"""Codes of what is worth knowing, though the drawing is what was asked for: `strict` makes no errors of them."""
+"""Codes of remarks: the drawing is what was asked for. `strict` does not make errors of them."""
 
 
 @dataclass(frozen=True, slots=True)

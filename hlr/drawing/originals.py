@@ -1,4 +1,4 @@
-"""What a drawing must not be written over: the model that it shows, and the files that belong to models."""
+"""Files that a drawing must not overwrite: the model that it shows, and files that belong to models."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _HEAD = 1 << 20
 """Bytes: an OBJ file names its materials at its beginning."""
 
 _WORDS = 12
-"""Of a line of names: what is longer names nothing."""
+"""Words of a line that may name a file; a longer line is not read further."""
 
 _LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+(.+?)[ \t\r]*$", re.MULTILINE)
 _TEXTURE = re.compile(
@@ -23,7 +23,7 @@ _TEXTURE = re.compile(
 
 
 def check_model(path: Path) -> None:
-    """Raise WriteError where `path` is there and is a model, by its ending or by that of what it is a link to."""
+    """Raise WriteError where `path` is there and is a model, by its ending or by that of the file that it links to."""
     names = [str(path), os.path.realpath(path)] if os.path.islink(path) else [str(path)]
     for name in names:
         if is_model(name) and path.is_file():

@@ -1,4 +1,4 @@
-"""The shaded picture: pixels, and on request how deep each is and what it shows."""
+"""The shaded picture: its pixels, and on request a depth map and a map of faces."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ File = str | os.PathLike[str]
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Picture(ByValue):
-    """One view, shaded. Pictures are equal that show the same, whatever they took.
+    """One view, shaded. Pictures are equal that show the same; `timings` do not count.
 
     source      base name of what is shown
     scale       pixels per millimetre of the model, in the image plane
@@ -36,7 +36,7 @@ class Picture(ByValue):
                 part i from first_face[i] on; else None
     first_face  (p + 1,) int32
     timings     seconds: source, tessellate, scene, prepare, picture, edges, total
-    plan        what was decided of each effect, and why
+    plan        for each effect whether it was on, and why
 
     >>> import hlr
     >>> picture = hlr.preview("part.step", size=(320, 240), depth=True)
@@ -83,5 +83,5 @@ class Picture(ByValue):
         return write_picture(self, file, depth, ids)
 
     def _repr_png_(self) -> bytes:
-        """What a notebook shows."""
+        """For notebooks: the PNG."""
         return PICTURE.render(self)

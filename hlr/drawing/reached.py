@@ -1,4 +1,4 @@
-"""What a drawing reached: a figure per class of error, or the reason why there is none."""
+"""The measured errors of a drawing: a figure per class of error, or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from hlr.common.types import Floats
 
 CLASSES = ("edges", "outlines", "meshes", "intersections", "changes", "grazing", "lost")
-"""Those that are errors; the names are those of `Reached`."""
+"""Classes of error that have a single figure; the names are fields of `Reached`."""
 
 USUAL = 0.99
 """Share of what was measured that is at most `Errors.usual`."""
@@ -51,7 +51,7 @@ class Labels:
 
 
 def errors(values: Floats, where: Sequence[str] | None = None) -> Errors:
-    """From (n,) single errors, none of which is None; `where` names each."""
+    """Errors of one class, from (n,) single ones in millimetres; `where` names the place of each."""
     if len(values) == 0:
         return Errors(None, why="the drawing has none")
     worst = int(np.argmax(values))
@@ -65,7 +65,7 @@ def errors(values: Floats, where: Sequence[str] | None = None) -> Errors:
 
 @dataclass(frozen=True, slots=True)
 class Reached:
-    """What a drawing reached. Lengths are millimetres on paper.
+    """The measured errors of a drawing. Lengths are millimetres on paper.
 
     accuracy       what the drawing promised
     edges          written curves of model edges, to the edges' true curves
@@ -73,12 +73,12 @@ class Reached:
     meshes         written lines of meshes, to the mesh's own edges
     intersections  written lines in which surfaces meet, to where finer tessellations of both cross
     changes        visibility changes, along their line, to those of the finer drawing
-    grazing        those of them that the geometry makes ill-conditioned: nothing is promised but `bound`
-    bound          the longest stretch over which less than the accuracy decides what is seen
+    grazing        those changes that the geometry makes ill-conditioned: only `bound` is promised
+    bound          longest stretch of a line on which a shift by less than the accuracy would change visibility
     lost           longest stretch of a line of the finer drawing that is not drawn
     short          shortest figure drawn on its own
-    labels         what rays say of visible and hidden
-    seconds        what measuring took
+    labels         visible and hidden, judged by rays
+    seconds        that measuring took
     """
 
     accuracy: float

@@ -1,6 +1,6 @@
 """Drawings and pictures as files: the format is a row of `hlr.tables.writers`.
 
-What is written is an object here: the records know how they are saved, and saving knows no record.
+Drawings and pictures are plain objects here: their records import this module, not the other way round.
 """
 
 from __future__ import annotations
@@ -48,11 +48,11 @@ def write(drawing: object, file: Any, format: Any = None) -> Path | None:
     if hasattr(file, "write"):
         if format is None:
             raise WriteError(f"a file object has no ending that names the format: give format={formats(around=_QUOTE)}")
-        files.put(file, render(drawing, checked_format(format)))
+        files.write_into(file, render(drawing, checked_format(format)))
         return None
     path = files.path_of(file)
     kind = format_of(path) if format is None else checked_format(format)
-    files.place({path: render(drawing, kind)})
+    files.write_all({path: render(drawing, kind)})
     return path
 
 
@@ -60,7 +60,7 @@ _QUOTE = "'"
 
 
 def write_picture(picture: object, file: Any, depth: Any, ids: Any) -> Path | None:
-    """All files or none, then what goes into file objects; returns the picture's path, or None for a file object."""
+    """Write all files or none, then into file objects; returns the picture's path, or None for a file object."""
     asked = [(file, PICTURE), *((f, writer) for f, writer in ((depth, DEPTH), (ids, FACES)) if f is not None)]
     targets = [(f if hasattr(f, "write") else check_png(files.path_of(f)), writer) for f, writer in asked]
     if any(one == other for (one, _), (other, _) in combinations(targets, 2)):
@@ -68,10 +68,10 @@ def write_picture(picture: object, file: Any, depth: Any, ids: Any) -> Path | No
             f"two maps would be written to one file; give picture, depth and ids a name each, not {targets[0][0]}"
         )
     made = [(target, writer.render(picture)) for target, writer in targets]
-    files.place({target: data for target, data in made if isinstance(target, Path)})
+    files.write_all({target: data for target, data in made if isinstance(target, Path)})
     for target, data in made:
         if not isinstance(target, Path):
-            files.put(target, data)
+            files.write_into(target, data)
     first = targets[0][0]
     return first if isinstance(first, Path) else None
 

@@ -24,7 +24,7 @@ from hlr.source.model import Source
 from hlr.tables.line_classes import by_number, counted
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
-from hlr.window.cut import cut
+from hlr.window.cut import cut_at_window
 from hlr.window.frame import Frame
 
 
@@ -75,7 +75,7 @@ def finished(
     stated = drawn_view(camera)
     window = None if options.window is None else Bounds(*map(float, options.window))
     frame = None if window is None else Frame(window, stated, placement.per_model)
-    lines, fill, empty = cut(lines, fill, frame, planner)
+    lines, fill, empty = cut_at_window(lines, fill, frame, planner)
     empty = empty or _empty(lines, fill)
     lap(clock, "linework", started)
     clock["total"] = sum(clock.values())

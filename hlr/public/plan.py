@@ -12,7 +12,7 @@ from hlr.pipeline.session import Session
 from hlr.request.check import checked, checked_views
 from hlr.request.effect import Decision
 from hlr.request.options import Options, View
-from hlr.window.cut import foreseen
+from hlr.window.cut import decide_cut
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def plan_views(
         if options.window is not None:
             with draft.planner.deciding():
                 flat = image.projected()[:, :2] * image.placement.per_model
-            foreseen(flat, Bounds(*options.window), draft.planner)
+            decide_cut(flat, Bounds(*options.window), draft.planner)
         session.plan(draft, image)
         out.append(ViewPlan(image.camera.name, draft.planner.decisions()))
     return out

@@ -1,1 +1,1 @@
-"""The shaded picture: scene and camera become pixels, a depth map and a map of parts."""
+"""The shaded picture: pixels, a depth map and a map of faces from a scene and a camera."""

@@ -1,4 +1,4 @@
-"""The faces under the lines of a filled drawing: what the shaded preview shows, as areas on paper."""
+"""The fill of a drawing: visible faces as areas on paper, coloured as in the shaded preview."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ def filled(
     accuracy: float,
     threads: int = 0,
 ) -> Fill:
-    """What is seen of the faces, in the colours and the light of a preview.
+    """The visible areas of the faces, in the colours and the light of a preview.
 
-    shown (n, 3): the points whose images the drawing reaches around. per_model, origin: as of the drawing's lines.
-    accuracy: millimetres on paper. What is seen is looked up on a grid of that width, or of MOST points if that
-    is wider; where a border runs is computed on the triangles themselves.
+    shown (n, 3): points of the model whose images bound the drawing. per_model, origin: as of the drawing's lines.
+    accuracy: millimetres on paper. Visibility is sampled on a grid of that spacing, or of MOST points if that
+    is coarser; borders are computed on the triangles themselves.
     """
     if not len(scene.triangles) or not len(shown):
         return _nothing()
@@ -103,7 +103,7 @@ def _per_mm(extent: Floats, accuracy: float) -> float:
 
 
 def _labels(scene: Scene) -> Ints:
-    """(t,) which triangles are one face: of a B-rep its own; of a mesh what hangs together without a crease."""
+    """(t,) the face of each triangle: of a B-rep its own; of a mesh the triangles connected without a crease."""
     face = scene.triangle_face.astype(np.int64)
     own = scene.triangle_part.astype(np.int64) * (int(face.max()) + 1) + face
     bare = scene.groups.bare[scene.triangle_group]
@@ -113,7 +113,7 @@ def _labels(scene: Scene) -> Ints:
         first = scene.offsets[:-1][inner]
         pairs = np.stack([scene.incident[first], scene.incident[first + 1]], axis=1)
         pairs = pairs[(own[pairs[:, 0]] == own[pairs[:, 1]]) & bare[pairs].all(axis=1)]
-        # Each triangle with itself as well: the components of these are those of the triangles.
+        # Each triangle is paired with itself as well: the components of these pairs are those of the triangles.
         alone = np.arange(len(own))
         joined = np.concatenate([np.stack([alone, alone], axis=1), pairs]).astype(np.int32)
         piece = _kernel.edge_components(np.ascontiguousarray(joined), len(own))[: len(own)].astype(np.int64)

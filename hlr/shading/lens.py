@@ -1,4 +1,4 @@
-"""The camera as the kernel's picture takes it: pixels, y down, and how far the scene reaches in depth."""
+"""The camera in the form that the kernel's rasteriser takes: pixels, y down, and the range of depths of the scene."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ ROOM = 1e-6
 
 
 def lens(camera: Camera, points: Floats, scale: float, size: tuple[int, int]) -> Lens:
-    """points (n, 3) of all that is to be seen; scale: pixels per model unit in the image plane.
+    """The lens for points (n, 3), all that is to be visible; scale: pixels per model unit in the image plane.
 
-    The picture's middle is the middle of what is seen, or where the camera looks if its eye was given.
+    The picture is centred on these points, or on the camera's target if its eye was given.
     """
     distance = 0.0 if camera.eye is None or camera.distance is None else camera.distance
     middle = (0.0, 0.0)
@@ -34,7 +34,7 @@ def lens(camera: Camera, points: Floats, scale: float, size: tuple[int, int]) ->
 
 
 def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int], middle: tuple[float, float]) -> Lens:
-    """The same with the place on the image plane that the picture's middle shows, in model units."""
+    """The same, centred on a given point (2,) of the image plane, in model units."""
     ahead = camera.ahead(points)
     nearest, farthest = float(ahead.min()), float(ahead.max())
     distance = 0.0 if camera.eye is None or camera.distance is None else camera.distance
@@ -57,7 +57,7 @@ def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int],
 
 
 def depth_step(eye: Lens) -> float:
-    """How far apart two depths have to be to be two, at the farthest: model units.
+    """The least difference of depth that the picture resolves, at its farthest point: model units.
 
     The picture keeps them in single precision, 0 to 1; in perspective as 1 - nearest / depth, over the farthest of it.
     """
@@ -68,7 +68,7 @@ def depth_step(eye: Lens) -> float:
 
 
 def frame_scale(camera: Camera, height: int) -> float | None:
-    """Pixels per model unit where the camera says what the picture shows: its eye was given. None otherwise."""
+    """Pixels per model unit where the eye was given, so that the camera frames the picture. None otherwise."""
     if not camera.framed or camera.distance is None or camera.fov is None:
         return None
     return 0.5 * height / (camera.distance * math.tan(math.radians(camera.fov) * 0.5))
@@ -81,7 +81,7 @@ def toward_light(camera: Camera, shoulder: Vector) -> Vector:
 
 
 def light_lens(toward: Vector, camera: Camera, points: Floats, texels: int) -> Lens:
-    """The parallel view of all points from the light, in a square of so many texels a side."""
+    """The parallel view of all points from the light, in a square of `texels` texels a side."""
     right = normalized(cross(camera.up, toward), "the light")
     up = cross(toward, right)
     ahead = (-toward[0], -toward[1], -toward[2])

@@ -15,7 +15,7 @@ FLATNESS = 0.02
 
 
 def pieces(lines: list[Line], origin: tuple[float, float], per_mm: float, centre: tuple[float, float]) -> Points:
-    """(n, 4) x0 y0 x1 y1 in pixels, y down; origin as `Drawing.origin`, centre of the picture's lens in pixels."""
+    """(n, 4) x0 y0 x1 y1 in pixels, y down; origin: `Drawing.origin`; centre: of the picture's lens, in pixels."""
     found = []
     for line in lines:
         flat = flattened(line, per_mm)
@@ -45,7 +45,7 @@ def cues(background: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
 def pieces_by_depth(
     lines: list[Line], origin: tuple[float, float], per_mm: float, eye: Lens, levels: int
 ) -> list[Points]:
-    """The pieces in so many lists, from far to near; each is divided where it goes from one level to the next."""
+    """The pieces in `levels` lists, from far to near; each is divided where it passes from one level to the next."""
     centre, ahead, at_eye = eye.centre, np.array(eye.ahead), np.array(eye.origin)
     found, depths = [], []
     for line in lines:

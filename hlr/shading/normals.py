@@ -20,7 +20,7 @@ LEVEL = 1e-3
 
 
 def corner_normals(scene: Geometry, threads: int = 0) -> tuple[Normals, Ints]:
-    """Unit normals (k, 3), and (t, 3) which of them each corner has; FLAT where the triangle has its own."""
+    """Unit normals (k, 3), and (t, 3) the number of each corner's normal; FLAT where the triangle has its own."""
     true, of_true = _of_surfaces(scene, threads)
     bare = scene.groups.bare[scene.triangle_group]
     if scene.facets is None or not bare.any():
@@ -44,7 +44,7 @@ def _of_surfaces(scene: Geometry, threads: int) -> tuple[Normals, Ints]:
 
 
 def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
-    """Of the facets around a vertex, those that hang together without a crease share one normal.
+    """Facets around a vertex that are connected without a crease share one normal.
 
     Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each counts with its
     angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets", Journal of Graphics

@@ -1,4 +1,4 @@
-"""A scene made ready for pictures: its triangles with their normals and colours, in the kernel."""
+"""A scene prepared for pictures: triangles with their normals and colours, held by the kernel."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def shaded_scene(
 ) -> ShadedScene:
     """The triangles of a scene, ready for any number of pictures.
 
-    near: (n,) what of the scene's points lies behind the near plane is not positive; None: nothing does. Bodies that
-    reach there are cut open, and seen from inside.
+    near: (n,) not positive for points behind the near plane; None: there are none. Bodies that reach behind it are cut
+    open and show their inside.
     """
     normals, corner = corner_normals(scene, threads)
     colours, paint = corner_colors(scene, looks)

@@ -1,1 +1,1 @@
-"""What grows, a row each: line classes, readers, writers. Every stage takes from here what it needs to know of one."""
+"""The tables of line classes, readers and writers. A new one is a new row, and every stage reads the row."""

@@ -1,7 +1,7 @@
-"""Line classes: why a line is drawn. A row of one table says all that any stage has to know of a class.
+"""Line classes: why a line is drawn. Each class is one row of a table, which every stage reads.
 
-A new class is a new row. Its number is what meshes, the scene and the kernel carry; the kernel treats classes alike,
-but for the few that it makes or looks for itself (`kernel/linework/src/lines/drawn.rs`).
+A new class is a new row. Meshes, the scene and the kernel carry its number. The kernel treats all classes alike, but
+for the few that it creates or looks for itself (`kernel/linework/src/lines/drawn.rs`).
 """
 
 from __future__ import annotations

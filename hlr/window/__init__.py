@@ -1,6 +1,6 @@
-"""The window of a drawing: what lies in a rectangle on paper, cut at its sides after hiding.
+"""The window of a drawing: lines and fill are cut at the sides of a rectangle on paper, after hidden lines are removed.
 
-Nothing is left out before visibility is decided: what lies outside still hides what lies inside. `cut.py` decides
-whether there is anything to cut; `lines.py` cuts lines and curves (`tracks.py`: where they pass a side); `fill.py` cuts
-faces.
+Visibility is decided for the whole model: geometry outside the window still hides geometry inside it. `cut.py` decides
+whether there is anything to cut; `lines.py` cuts lines and curves; `tracks.py` finds where they cross a side; `fill.py`
+cuts faces.
 """

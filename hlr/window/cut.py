@@ -1,4 +1,4 @@
-"""A drawing's lines and faces, cut by its window: only where something lies beyond one of the sides."""
+"""Cuts a drawing's lines and faces at its window, if any of them reach beyond it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ EFFECT = "window"
 """The row of the table of effects."""
 
 
-def foreseen(points: npt.NDArray[np.float64], window: Bounds, planner: Planner) -> None:
+def decide_cut(points: npt.NDArray[np.float64], window: Bounds, planner: Planner) -> None:
     """Decide whether the window will cut anything, before there are lines.
 
     points (n, 2): millimetres on paper, those of the model. The drawing's lower left corner is theirs.
@@ -31,10 +31,10 @@ def foreseen(points: npt.NDArray[np.float64], window: Bounds, planner: Planner) 
         planner.on(EFFECT, Facts(crossed=_beyond(Bounds(0.0, 0.0, *(high - low).tolist()), window)))
 
 
-def cut(
+def cut_at_window(
     lines: Sequence[Line], fill: Fill | None, frame: Frame | None, planner: Planner
 ) -> tuple[Sequence[Line], Fill | None, tuple[Note, ...]]:
-    """What lies in the window. frame None: no window was asked for, and all stays as it is."""
+    """The lines and fill inside the window. frame None: no window was asked for, nothing is cut."""
     if frame is None:
         planner.on(EFFECT, Facts())
         return lines, fill, ()
@@ -66,7 +66,7 @@ def _around(lines: Sequence[Line], fill: Fill | None) -> Bounds:
 
 
 def _beyond(box: Bounds, window: Bounds) -> int:
-    """Beyond how many sides of the window something lies."""
+    """How many sides of the window the box reaches beyond."""
     out = [window.x0 - box.x0, window.y0 - box.y0, box.x1 - window.x1, box.y1 - window.y1]
     return sum(distance > SLACK for distance in out)
 

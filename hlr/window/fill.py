@@ -1,8 +1,8 @@
 """Filled faces cut at the sides of a window.
 
-A face is cut by one side after another. What is left of its loops are open chains that begin and end on the side; the
-ends, sorted along the side, belong together in pairs, for between the first and the second the side is inside the face,
-between the second and the third outside (the even-odd rule). So no seam is left along the side where there is no face::
+A face is cut at one side after another. Its loops become open chains that begin and end on the side. Their ends are
+sorted along the side and joined in pairs: by the even-odd rule the side is inside the face between the first and the
+second end, outside between the second and the third. So no border is drawn along the side where there is no face::
 
         side |   ____                side |   ____
           1 -+--/    \\                    +--/    \\
@@ -27,7 +27,7 @@ Loop = list[tuple[float, float]]
 
 
 def cut_fill(fill: Fill, window: Bounds) -> tuple[Fill, int]:
-    """What of the faces lies in the window, and how many were cut or left out."""
+    """The parts of the faces inside the window, and how many faces were cut or left out."""
     sides = ((0, window.x0, 1.0), (0, window.x1, -1.0), (1, window.y0, 1.0), (1, window.y1, -1.0))
     points, starts, firsts = fill.points, fill.loops.tolist(), fill.faces.tolist()
     kept: list[tuple[int, list[Loop]]] = []
@@ -52,7 +52,7 @@ def cut_fill(fill: Fill, window: Bounds) -> tuple[Fill, int]:
 
 
 def _half(loops: list[Loop], axis: int, value: float, sign: float) -> list[Loop]:
-    """What of a face lies beyond `value` along an axis, in the direction of sign; what lies on it does not."""
+    """The part of a face beyond `value` along an axis, in the direction of sign; points on it are not beyond."""
     whole: list[Loop] = []
     chains: list[Loop] = []
     for loop in loops:
@@ -78,7 +78,7 @@ def _half(loops: list[Loop], axis: int, value: float, sign: float) -> list[Loop]
 
 
 def _chains(loop: Loop, inside: list[bool], axis: int, value: float) -> list[Loop]:
-    """The stretches of a loop that lie inside, with the places where they pass the side at both ends."""
+    """The stretches of a loop that lie inside, with the points where they cross the side at both ends."""
     n = len(loop)
     out = []
     for start in range(n):
@@ -93,7 +93,7 @@ def _chains(loop: Loop, inside: list[bool], axis: int, value: float) -> list[Loo
 
 
 def _passed(a: tuple[float, float], b: tuple[float, float], axis: int, value: float) -> tuple[float, float]:
-    a, b = min(a, b), max(a, b)  # the same place for both faces at the edge
+    a, b = min(a, b), max(a, b)  # the same point for both faces at the edge
     s = (value - a[axis]) / (b[axis] - a[axis])
     other = a[1 - axis] + (b[1 - axis] - a[1 - axis]) * s
     return (value, other) if axis == 0 else (other, value)

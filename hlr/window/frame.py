@@ -1,4 +1,4 @@
-"""The window and the paper it lies on: its sides, and the way from a place on paper back into the model."""
+"""The window on paper: its sides, and how a point on paper is taken back to the model."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class Frame:
         w = self.window
         return (0, w.x0), (0, w.x1), (1, w.y0), (1, w.y1)
 
-    def lifted(self, u: Floats, v: Floats, share: float, off: Floats) -> Floats:
+    def to_model(self, u: Floats, v: Floats, share: float, off: Floats) -> Floats:
         """The point of the model that is seen at `share` of the way from u to v on paper, and `off` from there.
 
-        u, v (3,) model coordinates; off (2,) millimetres on paper. In perspective half the way on paper is not half the
-        way in space: what is nearer looks longer.
+        u, v (3,) model coordinates; off (2,) millimetres on paper. In perspective the middle on paper is not the middle
+        in space: nearer lengths look longer.
         """
         view, along = self.view, share
         if view.eye is not None:
@@ -56,5 +56,5 @@ class Frame:
         return np.asarray(point)
 
     def _ahead(self, point: Floats) -> float:
-        """How far before the eye."""
+        """Distance in front of the eye, along the view, model units."""
         return -float((point - np.array(self.view.eye)) @ np.array(self.view.direction))

@@ -1,4 +1,4 @@
-"""Lines cut at the sides of a window: straight ones, arcs and Bezier chains, each exactly where it passes a side."""
+"""Cuts lines at the sides of a window: polylines, arcs and Bezier chains, each exactly where it crosses a side."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ digit of its coordinates."""
 
 
 def cut_lines(lines: Sequence[Line], frame: Frame) -> tuple[tuple[Line, ...], int]:
-    """What of the lines lies in the window, in their order, and how many were cut or left out.
+    """The parts of the lines inside the window, in their order, and how many lines were cut or left out.
 
-    A line that lies in the window wholly stays the same object.
+    A line wholly inside the window stays the same object.
     """
     if not lines:
         return (), 0
@@ -80,7 +80,7 @@ def _cut(line: Line, frame: Frame) -> list[Line]:
 
 
 def _piece(line: Line, track: Track, a: float, b: float, frame: Frame) -> Line | None:
-    """From parameter a to b; None where that is a single place."""
+    """The piece from parameter a to b; None where that is a single point."""
     between = (track.params > a) & (track.params < b)
     ends = [_end(line, track, t, frame) for t in (a, b)]
     points = np.clip(np.stack([ends[0][0], *line.points[between], ends[1][0]]), frame.low, frame.high)
@@ -109,7 +109,7 @@ def _end(line: Line, track: Track, t: float, frame: Frame) -> tuple[Floats, Floa
     width = track.params[i + 1] - track.params[i]
     s = float((t - track.params[i]) / width) if width > 0.0 else 0.0
     (p, q), (u, v) = line.points[i : i + 2], line.points3[i : i + 2]
-    return place, frame.lifted(u, v, s, place - (p + (q - p) * s))
+    return place, frame.to_model(u, v, s, place - (p + (q - p) * s))
 
 
 def _joined(first: Line, second: Line) -> Line:

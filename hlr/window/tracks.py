@@ -1,4 +1,4 @@
-"""Lines as ways that are walked along: where they cross the sides of a window, and what is left between two places.
+"""Lines as parametric curves: where they cross the sides of a window, and the piece between two parameters.
 
 A track has a parameter that rises from `params[0]` to `params[-1]`, one for each point of its line.
 """
@@ -24,7 +24,7 @@ ROWS = 256
 
 
 class Track(Protocol):
-    """What all three kinds of line can do."""
+    """What polylines, arcs and Bezier chains have in common."""
 
     @property
     def params(self) -> Floats:
@@ -32,13 +32,13 @@ class Track(Protocol):
 
     @property
     def breaks(self) -> Floats:
-        """Where it may change its direction at once; first and last are its ends."""
+        """Parameters of corners, where the direction may jump; first and last are the ends."""
 
     def at(self, t: Floats) -> Floats:
         """(..., 2) places on paper, millimetres."""
 
     def crossings(self, axis: int, value: float) -> Floats:
-        """Where the coordinate passes through a value; places where it only touches may be among them."""
+        """Parameters where the coordinate crosses a value; those where it only touches may be among them."""
 
     def between(self, a: float, b: float) -> Curve | None:
         """The part of the curve; None of a polyline."""
@@ -160,7 +160,7 @@ class BezierTrack:
         for k in range(0, len(points), ROWS):
             own = points[k : k + ROWS]
             far = np.hypot(*(own[:, None] - places[None]).transpose(2, 0, 1))
-            # Where a chain comes near itself, the way that was gone decides.
+            # Where a chain comes near itself, the length along it decides.
             found[k : k + ROWS] = t[np.argmin(far + 0.1 * np.abs(of_points[k : k + ROWS, None] - way), axis=1)]
         step = 1.0 / SAMPLES
         for _ in range(3):
@@ -174,7 +174,7 @@ class BezierTrack:
 
 
 def _lengths(points: Floats) -> Floats:
-    """The way gone at each point."""
+    """(n,) length of the polyline up to each point."""
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
 
 
@@ -186,7 +186,7 @@ def _value(own: list[float], s: float) -> float:
 
 
 def _extremes(own: list[float]) -> list[float]:
-    """Where a polynomial of degree 2 or 3 in Bernstein form stands still, ascending, between 0 and 1."""
+    """Where a polynomial of degree 2 or 3 in Bernstein form has derivative zero, ascending, between 0 and 1."""
     d = [own[k + 1] - own[k] for k in range(len(own) - 1)]
     a, b, c = (0.0, d[1] - d[0], d[0]) if len(d) == 2 else (d[0] - 2.0 * d[1] + d[2], 2.0 * (d[1] - d[0]), d[0])
     root = b * b - 4.0 * a * c

@@ -1,8 +1,8 @@
 """Filled faces as SVG and PDF.
 
-Each opaque face is stroked in its own paint as well: between two faces that share a border, a program that smooths
-edges would else let the paper shine through. Large faces come first, so that small ones keep their shape; where two
-faces meet at an angle, the drawing's own line is wider than the stroke.
+Each opaque face is also stroked in its own colour. Otherwise a viewer with anti-aliasing would show the paper between
+two faces that share a border. Large faces come first, so that small ones keep their shape. Where two faces meet at an
+angle, the drawing's own line is wider than the stroke.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def svg_group(fill: Fill, places: int) -> list[str]:
     def paint(k: int) -> str:
         color = _hex(colors[k]) if gradient[k] < 0 else f"url(#gradient-{gradient[k]})"
         opacity = colors[k][3]
-        # Of glass no stroke: where that lay over the fill it would be denser.
+        # Transparent faces have no stroke: where it overlapped the fill, they would be less transparent.
         rest = f' stroke="{color}"' if opacity == 255 else f' fill-opacity="{number(opacity / 255.0, 3)}" stroke="none"'
         return f'fill="{color}"{rest}'
 

@@ -1,4 +1,4 @@
-"""The exchange format: everything the drawing knows, for other programs. JSON.md beside this file describes it."""
+"""The exchange format: all fields of a drawing, as JSON. JSON.md beside this file describes it."""
 
 from __future__ import annotations
 
@@ -50,13 +50,13 @@ def document(drawing: Drawing) -> bytes:
 
 
 def _effects(drawing: Drawing) -> dict[str, dict[str, float]]:
-    """What the steps of single effects took; all times are in one place, for they alone differ from run to run."""
+    """Seconds of single effects. All times are in one place, because only they differ from run to run."""
     timed = {d.name: d.seconds for d in drawing.plan if d.seconds is not None}
     return {"effects": timed} if timed else {}
 
 
 def accuracies(drawing: Drawing) -> dict[str, Any]:
-    """The accuracy, and what was reached where it was measured."""
+    """The accuracy, and the measured errors where they were asked for."""
     fields = asdict(drawing.accuracy)
     if drawing.accuracy.within is None:
         del fields["within"]

@@ -1,4 +1,4 @@
-"""What `hlr.load` is: a drawing out of its own exchange format, `hlr/writers/JSON.md`."""
+"""`hlr.load`: reads a drawing from the exchange format, which `hlr/writers/JSON.md` describes."""
 
 from __future__ import annotations
 

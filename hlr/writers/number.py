@@ -17,7 +17,7 @@ from hlr.request.accuracy import DIGITS
 Ints = npt.NDArray[np.int64]
 
 MAX_DECIMALS = 12
-# Beyond 2**53 a double no longer has a unit digit: more decimals would be invented.
+# Beyond 2**53 a double has no unit digit any more: further decimals would mean nothing.
 _MAX_GRID = float(2**53)
 NOT_FINITE = "the drawing has a point that is not finite; it cannot be written"
 

@@ -1,4 +1,4 @@
-"""PNG by Pillow: the picture, its depth map and its map of faces, each with what it shows in its text chunks.
+"""PNG by Pillow: the picture, its depth map and its map of faces, each with a description in its text chunks.
 
 The same picture gives the same bytes: no dates, no paths.
 """

@@ -1,4 +1,4 @@
-"""Records out of JSON: a value is checked against a type, and becomes it."""
+"""Records from JSON: a value is checked against a type and converted to it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 
 def revived(kind: Any, value: Any, what: str) -> Any:  # noqa: PLR0911 - one answer for each type of value
-    """`value`, which JSON gave, as a `kind`: a number, text, tuple, mapping, array or dataclass of such.
+    """A value from JSON as a `kind`: a number, text, tuple, mapping, array, or a dataclass of these.
 
     Raises ValueError, which says what `what` should be.
     """

@@ -1,4 +1,4 @@
-"""Line types and the page: ISO 128 widths and dashes, and the frame around the lines."""
+"""Widths and dashes of lines (ISO 128), and the margin of the page."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def width(row: LineClass, visible: bool) -> float:
 
 
 def group_width(visible: bool) -> float:
-    """Line width in millimetres of most classes: what a group of them states once."""
+    """Line width in millimetres of most classes, which the SVG group of all of them states."""
     return WIDE_MM if visible else NARROW_MM
 
 

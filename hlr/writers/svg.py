@@ -70,7 +70,7 @@ def title(drawing: Drawing) -> str:
 
 
 def _metadata(drawing: Drawing) -> str:
-    """What is needed to go from a path back to the model."""
+    """The element that leads from a path back to the model: view, scale, origin, unit and parts."""
     view = drawing.view
     named = {"source": drawing.source, "view": view.name}
     fields = {
@@ -111,7 +111,7 @@ def accuracies(drawing: Drawing) -> dict[str, str]:
 
 
 def reached(drawing: Drawing) -> dict[str, str]:
-    """The errors that were measured, class by class, millimetres on paper; empty where none were."""
+    """The measured errors, class by class, millimetres on paper; empty where none were measured."""
     if drawing.reached is None:
         return {}
     return {name: f"{value:.3g}" for name, value in drawing.reached.figures().items()}

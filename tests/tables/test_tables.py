@@ -74,7 +74,7 @@ class Cube:
     def transparent(self):
         return False
 
-    def looks(self):
+    def appearances(self):
         return {}
 
 
@@ -273,7 +273,7 @@ def test_what_is_nearly_a_source_is_told_what_it_lacks():
             Cube.bounds, Cube.names, Cube.infos, Cube.boxes, Cube.of_parts, Cube.mesh
         )  # fmt: skip
 
-    with pytest.raises(hlr.SourceError, match=r"type Half .* it lacks transparent and looks\."):
+    with pytest.raises(hlr.SourceError, match=r"type Half .* it lacks transparent and appearances\."):
         hlr.draw(Half())
 
 

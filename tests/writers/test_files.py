@@ -75,7 +75,7 @@ def test_a_full_disk_leaves_the_earlier_files(tmp_path, monkeypatch, failing):
     else:
         monkeypatch.setattr(files.os, "replace", full)
     with pytest.raises(WriteError, match=r"cannot write .*: no space left on device"):
-        files.place({first: b"new 1", second: b"new 2"})
+        files.write_all({first: b"new 1", second: b"new 2"})
     assert [entry.name for entry in tmp_path.iterdir()] == ["1.svg"]
     assert first.read_text() == "old 1"
 
