@@ -91,13 +91,13 @@ def study(  # noqa: PLR0913 - one for each option of the command
         raise OptionError("--scale and --fit contradict one another; give one of them")
     from hlr.lab.study import plot
     from hlr.lab.study.job import ACCURACIES, PIXELS, PREDICATES
-    from hlr.lab.study.sweep import Study, Wish
+    from hlr.lab.study.sweep import Scope, Study
     from hlr.lab.study.sweep import study as measure
     from hlr.source.file_checks import check_readable
 
     check_readable(Path(source))
     plot.available()
-    wish = Wish(
+    scope = Scope(
         accuracies=accuracies or ACCURACIES,
         pixels=pixels or PIXELS,
         predicates=accuracies or PREDICATES,
@@ -115,7 +115,7 @@ def study(  # noqa: PLR0913 - one for each option of the command
                     view,
                     scale=scale,
                     fit=fit,
-                    wish=wish,
+                    scope=scope,
                     limit=limit,
                     runs=runs,
                     into=found,

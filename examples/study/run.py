@@ -48,7 +48,7 @@ def plots():
     figure = Figure(figsize=(12.0, 7.6), layout="constrained")
     panels = dict(zip(MODELS, figure.subplots(2, 3).flat, strict=True))
     for name, points in tables():
-        panel(panels[name], points, "ink_usual")
+        panel(panels[name], points, "ink_p99")
         panels[name].set_title(TITLES[name], fontsize=10)
         (HERE / name / "error.png").write_bytes(error_plot(points, MODELS[name]))
         (HERE / name / "stages.png").write_bytes(stage_plot(points, MODELS[name]))

@@ -1,1 +1,1 @@
-"""For study: methods side by side, what accuracy costs, what a drawing reached. No drawing needs it."""
+"""Tools for study: classic methods side by side, the cost of accuracy, measured errors. No drawing needs them."""

@@ -1,6 +1,6 @@
 """Meshing beside OpenCASCADE's BRepMesh at the same deflection: time, triangles, measured chord error, conformity.
 
-    python tests/bench/run.py --only meshing MODEL... [--share 5e-5]
+    python -m bench.run --only meshing MODEL... [--share 5e-5]
 
 share: of the model's diagonal, the deflection. Both mesh the same shapes in memory, on all cores, without triangles at
 the beginning. Errors are distances between middles of triangles and of their sides and the true surface at the same

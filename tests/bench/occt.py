@@ -1,4 +1,4 @@
-"""OpenCASCADE's own hidden-line removal and CadQuery's export, timed as a user would meet them."""
+"""OpenCASCADE's mesher and hidden-line algorithms and the exporters of CadQuery and build123d, timed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Our own half of the benchmarks: the kernel alone, the visibility stage of a drawing, and shape to SVG file."""
+"""The same work done by hlr, timed: the kernel alone, the visibility stage of a drawing, shape to SVG file."""
 
 from __future__ import annotations
 

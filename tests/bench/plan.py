@@ -1,8 +1,8 @@
-"""What the plan saves: drawings with what the scene calls for, against drawings with everything on.
+"""What the plan saves: drawings that do only what the scene calls for, beside drawings that do everything.
 
-    python tests/bench/plan.py FOLDER                  every model of a folder, and the bench scenes
-    python tests/bench/plan.py FOLDER --repeat 5 --no-hidden --view front
-    python tests/bench/plan.py --scenes asm1000,plate20 --json out.json
+    python -m bench.plan FOLDER                  every model of a folder, and the bench scenes
+    python -m bench.plan FOLDER --repeat 5 --no-hidden --view front
+    python -m bench.plan --scenes asm1000,plate20 --json out.json
 
 Each model is read and drawn in turns, both ways, so that what else the machine does hits both alike; medians
 of processor time, all threads together, for on a shared machine the wall clock measures the others. Reading is

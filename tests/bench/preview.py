@@ -1,7 +1,7 @@
 """The shaded preview beside VTK's software renderer, off screen, in one run. Each side has a process of its own.
 
-    python tests/bench/preview.py                      asm4000, 1920x1080, eleven frames each, medians
-    python tests/bench/preview.py --scene asm1000 --antialias
+    python -m bench.preview                      asm4000, 1920x1080, eleven frames each, medians
+    python -m bench.preview --scene asm1000 --antialias
 
 Both start from the same triangles with the same normals in memory, light them by one light, and end with a frame in
 memory; nothing is encoded. Each frame is seen from another direction. What is the same for all frames is made before on

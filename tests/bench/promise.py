@@ -1,4 +1,4 @@
-"""Whether drawings keep their promise: `python tests/bench/promise.py FOLDER [-o results.jsonl]`.
+"""Whether drawings keep their promise: `python -m bench.promise FOLDER [-o results.jsonl]`.
 
 Each model is drawn at 1:1 where that is 20 to 400 mm large, else fitted to A4, at each of four accuracies, and measured
 (`hlr.lab.measure`). The table has measured error / promise, class by class; what is above 1 is broken. Each drawing has

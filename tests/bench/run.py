@@ -1,9 +1,9 @@
 """Benchmarks beside the peers: one command for all tables, in Markdown.
 
-    python tests/bench/run.py                              all tables but the slow peers; medians of five
-    python tests/bench/run.py FOLDER FILE...               with STEP and BREP files of your own
-    python tests/bench/run.py --only svg,kernel --json out.json
-    python tests/bench/run.py --slow --tori 125            PolyAlgo on 888,872 triangles; ten million as arrays
+    python -m bench.run                              all tables but the slow peers; medians of five
+    python -m bench.run FOLDER FILE...               with STEP and BREP files of your own
+    python -m bench.run --only svg,kernel --json out.json
+    python -m bench.run --slow --tori 125            PolyAlgo on 888,872 triangles; ten million as arrays
 
 meshing    B-reps to triangles, beside BRepMesh at the same deflection: time, triangles, errors
 svg        shape in memory to SVG on disk, triangulation included, beside CadQuery's export

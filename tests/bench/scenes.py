@@ -1,4 +1,4 @@
-"""Benchmark scenes, built straight on OpenCASCADE: thousands of parts in well under a second each."""
+"""Scenes for the benchmarks, built with OpenCASCADE: thousands of parts in well under a second each."""
 
 from __future__ import annotations
 

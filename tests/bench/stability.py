@@ -1,8 +1,8 @@
-"""How much of a drawing changes when its model is moved a little: a table and plots, rivals beside.
+"""How much of a drawing changes when its model is moved a little: a table and plots, other programs beside it.
 
-    python tests/bench/stability.py MODEL... -o examples/stability
-    python tests/bench/stability.py MODEL... --drawers hlr,hlr-turned --seeds 5
-    python tests/bench/stability.py --plot -o examples/stability      only draw the plots anew, from stability.csv
+    python -m bench.stability MODEL...
+    python -m bench.stability MODEL... --drawers hlr,hlr-turned --seeds 5
+    python -m bench.stability --plot      only draw the plots anew, from stability.csv
 
 Every coordinate of every vertex of the tessellation is moved by a random amount of at most 1e-9 to 1e-3 of the model's
 size, the model is drawn again, and ink is counted that is in one drawing and not in the other.
@@ -28,6 +28,7 @@ from bench.stability_child import DRAWERS
 from support.markdown import markdown
 from support.programs import environment
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "stability"
 AMOUNTS = np.logspace(-9, -3, 13)
 COLUMNS = (
     "model",
@@ -115,7 +116,7 @@ def measured(path: Path, drawer: str, seeds: int, limit: int, budget: float) -> 
 def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*", type=Path)
-    parser.add_argument("-o", "--out", type=Path, default=Path("examples/stability"))
+    parser.add_argument("-o", "--out", type=Path, default=EXAMPLES)
     parser.add_argument("--drawers", type=lambda text: text.split(","), default=list(DRAWERS), help=", ".join(DRAWERS))
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--limit", type=int, default=120, help="seconds of computing for one drawing")

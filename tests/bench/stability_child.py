@@ -1,4 +1,4 @@
-"""One model by one drawer, in a process of its own: the rivals may crash or never end.
+"""One model by one program, in a process of its own: other programs may crash or never end.
 
 Writes a JSON object per line: first the drawing at rest, then one for every (amount, seed) it reads.
 """

@@ -1,4 +1,4 @@
-"""A drawing by hlr of a model whose tessellation was disturbed before anything else looks at it."""
+"""A drawing by hlr of a model whose mesh was disturbed before any other stage sees it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much of one drawing is not in another: ink by length, visible and hidden apart."""
+"""What two drawings do not have in common: millimetres of ink lost and gained, visible and hidden apart."""
 
 from __future__ import annotations
 

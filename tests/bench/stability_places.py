@@ -1,6 +1,6 @@
-"""Where a disturbed drawing by hlr differs: the longest stretches, each with its line.
+"""Where a disturbed drawing by hlr differs from the first: the longest stretches, each with its line.
 
-python tests/bench/stability_places.py MODEL --amount 1e-7 --seed 0 [--turned]
+python -m bench.stability_places MODEL --amount 1e-7 --seed 0 [--turned]
 """
 
 from __future__ import annotations

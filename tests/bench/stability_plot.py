@@ -1,4 +1,4 @@
-"""Curves of change over disturbance: one picture per model, and one of them all."""
+"""Plots of change over disturbance: one picture per model, and one of all models."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A table of a benchmark: Markdown for people, figures for programs."""
+"""The table of a benchmark: Markdown for people, figures for programs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The benchmarks measure what they say: same scenes on both sides, and a run that fails is reported as such."""
+"""The benchmarks measure what they say: the same scenes on both sides, and a run that fails is reported."""
 
 from __future__ import annotations
 

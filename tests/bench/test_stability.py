@@ -1,4 +1,4 @@
-"""The measure of stability measures: nothing where nothing moved, and what geometry says where something did."""
+"""The measure of stability: zero where nothing moved, and the length known from geometry where something did."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The triangulation that a shape carries, as arrays: exactly what OpenCASCADE's polygonal algorithm works on."""
+"""The mesh that a shape carries, as arrays: the same triangles that OpenCASCADE's polygonal algorithm reads."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether `hlr draw --within` keeps its time: `python tests/bench/within.py MODEL... [--seconds 2 5 10]`.
+"""Whether `hlr draw --within` keeps its time: `python -m bench.within MODEL... [--seconds 2 5 10]`.
 
 The whole command is timed, from its start to its end, loading of libraries and writing included. The table has the
 time it took over the time asked for, medians, and the accuracy that was reached.

@@ -1,4 +1,4 @@
-"""Small models of known errors."""
+"""Small models whose errors are known."""
 
 import cadquery as cq
 

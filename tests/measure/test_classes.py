@@ -1,4 +1,4 @@
-"""Each class of error: kept by what is drawn, and found where a drawing is spoiled by a known amount."""
+"""Each class of error: drawings keep the promise, and a drawing spoiled by a known amount is found."""
 
 from dataclasses import replace
 from pathlib import Path

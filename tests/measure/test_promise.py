@@ -1,4 +1,4 @@
-"""The promise at other scales, views and accuracies: small stand-ins for `tests/bench/promise.py`."""
+"""The promise at other scales, views and accuracies: a small version of `bench.promise`."""
 
 from pathlib import Path
 

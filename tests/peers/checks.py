@@ -1,6 +1,6 @@
-"""The kernel's own check over many models: how often the counts along an edge contradicted its end.
+"""The kernel's own check on many models: how often the counts along an edge contradicted its end.
 
-    python tests/peers/checks.py FOLDER_OR_FILES... [--random 10]
+    python -m peers.checks FOLDER_OR_FILES... [--random 10]
 
 Each model is drawn from the named views and from random ones, fitted into a sheet. Per model: drawn edges, edges whose
 check failed (decided again polygon by polygon), edges where even that contradicted itself, and what is wrong with the

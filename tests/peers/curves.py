@@ -1,4 +1,4 @@
-"""How far the emitted curves lie from the true ones: `python tests/peers/curves.py FOLDER`.
+"""How far the emitted curves lie from the true ones: `python -m peers.curves FOLDER`.
 
 For every B-rep model of a folder, in an orthographic and a perspective view, each line of an edge is sampled densely
 and measured against OpenCASCADE's own evaluation of that edge, projected to paper. Beside it, the size of the SVG and

@@ -1,6 +1,6 @@
 """Sheets and wings from nearly edge-on views: where a drawing lacks lines or draws hidden ones.
 
-    python tests/peers/edge_on.py [NAMES...] [--accuracy 0.1 0.05] [--sine 0.01 0.03] [--why 5]
+    python -m peers.edge_on [NAMES...] [--accuracy 0.1 0.05] [--sine 0.01 0.03] [--why 5]
 
 What counts as missing or wrong: `support/edge_on.py`.
 """

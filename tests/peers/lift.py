@@ -1,4 +1,4 @@
-"""Give the flat result of OpenCASCADE's polygonal algorithm its depth back."""
+"""Finds the depth of the flat pieces that OpenCASCADE's polygonal algorithm returns."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small models for the referee, each with something that makes hidden-line removal hard; made in milliseconds."""
+"""Small models for the referee, built in code; each has one thing that makes hidden-line removal hard."""
 
 from __future__ import annotations
 

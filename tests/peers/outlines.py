@@ -1,4 +1,4 @@
-"""Whether outlines lie where the true surface is seen edge-on: `python tests/peers/outlines.py FOLDER`.
+"""Whether outlines lie where the true surface is seen edge-on: `python -m peers.outlines FOLDER`.
 
 Each point of an outline, before visibility, is put on the surface of its face by OpenCASCADE. The table has the largest
 |N . v| there and the largest distance, in accuracies, of all outlines of all models, in an orthographic and a

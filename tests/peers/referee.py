@@ -1,13 +1,13 @@
-"""The ray referee: draw models and judge every drawing against an independent mesh and the curves of the file.
+"""The ray referee, independent of hlr on purpose: draws models and judges each drawing with a mesh of its own.
 
-    python tests/peers/referee.py FOLDER_OR_FILES... [--views front,top,right,iso] [--random 2] [--table out.md]
-    python tests/peers/referee.py part.step --view iso --view 1,-2,3 --why --png pictures
-    python tests/peers/referee.py M6.step --views iso --peer occt-exact --why
+    python -m peers.referee FOLDER_OR_FILES... [--views front,top,right,iso] [--random 2] [--table out.md]
+    python -m peers.referee part.step --view iso --view 1,-2,3 --why --png pictures
+    python -m peers.referee M6.step --views iso --peer occt-exact --why
 
-Wrong lines, missing lines, edges off their own curves, and faces that are lost: `peers.judge`, `peers.missing`,
-`peers.off_curve` and `peers.lost` say how. The diagonal of a model is 300 mm on paper, the accuracy a 20000th of that;
-with `--fineness 6000` it is the usual 0.05 mm. With `--against MODEL` the files given are drawings (.json) made
-elsewhere, judged as they are. Exit code 1 if anything is wrong.
+Reported are wrong lines (`support.referee.judge` says what that is), missing lines (`missing`), edges off their own
+curves (`off_curve`) and lost faces (`lost`). The diagonal of a model is 300 mm on paper, the accuracy a 20000th of it;
+with `--fineness 6000` it is 0.05 mm, the default of hlr. With `--against MODEL` the files given are finished drawings
+(.json), judged as they are. Exit code 1 if anything is wrong.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from support.markdown import markdown
 from support.programs import environment
 from support.referee import exchange, reference, report
 from support.referee.depth import PIXELS
-from support.referee.off_curve import file_curves
 from support.referee.referee import Curves, Judged, Referee
+from support.true_curves import file_curves
 
 VIEWS = "front,top,right,iso"
 NAMED = ("front", "back", "left", "right", "top", "bottom", "iso", "iso-sw", "iso-ne", "iso-nw")

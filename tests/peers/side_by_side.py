@@ -1,7 +1,7 @@
-"""Pictures of a model as OpenCASCADE's two algorithms and hlr draw it.
+"""Pictures of a model as drawn by OpenCASCADE's two algorithms and by hlr.
 
-    python tests/peers/side_by_side.py FILE... -o DIR
-    python tests/peers/side_by_side.py FILE -o DIR --window 120,80,10     only that square of the sheet
+    python -m peers.side_by_side FILE... -o DIR
+    python -m peers.side_by_side FILE -o DIR --window 120,80,10     only that square of the sheet
 
 OpenCASCADE has a process of its own and a time limit, for the exact algorithm may never end. The polygonal one meshes
 as finely as hlr does. The picture says how many lines each made, and how long it took without reading the file: hlr

@@ -1,4 +1,4 @@
-"""Our own drawings before the ray referee: not one wrong sample on models that are hard in one way each."""
+"""Drawings by hlr before the referee: no wrong sample on models that are each hard in one way."""
 
 from __future__ import annotations
 

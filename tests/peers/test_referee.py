@@ -1,7 +1,8 @@
-"""The referee must accept what is right and catch what is wrong, or its zero means nothing."""
+"""The referee accepts what is right and finds what is wrong; else its zero would mean nothing."""
 
 from __future__ import annotations
 
+import ast
 import copy
 import json
 import subprocess
@@ -18,6 +19,16 @@ from PIL import Image
 from support.programs import environment
 from support.referee import exchange, reference
 from support.referee.judge import FRACTIONS, RayCaster, judge, offenders
+
+
+def test_the_referee_imports_nothing_of_hlr() -> None:
+    """What is one mistake in both would not be found."""
+    for path in Path(reference.__file__).parent.glob("*.py"):
+        nodes = list(ast.walk(ast.parse(path.read_text("utf-8"))))
+        names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
+        names += [node.module or "" for node in nodes if isinstance(node, ast.ImportFrom)]
+        own = [name for name in names if name.split(".")[0] == "support" and not name.startswith("support.referee")]
+        assert not own and not [name for name in names if name.split(".")[0] == "hlr"], path.name
 
 
 def wall_document(lines: list[dict[str, Any]], eye: list[float] | None = None) -> dict[str, Any]:

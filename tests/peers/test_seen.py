@@ -1,5 +1,4 @@
-"""What is missing, off its curve, or lost must be found, and a right drawing must pass, or the referee's zero is worth
-nothing."""
+"""Missing lines, lines off their curves and lost faces are found, and a right drawing passes."""
 
 from __future__ import annotations
 

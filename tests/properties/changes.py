@@ -1,4 +1,4 @@
-"""What is done to a model before it is drawn again. Nothing here changes what is to be seen of it."""
+"""Changes to a model that leave its picture the same."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Models whose triangles are fixed, so that a changed model differs from the first one only by the change.
+"""Models whose triangles are fixed, so that only the change under test makes a difference.
 
 A STEP file meshed twice, once turned, gives other triangles: what then differs says more of the mesher than of the
 drawing. So a model is meshed once, and the mesh is turned, shuffled, split and drawn as if it had just been read.

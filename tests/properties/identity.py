@@ -1,4 +1,4 @@
-"""Compare drawings exactly: as bytes, and line by line."""
+"""Exact comparison of drawings: as bytes, and line by line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Compare drawings by their ink: what lies on the paper, whichever lines it is made of.
+"""Changes between two drawings of one model: the longest stretch and the whole length of ink that differs.
 
 Ink is sampled along all lines. What one drawing has and the other has not, within the reach, makes up stretches along
 its lines; a drawing that only moved a little has none, and one on which a line changed from visible to hidden has one

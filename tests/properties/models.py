@@ -1,4 +1,4 @@
-"""The real models that the tests draw, each meshed once per run."""
+"""The real models of these tests, each meshed once per run."""
 
 from __future__ import annotations
 

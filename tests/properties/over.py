@@ -1,6 +1,6 @@
-"""The properties over a folder of models of your own, one row each.
+"""The properties of `tests/properties`, checked on a folder of models of your own, one row each.
 
-    python tests/properties/over.py FOLDER_OR_FILES... [--accuracy 2000] [--views front,iso] [--ink] [--table out.md]
+    python -m properties.over FOLDER_OR_FILES... [--accuracy 2000] [--views front,iso] [--ink] [--table out.md]
 
 Each model is read and meshed once, with a chord error of half the accuracy: its diagonal / 2000, or as given. Then
 every view is drawn with 1, 2 and 4 threads and again, and with its parts, triangles, faces and edges shuffled; the

@@ -68,7 +68,7 @@ width: float = drawing.bounds.width
 code: hlr.NoteCode = drawing.notes[0].code
 first: hlr.Line = drawing.visible[0]
 again: hlr.Drawing = hlr.load("a.json")
-hlr.lab.study.study("a.step", wish=hlr.lab.study.Wish(rivals=False))
+hlr.lab.study.study("a.step", scope=hlr.lab.study.Scope(rivals=False))
 hlr.methods(counts=[100], limit=1.0)
 hlr.lab.methods.render
 """

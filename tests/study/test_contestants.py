@@ -1,4 +1,4 @@
-"""What the others draw, on shapes whose lines are known."""
+"""Lines of other programs, on shapes whose lines are known."""
 
 import numpy as np
 import pytest

@@ -1,9 +1,11 @@
-"""The measure that all contestants are judged by, on lines whose errors are known; and the frontier."""
+"""The study's judge, on lines whose errors are known; and the Pareto front."""
 
 import numpy as np
 import pytest
 
 from hlr.drawing.curve import Arc, Bezier
+from hlr.lab.judge import Judge
+from hlr.lab.measure.classes import ModelJudge
 from hlr.lab.polylines import gathered, load
 from hlr.lab.sampling import chords
 from hlr.lab.study.frontier import frontier
@@ -30,7 +32,7 @@ def test_the_truth_has_no_errors():
 def test_a_line_beside_its_place():
     drawn = ink(("sharp", True, [[0, 0.03], [100, 0.03]]), ("sharp", True, [[0, 9], [50, 9]]))
     found = LineJudge(TRUE).judge(drawn)
-    assert found["ink_worst"] == pytest.approx(0.03) and found["ink_usual"] == pytest.approx(0.03)
+    assert found["ink_worst"] == pytest.approx(0.03) and found["ink_p99"] == pytest.approx(0.03)
     assert found["ink_mean"] == pytest.approx(0.02, rel=1e-3) and found["wrong"] == 0.0
 
 
@@ -87,10 +89,10 @@ def test_lines_are_kept(tmp_path):
 
 def test_the_frontier():
     def point(who, seconds, error):
-        return Point(who, 0.0, stages={"visibility": Cost(seconds, seconds, 1.0)}, errors={"ink_usual": error})
+        return Point(who, 0.0, stages={"visibility": Cost(seconds, seconds, 1.0)}, errors={"ink_p99": error})
 
     a, b, c, d = point(HLR, 1, 0.5), point(HLR, 2, 0.1), point(POLY, 3, 0.3), point(POLY, 0.5, 2.0)
-    assert frontier([a, b, c, d, Point(HLR, 0.1, failure="late")], "ink_usual") == [d, a, b]
+    assert frontier([a, b, c, d, Point(HLR, 0.1, failure="late")], "ink_p99") == [d, a, b]
 
 
 def test_stages_are_told_apart():
@@ -116,3 +118,12 @@ def test_what_a_user_needs_in_a_sentence():
         "for at most twice that there is 0.02 mm; 0.001 mm costs 12 s."
     )
     assert advice([ours(0.05, 1)]) == ""
+
+
+def test_judges_have_one_form():
+    """Made from a truth, asked drawing by drawing; each answer is of its own drawing alone."""
+    assert isinstance(LineJudge(TRUE), Judge) and isinstance(ModelJudge("box.step"), Judge)
+    judge = LineJudge(TRUE)
+    first = judge.judge(TRUE)
+    judge.judge(ink(("sharp", True, [[0, 5], [100, 5]])))
+    assert judge.judge(TRUE) == first

@@ -1,4 +1,4 @@
-"""`hlr study`: files, failures in sentences, refusals, and what Ctrl-C leaves."""
+"""`hlr study`: its files, failures in sentences, refused options, and what Ctrl-C leaves."""
 
 import contextlib
 import csv
@@ -14,7 +14,7 @@ from hlr.errors import OptionError
 from hlr.lab.study import plot, report, table
 from hlr.lab.study.job import HLR, Cost, Job, Point
 from hlr.lab.study.process import answer
-from hlr.lab.study.sweep import Study, Wish, study
+from hlr.lab.study.sweep import Scope, Study, study
 
 BOX = """solid box
 {}endsolid box
@@ -64,7 +64,7 @@ def test_files_and_figures(box, tmp_path):
     assert "mesh" in rows["OCCT exact", "0"]["failure"]
     ours, pixels = rows["hlr", "0.5"], rows["z-buffer", "64"]
     assert ours["lines"] == "12" and float(ours["ink_worst"]) < 0.5 and float(ours["wall_s"]) > 0
-    assert float(pixels["ink_usual"]) < 277 / 64 * 2 and float(pixels["mb"]) > 1
+    assert float(pixels["ink_p99"]) < 277 / 64 * 2 and float(pixels["mb"]) > 1
     text = (folder / "study.md").read_text()
     assert "too coarse" in text and "What there is not" in text and "exact" in text
     kinds = list(csv.DictReader((folder / "arithmetic.csv").open()))
@@ -151,7 +151,7 @@ def test_finer_points_are_not_tried_after_one_that_took_too_long(box, monkeypatc
         return {"failure": f"not finished in {job.limit:g} s"}
 
     monkeypatch.setattr(sweep, "answer", fake)
-    found = study(str(box), wish=Wish((0.5, 0.2, 0.1), (), (), rivals=False, reached=False), limit=7, runs=1)
+    found = study(str(box), scope=Scope((0.5, 0.2, 0.1), (), (), rivals=False, reached=False), limit=7, runs=1)
     assert [p.failure for p in found.points] == [None, "not finished in 7 s", "not tried: 0.2 was not finished"]
     assert (HLR, 0.1) not in asked and found.truth is None and "could not be drawn" in found.notes[0]
     assert "not tried: 0.2" in report.markdown(found)
@@ -176,7 +176,7 @@ def test_the_frontier_is_marked():
             a,
             a,
             stages={"source": Cost(1.0, 1.0, 9.0), "visibility": Cost(t, t, 9.0)},
-            errors={"ink_usual": e, "wrong": 0.0},
+            errors={"ink_p99": e, "wrong": 0.0},
             counts={"lines": 3},
         )
         for a, t, e in ((0.5, 1.0, 0.1), (0.05, 3.0, 0.01), (0.02, 4.0, 0.02))

@@ -1,4 +1,4 @@
-"""Hidden lines by a z-buffer, where the answer is known."""
+"""Hidden lines by a z-buffer, on shapes whose lines are known."""
 
 import numpy as np
 import pytest

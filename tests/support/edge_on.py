@@ -1,4 +1,4 @@
-"""Faces seen nearly edge-on: what is seen of their edges and outlines, by dense rays, and where a drawing lacks ink.
+"""Faces seen nearly edge-on: which parts of their edges and outlines are visible, and where a drawing lacks lines.
 
 A point of an edge or of a true outline is seen where, moved off its line in the picture by between a fifth of the
 accuracy and the whole of it, to the one side or to the other, nothing is in front of it. So what hides it has to come

@@ -1,11 +1,13 @@
-"""How far the curves of a drawing's edges are from OpenCASCADE's own evaluation of them."""
+"""OpenCASCADE's own curves of a source's edges, and how far drawn ones are from them."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr.drawing.curve import Arc
 from hlr.drawing.drawing import Drawing
@@ -13,6 +15,8 @@ from hlr.drawing.line import Line
 from hlr.lab.sampling import bezier_pieces, evenly
 from hlr.source.cad.shapes import sub_shapes
 from hlr.source.transforms import transform_points
+
+Floats = npt.NDArray[np.float64]
 
 DENSE = 600
 """Samples per edge, and per line a tenth of that."""
@@ -98,3 +102,31 @@ def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], s
             if key == "curve":
                 where = f"{drawing.parts[line.part].name} {line.edge}"
     return worst["curve"], worst["polyline"], forms, where
+
+
+def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, int], float]]:
+    """Both functions for an opened B-rep source; its own numbering of parts and edges, OpenCASCADE's curves."""
+    from OCP.BRep import BRep_Tool
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp
+    from OCP.TopoDS import TopoDS
+
+    curves = true_curves(source)
+    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.prototypes.shapes]
+    parts = {part.name: part for part in source.parts}
+
+    def true(name: str, edge: int) -> Floats | None:
+        try:
+            return np.asarray(curves(name, edge))
+        except Exception:  # no curve in space
+            return None
+
+    def slack(name: str, edge: int) -> float:
+        part = parts[name]
+        own = TopoDS.Edge_s(edges[part.prototype][edge])
+        ends = [end for end in (TopExp.FirstVertex_s(own), TopExp.LastVertex_s(own)) if not end.IsNull()]
+        # A curve need not end at its vertices, and there neighbours meet: lines go to the vertex.
+        stated = max(BRep_Tool.Tolerance_s(own), *map(BRep_Tool.Tolerance_s, ends), 0.0)
+        return abs(float(np.linalg.det(part.transform[:3, :3]))) ** (1 / 3) * stated
+
+    return true, slack

@@ -1,4 +1,4 @@
-"""Who is seen at a pixel, by rationals: every polygon against every pixel, sharing nothing with the kernel."""
+"""Which polygon is visible at a pixel, by rationals. It shares nothing with the kernel."""
 
 from __future__ import annotations
 

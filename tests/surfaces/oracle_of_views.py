@@ -1,4 +1,4 @@
-"""Who is seen at a pixel of any view, by rationals: polygons anywhere in space, in perspective as well.
+"""Which polygon is visible at a pixel of any view, by rationals: polygons anywhere in space, in perspective too.
 
 It shares nothing with the kernel but the camera's matrix. Each pixel's answer comes with how safe it is, for the
 kernel rounds once: to a 256th of a pixel, and depth to so many steps.

@@ -1,4 +1,4 @@
-"""All methods on real models, picture by picture: python tests/surfaces/real_models.py FOLDER... [--size 1920x1080]
+"""All methods on real models, picture by picture: python -m surfaces.real_models FOLDER... [--size 1920x1080]
 
 Prints, for each model and view, which methods differ from the z-buffer and how long each took.
 """

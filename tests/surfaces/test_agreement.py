@@ -1,4 +1,4 @@
-"""All methods, and all their variants, give the picture of the exact oracle: on 200 random scenes of each kind."""
+"""All methods and all their variants give the exact oracle's picture: 200 random scenes of each kind."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What an entry of the active edge list holds, x, z and colour, and by how much each changes from row to row."""
+"""Entries of the active edge list: x, z and colour, and their changes from row to row."""
 
 from itertools import pairwise
 

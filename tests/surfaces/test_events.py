@@ -1,4 +1,4 @@
-"""Events of the active lists: what starts and ends is counted, and crossings between them are swaps."""
+"""Events of the active lists: starts and ends are counted, and crossings between them are swaps."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""The tenth of the worked examples: memory of frames, and what methods and processes hold."""
+"""Memory of frames, methods and processes: the tenth of the worked examples."""
 
 import subprocess
 import sys

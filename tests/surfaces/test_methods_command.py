@@ -1,4 +1,4 @@
-"""`hlr methods`: tables, files, limits, refusals."""
+"""`hlr methods`: tables, files, limits, refused options."""
 
 import csv
 import subprocess

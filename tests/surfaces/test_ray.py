@@ -1,4 +1,4 @@
-"""A ray and its t: 0 at the eye, 1 at the pixel, negative behind the eye."""
+"""A ray's parameter t: 0 at the eye, 1 at the pixel, negative behind the eye."""
 
 import numpy as np
 import pytest

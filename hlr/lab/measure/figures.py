@@ -1,4 +1,4 @@
-"""The shortest figure drawn on its own: connected lines of one visibility that hang on nothing else."""
+"""The shortest figure: connected lines of one visibility that touch no other line."""
 
 from __future__ import annotations
 

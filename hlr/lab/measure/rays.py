@@ -1,4 +1,4 @@
-"""Visible and hidden judged by rays against a finer tessellation.
+"""Visibility of drawn lines, judged by rays against a finer tessellation.
 
 A sample of a drawn line has nine rays toward the viewer: its own, and eight on a ring as wide as the accuracy. It is
 wrong only where they agree: drawn visible and all are blocked, or drawn hidden and none is. Where they do not agree,

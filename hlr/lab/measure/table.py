@@ -1,4 +1,4 @@
-"""What was asked and what was reached, as text for people."""
+"""The accuracy asked for and the accuracy reached, as text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a file says, as a renderer draws it: points along every line after its numbers have been rounded."""
+"""Points along every line as a written file has them, after its numbers have been rounded."""
 
 from __future__ import annotations
 

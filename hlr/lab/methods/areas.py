@@ -1,4 +1,4 @@
-"""The areas of Warnock's subdivision, as a trace has them and as a table."""
+"""The areas of Warnock's subdivision: as records of a trace, and as a table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a method may take: seconds, and bytes of memory. Every call has limits; those that nobody gave are here."""
+"""Limits of a method's time (seconds) and memory (bytes), and their defaults."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a frame takes, stated before it is made; what the scene adds, `Statistics.memory` says afterwards."""
+"""Memory of a frame, computed before it is drawn. What a scene adds is in `Statistics.memory` afterwards."""
 
 from __future__ import annotations
 

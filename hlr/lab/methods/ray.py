@@ -1,4 +1,4 @@
-"""One ray and all it meets: t = 0 at the eye, 1 at the pixel on the image plane, negative behind the eye."""
+"""One ray and everything it meets: t = 0 at the eye, 1 at the pixel on the image plane, negative behind the eye."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`render`: a scene, a camera and a method in; ids, depths and what it cost out."""
+"""`render`: the visible polygon and its depth at every pixel, by one of the methods, and what it cost."""
 
 from __future__ import annotations
 

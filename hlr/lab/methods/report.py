@@ -1,4 +1,4 @@
-"""What was measured as tables: for a terminal, as Markdown and as CSV."""
+"""Tables of what was measured: for a terminal, as Markdown and as CSV."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values along a span: what the textbook has, and what is right in perspective.
+"""Interpolation along a span: the textbook's linear one, and the one that is right in perspective.
 
 The kernel's `methods/src/shading.rs`.
 """

@@ -1,4 +1,4 @@
-"""The methods by name, and what each can be asked to do in another way."""
+"""The methods by name, and the variants of each."""
 
 from __future__ import annotations
 

@@ -1,10 +1,10 @@
-"""The price list: what accuracy costs, beside OpenCASCADE, a z-buffer, and predicates that round.
+"""What accuracy costs, beside OpenCASCADE, a z-buffer, and predicates that round.
 
 Each point is measured in a process of its own (`child`), all draw the same view at the same scale, and all are judged
 by the same true lines (`judge`).
 
->>> from hlr.lab.study import Wish, study
->>> found = study("part.step", wish=Wish(accuracies=(0.5, 0.05), rivals=False))
+>>> from hlr.lab.study import Scope, study
+>>> found = study("part.step", scope=Scope(accuracies=(0.5, 0.05), rivals=False))
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from hlr.lab.study.job import Point
-    from hlr.lab.study.sweep import Study, Wish, study
+    from hlr.lab.study.sweep import Scope, Study, study
 
-__all__ = ["Point", "Study", "Wish", "study"]
+__all__ = ["Point", "Scope", "Study", "study"]
 
 
 def __dir__() -> list[str]:

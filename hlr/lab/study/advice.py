@@ -1,4 +1,4 @@
-"""The sentence a user needs: which accuracy to choose, and what it costs."""
+"""One sentence for users: which accuracy to choose, and what it costs."""
 
 from __future__ import annotations
 

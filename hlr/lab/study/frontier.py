@@ -1,4 +1,4 @@
-"""The points that nothing beats: for each, none is both quicker and truer."""
+"""The Pareto front: the points for which no other is both faster and more accurate."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is measured, and what came out: the records that pass between the study and its processes."""
+"""Records of what to measure and of what was measured: they pass between the study and its processes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far bare lines are from the true ones: the same measure for every contestant.
+"""How far polylines are from the true lines: the same measure for every program.
 
 ::
 
@@ -26,8 +26,8 @@ SAMPLES = 200_000
 NOTICED = 0.1
 """Millimetres: ink farther off than a fifth of a wide line counts as wrong."""
 
-USUAL = 0.99
-"""Share of the ink that is nearer than `ink_usual`."""
+P99 = 0.99
+"""Share of the length that is nearer than `off_p99` and `ink_p99`."""
 
 
 class LineJudge:
@@ -39,8 +39,8 @@ class LineJudge:
     def judge(self, drawn: Polylines) -> dict[str, float]:
         """Errors by name; lengths in millimetres on paper.
 
-        off_mean, off_usual, off_worst   of all drawn lines from the nearest true line, visible or not
-        ink_mean, ink_usual, ink_worst   between visible lines drawn and true, both ways
+        off_mean, off_p99, off_worst   of all drawn lines from the nearest true line, visible or not
+        ink_mean, ink_p99, ink_worst   between visible lines drawn and true, both ways
         too_much, missing                visible lines farther off than `NOTICED`: drawn, and not drawn
         mislabelled                      of these: drawn visible on a truly hidden line, or the other way round
         wrong                            too_much and missing, as a share of the true visible length
@@ -82,9 +82,9 @@ def _summary(name: str, distance: Floats, weight: Floats) -> dict[str, float]:
     distance = np.minimum(distance, FARTHEST)
     order = np.argsort(distance)
     share = np.cumsum(weight[order]) / weight.sum()
-    usual = distance[order][min(int(np.searchsorted(share, USUAL)), len(order) - 1)]
+    p99 = distance[order][min(int(np.searchsorted(share, P99)), len(order) - 1)]
     mean = float((distance * weight).sum() / weight.sum())
-    return {f"{name}_mean": mean, f"{name}_usual": float(usual), f"{name}_worst": float(distance.max())}
+    return {f"{name}_mean": mean, f"{name}_p99": float(p99), f"{name}_worst": float(distance.max())}
 
 
 FARTHEST = 1000.0

@@ -24,7 +24,7 @@ FLOOR = 1e-5
 """Errors and shares below this are drawn here: the judge sees nothing smaller."""
 
 PANELS = (
-    ("ink_usual", "visible ink: 99 % is nearer to the truth than, mm on paper"),
+    ("ink_p99", "visible ink: 99 % is nearer to the truth than, mm on paper"),
     ("wrong", f"visible ink more than {NOTICED:g} mm off, share"),
 )
 

@@ -1,4 +1,4 @@
-"""Jobs in processes of their own, with a time limit: what cannot be had there is a sentence here."""
+"""Runs each job in a process of its own with a time limit. A job that fails is reported in a sentence."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was measured, as a Markdown report that explains itself."""
+"""The study as a Markdown report."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def _points(found: Study) -> str:
-    best = {id(p) for p in frontier(found.points, "ink_usual")}
+    best = {id(p) for p in frontier(found.points, "ink_p99")}
     rows = []
     for who in WHO:
         for p in (p for p in found.points if p.who == who and p.failure is None):
@@ -119,7 +119,7 @@ def _points(found: Study) -> str:
                     _count(p, "lines"),
                     _count(p, "segments"),
                     _count(p, "bytes"),
-                    *(_length(errors.get(name)) for name in ("ink_usual", "ink_worst", "off_usual", "off_worst")),
+                    *(_length(errors.get(name)) for name in ("ink_p99", "ink_worst", "off_p99", "off_worst")),
                     _share(errors.get("wrong")),
                     _length(errors.get("mislabelled")),
                 ]

@@ -1,4 +1,4 @@
-"""The study itself: which points are measured, in which order, and what is left out and why."""
+"""Which points a study measures, in which order, and which it leaves out."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Study:
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class Scope:
     """What is to be measured.
 
     accuracies  of ours and of PolyAlgo, millimetres; pixels: of depth buffers; predicates: accuracies at which kinds of
@@ -66,7 +66,7 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     *,
     scale: float | None = None,
     fit: tuple[float, float] | None = None,
-    wish: Wish | None = None,
+    scope: Scope | None = None,
     limit: float = 30.0,
     runs: int = 3,
     only: Sequence[str] = (),
@@ -84,21 +84,21 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
 
     Raises OptionError, and SourceError where the model cannot be drawn at all.
     """
-    wish = wish or Wish()
+    scope = scope or Scope()
     if not limit > 0.0 or runs < 1:
         raise OptionError("a study needs a positive limit of seconds, and at least one run")
     out = into if into is not None else Study(source, view, limit, runs)
-    tell = progress or (lambda _stage, _done: None)
+    told = progress or (lambda _stage, _done: None)
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
         # Without a scale as large as fits; from then on the same for all.
         chosen: dict[str, Any] = {"only": tuple(only), "hide": tuple(hide), "var": var, "annotations": annotations}
         first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit, **chosen)
-        tell("look", 0.0)
+        told("look", 0.0)
         out.look = answer(first)
         if out.look.get("failure"):
             raise SourceError(f"{source} cannot be studied: {out.look['failure']}")
         common = {"source": source, "view": view, "scale": out.look["scale"], "folder": folder, "runs": runs, **chosen}
-        _Points(out, common, wish, limit, tell).run()
+        _Points(out, common, scope, limit, told).run()
     out.finished = True
     return out
 
@@ -107,33 +107,33 @@ class _Points:
     """All points, one after another."""
 
     def __init__(
-        self, out: Study, common: dict[str, Any], wish: Wish, limit: float, tell: Callable[[str, float], None]
+        self, out: Study, common: dict[str, Any], scope: Scope, limit: float, progress: Callable[[str, float], None]
     ) -> None:
-        self._out, self._common, self._wish, self._limit, self._tell = out, common, wish, limit, tell
+        self._out, self._common, self._scope, self._limit, self._progress = out, common, scope, limit, progress
         self._steps, self._done = 1, 0
 
     def run(self) -> None:
-        wanted: list[tuple[str, Sequence[float]]] = [(HLR, sorted(self._wish.accuracies, reverse=True))]
-        if self._wish.rivals:
+        wanted: list[tuple[str, Sequence[float]]] = [(HLR, sorted(self._scope.accuracies, reverse=True))]
+        if self._scope.rivals:
             wanted += [
-                (POLY, sorted(self._wish.accuracies, reverse=True)),
+                (POLY, sorted(self._scope.accuracies, reverse=True)),
                 (EXACT, [0.0]),
-                (ZBUFFER, sorted(self._wish.pixels)),
+                (ZBUFFER, sorted(self._scope.pixels)),
             ]
         count = sum(len(settings) for _, settings in wanted)
-        self._steps = 2 * count + len(self._wish.predicates) + len(self._wish.accuracies) + 1
+        self._steps = 2 * count + len(self._scope.predicates) + len(self._scope.accuracies) + 1
         for who, settings in wanted:
             self._first(who, settings)
         self._truth()
         self._judge()
-        for accuracy in self._wish.predicates:
+        for accuracy in self._scope.predicates:
             self._arithmetic(accuracy)
-        if self._wish.reached:
+        if self._scope.reached:
             self._reached()
 
     def _answer(self, work: str, setting: float, name: str = "", patience: float = 1.0) -> dict[str, Any]:
         self._done += 1
-        self._tell(f"{work} {setting:g}" if setting else work, min(self._done / self._steps, 1.0))
+        self._progress(f"{work} {setting:g}" if setting else work, min(self._done / self._steps, 1.0))
         return answer(Job(work, setting=setting, name=name, limit=self._limit * patience, **self._common))
 
     def _first(self, who: str, settings: Sequence[float]) -> None:

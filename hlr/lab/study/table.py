@@ -1,4 +1,4 @@
-"""What was measured, as CSV: written, and read again for pictures."""
+"""The study as CSV, written and read again."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from hlr.lab.study.sweep import Study
 
 ERRORS = (
     "off_mean",
-    "off_usual",
+    "off_p99",
     "off_worst",
     "ink_mean",
-    "ink_usual",
+    "ink_p99",
     "ink_worst",
     "too_much",
     "missing",

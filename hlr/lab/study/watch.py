@@ -1,4 +1,4 @@
-"""A stopwatch by stages: clock, processors and memory."""
+"""A stopwatch: clock time, processor time and memory of each stage."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is done in a measuring process: one job, its costs and its lines."""
+"""The work of a measuring process: one job, what it cost, and its lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Hidden lines by a z-buffer: each edge sampled against a depth buffer, the image-space answer, as a contestant.
+"""Hidden lines by a z-buffer, as a contestant: each edge is sampled against a depth image.
+
+The depth image is the preview's (`kernel/preview/src/raster.rs`); this file has no z-buffer of its own.
 
 ::
 

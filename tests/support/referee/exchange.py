@@ -1,4 +1,4 @@
-"""Read a drawing in the JSON exchange format. Shares no code with the writer it helps to check."""
+"""Reads a drawing in the JSON exchange format. Shares no code with the writer that it checks."""
 
 from __future__ import annotations
 

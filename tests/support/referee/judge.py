@@ -1,4 +1,4 @@
-"""Decide by ray casting whether the lines of a drawing are truly visible or hidden.
+"""Decides by rays whether drawn lines are truly visible or hidden.
 
 A point of a line drawn visible is wrong where the way to the viewer is blocked from the point and from a whole ring
 around it; one drawn hidden is wrong where it is blocked from none of them. The ring and the depth from which a hit

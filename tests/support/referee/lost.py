@@ -1,4 +1,4 @@
-"""Faces that are there in one mesh and not in the other: two depth images of the same sheet, pixel by pixel."""
+"""Faces that one mesh has and another lacks: two depth images of one sheet, pixel by pixel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The other half of the truth: is everything drawn that is plainly to be seen?
+"""Finds lines that should be there: is everything drawn that is plainly visible?
 
 The ray test judges lines that are there, so an empty drawing would pass it, and so would a contour that is wrongly
 called hidden (half of its ring is blocked by its own body). Here a depth image of the model is asked instead: where

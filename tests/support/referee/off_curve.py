@@ -1,4 +1,4 @@
-"""Does every drawn edge lie on its own curve, the one that the file has for it?"""
+"""Whether every drawn edge lies on its own curve, as the model file defines it."""
 
 from __future__ import annotations
 
@@ -70,34 +70,3 @@ def _to_chord(points: Floats, start: Floats, end: Floats) -> Floats:
     way = end - start
     t = ((points - start) * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), 1e-300)
     return np.asarray(np.linalg.norm(points - start - np.clip(t, 0.0, 1.0)[:, None] * way, axis=1))
-
-
-def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, int], float]]:
-    """Both functions for an opened B-rep source; its own numbering of parts and edges, OpenCASCADE's curves."""
-    from OCP.BRep import BRep_Tool
-    from OCP.TopAbs import TopAbs_ShapeEnum
-    from OCP.TopExp import TopExp
-    from OCP.TopoDS import TopoDS
-
-    from hlr.source.cad.shapes import sub_shapes
-    from support.true_curves import true_curves
-
-    curves = true_curves(source)
-    edges = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_EDGE) for root in source.prototypes.shapes]
-    parts = {part.name: part for part in source.parts}
-
-    def true(name: str, edge: int) -> Floats | None:
-        try:
-            return np.asarray(curves(name, edge))
-        except Exception:  # no curve in space
-            return None
-
-    def slack(name: str, edge: int) -> float:
-        part = parts[name]
-        own = TopoDS.Edge_s(edges[part.prototype][edge])
-        ends = [end for end in (TopExp.FirstVertex_s(own), TopExp.LastVertex_s(own)) if not end.IsNull()]
-        # A curve need not end at its vertices, and there neighbours meet: lines go to the vertex.
-        stated = max(BRep_Tool.Tolerance_s(own), *map(BRep_Tool.Tolerance_s, ends), 0.0)
-        return abs(float(np.linalg.det(part.transform[:3, :3]))) ** (1 / 3) * stated
-
-    return true, slack

@@ -1,4 +1,4 @@
-"""A picture for people: the model in grey, the drawing's visible lines, and what the referee holds against them."""
+"""A picture for people: the model in grey, the visible lines, and every fault the referee found."""
 
 from __future__ import annotations
 

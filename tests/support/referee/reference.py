@@ -1,4 +1,4 @@
-"""The referee's own mesh of a model: plain OpenCASCADE or trimesh, never through `hlr.source`."""
+"""The referee's own mesh of a model, by plain OpenCASCADE or trimesh; never by `hlr.source`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the referee tells: one row per drawing, and the table of all."""
+"""The referee's report: one row per drawing, and the table of all."""
 
 from __future__ import annotations
 
