@@ -79,6 +79,7 @@ def test_hostile_files(warm: Warm, name: str) -> None:
     judge(warm, name, hostile.FILES[name])
 
 
+@pytest.mark.slow
 def test_a_wrong_outcome_would_be_noticed() -> None:
     def fault(code: int, err: str = "", out: bytes = b"old", **more: bytes) -> str:
         files = {"a.stl": b"", "out.svg": out, **more}

@@ -225,6 +225,7 @@ def test_a_class_that_nobody_has_to_ask_for_is_always_drawn(added, monkeypatch):
     assert (decision.on, decision.reason) == (True, "drawn in every drawing")
 
 
+@pytest.mark.slow
 def test_the_command_knows_all_rows(added):
     done = command(added, "draw", "cube.dummy", "-o", "cube.txt", "-o", "cube.json", "--smooth")
     assert (done.returncode, done.stderr) == (0, "")
