@@ -17,6 +17,7 @@ from hlr import _kernel
 from hlr.compat.cadquery_options import DEFAULT_DIRECTION, PictureOptions
 from hlr.compat.viewport import ViewportDrawing
 from hlr.drawing.drawing import Drawing
+from hlr.tables.line_classes import by_number
 from hlr.writers.number import number
 from hlr.writers.strokes import strokes
 
@@ -107,7 +108,7 @@ def to_svg(page: Page) -> bytes:
         out.append(f'<g stroke="rgb({",".join(str(v) for v in colors[visible])})" fill="none"{dash}>\n')
         for layer in upright:
             if layer.visible == visible:
-                out.append(f'<g class="{layer.kind}">\n{layer.svg().decode("ascii")}</g>\n')
+                out.append(f'<g class="{by_number()[layer.kind].name}">\n{layer.svg().decode("ascii")}</g>\n')
         out.append("</g>\n")
     out.append("</g>\n")
     if page.axes:
