@@ -1,4 +1,4 @@
-//! From visible and hidden pieces of edges to the lines of a drawing, on their true curves, and to the bytes of a file.
+//! Turns visible and hidden pieces of edges into the lines of a drawing, on their true curves, and those into bytes.
 
 pub mod curves;
 pub mod fit;

@@ -1,4 +1,4 @@
-//! The fuzz targets' checks on their saved inputs and on some random ones: no libFuzzer, any toolchain.
+//! Runs the fuzz targets' checks on their saved inputs and on some random ones, without libFuzzer, on any toolchain.
 
 #[path = "../../fuzz/src/lib.rs"]
 mod fuzz;
@@ -6,7 +6,7 @@ mod fuzz;
 use std::fs;
 use std::path::Path;
 
-/// A source distribution comes without the corpus; random inputs are there always.
+/// Number of random inputs. A source distribution comes without the saved inputs and has only these.
 const RANDOM: usize = 300;
 
 fn replay(target: &str, run: fn(&[u8])) {
@@ -59,7 +59,7 @@ fn brep() {
     replay("brep", fuzz::brep::run);
 }
 
-/// The comparison can fail: the same answer held against a scene seen from behind.
+/// The comparison fails where it must: an answer is compared with the same scene seen from behind.
 #[test]
 fn a_wrong_answer_would_be_noticed() {
     use fuzz::oracle::{HIDDEN, VISIBLE, shadow, states};

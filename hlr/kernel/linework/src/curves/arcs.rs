@@ -1,8 +1,8 @@
 //! Arcs of circles and ellipses as SVG writes them: two end points, two radii and a rotation, all of them rounded.
 //!
-//! A renderer finds the centre from these. The nearer an arc is to half a turn, the more the centre moves by what the
-//! radii were rounded, and radii that are too small for the ends are stretched. So each arc is drawn as the standard
-//! says (SVG 2, appendix B.2.4) and measured; an arc that is off by too much gets more digits or is divided.
+//! A renderer computes the centre from these. The nearer an arc is to half a turn, the more rounded radii move the
+//! centre; and a renderer enlarges radii that are too small for the ends. So each arc is drawn as the standard says
+//! (SVG 2, appendix B.2.4) and its error is measured. An arc with too large an error gets more digits or is divided.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -10,7 +10,7 @@ use super::strokes::{ARC, CONTROL, CUBIC, START, Shape, WHOLE};
 use crate::fit::plane::{Vec2, length, minus};
 use hlr_accuracy::{ARC_CUBIC, ARC_FIT, ARC_ROUND};
 
-/// Decimals that radii may have beyond those of points.
+/// Decimals that radii may have in addition to those of points.
 pub const EXTRA: usize = 2;
 /// Decimals of a rotation in degrees.
 pub const ROTATION: usize = 6;
@@ -22,7 +22,7 @@ const TRUE_PLACES: usize = 64;
 /// Share of a full turn from which an arc counts as a whole ellipse.
 const WHOLE_TURN: f64 = 1.0 - 1e-9;
 
-/// centre + cos t axes[0] + sin t axes[1] for t between the angles, y up.
+/// The points centre + cos t axes[0] + sin t axes[1], for t between the two angles (radians), y up.
 #[derive(Clone, Copy, Debug)]
 pub struct Arc {
     pub centre: Vec2,
@@ -47,7 +47,7 @@ impl Rows {
         self.shapes.extend(shape);
     }
 
-    /// Those of `more` after these.
+    /// Appends the rows of `more`.
     pub fn append(&mut self, more: &Rows) {
         let before = self.shapes.len() as i32;
         self.points.extend(&more.points);
@@ -71,19 +71,19 @@ impl Arc {
         (self.angles[1] - self.angles[0]).abs() >= WHOLE_TURN * TAU
     }
 
-    /// Rotation of the first axis in degrees, within a quarter turn of none.
+    /// Rotation of the first axis in degrees, between -90 and 90.
     fn rotation(&self) -> f64 {
         let degrees = self.axes[0][1].atan2(self.axes[0][0]).to_degrees();
         degrees - (degrees / 180.0).round() * 180.0
     }
 
-    /// Whether angles that rise run counter-clockwise.
+    /// Whether rising angles run counter-clockwise.
     fn upright(&self) -> bool {
         self.axes[0][0] * self.axes[1][1] > self.axes[0][1] * self.axes[1][0]
     }
 
-    /// A whole one as renderers draw the `<circle>` or `<ellipse>` of `rows`: from the end of its first axis on the
-    /// right, clockwise. So its dashes fall on the same places.
+    /// A whole ellipse as renderers draw the `<circle>` or `<ellipse>` of `rows`: it begins at the right end of its
+    /// first axis and runs clockwise. So its dashes fall on the same places.
     fn as_element(&self, scale: f64, accuracy: f64) -> Self {
         let [major, minor] = self.radii();
         let turned = shape(self, scale, EXTRA, accuracy).rotation as f64 * 10f64.powi(-(ROTATION as i32));
@@ -100,7 +100,7 @@ impl Arc {
             let t = along(1, minor).atan2(along(0, major));
             return length(&minus(p, &self.at(t)));
         }
-        // Of a flat one the angle of a nearby point tells little.
+        // On a flat arc the angle of a nearby point is not accurate enough.
         let place =
             |i: usize| self.at(self.angles[0] + (self.angles[1] - self.angles[0]) * (i as f64 / TRUE_PLACES as f64));
         (0..TRUE_PLACES)
@@ -115,7 +115,7 @@ impl Arc {
     }
 }
 
-/// An arc as rows for SVG. `ends` are its ends on paper, which it shares with what goes on from there.
+/// An arc as rows for SVG. `ends`: its end points on paper, shared with the lines that continue it.
 pub fn rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out: &mut Rows) {
     let scale = 10f64.powi(places as i32);
     let grid = |p: &Vec2| p.map(|c| (c * scale).round() as i64);
@@ -152,7 +152,7 @@ fn shape(arc: &Arc, scale: f64, extra: usize, accuracy: f64) -> Shape {
     let fine = scale * 10f64.powi(EXTRA as i32);
     let [major, minor] = arc.radii();
     let mut radii = [major, minor].map(|r| ((r * fine / coarse as f64).round() as i64).max(1) * coarse);
-    // What no one sees would only cost digits: a circle seen from very nearly above is one.
+    // A difference too small to see would only cost digits: an ellipse that is nearly a circle is written as one.
     if major - minor < ARC_ROUND * accuracy {
         radii[1] = radii[0];
         return Shape { radii, ..Shape::default() };
@@ -219,7 +219,7 @@ impl Drawn {
 /// How far from the true arc a renderer draws a shape between two points.
 fn strays(shape: &Shape, a: &Vec2, b: &Vec2, scale: f64, truth: &Arc) -> f64 {
     let Some(drawn) = Drawn::between(shape, a, b, 1.0 / scale) else { return 0.0 };
-    // Off the true curve, and, at the middle, elsewhere on it.
+    // The distance from the true curve; at the middle also the distance from the true curve's middle.
     let worst = (1..=MEASURED).map(|i| truth.distance(&drawn.at(i as f64 / (MEASURED + 1) as f64))).fold(0.0, f64::max);
     let middle = truth.at(0.5 * (truth.angles[0] + truth.angles[1]));
     let astray = length(&minus(&middle, &drawn.at(0.5)));
@@ -236,7 +236,7 @@ pub fn cubic_rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out
         None => (arc, ends),
     };
     let turned = arc.angles[1] - arc.angles[0];
-    // A quarter of a circle is off by 2.8e-4 of its radius, and the error falls with the sixth power of the angle.
+    // A cubic for a quarter circle is off by 2.8e-4 of the radius; the error falls with the sixth power of the angle.
     let share = (2.8e-4 * arc.radii()[0] / (ARC_CUBIC * accuracy)).max(1e-12).powf(1.0 / 6.0);
     let pieces = ((turned.abs() / FRAC_PI_2 * share.max(1.0)).ceil()).max(1.0);
     let step = turned / pieces;
@@ -259,7 +259,7 @@ pub fn cubic_rows(arc: &Arc, ends: &[Vec2; 2], places: usize, accuracy: f64, out
 mod tests {
     use super::*;
 
-    /// All arcs of many kinds stay within their share when drawn from what is written.
+    /// Arcs of many kinds stay within their share of the accuracy when drawn from the written numbers.
     #[test]
     fn what_is_written_draws_the_arc() {
         let mut pieces = 0;

@@ -14,17 +14,17 @@ use super::length::{Measured, ends, rows};
 use super::strokes::{Strokes, WHOLE};
 use crate::fit::plane::Vec2;
 
-/// A dash is at least this many gaps long.
+/// Shortest dash, in gap lengths.
 const DASH_PER_GAP: f64 = 2.0;
-/// Share of the nominal gap: the shortest one that still reads as a gap.
+/// Shortest gap that still reads as a gap, as a share of the nominal one.
 const SHORTEST_GAP: f64 = 0.5;
-/// A closed stroke with fewer dashes would not read as closed.
+/// Fewest dashes of a closed stroke: with fewer it would not read as closed.
 const FEWEST_AROUND: f64 = 4.0;
 /// Cosine of the angle from which a bend is a corner: 30 degrees.
 const CORNER: f64 = 0.866;
 /// Cosine of the angle up to which a hidden line goes straight on from a visible one: 15 degrees.
 const STRAIGHT_ON: f64 = 0.966;
-/// With more corners than this the dashes go around them: the pattern would grow too long.
+/// Most corners at which dashes meet. A stroke with more gets one even pattern, as its own would be too long.
 const MOST_CORNERS: usize = 16;
 
 /// Millimetres by which the last dash or gap of an open stroke is longer than the stroke needs.
@@ -83,13 +83,13 @@ fn dot(a: &Vec2, b: &Vec2) -> f64 {
 }
 
 impl Pattern {
-    /// Dash and gap so that `dashes` and `gaps` of them fill a length.
+    /// Lengths of dash and gap in millimetres, so that so many `dashes` and `gaps` fill a length.
     fn fill(&self, length: f64, dashes: f64, gaps: f64) -> [f64; 2] {
         let gap = self.gap.min(length / (DASH_PER_GAP * dashes + gaps));
         [(length - gaps * gap) / dashes, gap]
     }
 
-    /// Number of dashes in a length where there are `more` gaps than dashes (-1, 0 or 1); 0: a continuous line.
+    /// Number of dashes in a length with `more` gaps than dashes (-1, 0 or 1); 0: a continuous line.
     fn count(&self, length: f64, more: f64, fewest: f64) -> f64 {
         let shortest = SHORTEST_GAP * self.gap;
         let wanted = ((length - more * self.gap) / (self.dash + self.gap)).round().max(fewest);
@@ -97,7 +97,7 @@ impl Pattern {
         if room >= fewest { wanted.min(room) } else { 0.0 }
     }
 
-    /// A stretch without corners. gaps: whether a gap comes first, and last.
+    /// Dash and gap of a stretch without corners; None: continuous. gaps: whether it begins, and ends, with a gap.
     fn open(&self, length: f64, gaps: [bool; 2]) -> Option<[f64; 2]> {
         let at_ends = gaps.iter().filter(|g| **g).count() as f64;
         let fewest = if at_ends > 0.0 { 1.0 } else { 2.0 };
@@ -105,7 +105,7 @@ impl Pattern {
         (n > 0.0).then(|| self.fill(length, n, n - 1.0 + at_ends))
     }
 
-    /// The dashes of one stroke. gaps: whether a gap comes first, and last.
+    /// The dashes of one stroke. gaps: whether it begins, and ends, with a gap.
     pub fn fitted(&self, rows: &[Measured], closed: bool, gaps: [bool; 2]) -> Fitted {
         let total: f64 = rows.iter().map(|m| m.length).sum();
         let corners = self.corners(rows, closed, total);
@@ -115,11 +115,11 @@ impl Pattern {
                 return if n > 0.0 { rounded(&self.fill(total, n, n), 0.0, n) } else { Fitted::default() };
             }
             let Some([dash, gap]) = self.open(total, gaps) else { return Fitted::default() };
-            // What rounding leaves over at the end belongs to the last gap, or it would be a speck of a dash.
+            // The rounding error at the end is added to the last gap; otherwise it would be drawn as a tiny dash.
             let gap = if gaps[1] { gap + PAST_THE_END * (dash + gap) / total } else { gap };
             return rounded(&[dash, gap], if gaps[0] { dash } else { 0.0 }, total / (dash + gap));
         }
-        // Stretches from corner to corner; a closed stroke begins inside its last one, or at a corner.
+        // Stretches from corner to corner. A closed stroke begins inside its last stretch, or at a corner.
         let mut stops = corners.clone();
         if closed {
             stops.push(corners[0] + total);
@@ -132,7 +132,7 @@ impl Pattern {
         for (i, w) in stops.windows(2).enumerate() {
             let ends = [!closed && i == 0 && gaps[0], !closed && i == last && gaps[1]];
             let mut run = stretch(w[1] - w[0], self.open(w[1] - w[0], ends), ends);
-            // The dash before the corner goes on behind it.
+            // The dash before the corner continues after it.
             if let Some(before) = lengths.last_mut() {
                 *before += run.remove(0);
             }
@@ -186,7 +186,7 @@ impl Pattern {
     }
 }
 
-/// Dash, gap, dash, ... of one stretch; it begins and ends with a dash, which may have no length.
+/// Dash, gap, dash, ... of one stretch. It begins and ends with a dash, whose length may be zero.
 fn stretch(length: f64, fitted: Option<[f64; 2]>, gaps: [bool; 2]) -> Vec<f64> {
     let Some([dash, gap]) = fitted else { return vec![length] };
     let mut out = if gaps[0] { vec![0.0, gap] } else { Vec::new() };
@@ -203,8 +203,8 @@ fn stretch(length: f64, fitted: Option<[f64; 2]>, gaps: [bool; 2]) -> Vec<f64> {
     out
 }
 
-/// times: how often the pattern is repeated. The more often, the more digits: what rounding adds up to stays below half
-/// of PAST_THE_END.
+/// times: how often the pattern is repeated. More repeats get more digits, so that the sum of the rounding errors stays
+/// below half of PAST_THE_END.
 fn rounded(lengths: &[f64], offset: f64, times: f64) -> Fitted {
     let places = (times.max(1.0).log10().ceil() as usize + 2).clamp(3, 9);
     let scale = 10f64.powi(places as i32);
@@ -233,7 +233,7 @@ mod tests {
         Measured { length, begins: [c, s], ends: [c, s] }
     }
 
-    /// Drawn intervals along a stroke, as a renderer applies the pattern.
+    /// Intervals along a stroke (millimetres) in which a renderer draws with this pattern.
     fn ink(fitted: &Fitted, total: f64) -> Vec<[f64; 2]> {
         if fitted.lengths.is_empty() {
             return vec![[0.0, total]];
@@ -314,14 +314,14 @@ mod tests {
         let steps = |i: usize| if i.is_multiple_of(2) { straight(1.0, 0.0) } else { straight(1.0, 90.0) };
         let rows: Vec<Measured> = (0..14).map(steps).chain([straight(20.0, 0.0)]).collect();
         let drawn = ink(&USUAL.fitted(&rows, false, [false; 2]), 34.0);
-        // Around a corner two dashes are one.
+        // At a corner two dashes join into one.
         let longest = drawn.iter().map(|d| d[1] - d[0]).fold(0.0, f64::max);
         assert!(longest < 2.5 * USUAL.dash, "{longest} {drawn:?}");
     }
 
     #[test]
     fn every_dash_has_its_gap() {
-        // A renderer goes through a list of an odd count twice, dashes and gaps exchanged.
+        // A renderer repeats a list of odd length with dashes and gaps exchanged.
         for legs in 1..6 {
             for gaps in [[false, false], [true, false], [false, true], [true, true]] {
                 let rows: Vec<Measured> = (0..legs).map(|i| straight(17.0, f64::from(i) * 90.0)).collect();

@@ -13,9 +13,9 @@ pub struct Layer {
     pub kind: Kind,
     pub visible: bool,
     pub places: usize,
-    /// A line leads somewhere else; the last point of a loop of lines is left out.
+    /// The rows of all strokes. No straight row repeats a point; the last point of a closed polyline is left out.
     pub rows: Rows,
-    /// (strokes + 1) into the rows; each stroke but a whole circle has at least two.
+    /// (strokes + 1) offsets into the rows. Each stroke has at least two rows, a whole circle or ellipse one.
     pub starts: Vec<i64>,
     pub closed: Vec<bool>,
     /// Per stroke.
@@ -30,8 +30,8 @@ pub struct Tie {
     pub other: i32,
 }
 
-/// The layers of a drawing: hidden ones first, so that visible lines lie on top, of each the kinds in this order.
-/// Those with nothing left are left out.
+/// The layers of a drawing: hidden ones first, so that visible lines lie on top; within each, the kinds in this order.
+/// Empty layers are left out.
 pub fn layers(lines: &Lines, order: &[Kind], places: usize, accuracy: f64, cubic: bool) -> Vec<Layer> {
     let rows: Vec<Rows> = lines.0.par_iter().map(|line| rows_of(line, places, accuracy, cubic)).collect();
     let mut out = Vec::new();
@@ -89,7 +89,7 @@ impl Layer {
             let stroke = open.get_or_insert_default();
             let mut last = None;
             if joins {
-                // What it starts with is the point that the line before has ended on.
+                // Its first point is the last point of the line before.
                 last = Some(begin);
             }
             for (i, (&p, &op)) in rows.points.iter().zip(&rows.op).enumerate() {
@@ -105,14 +105,14 @@ impl Layer {
         self.close(open, tie);
     }
 
-    /// The end of a stroke. What has shrunk to a single point is below the rounding and is not drawn.
+    /// Ends a stroke. A stroke that rounding has shrunk to a single point is not drawn.
     fn close(&mut self, stroke: Option<Rows>, tie: Tie) {
         let Some(mut stroke) = stroke else { return };
         let n = stroke.op.len();
         if n == 0 || (n == 1 && stroke.op[0] != WHOLE) {
             return;
         }
-        // There and back along lines is no loop; along a curve it is.
+        // Two rows form a loop only if one of them is a curve; two straight ones run there and back.
         let curved = stroke.op.iter().any(|&op| op > LINE);
         let closed = stroke.points[0] == stroke.points[n - 1] && (n > 3 || (curved && n > 1));
         if closed && stroke.op[n - 1] == LINE {
@@ -126,14 +126,14 @@ impl Layer {
         self.ties.push(tie);
     }
 
-    /// The same, moved by so many grid steps.
+    /// The same layer, moved by so many grid steps.
     pub fn moved(&self, by: [i64; 2]) -> Layer {
         let mut out = self.clone();
         out.rows.points.iter_mut().for_each(|p| *p = [p[0] + by[0], p[1] + by[1]]);
         out
     }
 
-    /// The same with y turned around: arcs turn the other way.
+    /// The same layer with y reversed; arcs then turn the other way.
     pub fn mirrored(&self) -> Layer {
         let mut out = self.clone();
         out.rows.points.iter_mut().for_each(|p| p[1] = -p[1]);

@@ -5,16 +5,16 @@ use super::strokes::{ARC, CONTROL, CUBIC, QUADRATIC, START, Strokes, WHOLE};
 use crate::fit::bezier;
 use crate::fit::plane::{Vec2, length, minus};
 
-/// Chords that one curve is measured by. Richardson's step leaves an error of 1e-6 of a quarter circle.
+/// Chords by which one curve is measured. With Richardson's extrapolation the error is 1e-6 of a quarter circle.
 const CHORDS: usize = 16;
 
-/// One row of a stroke as a curve over 0..1, in millimetres, y up.
+/// One row of a stroke as a curve with parameter 0..1, in millimetres, y up.
 enum Piece {
     Bezier(usize, [Vec2; 4]),
     Arc(Drawn),
 }
 
-/// One drawn row: how long it is, and the directions (unit vectors, or zero) in which it begins and ends.
+/// One drawn row: its length in millimetres, and the directions (unit vectors, or zero) in which it begins and ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     pub length: f64,
@@ -49,7 +49,7 @@ fn unit(v: &Vec2) -> Vec2 {
     if size > 0.0 { v.map(|c| c / size) } else { *v }
 }
 
-/// The rows of stroke `s`, one after another; the closing line of a closed polyline is one of them.
+/// The rows of stroke `s` in order, with the closing line of a closed polyline.
 pub fn rows(strokes: &Strokes, s: usize) -> Vec<Measured> {
     let unit = 10f64.powi(-(strokes.places as i32));
     let at = |i: usize| strokes.points[i].map(|c| c as f64 * unit);
@@ -69,7 +69,7 @@ pub fn rows(strokes: &Strokes, s: usize) -> Vec<Measured> {
             }
             WHOLE => {
                 let radii = shape().radii.map(|r| r as f64 * unit * 10f64.powi(-(EXTRA as i32)));
-                // Four quarters, so that a flat ellipse is measured well.
+                // Four quarters, so that a flat ellipse is measured accurately.
                 for quarter in 0..4 {
                     push(Piece::Arc(Drawn::quarter(at(i), radii, quarter)));
                 }
@@ -84,7 +84,7 @@ pub fn rows(strokes: &Strokes, s: usize) -> Vec<Measured> {
     out
 }
 
-/// Where stroke `s` ends: both grid points, and the directions in which it would go on there. None of a closed one.
+/// Both end points of stroke `s` (grid steps), and the directions in which it would go on there. None if it is closed.
 pub fn ends(strokes: &Strokes, s: usize) -> Option<[([i64; 2], Vec2); 2]> {
     let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
     if strokes.closed[s] || strokes.op[first] == WHOLE {

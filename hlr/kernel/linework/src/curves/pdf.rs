@@ -5,7 +5,7 @@ use super::digits::put;
 use super::layer::Layer;
 use super::strokes::{CONTROL, CUBIC, START};
 
-/// All strokes; arcs and quadratic curves must have become cubic ones before. dashes: of each stroke, or none of any.
+/// Paths of all strokes. Arcs and quadratic curves must be cubic ones already. dashes: one per stroke, or empty.
 pub fn painted(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
     let strokes = layer.strokes();
     let mut out = Vec::new();

@@ -5,7 +5,7 @@ use super::strokes::{CONTROL, CUBIC, LINE, QUADRATIC, START};
 use crate::fit::plane::Vec2;
 use crate::lines::drawing::{Curve, Line};
 
-/// Rows of one line. cubic: arcs and quadratic curves become cubic ones, for formats that know no others.
+/// Rows of one line. cubic: arcs and quadratic curves become cubic ones, for formats that have no others.
 pub fn rows_of(line: &Line, places: usize, accuracy: f64, cubic: bool) -> Rows {
     let mut out = Rows::default();
     match &line.curve {

@@ -9,10 +9,10 @@ pub const QUADRATIC: u8 = 3;
 pub const CUBIC: u8 = 4;
 /// The end of an elliptic arc; its shape is in the table of arcs.
 pub const ARC: u8 = 5;
-/// A circle or an ellipse, whole: its centre, the only row of a stroke.
+/// A whole circle or ellipse. Its centre is the only row of its stroke.
 pub const WHOLE: u8 = 6;
 
-/// Radii in steps of 10^-(places + EXTRA), rotation of the first one in 10^-ROTATION degrees, y up.
+/// Radii in steps of 10^-(places + EXTRA) mm, rotation of the first radius in 10^-ROTATION degrees, y up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Shape {
     pub radii: [i64; 2],
@@ -28,7 +28,7 @@ pub struct Strokes<'a> {
     /// Per row, index into `arcs`, or -1.
     pub arc: &'a [i32],
     pub arcs: &'a [Shape],
-    /// (strokes + 1) into the rows.
+    /// (strokes + 1) offsets into the rows.
     pub starts: &'a [i64],
     pub closed: &'a [bool],
     pub places: usize,

@@ -10,7 +10,7 @@ use super::strokes::{ARC, CONTROL, CUBIC, LINE, QUADRATIC, START, Strokes, WHOLE
 struct Pen {
     out: Vec<u8>,
     command: u8,
-    /// The last number had a decimal point, so that one that begins with a point may follow at once.
+    /// The last number had a decimal point, so a number that begins with a point may follow without a separator.
     fraction: bool,
     fresh: bool,
 }
@@ -34,7 +34,7 @@ impl Pen {
     }
 }
 
-/// One element per stroke; those of one part after another are one group. dashes: of each stroke, or none of any.
+/// One element per stroke; consecutive strokes of one part form one group. dashes: one per stroke, or empty.
 pub fn elements(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
     let strokes = layer.strokes();
     let mut pen = Pen { out: Vec::new(), command: 0, fraction: false, fresh: true };
@@ -50,7 +50,7 @@ pub fn elements(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
         if strokes.op[first] == WHOLE {
             whole(&strokes, first, &mut pen.out);
         } else {
-            // The data first, as other programs write it: whatever looks for `path d="M` finds it.
+            // The path data comes first, as other programs write it, so that a search for `path d="M` finds it.
             pen.out.extend(b"<path d=\"");
             stroke(&strokes, first, last, &mut pen);
             if strokes.closed[s] {
@@ -124,7 +124,7 @@ fn stroke(strokes: &Strokes, first: usize, last: usize, pen: &mut Pen) {
             op @ (QUADRATIC | CUBIC) => {
                 let controls = if op == CUBIC { 2 } else { 1 };
                 let begin = i - controls;
-                // A control point that mirrors the one before it need not be told.
+                // A control point that mirrors the one before it need not be written.
                 let mirrored =
                     control.is_some_and(|(c, of)| of == op && at(begin) == [2 * here[0] - c[0], 2 * here[1] - c[1]]);
                 pen.letter(match (op, mirrored) {

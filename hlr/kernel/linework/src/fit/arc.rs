@@ -3,7 +3,7 @@
 use super::plane::Vec2;
 use hlr_brep::geometry::curve::Vec3;
 
-/// centre + cos s axes[0] + sin s axes[1], the axes perpendicular, the longer one first.
+/// The ellipse centre + cos s axes[0] + sin s axes[1]. The axes are perpendicular, the longer one first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     pub centre: Vec2,
@@ -11,13 +11,13 @@ pub struct Ellipse {
     /// s = sign (u + phase) where u is the parameter of the affine ellipse this one was made from.
     phase: f64,
     sign: f64,
-    /// Eccentricity of the change of parameter that a central projection brings, and where it begins.
+    /// Eccentricity of the change of parameter under central projection, and the angle at which it begins.
     pull: f64,
     turn: f64,
 }
 
 impl Ellipse {
-    /// The image of p + cos t a + sin t b, homogeneous; None where it is no ellipse or reaches behind the eye.
+    /// The image of p + cos t a + sin t b, homogeneous vectors; None if it is no ellipse or reaches behind the eye.
     ///
     /// Where w = pw (1 + e cos(t - turn)) is not constant, cos(t - turn) = (cos u - e) / (1 - e cos u) makes the image
     /// affine in cos u and sin u: t is to u as the true anomaly is to the eccentric one.
@@ -50,7 +50,7 @@ impl Ellipse {
         [0, 1].map(|k| self.centre[k] + cos * self.axes[0][k] + sin * self.axes[1][k])
     }
 
-    /// The angle on paper that belongs to the parameter t of the curve in space; it rises with t by 2 pi per turn.
+    /// The angle s on paper for the parameter t of the curve in space. It rises or falls with t by 2 pi per turn.
     pub fn angle(&self, t: f64) -> f64 {
         let theta = t - self.turn;
         let u = if self.pull == 0.0 {
@@ -70,13 +70,13 @@ impl Ellipse {
         self.axes.map(|v| (v[0] * v[0] + v[1] * v[1]).sqrt())
     }
 
-    /// Box of the piece between two angles.
+    /// Bounding box of the piece between two angles.
     pub fn bounds(&self, from: f64, to: f64) -> [Vec2; 2] {
         arc_bounds(&|s| self.at(s), &self.axes, [from, to])
     }
 }
 
-/// Box of the piece of an ellipse between two angles; `at`: its points.
+/// Bounding box of the piece of an ellipse between two angles; `at`: its points.
 pub fn arc_bounds(at: &dyn Fn(f64) -> Vec2, axes: &[Vec2; 2], [from, to]: [f64; 2]) -> [Vec2; 2] {
     let mut out = [at(from), at(from)];
     grow(&mut out, &at(to));

@@ -5,7 +5,7 @@ use super::plane::Vec2;
 use super::project::Paper;
 use hlr_brep::geometry::nurbs::find_span;
 
-/// degree k + 1 points for k pieces; degree 2 or 3.
+/// A chain of k Bezier curves of degree 2 or 3: degree k + 1 points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
     pub degree: usize,
@@ -17,7 +17,7 @@ impl Chain {
         (0..self.points.len() / self.degree).map(|i| &self.points[i * self.degree..=(i + 1) * self.degree])
     }
 
-    /// Box, exact: of the ends and of the places where a derivative vanishes.
+    /// Exact bounding box, from the ends and the places where a derivative vanishes.
     pub fn bounds(&self) -> [Vec2; 2] {
         let mut out = [self.points[0], self.points[0]];
         for piece in self.pieces() {
@@ -61,8 +61,8 @@ pub fn at(piece: &[Vec2], t: f64) -> Vec2 {
     p[0]
 }
 
-/// The piece of a curve between two parameters as Bezier curves, where that is exact; a parabola, or a B-spline of
-/// degree 2 or 3, neither of them rational on paper.
+/// The piece of a curve between two parameters as Bezier curves, if that is exact: for a parabola or a B-spline of
+/// degree 2 or 3 that is not rational on paper. None for others.
 pub fn exact(curve: &Paper, from: f64, to: f64) -> Option<Chain> {
     match curve {
         Paper::Parabola { p, a, b } if a[2] == 0.0 && b[2] == 0.0 => {

@@ -8,7 +8,7 @@ use crate::lines::distance;
 
 /// Samples on each side of the contour besides its vertices.
 const BETWEEN: usize = 2;
-/// Places on a curve that are held against the contour.
+/// Places on a curve that are compared with the contour.
 const PLACES: usize = 16;
 
 /// One cubic curve along way[from..=to].
@@ -80,13 +80,13 @@ impl<'a> Fitting<'a> {
         }
     }
 
-    /// The curve, or the kept vertex to part it at, if there is one.
+    /// The curve between two kept vertices; or, if none is close enough, the kept vertex at which to divide (if any).
     fn curve(&self, a: usize, b: usize) -> Result<[Vec2; 4], Option<usize>> {
         let samples = self.samples(a, b);
         let last = samples.len() - 1;
         let end = |i: usize, p: Vec2, q: Vec2| self.tangents[i].unwrap_or_else(|| minus(&q, &p));
         let mut asked: Vec<[Vec2; 2]> = samples.iter().map(|s| [s.1, [0.0; 2]]).collect();
-        // At open ends and corners along the chord of the shape, not along the noise of the first sample.
+        // At open ends and corners the tangent is the chord to the next kept vertex: the first sample is noisy.
         let shape = |i: usize| self.way[self.kept[i]];
         asked[0][1] = end(a, shape(a), shape(a + 1));
         asked[last][1] = end(b, shape(b - 1), shape(b));
@@ -106,8 +106,8 @@ impl<'a> Fitting<'a> {
         Err((a + 1..b).min_by(|&i, &j| off(i).total_cmp(&off(j))))
     }
 
-    /// Places along the contour from one kept vertex to another, in the order in which they come along the kept chords,
-    /// whatever their own way to and fro.
+    /// Points of the contour from one kept vertex to another, in order along the kept chords, even where the contour
+    /// itself runs back and forth.
     fn samples(&self, a: usize, b: usize) -> Vec<(f64, Vec2)> {
         let mut out = Vec::new();
         let mut start = 0.0;

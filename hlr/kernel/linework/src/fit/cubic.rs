@@ -7,11 +7,11 @@
 use super::bezier::{Chain, at};
 use super::plane::{Vec2, dot, length, minus};
 
-/// Points evaluated on a piece besides its ends, at least.
+/// Least number of points evaluated on a piece, besides its ends.
 const PLACES: usize = 12;
-/// Rounds of moving parameters to the foot points.
+/// Iterations in which parameters move to the foot points.
 const ROUNDS: usize = 4;
-/// A piece is never divided more often than this.
+/// Most levels of division.
 const DEEPEST: u32 = 16;
 
 /// Cubic curves within `tolerance` of a curve between two parameters. `curve` gives point and derivative; `corners` are
@@ -44,7 +44,7 @@ fn fit_smooth(
     depth: u32,
     out: &mut Vec<Vec2>,
 ) {
-    // Ends are asked just inside, where a corner has the tangent of this side.
+    // Evaluated just inside the ends: at a corner that gives the tangent of this side.
     let inside = 1e-9 * (to - from);
     let mut samples: Vec<[Vec2; 2]> =
         (0..=places + 1).map(|i| curve(from + (to - from) * (i as f64 / (places + 1) as f64))).collect();
@@ -58,7 +58,7 @@ fn fit_smooth(
         out.extend(&piece[1..]);
         return;
     }
-    // The error of such a curve falls with the sixth power of its length.
+    // The error of a cubic fit falls with the sixth power of its length.
     let parts = ((error / tolerance).powf(1.0 / 6.0).ceil() as usize).clamp(2, 16);
     let mut travelled = vec![0.0];
     for w in samples.windows(2) {
@@ -85,7 +85,7 @@ fn fit_smooth(
     }
 }
 
-/// The largest distance to a piece in the middles between the places that it was fitted to.
+/// The largest distance of the curve from a piece, measured midway between the places that it was fitted to.
 fn between(curve: &dyn Fn(f64) -> [Vec2; 2], from: f64, to: f64, places: usize, piece: &[Vec2; 4]) -> f64 {
     let mut u = 0.0;
     (0..=places)
@@ -99,8 +99,8 @@ fn between(curve: &dyn Fn(f64) -> [Vec2; 2], from: f64, to: f64, places: usize, 
         .fold(0.0, f64::max)
 }
 
-/// The best cubic curve found through the ends of samples (point, derivative) along their end tangents, and the largest
-/// distance of a sample to it.
+/// The best cubic curve found through the first and last sample (point, derivative) with their tangents, and the
+/// largest distance of a sample from it.
 pub(super) fn cubic(samples: &[[Vec2; 2]]) -> ([Vec2; 4], f64) {
     let last = samples.len() - 1;
     let (first, end) = (samples[0][0], samples[last][0]);
@@ -113,7 +113,7 @@ pub(super) fn cubic(samples: &[[Vec2; 2]]) -> ([Vec2; 4], f64) {
         return ([first, first, end, end], 0.0);
     }
     u.iter_mut().for_each(|v| *v /= total);
-    // Where the derivative vanishes (a cusp), the chord to the next place shows the way.
+    // Where the derivative vanishes (a cusp), the chord to the next sample gives the direction.
     let way = |d: &Vec2, chord: Vec2| {
         let (n, m) = (length(d), length(&chord));
         if n > 0.0 { d.map(|c| c / n) } else { chord.map(|c| c / m.max(f64::MIN_POSITIVE)) }
@@ -136,7 +136,8 @@ pub(super) fn cubic(samples: &[[Vec2; 2]]) -> ([Vec2; 4], f64) {
     best
 }
 
-/// Lengths of the two arms, by least squares; a third of the length where that has no sensible answer.
+/// Distances from the ends to their control points, by least squares; a third of `total` where that has no usable
+/// solution.
 fn arms(samples: &[[Vec2; 2]], u: &[f64], start: &Vec2, stop: &Vec2, total: f64) -> [f64; 2] {
     let (first, end) = (samples[0][0], samples[samples.len() - 1][0]);
     let (mut c, mut x) = ([[0.0; 2]; 2], [0.0; 2]);
@@ -158,7 +159,7 @@ fn arms(samples: &[[Vec2; 2]], u: &[f64], start: &Vec2, stop: &Vec2, total: f64)
         return [third; 2];
     }
     let found = [(x[0] * c[1][1] - x[1] * c[0][1]) / determinant, (c[0][0] * x[1] - c[1][0] * x[0]) / determinant];
-    // Arms that point backward, or reach far beyond, would make loops.
+    // Control points behind the ends, or far beyond them, would make loops.
     if found.iter().all(|&v| v > 1e-6 * total && v < 2.0 * total) { found } else { [third; 2] }
 }
 

@@ -1,4 +1,4 @@
-//! T-junctions: a hidden line ends exactly where the covering line crosses it, computed from the true curves of both.
+//! T-junctions: a hidden line ends exactly where the covering line crosses it. Computed from the true curves of both.
 //!
 //! ```text
 //!     visible      |            the change was found where the tessellations cross (x);
@@ -6,8 +6,8 @@
 //!                  | hidden
 //! ```
 //!
-//! Where two lines touch, as an outline does the rim at which its face ends, the change is where they touch; and an
-//! outline of which the last bit was left out because it coincides with the rim goes on to that place.
+//! Where two lines touch, as an outline touches the rim of its face, the change lies at the point of contact. If the
+//! last bit of an outline was left out because it coincides with the rim, the outline is extended to that point.
 
 use std::collections::HashMap;
 
@@ -21,12 +21,12 @@ use hlr_brep::geometry::curve::Vec3;
 
 /// Sine of the angle below which two lines touch rather than cross.
 const GRAZING: f64 = 0.1;
-/// Sine of the angle between lines that run the same way.
+/// Sine of the angle below which two lines count as parallel.
 const ALIKE: f64 = 1e-6;
 const STEPS: usize = 12;
 
-/// Whether a surface may end at a line in the image, and hide what goes on behind it. Where surfaces meet, and along
-/// smooth edges, none does.
+/// Whether a surface may end at a line in the image and hide lines that pass behind it. No surface ends at an
+/// intersection line or a smooth edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Border {
     None,
@@ -42,7 +42,7 @@ pub struct Route<'a> {
     pub flat: &'a [Vec2],
     pub space: &'a [Vec3],
     pub curve: Option<(&'a Placed, Vec<f64>)>,
-    /// How far its curve rises above the chords that the change was found on.
+    /// How far its curve rises above the chords on which the change was found, in millimetres on paper.
     pub bulge: f64,
 }
 
@@ -59,7 +59,7 @@ impl Route<'_> {
         (i, t - i as f64)
     }
 
-    /// Point and derivative; a polyline goes straight on beyond its ends.
+    /// Point and derivative at t. A polyline is extended straight beyond its ends.
     pub fn at(&self, t: f64) -> [Vec2; 2] {
         if let Some((placed, _)) = &self.curve {
             return placed.on_paper(t);
@@ -69,8 +69,8 @@ impl Route<'_> {
         [[self.flat[i][0] + way[0] * s, self.flat[i][1] + way[1] * s], way]
     }
 
-    /// The parameter t for a line that ended at `start`: a curve does not go on beyond its own end, and a closed one
-    /// not a turn further.
+    /// The new end parameter t of a line that ended at `start`, limited to the ends of its curve; None if it is more
+    /// than half a turn of a closed curve away.
     fn ending(&self, t: f64, start: f64) -> Option<f64> {
         self.curve.as_ref().map_or(Some(t), |(placed, _)| placed.track.ending(start, t))
     }
@@ -100,18 +100,19 @@ pub struct Move {
 pub enum Goal {
     /// A parameter of the line's curve.
     Parameter(f64),
-    /// For polylines: all that meet there go to one point, on paper and in space.
+    /// For polylines: the one point, on paper and in space, to which all ends that meet there move.
     Point(Vec2, Vec3),
 }
 
 /// A place where lines of one chain end: a visible and a hidden one, or an outline alone.
 struct Change {
     at: Vec2,
-    /// (line, end)
+    /// Pairs (line, end).
     ends: Vec<(usize, usize)>,
 }
 
-/// Changes of visibility that move, and outlines that go on. What lies less than `contact` behind may still hide.
+/// The ends that move: changes of visibility, and outlines that are extended. A line up to `contact` (model units)
+/// behind another may still hide it.
 pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
     let changes = changes(routes);
     let near = near(routes, &changes, JUNCTION_OUTLINE * accuracy);
@@ -137,7 +138,7 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
                 let crossed = if ends.len() > 1 { crossing(own, other, from, away, accuracy) } else { None };
                 let found = crossed.or_else(|| if lifted { touching(own, other, from, accuracy) } else { None });
                 let Some((t, u)) = found else { continue };
-                // An outline that is touched beyond its end goes on to there itself.
+                // An outline that is touched beyond its end is extended to that place.
                 let reach = if crossed.is_none() && other.border == Border::Outline {
                     JUNCTION_ALONG
                 } else {
@@ -150,7 +151,7 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
                     best = (moved, Some(t));
                 }
             }
-            // All lines of one edge count its parameter alike, up to turns; polylines do from their own beginnings.
+            // Lines of one edge share its parameter, up to whole turns; each polyline counts from its own start.
             let alike = ends.iter().all(|e| routes[e.0].curve.is_some() == own.curve.is_some());
             let target = best.1.filter(|_| alike);
             ends.iter()
@@ -177,7 +178,7 @@ fn changes(routes: &[Route]) -> Vec<Change> {
             meeting.entry((route.chain, p[0].to_bits(), p[1].to_bits())).or_default().push((i, end));
         }
     }
-    // Where a visible and a hidden line of one edge meet, both move alike.
+    // Where a visible and a hidden line of one edge meet, both ends move together.
     let mut out: Vec<Change> = meeting
         .into_values()
         .filter(|ends| {
@@ -194,7 +195,7 @@ fn changes(routes: &[Route]) -> Vec<Change> {
     out
 }
 
-/// (change, line, segment): visible borders near changes.
+/// Visible borders near changes, as (change, line, segment).
 fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, usize)> {
     let mut out: Vec<(usize, usize, usize)> = routes
         .par_iter()
@@ -212,7 +213,7 @@ fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, 
     out
 }
 
-/// Newton's method for own(t) = other(u), which lies `away` from where the search begins.
+/// Solves own(t) = other(u) by Newton's method. `away`: distance of the solution from the start of the search, mm.
 fn crossing(own: &Route, other: &Route, (start, u): (f64, f64), away: f64, accuracy: f64) -> Option<(f64, f64)> {
     let (mut t, mut u) = (start, u);
     for _ in 0..STEPS {
@@ -234,7 +235,7 @@ fn crossing(own: &Route, other: &Route, (start, u): (f64, f64), away: f64, accur
     None
 }
 
-/// Where own and other run the same way, side by side: two straight lines do nowhere, or everywhere.
+/// The place where own and other are parallel. Two straight lines are so nowhere, or everywhere.
 ///
 /// ```text
 ///    own     --------------o- - - -        sought is the place where the tangents' angle vanishes,
@@ -265,7 +266,7 @@ fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -
         if !g1.is_finite() || length(&minus(&own.at(t)[0], &own.at(start)[0])) > JUNCTION_ALONG * accuracy {
             return None;
         }
-        // At a seam the angle may not vanish entirely, and go no further.
+        // At a seam the angle may stop short of zero.
         if g1.abs() < ALIKE || (g1 == g0 && g1.abs() < 1e3 * ALIKE) {
             return (away <= JUNCTION_TOUCH * accuracy).then_some((t, u1));
         }
@@ -277,7 +278,7 @@ fn touching(own: &Route, other: &Route, (start, u): (f64, f64), accuracy: f64) -
     None
 }
 
-/// Whether a parameter lies on the line itself, or on from its end by less than `reach`.
+/// Whether a parameter lies on the line itself, or beyond its end by less than `reach`.
 fn within(route: &Route, u: f64, reach: f64) -> bool {
     let (first, last) = (route.parameter(0, 0.0), route.parameter(route.flat.len() - 2, 1.0));
     let (low, high) = (first.min(last), first.max(last));
@@ -313,7 +314,7 @@ mod tests {
             let Goal::Point(flat, space) = step.to else { panic!() };
             assert!((flat[0] - 1.0).abs() < 1e-12 && space == deep[0]);
         }
-        // Too far, no border of a surface, behind, or of the same edge: nothing moves.
+        // Too far away, no border of a surface, farther from the viewer, or of the same edge: nothing moves.
         assert!(junctions(&routes, 0.01, 0.1, &view).is_empty());
         routes[2].border = Border::None;
         assert!(junctions(&routes, 0.05, 0.1, &view).is_empty());

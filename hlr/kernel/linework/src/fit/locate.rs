@@ -5,7 +5,7 @@ use super::plane::{Vec2, dot, length, minus};
 use hlr_accuracy::{CURVE_BETWEEN, CURVE_END};
 use hlr_brep::geometry::curve::Vec3;
 
-/// Share of a period by which rounding may turn a step back.
+/// How far rounding may make a parameter step back, as a share of the period.
 const BACKLASH: f64 = 1e-7;
 
 /// The parameters of a line's points on the curve along which it runs, rising or falling.
@@ -14,7 +14,7 @@ pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulg
     if !found.iter().all(|t| t.is_finite()) {
         return None;
     }
-    // Polygons of edges run the way of their curve; a line runs back only where it was turned round.
+    // Polygons of edges run along their curve; a line runs against it only if it was reversed.
     [1.0, -1.0].into_iter().find_map(|sign| {
         let mut t = unrolled(&found, placed.track.period, sign)?;
         snap(placed, &mut t, accuracy);
@@ -22,7 +22,7 @@ pub fn along(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bulg
     })
 }
 
-/// Parameters one after another in one direction, or None where they are not.
+/// The parameters, with turns added so that all steps have one sign; None if that is impossible.
 fn unrolled(found: &[f64], period: Option<f64>, sign: f64) -> Option<Vec<f64>> {
     let mut out = vec![found[0]];
     let mut total = 0.0;
@@ -41,14 +41,14 @@ fn unrolled(found: &[f64], period: Option<f64>, sign: f64) -> Option<Vec<f64>> {
         out.push(out[0] + sign * total);
     }
     match period {
-        // From a point all round to itself.
+        // A closed line: once around from a point to itself.
         Some(period) if total <= BACKLASH * period && found.len() > 2 => None,
         Some(period) if total > (1.0 + BACKLASH) * period => None,
         _ => (total > 0.0).then_some(out),
     }
 }
 
-/// Ends that are the curve's own ends become exactly those.
+/// Sets ends that are within the accuracy of the curve's own ends to exactly those.
 fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
     let last = t.len() - 1;
     let whole = placed.range[1] - placed.range[0];
@@ -65,8 +65,8 @@ fn snap(placed: &Placed, t: &mut [f64], accuracy: f64) {
     }
 }
 
-/// Whether the curve passes the line's vertices within the accuracy, and stays near it in between. Its ends may be cut
-/// out of the middle of a chord, and are as far off as that.
+/// Whether the curve passes the line's vertices within the accuracy, and stays near it in between. An end of the line
+/// may lie in the middle of a chord, and be off the curve by as much as the chord is.
 fn follows(placed: &Placed, t: &[f64], flat: &[Vec2], accuracy: f64, bulge: f64) -> bool {
     let near = |t: f64, a: &Vec2, b: &Vec2, most: f64| {
         let p = placed.on_paper(t)[0];

@@ -4,7 +4,7 @@
 //! 2. `project`  the curve on paper
 //! 3. `junction`  ends where another line hides this one, moved to the crossing of the two curves
 //! 4. `straight`, `arc`, `bezier`, `cubic`  the first of these that is exact, or within its share of the accuracy
-//! 5. `shared_end`  ends of one edge's lines that met before meet again, bit by bit
+//! 5. `shared_end`  ends of one edge's lines that met before meet again, to the last bit
 //!
 //! Contours of meshes have no such curve: `smooth` makes one within the accuracy of the polyline.
 //!
@@ -42,7 +42,7 @@ pub fn located(placed: &Placed, flat: &[Vec2], space: &[Vec3], accuracy: f64, bu
     locate::along(placed, flat, space, accuracy, bulge)
 }
 
-/// What is drawn of an interval of a curve; it may run backward, and on beyond the seam of a closed one.
+/// The drawn form of an interval of a curve. The interval may run backward, and beyond the seam of a closed curve.
 pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
     let ends = |range: [f64; 2]| {
         let (mut flat, mut space) =
@@ -69,7 +69,7 @@ pub fn piece(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<Drawn> {
     }
     let (low, high) = (range[0].min(range[1]), range[0].max(range[1]));
     let mut chain: Option<Chain> = None;
-    // Beyond the seam of a closed curve its beginning goes on.
+    // Beyond its seam a closed curve continues with its beginning.
     for [a, b] in placed.track.unbroken(low, high) {
         let mut next = bezier::exact(&placed.paper, a, b).unwrap_or_else(|| {
             let (corners, spans) = (placed.paper.corners(a, b), placed.paper.spans(a, b));

@@ -14,7 +14,7 @@ pub enum Form {
     Chain(Chain),
 }
 
-/// A line as it is drawn: the interval of its curve, the ends of that, and its form.
+/// A line as it is drawn: the interval of its curve, the end points of the interval, and its form.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     pub form: Form,
@@ -24,7 +24,7 @@ pub struct Drawn {
     pub bounds: [Vec2; 2],
 }
 
-/// A curve where it stands, in space and on paper.
+/// A curve in its place in space and on paper.
 pub struct Placed {
     pub curve: Curve,
     pub paper: Paper,
@@ -44,7 +44,7 @@ impl Placed {
         Placed { curve, paper, range, track, ellipse }
     }
 
-    /// A point on paper; the curve of a straight edge has none of its own there.
+    /// Point and derivative on paper at a parameter.
     pub fn on_paper(&self, t: f64) -> [Vec2; 2] {
         self.paper.at(self.track.wrapped(t))
     }

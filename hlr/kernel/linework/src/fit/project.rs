@@ -1,11 +1,11 @@
-//! Projects curves to paper: the same affine forms with homogeneous plane vectors. Parallel and central projection
-//! differ only in the third coordinate, which is constant for parallel projection.
+//! Projects curves to paper: their formulas stay the same, with homogeneous plane vectors in place of vectors in space.
+//! Parallel and central projection differ only in the third coordinate, which is constant for parallel projection.
 
 use super::plane::Vec2;
 use hlr_brep::geometry::curve::{Curve, Vec3};
 use hlr_brep::geometry::nurbs::{MOST_DEGREE, basis, find_span};
 
-/// (x w, y w, w) on paper from (x, y, z, 1) in the model.
+/// The matrix that maps (x, y, z, 1) in the model to (x w, y w, w) on paper.
 #[derive(Clone, Copy, Debug)]
 pub struct Projection(pub [[f64; 4]; 3]);
 
@@ -19,7 +19,7 @@ impl Projection {
         [x / w, y / w]
     }
 
-    /// Parallel: the third coordinate is that of the model.
+    /// Whether the projection is parallel: w does not depend on the point.
     pub fn parallel(&self) -> bool {
         self.0[2] == [0.0, 0.0, 0.0, 1.0]
     }
@@ -96,7 +96,7 @@ impl Paper {
         out
     }
 
-    /// How many pieces of one formula lie between two parameters.
+    /// How many polynomial pieces lie between two parameters.
     pub fn spans(&self, a: f64, b: f64) -> usize {
         let Paper::Spline { knots, .. } = self else { return 4 };
         1 + knots.windows(2).filter(|w| w[0] < w[1] && w[1] > a && w[1] < b).count()

@@ -1,4 +1,4 @@
-//! Puts all lines of a drawing on their curves, and moves ends at other lines to the crossing of the two curves.
+//! Puts all lines of a drawing on their curves, and moves line ends at other lines to the crossing of the two curves.
 
 use rayon::prelude::*;
 
@@ -11,22 +11,22 @@ use crate::lines::Polyline;
 use crate::lines::camera::Camera;
 use hlr_brep::geometry::curve::{Curve, Vec3};
 
-/// Curves in space, their ranges, and where they may stand: rows of matrices into the model.
+/// Curves in space, their parameter ranges, and their possible places: matrices into the model, row by row.
 pub struct Curves {
-    /// Whether there may be any: without them no line ends on another's curve.
+    /// Whether any curves may be known. If not, no line ends on another's curve.
     pub known: bool,
     pub curves: Vec<Option<Curve>>,
     pub ranges: Vec<[f64; 2]>,
     pub places: Vec<[[f64; 4]; 3]>,
 }
 
-/// Millimetres on paper, but for `closed` and `contact`, in model units.
+/// Tolerances: in millimetres on paper, except `closed` and `contact`, in model units.
 #[derive(Clone, Copy, Debug)]
 pub struct Fit {
     pub accuracy: f64,
-    /// Share of the accuracy that chords between points along a circle of a mesh may be off it.
+    /// How far chords between points along a circle of a mesh may be off it, as a share of the accuracy.
     pub chord: f64,
-    /// Ends of a curve nearer than this are one.
+    /// Ends of a curve that are nearer than this are one point.
     pub closed: f64,
     /// The depth within which curves touch.
     pub contact: f64,
@@ -35,17 +35,17 @@ pub struct Fit {
 /// The curve along which a line runs.
 #[derive(Clone, Copy, Debug)]
 pub struct Guide {
-    /// In `Curves`; None where it is not known.
+    /// Index into `Curves`; None where the curve is not known.
     pub curve: Option<u32>,
     pub place: u32,
     pub border: Border,
     /// How far the curve rises above the chords it was found on, millimetres on paper.
     pub bulge: f64,
-    /// The contour of a mesh: it was moved on paper.
+    /// The line is the smoothed contour of a mesh, moved on paper.
     pub smoothed: bool,
 }
 
-/// What a line became: its true ends, the points between that are kept, and its form; None: it stays a polyline.
+/// A line on its curve: its true ends, the points kept in between, and its form (None: it stays a polyline).
 pub struct OnCurve {
     pub form: Option<Form>,
     pub range: [f64; 2],
@@ -55,11 +55,11 @@ pub struct OnCurve {
     pub bounds: [Vec2; 2],
 }
 
-/// Lines along their guides.
+/// Each line on the curve of its guide.
 pub fn on_curves(lines: &[Polyline], guides: &[Guide], curves: &Curves, camera: &Camera, fit: &Fit) -> Vec<OnCurve> {
     let (projection, view, accuracy) = (camera.projection(), camera.view(), fit.accuracy);
     let n = lines.len();
-    // Lines of one curve in one place share its search table.
+    // Lines along one curve in one place share its search table.
     let key = |i: u32| guides[i as usize].curve.map(|c| (c, guides[i as usize].place));
     let mut order: Vec<u32> = (0..n as u32).filter(|&i| key(i).is_some()).collect();
     order.sort_by_key(|&i| (key(i), i));
@@ -93,14 +93,14 @@ pub fn on_curves(lines: &[Polyline], guides: &[Guide], curves: &Curves, camera: 
         })
         .collect();
     let moves = junctions(&routes, accuracy, fit.contact, &view);
-    // Ends of polylines that move; those of curves move with their interval.
+    // The ends of polylines that move. Ends of curves move with their interval.
     let mut moved: Vec<[Option<(Vec2, Vec3)>; 2]> = vec![[None; 2]; n];
     for Move { line, end, to } in moves {
         match (&mut routes[line].curve, to) {
             (Some((_, ts)), Goal::Parameter(t)) => {
                 let at = end * (ts.len() - 1);
                 let rest = ts[ts.len() - 1 - at];
-                // Never past the other end.
+                // An end never moves past the line's other end.
                 if (ts[at] - rest) * (t - rest) > 0.0 {
                     ts[at] = t;
                 }

@@ -7,7 +7,7 @@ use super::junction::Route;
 use super::plane::{length, minus};
 use hlr_accuracy::CURVE_SHARED_END;
 
-/// Gives all ends that were one point the place of the first of them.
+/// Moves all ends that were one point to the first of them.
 pub fn share_ends(routes: &[Route], drawn: &mut [Option<Drawn>], accuracy: f64) {
     let mut ends: Vec<(i32, [u64; 2], usize, usize)> = Vec::new();
     for (i, route) in routes.iter().enumerate().filter(|(i, r)| drawn[*i].is_some() && r.flat.len() > 1) {

@@ -1,9 +1,9 @@
 //! Smooths the contour of a mesh, which zigzags from facet to facet, into curves within the accuracy of it.
 //!
-//! 1. `relaxed`   vertices move to the middle of the zigzag; ends and pinned vertices stay. Two passes, so that what
-//!    is round does not shrink (G. Taubin, "A signal processing approach to fair surface design", 1995).
-//! 2. `reduced`   the few of them that the shape needs (Douglas and Peucker)
-//! 3. `tangents`  at those where a smooth curve can pass without leaving the chords too far; the others are corners
+//! 1. `relaxed`   vertices move to the middle of the zigzag; ends and pinned vertices stay. Two passes, so that round
+//!    shapes do not shrink (G. Taubin, "A signal processing approach to fair surface design", 1995).
+//! 2. `reduced`   only the vertices that the shape needs are kept (Douglas and Peucker)
+//! 3. `tangents`  at kept vertices that a smooth curve can pass within the tolerance; the others are corners
 //! 4. `contour_fit`  cubic curves from corner to corner, divided at the kept vertices until close enough
 //!
 //! ```text
@@ -11,7 +11,8 @@
 //!   --/  \/  \--          --------    and what is drawn
 //! ```
 //!
-//! Moves and misfits add up to four fifths of the accuracy; what cannot be smooth within that stays as it is.
+//! Moves and fitting errors add up to at most four fifths of the accuracy. A contour that cannot be smoothed within
+//! that stays as it is.
 
 use super::bezier::{Chain, at};
 use super::contour_fit::Fitting;
@@ -29,8 +30,8 @@ const STEPS: [f64; 2] = [0.5, -0.526];
 const PLACES: usize = 16;
 const STEPS_OF_SEARCH: usize = 24;
 
-/// The smooth line and its curves; no curves where it is straight. `pinned` vertices stay where they are. The line
-/// keeps the points it needs to be within `depth` in space, too, where on paper it is straight.
+/// The smooth line and its curves; no curves where it is straight. `pinned` vertices stay where they are. Where the
+/// line is straight on paper, it keeps the points it needs to stay within `depth` (model units) in space.
 pub fn smooth(
     line: &Polyline,
     pinned: &dyn Fn(&Vec2) -> bool,
@@ -87,7 +88,7 @@ fn put(line: &mut Polyline, flat: Vec2, space: Vec3) {
     }
 }
 
-/// The vertex before or after, round the end of a closed line.
+/// The next or previous vertex; a closed line wraps around.
 fn neighbour(i: usize, forward: bool, n: usize, closed: bool) -> Option<usize> {
     match (forward, closed) {
         (true, _) if i + 1 < n => Some(i + 1),
@@ -111,9 +112,9 @@ fn relaxed(flat: &[Vec2], fixed: &[bool], closed: bool, most: f64) -> Vec<Vec2> 
             if la == 0.0 || lb == 0.0 {
                 continue;
             }
-            // Weighted so that a vertex on a straight line rests wherever it is.
+            // Weighted so that a vertex on a straight line does not move.
             let pull = [0, 1].map(|k| (to_a[k] * lb + to_b[k] * la) / (la + lb));
-            // A larger bend than the tolerance could ever even out is left as it is.
+            // A bend too large to be smoothed within the tolerance is left as it is.
             let share = (3.0 - length(&pull) / most).clamp(0.0, 1.0);
             let moved = [0, 1].map(|k| before[i][k] + step * share * pull[k]);
             let off = minus(&moved, &flat[i]);
@@ -124,7 +125,7 @@ fn relaxed(flat: &[Vec2], fixed: &[bool], closed: bool, most: f64) -> Vec<Vec2> 
     way
 }
 
-/// Ascending places of the vertices that are kept; the first and the last always.
+/// Indices of the vertices that are kept, ascending; always with the first and the last.
 fn reduced(way: &[Vec2], fixed: &[bool], closed: bool, tolerance: f64) -> Vec<usize> {
     let n = way.len();
     let mut kept = vec![0];
@@ -169,7 +170,7 @@ fn bends(space: &[Vec3], tolerance: f64) -> Vec<usize> {
     kept
 }
 
-/// The parameter of the place on a curve nearest to p: the best of some, then by thirds.
+/// The parameter of the point of a curve nearest to p: the best of some samples, refined by ternary search.
 fn nearest(points: &[Vec2; 4], p: &Vec2) -> f64 {
     let far = |t: f64| distance(&at(points, t), p);
     let place = |k: usize| k as f64 / PLACES as f64;
@@ -184,8 +185,8 @@ fn nearest(points: &[Vec2; 4], p: &Vec2) -> f64 {
 
 /// Unit tangents at the kept vertices, None at corners and at open ends.
 ///
-/// A curve whose tangents are turned by a and b from a chord of length l bulges by l (a + b) / 8 beyond it: so each
-/// side of a vertex can take up a turn of 4 bulges / l. Within that, the circle through three vertices gives the
+/// A curve whose tangents are turned by a and b from a chord of length l bulges by l (a + b) / 8 beyond it. So each
+/// side of a vertex allows a turn of 4 bulge / l radians. Within that, the circle through three vertices gives the
 /// tangent.
 fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Option<Vec2>> {
     let m = kept.len();
@@ -210,13 +211,13 @@ fn tangents(way: &[Vec2], kept: &[usize], closed: bool, bulge: f64) -> Vec<Optio
         .collect()
 }
 
-/// Equal steps of the parameter, with chords this close to the curve.
+/// Number of equal parameter steps whose chords are within the tolerance of the curve.
 fn steps(p: &[Vec2; 4], tolerance: f64) -> usize {
     let bend = |i: usize| length(&[0, 1].map(|k| p[i][k] - 2.0 * p[i + 1][k] + p[i + 2][k]));
     ((0.75 * bend(0).max(bend(1)) / tolerance).sqrt().ceil() as usize).clamp(1, 1 << 12)
 }
 
-/// The point in space of the place on the contour nearest to a point of its curve.
+/// The point in space of the contour whose image is nearest to a point p of its curve.
 fn beside(line: &Polyline, way: &[Vec2], from: usize, to: usize, p: &Vec2, view: &View) -> Vec3 {
     let mut best = (f64::INFINITY, from, 0.0);
     for i in from..to {

@@ -1,5 +1,5 @@
-//! Finds pieces of curves that are straight on paper: short, flat, or planar and seen edge-on, where they may run back
-//! over themselves.
+//! Finds pieces of curves that are straight on paper: short ones, flat ones, and planar ones seen edge-on. The image of
+//! the last may run back over itself.
 
 use super::placed::Placed;
 use super::plane::{Vec2, dot, length, minus};
@@ -10,7 +10,7 @@ const PLACES: usize = 8;
 /// Halvings of the interval around a turning point.
 const NARROWING: usize = 60;
 
-/// The parameters of the two ends of the straight line that is all of a piece, in the order of its range.
+/// The parameters of both ends of the straight line that covers a whole piece, in the order of its range.
 pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64; 2]> {
     let (a, b) = (range[0].min(range[1]), range[0].max(range[1]));
     let places = PLACES.max(4 * placed.paper.spans(a, b)).max((2.0 * (b - a)) as usize * usize::from(turning(placed)));
@@ -41,7 +41,7 @@ pub fn straight(placed: &Placed, range: [f64; 2], accuracy: f64) -> Option<[f64;
     if !points.iter().all(|p| off(p) <= CURVE_STRAIGHT * accuracy) {
         return None;
     }
-    // Extremes inside the piece are turning points: narrowed down from the neighbouring places.
+    // Extremes inside the piece are turning points, bracketed by the neighbouring samples and narrowed down.
     let along = |t: f64| dot(&placed.on_paper(t)[0], &way);
     let refine = |i: usize, sign: f64| {
         if i == 0 || i == places {

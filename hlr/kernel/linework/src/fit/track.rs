@@ -2,7 +2,7 @@
 
 use hlr_brep::geometry::curve::{Curve, Vec3};
 
-/// Places looked at per span of a B-spline before Newton's method begins.
+/// Samples per span of a B-spline from which Newton's method may begin.
 const PLACES: usize = 8;
 const STEPS: usize = 20;
 
@@ -15,7 +15,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// model: a length in the model below which two ends are one.
+    /// model: the distance in model units below which the two ends are one point.
     pub fn new(curve: &Curve, range: [f64; 2], model: f64) -> Track {
         match curve {
             Curve::Ellipse { .. } => Track { period: Some(std::f64::consts::TAU), bounded: None, places: Vec::new() },
@@ -29,7 +29,7 @@ impl Track {
                 stops.extend(n.knots.iter().copied().filter(|&u| u > range[0] && u < range[1]));
                 stops.push(range[1]);
                 stops.dedup();
-                // Short cubic pieces hold no surprise between their ends.
+                // Short cubic pieces need no samples between their ends.
                 let count = if n.sampled { 1 } else { PLACES };
                 for w in stops.windows(2) {
                     places.extend((0..count).map(|i| w[0] + (w[1] - w[0]) * (i as f64 / count as f64)));
@@ -42,7 +42,7 @@ impl Track {
         }
     }
 
-    /// A parameter that the curve can be evaluated at.
+    /// t moved into the curve's range: by whole periods on a closed curve, to the nearer end of an open one.
     pub fn wrapped(&self, t: f64) -> f64 {
         match (self.bounded, self.period) {
             (Some([low, high]), Some(period)) if t > high || t < low => low + (t - low).rem_euclid(period),
@@ -51,7 +51,8 @@ impl Track {
         }
     }
 
-    /// A parameter near `from` as one of the curve: it stops at its ends, and a closed one goes on for half a turn.
+    /// The parameter `to` for an end at `from`: limited to the range of an open curve; None if it is more than half a
+    /// turn away on a closed one.
     pub fn ending(&self, from: f64, to: f64) -> Option<f64> {
         match (self.period, self.bounded) {
             (Some(period), _) => ((to - from).abs() <= 0.5 * period).then_some(to),
@@ -126,7 +127,7 @@ impl Track {
         let mut best = (f64::INFINITY, start);
         let mut t = start;
         for _ in 0..STEPS {
-            // From one side of a seam the way may lead to the other.
+            // The search may cross the seam.
             let [q, d1, d2] = curve.derivatives(self.wrapped(t));
             let away = [0, 1, 2].map(|k| q[k] - p[k]);
             let far = dot3(&away, &away);

@@ -12,7 +12,7 @@ pub struct Camera {
     pub direction: Vec3,
     pub right: Vec3,
     pub up: Vec3,
-    /// Of a perspective view: the eye, and the distance of the image plane from it.
+    /// For a perspective view: the eye, and its distance from the image plane, in model units.
     pub eye: Option<(Vec3, f64)>,
     /// Millimetres on paper per model unit in the image plane.
     pub scale: f64,
@@ -31,7 +31,7 @@ impl Camera {
         }
     }
 
-    /// To the right, up, and away from the viewer, in model units: what lies in front has the lesser depth.
+    /// Coordinates to the right, up, and away from the viewer, in model units: what lies in front has less depth.
     pub fn image(&self, p: &Vec3) -> Vec3 {
         let Some((eye, distance)) = self.eye else {
             return [dot(p, &self.right), dot(p, &self.up), -dot(p, &self.direction)];
@@ -41,13 +41,13 @@ impl Camera {
         [dot(&away, &self.right) * factor, dot(&away, &self.up) * factor, -distance * factor]
     }
 
-    /// Millimetres on paper.
+    /// The image of a point, in millimetres on paper.
     pub fn point(&self, p: &Vec3) -> Vec2 {
         let [x, y, _] = self.image(p);
         [x * self.scale, y * self.scale]
     }
 
-    /// A point moved square to the line of sight, at its depth, so that its image is there.
+    /// A point moved at right angles to the line of sight, at equal depth, so that its image is `image`.
     pub fn moved(&self, p: &Vec3, image: &Vec2) -> Vec3 {
         let at = self.point(p);
         let mut step = [0, 1].map(|k| (image[k] - at[k]) / self.scale);

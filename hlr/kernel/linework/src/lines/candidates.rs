@@ -4,15 +4,15 @@ use super::chain::chain;
 use super::drawing::Kind;
 use hlr_mesh::topology::components;
 
-/// A contour of fewer mesh edges that hangs on no other line is the mesh's roughness, not the shape's: a closed curve
-/// of so few chords is coarser than any tessellation that turns by half a radian.
+/// A contour with fewer mesh edges that meets no other line is noise of the mesh: a closed curve of so few chords is
+/// coarser than any tessellation whose chords turn by at most half a radian.
 const NOISE_EDGES: usize = 6;
 
-/// What an edge is to be drawn as: itself, and where it is a contour.
+/// Roles of an edge, as bits: drawn always, and drawn where it is a contour.
 pub const DRAWN: u8 = 1;
 pub const OUTLINE: u8 = 2;
 
-/// What a chain is of; -1 for none.
+/// The part, edge and face to which a chain belongs; -1 for none.
 #[derive(Clone, Copy, Debug)]
 pub struct About {
     pub kind: Kind,
@@ -20,15 +20,15 @@ pub struct About {
     pub edge: i32,
     pub face: i32,
     pub other: i32,
-    /// The contour of a mesh, which may turn to and fro by an edge.
+    /// The chain is the contour of a mesh, which may zigzag by an edge.
     pub noisy: bool,
-    /// Known to be, so that no curve is looked for.
+    /// Known to be straight, so that no curve is looked for.
     pub straight: bool,
 }
 
 #[derive(Clone, Debug, Default)]
 pub struct Chains {
-    /// (chains + 1) into edges and reversed.
+    /// (chains + 1) offsets into `edges` and `reversed`.
     pub offsets: Vec<i32>,
     pub edges: Vec<i32>,
     pub reversed: Vec<bool>,
@@ -54,7 +54,7 @@ impl Chains {
     }
 }
 
-/// The mesh, as far as its contours need it.
+/// The arrays of the mesh that its contours need.
 pub struct Surface<'a> {
     pub points: usize,
     pub edges: &'a [[i32; 2]],
@@ -66,13 +66,13 @@ pub struct Surface<'a> {
     pub triangle_face: &'a [i32],
     /// Per part, whether its faces are known.
     pub has_faces: &'a [bool],
-    /// Per triangle 1 toward the viewer, -1 away, 0 edge-on.
+    /// Per triangle: 1 toward the viewer, -1 away, 0 edge-on.
     pub facing: &'a [i8],
     pub role: &'a [u8],
     pub groups: usize,
 }
 
-/// Chains of the contour edges among `found`, which ascend, are added.
+/// Adds the chains of the contour edges among `found` (ascending).
 pub fn add_outlines(s: &Surface, found: &[i32], out: &mut Chains) {
     let mut edges: Vec<i32> = found.to_vec();
     edges.dedup();
@@ -85,13 +85,13 @@ pub fn add_outlines(s: &Surface, found: &[i32], out: &mut Chains) {
             continue;
         }
         let (toward, folds) = facing(s, e);
-        // What the kernel drew only as a contour is one; edges drawn anyway are one where the surface folds there.
+        // An edge drawn only as a contour is one. An edge that is always drawn is one where the surface folds.
         if role & DRAWN == 0 || folds {
             contour.push(e);
             owner.push(toward as usize);
         }
     }
-    // The face toward the viewer owns the outline; it is chained within that face, of a mesh within the part.
+    // The face toward the viewer owns the outline. Outlines are chained within that face; in a mesh, within the part.
     let face = |t: usize| if s.has_faces[s.triangle_part[t] as usize] { s.triangle_face[t] } else { -1 };
     let key: Vec<(i32, i32)> = owner.iter().map(|&t| (s.triangle_part[t], face(t))).collect();
     let mut distinct = key.clone();
@@ -130,7 +130,7 @@ fn facing(s: &Surface, e: i32) -> (i32, bool) {
     (owner, s.facing[owner as usize] > 0 && farthest <= 0)
 }
 
-/// Whether each edge belongs to a figure of a few edges, apart from all other lines of its surface.
+/// Whether each edge belongs to a figure of few edges that meets no other line of its surface.
 fn noise(s: &Surface, edges: &[i32]) -> Vec<bool> {
     let ends: Vec<[i32; 2]> = edges.iter().map(|&e| s.edges[e as usize]).collect();
     let figure = components(&ends, s.points);

@@ -1,9 +1,9 @@
-//! Joins edges of equal key into chains: at a vertex where exactly two of them meet; where more meet, the one pair that
-//! runs nearly straight on.
+//! Joins edges of equal key into chains. At a vertex where exactly two edges meet, these are joined; where more meet,
+//! only the one pair that runs nearly straight on.
 //!
 //! ```text
-//!        |                 a rib that ends on a rim does not part the rim;
-//!   -----+-----            four in a cross are two lines
+//!        |                 a rib that ends on a rim does not divide the rim;
+//!   -----+-----            four edges in a cross are two lines
 //! ```
 
 pub struct Chains {
@@ -14,13 +14,13 @@ pub struct Chains {
     pub reversed: Vec<bool>,
 }
 
-/// Where the vertices are, and the largest turn that still is straight on, in radians.
+/// The positions of the vertices, and the largest turn (radians) that still counts as straight on.
 pub struct Straight<'a> {
     pub points: &'a [[f64; 3]],
     pub turn: f64,
 }
 
-/// Ten degrees: by so much a second way on must turn more, or neither is the way on.
+/// Ten degrees, in radians. Every other continuation must turn by this much more; otherwise none is chosen.
 const CLEARLY: f64 = std::f64::consts::PI / 18.0;
 
 const NONE: u32 = u32::MAX;
@@ -89,7 +89,7 @@ fn continuations(edges: &[[i32; 2]], key: &[i32], straight: Option<&Straight>) -
     next
 }
 
-/// Pairs of the edges around a vertex, each clearly the other's straightest continuation.
+/// Pairs of edges at a vertex, each clearly the other's straightest continuation.
 fn straight_pairs(edges: &[[i32; 2]], around: &[u32], vertex: i32, straight: &Straight) -> Vec<(u32, u32)> {
     let here = straight.points[vertex as usize];
     let ways: Vec<[f64; 3]> = around
@@ -150,7 +150,7 @@ mod tests {
         assert_eq!((rim.offsets, rim.order), (vec![0, 2, 3], vec![0, 1, 2]));
         let cross = chain(&[[0, 1], [1, 2], [1, 3], [1, 4]], &[0; 4], Some(&straight));
         assert_eq!((cross.offsets, cross.order), (vec![0, 2, 4], vec![0, 1, 2, 3]));
-        // Two ways that are as straight are none.
+        // Of two equally straight continuations none is chosen.
         assert_eq!(chain(&[[0, 1], [1, 2], [1, 5]], &[0; 3], Some(&straight)).offsets.len(), 4);
     }
 }

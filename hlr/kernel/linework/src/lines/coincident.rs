@@ -1,13 +1,13 @@
 //! Keeps one of several lines that coincide on paper: the front view of a box is four lines, not eight.
 //!
-//! A line yields where a better one (lower rank: visible first, then kind, then nearer) runs close to it in nearly its
-//! direction. Ranks are a strict order, so of two lines exactly one yields. A line yields only to lines that are drawn:
-//! the best are decided first, so that a stack of close lines does not vanish as a whole. Close means two things: lines
-//! of one visibility must coincide; a hidden line yields wherever it would lie under the width of a visible line.
+//! A line is left out where a better one (lower rank: visible first, then kind, then nearer) runs close to it in nearly
+//! the same direction. Ranks are a strict order, so of two lines exactly one is left out. Only drawn lines count as
+//! better: the best are decided first, so that a stack of close lines does not vanish as a whole. Lines of one
+//! visibility are close if they coincide; a hidden line also if it lies under the width of a visible line.
 //!
 //! ```text
 //!   better  ===================
-//!   worse        - - - - - - - - - - - -      yields on the left, stays on the right
+//!   worse        - - - - - - - - - - - -      left out on the left, drawn on the right
 //! ```
 
 use std::collections::HashMap;
@@ -21,10 +21,10 @@ use hlr_exact::Point;
 use hlr_exact::snap::Grid;
 use hlr_visibility::scan::bands::{Bands, clipped_x, y_range};
 
-/// Sine of the angle beyond which two lines cross rather than coincide. Generous: chords of one circle, cut
-/// differently, differ in direction; a mere crossing is told apart by the length it covers.
+/// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
+/// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
 const PARALLEL: f64 = 0.5;
-/// A stretch of one side, in parameters, that another side covers: one of its own line or not.
+/// A stretch of one side, in parameters, that another side covers, either of its own line or of another.
 #[derive(Clone, Copy, PartialEq)]
 struct Hit {
     side: u32,
@@ -34,8 +34,8 @@ struct Hit {
     better: u32,
 }
 
-/// A side that so many others cover whole need not be covered by worse ones: in a tangle of thousands of short lines,
-/// where each covers each, the list would have no end. The best of a stack are those that are drawn.
+/// Once so many others cover a side entirely, worse ones are not listed. Among thousands of short lines that all cover
+/// one another, the list would grow without bound; and only the best of them are drawn.
 const ENOUGH: usize = 16;
 
 struct Entry {
@@ -44,7 +44,7 @@ struct Entry {
     side: u32,
 }
 
-/// Remove what better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
+/// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
 pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
     let mut sides = Vec::new();
     let mut first_side = Vec::with_capacity(lines.len());
@@ -93,7 +93,7 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
                 put(hit.from, hit.to);
                 continue;
             }
-            // Where the better line is itself left out, it covers nothing.
+            // Where the better line is left out itself, it covers nothing.
             let place =
                 |u: f64| starts[hit.better as usize] + along(t, &at(s, u)).clamp(0.0, 1.0) * distance(&t.from, &t.to);
             still_there(hit.from, hit.to, [place(hit.from), place(hit.to)], gone, put);
@@ -173,7 +173,7 @@ fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32],
             };
             let (worse, better, id, by) = if yields { (s, t, e.side, other.side) } else { (t, s, other.side, e.side) };
             let own = s.line == t.line;
-            // What covers its own line covers it for sure.
+            // A side of the same line certainly covers this one: it counts as the best rank.
             let place = if own { 0 } else { rank[better.line as usize] };
             let known = whole.get(&id);
             if known.is_some_and(|best| best.len() == ENOUGH && best[ENOUGH - 1] <= place) {
@@ -194,16 +194,16 @@ fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32],
     found
 }
 
-/// Positive where two sides run the same way.
+/// Positive if two sides run in the same direction.
 fn heading(s: &Side, t: &Side) -> f64 {
     (s.to[0] - s.from[0]) * (t.to[0] - t.from[0]) + (s.to[1] - s.from[1]) * (t.to[1] - t.from[1])
 }
 
-/// The stretch of `worse` within `width` beside `better`, and `over` beyond its ends, as parameters on `worse`.
+/// The stretch of `worse` within `width` beside `better` and `over` beyond its ends (mm), as parameters on `worse`.
 ///
 /// ```text
-///              _______________________          the width of a line covers what runs beside it,
-///   - - - - - |=======================|- - -    but not what goes on where it ends
+///              _______________________          the width of a line covers lines beside it,
+///   - - - - - |=======================|- - -    but not lines that continue beyond its end
 ///              ‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾
 /// ```
 fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f64)> {
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn what_another_line_covers_leaves_a_gap() {
-        // The ends beside the gap are near each other: no reason to join them.
+        // The ends at the gap are near each other, but must not be joined.
         let bent = line(false, &[[0.0, -1.0], [0.0, 0.0], [1.0, 0.0], [1.0, 0.02], [0.0, 0.02], [0.0, 1.0]]);
         let ink = line(true, &[[-0.1, 0.01], [1.1, 0.01]]);
         let rest = uncovered(vec![ink, bent], &[0, 1], Widths { same: 0.005, under: 0.02 }, &PARALLEL_VIEW);

@@ -1,4 +1,4 @@
-//! The steps of `lines` in their order: from the pieces along chains to lines on paper.
+//! Runs the steps of `lines` in order: from pieces along chains to lines on paper.
 
 use rayon::prelude::*;
 
@@ -12,39 +12,39 @@ use super::{Polyline, View};
 use crate::fit::bezier::Chain;
 use crate::fit::smooth::smooth;
 
-/// Millimetres on paper, but for `space`, in model units.
+/// Tolerances: in millimetres on paper, except `space`, in model units.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerances {
     pub accuracy: f64,
     /// A figure shorter than this is dropped.
     pub short: f64,
-    /// A run shorter than this takes the state of what lies beside it.
+    /// A run shorter than this takes the state of its neighbours.
     pub flip: f64,
     pub stub: f64,
     pub widths: Widths,
-    /// How far from a line its vertices may be left out, on paper and in space.
+    /// Vertices nearer to the line than this are left out, on paper and in space.
     pub flat: f64,
     pub space: f64,
 }
 
-/// Of a chain, beside what it is of.
+/// Further properties of a chain.
 #[derive(Clone, Copy, Debug)]
 pub struct Trait {
-    /// Which of two coincident lines is drawn: the lower sixteen, of equal ones the nearer, then the lower.
+    /// Which of two coincident lines is drawn: first the lower rank / 16, then the nearer line, then the lower rank.
     pub rank: u8,
-    /// Of a mesh without B-rep.
+    /// The chain belongs to a mesh without B-rep.
     pub without_brep: bool,
     pub noisy: bool,
 }
 
-/// Lines, and the smooth curves of those that are contours of meshes.
+/// Lines, and the smooth curves of the contours of meshes among them.
 #[derive(Default)]
 pub struct Cut {
     pub lines: Vec<Polyline>,
     pub smooth: Vec<Option<Chain>>,
 }
 
-/// None where it was stopped.
+/// The lines of all chains; None if it was stopped.
 pub fn cut(
     geometry: &Geometry,
     chains: &Chains,
@@ -81,7 +81,7 @@ pub fn cut(
                 *line = found;
                 return chain;
             }
-            // Where other lines end on a crease of a mesh, it keeps its vertex.
+            // A crease of a mesh keeps its vertices where other lines end.
             let kept: Vec<bool> = line.flat.iter().map(|p| of.without_brep && ends.meet(line, p)).collect();
             simplify(line, &kept, t.flat, t.space);
             None
@@ -90,10 +90,10 @@ pub fn cut(
     Some(Cut { lines, smooth })
 }
 
-/// A strict order of lines: visible before hidden, then by rank in sixteens, then nearer, then by rank, then by
-/// geometry; order in the input decides only between lines that are the same in every coordinate.
+/// A strict order of lines: visible before hidden, then by rank / 16, then nearer first, then by rank, then by
+/// coordinates. Input order decides only between lines that are equal in every coordinate.
 pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> Vec<u32> {
-    // Rounding is not to decide which of two lines at one depth is the nearer.
+    // Depths are rounded coarsely, so that rounding errors do not decide which of two lines at one depth is nearer.
     let grain = 1e-6 * space.max(f64::MIN_POSITIVE / 1e-6);
     let nearest: Vec<f64> = lines
         .par_iter()
@@ -122,8 +122,8 @@ pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> 
 }
 
 impl Cut {
-    /// Without the lines of chains of which nothing is visible. Hidden lines beside visible ones of the same chain
-    /// stay: both end where they meet, and that place is sought as one.
+    /// Removes the lines of chains that are nowhere visible. Hidden lines of other chains stay: where they meet visible
+    /// ones, both ends are placed together.
     pub fn keep_sighted(&mut self, chains: usize) {
         let mut seen = vec![false; chains];
         self.lines.iter().filter(|line| line.visible).for_each(|line| seen[line.chain as usize] = true);

@@ -5,8 +5,8 @@ use crate::fit::arc::{arc_bounds, grow};
 use crate::fit::bezier::Chain;
 use crate::fit::plane::Vec2;
 
-/// Why a line is drawn: the number of a line class (`hlr/tables/line_classes.py`). The kernel treats classes alike, but
-/// for these.
+/// Why a line is drawn: the number of a line class (`hlr/tables/line_classes.py`). The kernel treats all classes alike
+/// except those named here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Kind(pub u8);
 
@@ -16,7 +16,7 @@ impl Kind {
     pub const OUTLINE: Kind = Kind(4);
 }
 
-/// What a line is on paper where its points are but places along it; millimetres, y up.
+/// The curve of a line on paper, where its points are only samples of it; millimetres, y up.
 #[derive(Clone, Debug)]
 pub enum Curve {
     Arc(Arc),
@@ -28,7 +28,7 @@ pub struct Line {
     pub kind: Kind,
     pub visible: bool,
     pub part: i32,
-    /// -1 for none, like `face` and `other`, the second part of an intersection line.
+    /// -1 for none, as for `face` and `other` (the second part of an intersection line).
     pub edge: i32,
     pub face: i32,
     pub other: i32,
@@ -38,7 +38,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Corners of its box; the points of a line on a curve do not count.
+    /// Extends a bounding box by this line: by its curve if it has one, otherwise by its points.
     fn grow(&self, bounds: &mut [Vec2; 2]) {
         let corners = match &self.curve {
             None => return self.flat.iter().for_each(|p| grow(bounds, p)),
@@ -62,7 +62,7 @@ impl Line {
 pub struct Lines(pub Vec<Line>);
 
 impl Lines {
-    /// Lower and upper corner around all of them; None where there are none.
+    /// Lower and upper corner of the bounding box of all lines; None if there are none.
     pub fn bounds(&self) -> Option<[Vec2; 2]> {
         let mut out = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         self.0.iter().for_each(|line| line.grow(&mut out));

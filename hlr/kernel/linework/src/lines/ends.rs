@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::Polyline;
 
-/// How many ends of lines are at a point on paper.
+/// The number of line ends at each point on paper.
 pub struct Ends(HashMap<(u64, u64), u32>);
 
 fn key(p: &[f64; 2]) -> (u64, u64) {
@@ -23,7 +23,7 @@ impl Ends {
         Ends(count)
     }
 
-    /// Whether another line than this one ends at a point.
+    /// Whether a line other than this one ends at a point.
     pub fn meet(&self, line: &Polyline, p: &[f64; 2]) -> bool {
         let own = [&line.flat[0], &line.flat[line.flat.len() - 1]].into_iter().filter(|e| key(e) == key(p)).count();
         self.0.get(&key(p)).is_some_and(|&n| n as usize > own)

@@ -1,5 +1,5 @@
-//! Finishes the drawing: puts each line on its curve, moves the lower left corner of all to the origin, sorts the
-//! lines.
+//! Finishes the drawing: puts each line on its curve, moves the drawing's lower left corner to the origin, and sorts
+//! the lines.
 
 use super::Polyline;
 use super::camera::Camera;
@@ -14,16 +14,16 @@ use crate::fit::junction::Border;
 use crate::fit::plane::Vec2;
 use crate::fit::routes::{Curves, Fit, Guide, OnCurve, on_curves};
 
-/// A line on its way: its points, its curve, and its box.
+/// A line before it is moved and sorted: its points, its curve, and its bounding box.
 struct Made {
     line: Polyline,
     curve: Option<Curve>,
     bounds: [Vec2; 2],
 }
 
-/// The guide of a chain whose curve, where that is known, stands in a place.
+/// The guide of a chain: its curve, if known, in its place, and whether a surface may end at it.
 pub fn guide(about: &About, of: &Trait, curve: Option<u32>, place: u32, bulge: f64) -> Guide {
-    // Where a surface may end in the image. The outline of a mesh is an edge of it.
+    // Whether a surface may end here in the image. The outline of a mesh counts as one of its edges.
     let border = match about.kind {
         Kind::SHARP | Kind::BOUNDARY => Border::Edge,
         Kind::OUTLINE if of.without_brep => Border::Edge,
@@ -35,7 +35,7 @@ pub fn guide(about: &About, of: &Trait, curve: Option<u32>, place: u32, bulge: f
 
 /// The lines, sorted by part, kind, edge, face and second part, and the lower left corner they were moved from.
 ///
-/// about, guides: per chain. hidden: whether hidden lines are drawn.
+/// `about`, `guides`: per chain. `hidden`: whether hidden lines are drawn.
 pub fn finish(
     mut cut: Cut,
     about: &[About],
@@ -45,14 +45,14 @@ pub fn finish(
     fit: &Fit,
     hidden: bool,
 ) -> (Lines, Vec2) {
-    // A smoothed contour was moved on paper; in space it moves as far.
+    // A smoothed contour was moved on paper; its points in space move with it.
     for line in cut.lines.iter_mut().filter(|line| guides[line.chain as usize].smoothed) {
         for (p, image) in line.space.iter_mut().zip(&line.flat) {
             *p = camera.moved(p, image);
         }
     }
     let own: Vec<Guide> = cut.lines.iter().map(|line| guides[line.chain as usize]).collect();
-    // Where no line has a curve none ends on another's.
+    // If no line has a curve, no line end moves to one.
     let plain = !curves.known && cut.smooth.iter().all(Option::is_none);
     let mut made: Vec<Made> = if plain {
         cut.lines.into_iter().map(|line| Made { bounds: around(&line), line, curve: None }).collect()
@@ -67,7 +67,7 @@ pub fn finish(
     if made.is_empty() {
         low = [0.0; 2];
     }
-    // Sorting is stable: lines that are alike in all of these stay as they were.
+    // The sort is stable: lines with equal keys keep their order.
     made.sort_by_key(|m| {
         let a = &about[m.line.chain as usize];
         (a.part, a.kind, a.edge, a.face, a.other)
@@ -115,12 +115,12 @@ fn bent(
     Made { line, curve, bounds }
 }
 
-/// A circle rises above the chords that it was found on: the points of its line are its own.
+/// A circle rises above the chords on which it was found: its line gets points on the circle itself.
 fn rise(line: &mut Polyline, guide: &Guide, range: [f64; 2], curves: &Curves, camera: &Camera, fit: &Fit) {
     let Some(curve) = guide.curve.and_then(|c| curves.curves[c as usize].as_ref()) else { return };
     let [low, high] = around(line);
     let reach = (high[0] - low[0]).max(high[1] - low[1]);
-    // The chord of a step s rises by r s^2 / 8; perspective may stretch a step to twice its share.
+    // A circle rises r s^2 / 8 above the chord of a step s (radians). Perspective may double the length of a step.
     let step = (8.0 * fit.chord * fit.accuracy / reach).sqrt() * if camera.eye.is_some() { 0.5 } else { 1.0 };
     let [begin, end] = range;
     let inner = ((end - begin).abs() / step).ceil() as usize;
@@ -135,7 +135,7 @@ fn rise(line: &mut Polyline, guide: &Guide, range: [f64; 2], curves: &Curves, ca
     line.space.push(space_ends[1]);
 }
 
-/// With `low` as origin.
+/// The finished line, with `low` as origin.
 fn line(made: Made, about: &[About], low: &Vec2) -> Line {
     let Made { line, mut curve, .. } = made;
     let a = &about[line.chain as usize];

@@ -3,12 +3,12 @@
 use super::{Polyline, View, distance};
 use hlr_accuracy::{COVER_CROSSING, COVER_INK};
 
-/// How close is close, on paper.
+/// The distances in millimetres on paper within which one line covers another.
 #[derive(Clone, Copy, Debug)]
 pub struct Widths {
-    /// Lines of one visibility.
+    /// For lines of equal visibility.
     pub same: f64,
-    /// A hidden line beside a visible one.
+    /// For a hidden line beside a visible one.
     pub under: f64,
 }
 
@@ -34,14 +34,15 @@ pub(super) fn at(s: &Side, u: f64) -> [f64; 2] {
     [0, 1].map(|k| s.from[k] + u * (s.to[k] - s.from[k]))
 }
 
-/// The parameter on a side beside a point.
+/// The parameter of the point of a side nearest to a given point.
 pub(super) fn along(s: &Side, p: &[f64; 2]) -> f64 {
     let (x, y) = (s.to[0] - s.from[0], s.to[1] - s.from[1]);
     let size = x * x + y * y;
     if size > 0.0 { (x * (p[0] - s.from[0]) + y * (p[1] - s.from[1])) / size } else { 0.0 }
 }
 
-/// The parts of from..to that do not fall on `gone` (ascending), where they are at `places` of the line that has gone.
+/// Calls `put` with the parts of from..to that lie outside `gone` (ascending). `places`: the arc lengths of `from` and
+/// `to` on the line that `gone` was cut out of.
 pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered], mut put: impl FnMut(f64, f64)) {
     let (low, high) = (places[0].min(places[1]), places[0].max(places[1]));
     let back = |v: f64| {
@@ -64,9 +65,9 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
     }
 }
 
-/// The stretches (in arc length) that are left out, ascending. Rests of less than two widths of coincidence, which are
-/// the accuracy, go with them: a line that slants off would leave dots. Longer ones, up to two widths of ink, go only
-/// where they lie under the ink themselves.
+/// The stretches (in arc length) that are left out, ascending. Rests shorter than twice the width of coincidence are
+/// left out too: a line that slants off would leave dots. Longer rests, up to twice the drawn line width, are left out
+/// only where they lie under a drawn line themselves.
 pub(super) fn gaps(
     mut covered: Vec<Covered>,
     line: &Polyline,
@@ -82,7 +83,7 @@ pub(super) fn gaps(
                 let ink: Vec<&Side> = beside.iter().map(|&s| &sides[s as usize]).filter(|s| s.visible).collect();
                 let under = |p: &[f64; 2]| ink.iter().any(|s| away(s, p) <= width);
                 let way = stretch(line, from, to, view).flat;
-                // Between two ends of visible ink the middle is the farthest from it.
+                // Between two covered points, the middle is farthest from the visible line.
                 way.iter().all(under) && way.windows(2).all(|w| under(&[0, 1].map(|k| 0.5 * (w[0][k] + w[1][k]))))
             })
     };
@@ -118,7 +119,7 @@ fn away(s: &Side, p: &[f64; 2]) -> f64 {
     distance(p, &at(s, along(s, p).clamp(0.0, 1.0)))
 }
 
-/// What is left of a line without its gaps.
+/// The pieces of a line outside its gaps.
 pub(super) fn rest(line: &Polyline, gaps: &[Covered], widths: Widths, view: &View) -> Vec<Polyline> {
     let total = line.length();
     let width = if line.visible { widths.same } else { widths.under };
@@ -143,7 +144,7 @@ pub(super) fn rest(line: &Polyline, gaps: &[Covered], widths: Widths, view: &Vie
     out
 }
 
-/// Whether a piece goes on where the one before ended: what was left out between them ran back over the line itself.
+/// Whether a piece begins where the one before ended, because the stretch left out between them ran back over the line.
 fn goes_on(before: &Polyline, piece: &Polyline, gap: f64) -> bool {
     match (before.flat.last(), piece.flat.first()) {
         (Some(end), Some(start)) => distance(end, start) <= gap,

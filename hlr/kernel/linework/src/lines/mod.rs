@@ -1,17 +1,16 @@
 //! From pieces of mesh edges to lines on paper:
 //!
-//! 1. `chain`     mesh edges that continue one another become chains (source edges come as chains already, and
-//!    `candidates` are the contours of the mesh)
-//! 2. `runs`      along a chain: equal states join, doubtful and short ones are settled, lines are cut out
-//! 3. `coincident`     of lines that coincide on paper one is kept; visible beats hidden; `gaps` are what is left out
-//! 4. `specks`    what is shorter than the accuracy, even with all it connects to, is dropped
-//! 5. `simplify`  vertices that the accuracy does not need are left out
+//! 1. `chain`       mesh edges that continue one another become chains (edges of the source are chains already;
+//!    `candidates` adds the contours of the mesh)
+//! 2. `runs`        along a chain equal states join, doubtful and short runs are decided, and lines are cut out
+//! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others
+//! 4. `specks`      figures shorter than the accuracy, with all they connect to, are dropped
+//! 5. `simplify`    vertices that the accuracy does not need are left out
 //!
-//! Where others end (`ends`), creases of meshes keep their vertices. Their contours are smoothed instead
+//! Creases of meshes keep their vertices where other lines end (`ends`). Contours of meshes are smoothed instead
 //! (`fit::smooth`).
 //!
-//! `cut` goes through these steps. `finish` puts the lines on their curves: then they are those of a drawing
-//! (`drawing`).
+//! `cut` runs these steps. `finish` puts the lines on their curves and returns the lines of a `drawing`.
 
 pub mod camera;
 pub mod candidates;
@@ -29,7 +28,7 @@ pub mod specks;
 #[cfg(test)]
 mod tests;
 
-/// A line on paper with its twin in space, point for point.
+/// A line as points on paper and the same points in space.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyline {
     pub chain: u32,
@@ -38,7 +37,7 @@ pub struct Polyline {
     pub space: Vec<[f64; 3]>,
 }
 
-/// Where depth is measured from, and along what; perspective views map depth z to 1 / z on paper.
+/// The origin and direction of depth. Along a line on paper, z is linear in a parallel view, and 1 / z in perspective.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     pub origin: [f64; 3],
@@ -52,7 +51,7 @@ impl View {
         q[0] * self.away[0] + q[1] * self.away[1] + q[2] * self.away[2]
     }
 
-    /// The parameter in space of the point at parameter t on paper, between depths za and zb.
+    /// The parameter in space of the point at parameter t on paper, on a segment between depths za and zb.
     pub fn in_space(&self, t: f64, za: f64, zb: f64) -> f64 {
         if self.perspective { t * za / (t * za + (1.0 - t) * zb) } else { t }
     }

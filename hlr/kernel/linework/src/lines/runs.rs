@@ -2,8 +2,8 @@
 //! cuts the chain into lines.
 //!
 //! ```text
-//!   states   V V V D H H H W W W W W V     W: hidden by less than the contact tolerance; D: and diving
-//!   settled  V V V H H H H V V V V V V     a D is a stub of the tolerance; a W is a contact
+//!   states   V V V D H H H W W W W W V     W: hidden by less than the contact tolerance; D: W that leads to H
+//!   decided  V V V H H H H V V V V V V     D is a stub left by the tolerance, so hidden; W is a contact, so visible
 //! ```
 
 use super::{Polyline, View, distance};
@@ -31,8 +31,8 @@ pub struct Geometry<'a> {
 }
 
 impl Geometry<'_> {
-    /// The contour of a mesh folds back and forth by an edge or two where the surface curves like a saddle, and hides
-    /// itself there: changes of visibility over such lengths say nothing of the shape.
+    /// The length (mm on paper) below which hidden runs of a mesh contour are noise. On saddle-shaped surfaces such a
+    /// contour folds back and forth by an edge or two and hides itself there.
     pub fn noise(&self, edges: &[i32], short: f64) -> f64 {
         let total: f64 = edges
             .iter()
@@ -48,12 +48,12 @@ const NOISE_EDGES: f64 = 2.5;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// A run shorter than this takes the state of what lies beside it.
+    /// A run shorter than this takes the state of its neighbours.
     pub short: f64,
-    /// A diving run shorter than this is hidden.
+    /// A run in state D (see above) shorter than this is hidden.
     pub stub: f64,
-    /// A hidden run shorter than this between visible ones is visible: a contour that its own folds hide. Never the
-    /// other way round, for a true outline may be broken into many such runs.
+    /// A hidden run shorter than this between visible ones is visible: only the contour's own folds hide it. A short
+    /// visible run never becomes hidden so, for a true outline may be broken into many such runs.
     pub noise: f64,
 }
 
@@ -105,7 +105,7 @@ impl Chain<'_> {
             let (a, b) = self.ends(k);
             broken |= k > 0 && self.ends(k - 1).1 != a;
             if pieces.is_empty() {
-                // Seen end-on the chain goes on through it; anything longer was clipped away.
+                // An edge seen end-on has no pieces; the chain continues. Other edges without pieces were clipped.
                 broken |= g.flat[a] != g.flat[b];
                 continue;
             }
@@ -125,7 +125,7 @@ impl Chain<'_> {
         out
     }
 
-    /// One stretch that ends where it begins, with nothing clipped away in between.
+    /// Whether there is one stretch that ends where it begins, with nothing clipped away in between.
     fn closed(&self, stretches: &[Vec<Run>]) -> bool {
         let [runs] = stretches else { return false };
         let last = self.edges.len() - 1;
@@ -163,7 +163,7 @@ fn join(runs: &mut Vec<Run>, run: Run) {
     runs.push(run);
 }
 
-/// A doubtful run is a stub's beginning where a stub goes on from it, on the next edge of a chain of many short ones.
+/// Whether a W run is the beginning of a stub: a D run lies next to it, and both together are shorter than a stub.
 fn dives(runs: &[Run], i: usize, stub: f64, closed: bool) -> bool {
     beside(runs, i, closed)
         .into_iter()
@@ -171,7 +171,7 @@ fn dives(runs: &[Run], i: usize, stub: f64, closed: bool) -> bool {
         .any(|next| next.state == State::Diving && runs[i].length + next.length < stub)
 }
 
-/// Join neighbours that have come to the same state.
+/// Joins neighbours that now have the same state.
 fn rejoin(runs: Vec<Run>) -> Vec<Run> {
     let mut out = Vec::with_capacity(runs.len());
     for run in runs {
@@ -180,7 +180,7 @@ fn rejoin(runs: Vec<Run>) -> Vec<Run> {
     out
 }
 
-/// States beside run i; a closed chain goes round.
+/// The runs before and after run i; a closed chain wraps around.
 fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
     let n = runs.len();
     let before = if i > 0 { Some(&runs[i - 1]) } else { (closed && n > 1).then(|| &runs[n - 1]) };
@@ -189,7 +189,7 @@ fn beside(runs: &[Run], i: usize, closed: bool) -> [Option<&Run>; 2] {
 }
 
 fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
-    // A contact is seen, however short; a stub that is as long as this is a contact, too.
+    // A contact is visible, however short. A D run of at least the stub length is a contact, too.
     let states: Vec<State> = (0..runs.len())
         .map(|i| match runs[i].state {
             State::Within if !dives(&runs, i, limits.stub, closed) => State::Visible,
@@ -218,7 +218,7 @@ fn settle(mut runs: Vec<Run>, limits: &Limits, closed: bool) -> Vec<Run> {
             break;
         }
         if wraps && ends && runs[0].length + runs[runs.len() - 1].length >= limits.short {
-            // The first and the last run are one, long enough; nothing shorter is left to look at beyond them.
+            // The first and the last run are one run, and together long enough: only inner runs are left to check.
             let shortest_inner = (1..runs.len() - 1).min_by(|&i, &j| runs[i].length.total_cmp(&runs[j].length));
             match shortest_inner {
                 Some(k) if runs[k].length < limits.short => flip(&mut runs, k),
@@ -298,7 +298,7 @@ mod tests {
     /// (visible, from, to) of its perimeter.
     fn around(edges: &[(State, f64)], first: usize, limits: &Limits) -> Vec<(bool, f64, f64)> {
         let n = edges.len();
-        // Out along one side and back along the other: places on the perimeter are told apart by their height.
+        // Out along one side and back along the other: the height tells the two sides apart.
         let total: f64 = edges.iter().map(|e| e.1).sum();
         let starts: Vec<f64> = (0..n).map(|i| edges[..i].iter().map(|e| e.1).sum()).collect();
         let corner = (0..n).find(|&i| (starts[i] - 0.5 * total).abs() < 1e-9).expect("a vertex halfway");
@@ -324,10 +324,10 @@ mod tests {
     #[test]
     fn lines_around_a_closed_chain_do_not_depend_on_where_it_begins() {
         use State::{Hidden as H, Visible as V};
-        // Of a whole of 12: a hidden run of 0.3 is too short; what is visible around it is not, cut or not.
+        // Perimeter 12: a hidden run of 0.3 is too short; the visible ones around it are not, wherever the chain starts.
         let short_gap = [(V, 0.1), (H, 2.9), (V, 3.0), (V, 1.0), (H, 3.0), (V, 1.25), (H, 0.3), (V, 0.45)];
         let mirrored: Vec<(State, f64)> = short_gap.iter().rev().copied().collect();
-        // A visible run of 0.2, here or there in two.
+        // A visible run of 0.2, which may be cut in two by the start of the chain.
         let short_run = [(V, 0.1), (H, 2.9), (H, 0.1), (V, 2.9), (H, 3.0), (H, 2.9), (V, 0.1)];
         let noisy = Limits { noise: 0.45, ..LIMITS };
         for first in 0..short_gap.len() {

@@ -20,7 +20,7 @@ pub fn off<const N: usize>(p: &[f64; N], a: &[f64; N], b: &[f64; N]) -> f64 {
     d2.sqrt()
 }
 
-/// Of a line; vertices that are `wanted` stay.
+/// Simplifies one line. `wanted`: per vertex, whether it must stay.
 pub fn simplify(line: &mut Polyline, wanted: &[bool], flat_tolerance: f64, space_tolerance: f64) {
     let n = line.flat.len();
     if n < 3 {

@@ -3,8 +3,8 @@
 //! An edge shorter than the accuracy may be one of a thousand that make up a long profile, so length is measured over
 //! whole connected figures: lines of one visibility whose ends meet.
 //!
-//! Edges seen almost end-on hang on longer lines as dots. Those of a quarter of the accuracy are dropped wherever they
-//! hang, unless many of them in a row make up something longer.
+//! Edges seen almost end-on appear as dots at longer lines. Those shorter than a quarter of the accuracy are dropped
+//! even where they meet other lines, unless many of them in a row make up something longer.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ pub fn drop_specks(lines: &mut Vec<Polyline>, shortest: f64) {
     drop_small(lines, |_| true, shortest);
 }
 
-/// Drop figures shorter than `shortest` that are made of `chosen` lines, whatever others they hang on.
+/// Drops figures shorter than `shortest` made of `chosen` lines, even where they meet lines that are not chosen.
 fn drop_small(lines: &mut Vec<Polyline>, chosen: impl Fn(&Polyline) -> bool, shortest: f64) {
     let chosen: Vec<bool> = lines.iter().map(chosen).collect();
     let mut group: Vec<usize> = (0..lines.len()).collect();

@@ -1,4 +1,4 @@
-//! From pieces of edges to the lines of a drawing, all the way that drawings go.
+//! Tests of the whole way from pieces of edges to the lines of a drawing.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +32,7 @@ impl Ring {
         (0..n).map(|i| [i, (i + 1) % n]).collect()
     }
 
-    /// One piece per edge; `hidden` lines are asked for, or not.
+    /// The lines of the ring, with one piece per edge. `hidden`: whether hidden lines are drawn.
     fn drawn(&self, state: impl Fn(usize) -> State, hidden: bool, stop: bool) -> Option<Lines> {
         let edges = self.edges();
         let mut chains = Chains::new();

@@ -1,8 +1,8 @@
 //! Finds where the sign of f = N . v changes along the edges of the mesh.
 //!
 //! ```text
-//!        +                       +   crossing of face A      the two faces at an edge change sign at different
-//!       / \                    - A -+=====+--                places where they are tangent only nearly: there the
+//!        +                       +   crossing of face A      if the two faces at an edge are only nearly tangent,
+//!       / \                    - A -+=====+--                they change sign at different places: in between, the
 //!      x---x  two crossings        B      crossing of B      edge itself is the fold (=====)
 //!     /     \  per triangle
 //!    -       -
@@ -17,16 +17,16 @@ use super::side::{Side, side};
 use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, cross, dot, length, sub, unit};
 
-/// A change of sign on an edge, on one face of it, or on both where they are one surface.
+/// A change of sign on an edge: on one of its faces, or on both where they are one surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Crossing {
-    /// The edge, where it is the border of a face or parts it.
+    /// The edge, where it is the border of a face or divides it.
     pub border: Option<u32>,
     pub triangles: [i32; 2],
     pub place: Place,
 }
 
-/// An end of a fold: a crossing of the list, or a vertex of the mesh.
+/// An end of a fold: a crossing (its number), or a vertex of the mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Node {
     Crossing(u32),
@@ -150,8 +150,8 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
     out
 }
 
-/// Two triangles of one face that share both nodes: the crossing is one and the same. The nodes of a pole are one, for
-/// their parameter along it means nothing.
+/// Whether two triangles of one face share both nodes of an edge, so that they have one crossing. All nodes of a pole
+/// count as one: their parameter around the pole has no meaning.
 fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
     let (s, t) = (around[0] as usize, around[1] as usize);
     if model.triangle_face[s] != model.triangle_face[t] {
@@ -167,7 +167,7 @@ fn same_nodes(model: &Model, values: &[f64], e: usize, around: &[i32]) -> bool {
     })
 }
 
-/// Whether f has one sign at both ends of an edge within a face; not told of the ends at poles.
+/// Whether f has one sign at both ends of an edge within a face; false if an end is at a pole.
 fn keeps_sign(model: &Model, values: &[f64], e: usize, t: i32) -> bool {
     let away = |v: i32| {
         let k = model.triangles[t as usize].iter().position(|&c| c == v)?;
@@ -204,15 +204,15 @@ fn folded(model: &Model, e: usize, sides: &[Side], at: [Option<(f64, u32, Place)
             normal,
             rise: [pair[0].2, pair[1].2].map(|p| rise(model, &triangles, &p, &outward(&normal, concave))),
             face: sides[front].number,
-            // A seam is no edge of the surface: the outline goes on beside it.
+            // A seam is no edge of the surface: the outline continues beside it.
             source: if sides[0].number == sides[1].number { -1 } else { model.source[e] },
             concave,
         });
     }
 }
 
-/// Whether the surfaces beside a fold bend toward their normals along the sight: on the curved side, or, where neither
-/// tells, between the two.
+/// Whether the surfaces beside a fold bend toward their normals along the line of sight: judged on a curved side, or,
+/// if both are flat, between the two.
 fn concave(model: &Model, e: usize, sides: &[Side], t: f64) -> bool {
     let bend: f64 = sides
         .iter()

@@ -1,5 +1,5 @@
-//! The curve along a silhouette: a circle where that is known in closed form, else cubic pieces through its points with
-//! the tangents there.
+//! The curve along a silhouette: a circle where that is exact, otherwise cubic pieces through its points with their
+//! tangents.
 
 use super::face::Face;
 use hlr_accuracy::{OUTLINE_CIRCLE, OUTLINE_TANGENT_STEP};
@@ -7,10 +7,10 @@ use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::nurbs::Nurbs;
 use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 
-/// Cosine between a tangent and the way from point to point below which it is not believed.
+/// Cosine of the angle between a tangent and the chord to the next point; below this the tangent is not used.
 const ASTRAY: f64 = 0.3;
 
-/// The direction on the surface along which f stays 0; None where f does not change to any side.
+/// The direction on the surface along which f stays constant; None where the gradient of f vanishes.
 pub fn tangent(face: &Face, uv: [f64; 2], chord: f64) -> Option<Vector> {
     let [du, dv] = face.derivatives(uv);
     let speed = [length(&du), length(&dv)];
@@ -43,7 +43,7 @@ pub fn circle(face: &Face, points: &[Vector], chord: f64) -> Option<Curve> {
         let q = sub(p, &centre);
         dot(&q, &axis).abs() <= OUTLINE_CIRCLE * chord && (length(&q) - radius).abs() <= OUTLINE_CIRCLE * chord
     };
-    // It runs the way of the points.
+    // The circle runs in the order of the points.
     let way = cross(&arm, &sub(&points[1], &points[0]));
     let axis = if dot(&way, &axis) < 0.0 { scaled(&axis, -1.0) } else { axis };
     points.iter().all(on).then(|| Curve::Ellipse { p: centre, a: arm, b: cross(&axis, &arm) })
@@ -79,7 +79,7 @@ pub fn through(points: &[Vector], tangents: &[Option<Vector>]) -> Option<Nurbs> 
     let mut poles = vec![points[0]];
     for i in 0..last {
         let (p, q, t, u) = (&points[i], &points[i + 1], &ways[i], &ways[i + 1]);
-        // Arms as long as those of a circular arc that turns as much.
+        // Control points at the distance they have on a circular arc that turns as much.
         let half = (0.5 * (1.0 + dot(t, u).clamp(-0.5, 1.0))).sqrt();
         let span = 2.0 * length(&sub(q, p)) / (1.0 + half);
         poles.push(add(p, &scaled(t, span / 3.0)));
@@ -103,7 +103,7 @@ mod tests {
     fn pieces_through_a_helix_stay_near_it() {
         let at = |t: f64| ([t.cos(), t.sin(), 0.3 * t], unit(&[-t.sin(), t.cos(), 0.3]));
         let (points, mut tangents): (Vec<Vector>, Vec<_>) = (0..=20).map(|i| at(f64::from(i) * 0.2)).unzip();
-        // Turned round, not known, or not to be believed: the others hold.
+        // One tangent reversed, one unknown and one wrong: the others still decide the curve.
         tangents[3] = tangents[3].map(|t| scaled(&t, -1.0));
         let Some(curve) = through(&points, &tangents) else { panic!() };
         let (low, high) = curve.domain();

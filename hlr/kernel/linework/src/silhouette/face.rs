@@ -48,7 +48,7 @@ impl<'a> Face<'a> {
         self.outward(self.surface.normal(uv))
     }
 
-    /// None where the surface has no normal.
+    /// f at a place of the surface; None where it has no normal.
     pub fn f(&self, uv: [f64; 2]) -> Option<f64> {
         let (p, n) = self.surface.placed(uv);
         Some(dot(&self.outward(n)?, &self.sight_of(&p)))
@@ -59,13 +59,13 @@ impl<'a> Face<'a> {
         if self.model.view.perspective { self.model.sight(&self.moved(p)) } else { self.model.view.away }
     }
 
-    /// The same at a pole: that of a place close by, toward other parameters.
+    /// f at a pole, taken from a place close by in the direction of the parameters `beside`.
     pub fn f_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<f64> {
         let n = self.outward(self.surface.normal_toward(uv, beside))?;
         Some(dot(&n, &self.model.sight(&self.point(uv))))
     }
 
-    /// The same at a pole.
+    /// The point and normal at a pole, taken as in `f_toward`.
     pub fn at_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Place> {
         let normal = self.outward(self.surface.normal_toward(uv, beside))?;
         Some(Place { uv, point: self.point(uv), normal })
@@ -76,18 +76,18 @@ impl<'a> Face<'a> {
         Some(Place { uv, point: self.moved(&p), normal: self.outward(n)? })
     }
 
-    /// The derivatives by both parameters.
+    /// The derivatives of the surface by u and v.
     pub fn derivatives(&self, uv: [f64; 2]) -> [Vector; 2] {
         let (_, du, dv) = self.surface.d1(uv);
         [self.turned(&du), self.turned(&dv)]
     }
 
-    /// Their lengths.
+    /// The lengths of the derivatives by u and v.
     pub fn speeds(&self, uv: [f64; 2]) -> [f64; 2] {
         self.derivatives(uv).map(|d| length(&d))
     }
 
-    /// A point of the axis of revolution and its direction; not of a sphere.
+    /// A point on the axis of revolution and the axis direction; None for a sphere.
     pub fn axis(&self) -> Option<(Vector, Vector)> {
         let (origin, axis) = self.surface.axis()?;
         Some((self.moved(&origin), unit(&self.turned(&axis))?))
@@ -119,7 +119,7 @@ impl<'a> Face<'a> {
         }
     }
 
-    /// Steps of u and v for a unit of length along the sight, as far as it lies in the tangent plane.
+    /// Steps of u and v per unit of length along the line of sight projected into the tangent plane.
     pub fn along_sight(&self, uv: [f64; 2]) -> Option<[f64; 2]> {
         let (p, du, dv) = self.surface.d1(uv);
         let (du, dv, sight) = (self.turned(&du), self.turned(&dv), self.model.sight(&self.moved(&p)));
@@ -129,9 +129,9 @@ impl<'a> Face<'a> {
         way.iter().all(|x| x.is_finite()).then_some(way)
     }
 
-    /// How f grows along the line of sight, per length: positive where the surface bends away from its normal, before
-    /// and behind, so that the sight passes over it; negative where it bends toward it and the sight lies within the
-    /// body.
+    /// The growth of f per length along the line of sight. Positive: the surface bends away from its normal, and the
+    /// line of sight passes outside the body. Negative: the surface bends toward its normal, and the line of sight
+    /// lies within the body.
     pub fn radial(&self, uv: [f64; 2]) -> f64 {
         let Some([a, b]) = self.along_sight(uv) else { return 0.0 };
         let sight = self.model.sight(&self.point(uv));
@@ -224,10 +224,11 @@ pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
     (near && dot(&place.normal, &sight).abs() < 1e-8).then_some(place)
 }
 
-/// Share of a chord: a curve over one triangle bows out by less, for the normals turn by half a radian at most.
+/// How far a curve over one triangle may rise above its chord, as a share of the chord. Normals turn by at most half a
+/// radian there.
 const BOW: f64 = 0.2;
 
-/// The middle of two places of one face, moved onto the silhouette.
+/// The middle between two places of one face, moved onto the silhouette.
 pub fn between(face: &Face, a: &Place, b: &Place, share: f64) -> Option<Place> {
     let size = length(&sub(&b.point, &a.point));
     let uv = [0, 1].map(|k| a.uv[k] + (b.uv[k] - a.uv[k]) * share);

@@ -17,8 +17,8 @@ use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub, unit};
 use hlr_visibility::scan::own_faces::Beside;
 
-/// A stretch of the border of a face that is seen nearly edge-on there: of an edge from one parameter to another,
-/// between places where a face at this edge turns over.
+/// A stretch of the border of a face that is seen nearly edge-on there: the part of an edge between two parameters at
+/// which a face of this edge turns over.
 #[derive(Clone, Copy, Debug)]
 pub struct Grazing {
     pub edge: u32,
@@ -28,23 +28,23 @@ pub struct Grazing {
     pub normals: [Vector; 2],
     pub front: bool,
     pub beside: Beside,
-    /// The face is turned toward the viewer, but its triangle here is not: the chord cuts a bend off.
+    /// The face is turned toward the viewer, but its triangle here is not, because the chord cuts off a bend.
     pub dented: bool,
-    /// At both ends, as in a `Stretch`, of the first face that turns over along this edge; nothing of others.
+    /// The rise at both ends, as in a `Stretch`, for the first face that turns over along this edge; None for others.
     pub rise: Option<[f64; 2]>,
 }
 
-/// |N . v|: a face seen more openly than this does not get in front of its own border by what its triangles are off.
+/// |N . v|: triangles of a face seen at more than this do not hide its own border through their deflection.
 const GRAZE: f64 = 0.3;
 
-/// |N . v|: a face, or a triangle, seen at less is a wall along the sight: rounding decides what it hides.
+/// |N . v|: a face or triangle seen at less is parallel to the line of sight; rounding would decide what it hides.
 const WALL: f64 = 1e-6;
 
-/// Share of the square of its longer side: a triangle with less area has no normal to be trusted.
+/// Area as a share of the square of the longer side: the normal of a triangle with less is not reliable.
 const NEEDLE: f64 = 1e-9;
 
-/// Places along an edge at which is asked how its faces are turned: a straight border of a twisted face is a single
-/// chord, however often the face turns over along it.
+/// Samples along an edge at which the direction of its faces is evaluated. A straight border of a twisted face is a
+/// single chord, however often the face turns over along it.
 const ASKED: usize = 8;
 
 pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut Vec<Grazing>) {
@@ -73,7 +73,7 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut
 }
 
 fn dented(model: &Model, side: &Side) -> bool {
-    // A wall along the sight is not turned toward the viewer.
+    // A face parallel to the line of sight is not turned toward the viewer.
     if side.f.iter().any(|&f| f > TIE) || side.f.iter().all(|&f| f >= -TIE) {
         return false;
     }
@@ -101,14 +101,14 @@ fn plane_normal(model: &Model, triangle: i32) -> Option<Vector> {
     })
 }
 
-/// What the two faces of an edge do to it at one parameter, if the body is closed.
+/// Whether the two faces of an edge hide it at one parameter, if the body is closed.
 fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Beside {
     let &[s, u] = around else { return Beside::Unknown };
     let sight = model.sight(&on_edge(model, e, t));
     let normal = |triangle: i32| match sides.iter().find(|side| side.triangle == triangle) {
         Some(side) => Some(side.at(t).map_or(side.normal, |place| place.normal)),
         None if model.faces[model.triangle_face[triangle as usize] as usize].curved => None,
-        // The plane's own: a triangle between points that are nearly in one line has any normal.
+        // The normal of the plane itself: a triangle whose corners are nearly in one line may have any normal.
         None => plane_normal(model, triangle),
     };
     let (Some(m), Some(n)) = (normal(s), normal(u)) else { return Beside::Unknown };
@@ -128,8 +128,8 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     }
 }
 
-/// Where a face turns over along its edge, from 0 on, and the sign of f from there on: 0 where it is a wall along the
-/// sight.
+/// The parameters (from 0) at which a face turns over along its edge, each with the sign of f from there on. The sign
+/// is 0 where the face is parallel to the line of sight.
 fn turns(side: &Side) -> Vec<(f64, f64)> {
     let Some(face) = &side.face else { return Vec::new() };
     let uv = |t: f64| [0, 1].map(|k| side.uv[0][k] + (side.uv[1][k] - side.uv[0][k]) * t);
@@ -169,7 +169,7 @@ mod tests {
     use crate::lines::View;
     use hlr_brep::geometry::surface::Surface;
 
-    /// Corners of a planar face on one border line, off it by rounding: the needle between them is turned any way.
+    /// Corners of a planar face on one border line, off it by rounding: the needle between them may have any normal.
     #[test]
     fn a_needle_has_the_normal_of_its_plane() {
         let points =

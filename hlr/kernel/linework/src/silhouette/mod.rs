@@ -1,18 +1,18 @@
 //! Silhouettes: the curves on the true surfaces where the normal is square to the line of sight, N . v = 0.
 //!
 //! After A. Hertzmann, D. Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000: the sign of f = N . v at the nodes of
-//! the tessellation, taken from the exact normals, parts the mesh in front and back; the border of the parts crosses
-//! each triangle at most once, so it never branches and never turns back on the facets, as the contour of the mesh
-//! does.
+//! the tessellation, taken from the exact normals, divides the mesh into front and back. The border between them
+//! crosses each triangle at most once, so it never branches and never zigzags from facet to facet, as the contour of
+//! the mesh does.
 //!
 //! ```text
 //! 1. `face`     f on the true surface of a face, and how the surface curves along the line of sight
-//!    `wrinkle`  where the surface turns over and back within less than the tolerance it does not turn
-//! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at an
-//!               edge do not change at the same place, the edge itself folds between, so that no gap is left
-//!    `grazing`  borders of faces that are seen nearly edge-on, and what these faces do to them
-//! 3. `refine`   between crossings: points on the surface until the chords are near enough; parted at cusps
-//! 4. `trace`    joined into curves, which are divided where the face, the edge or the sign of the curvature changes,
+//!    `wrinkle`  removes changes of sign where the surface turns over and back within less than the tolerance
+//! 2. `contour`  mesh edges where f changes its sign: the crossing is found on the true surface; where the two faces at
+//!               an edge change sign at different places, the edge itself is the fold in between, so no gap is left
+//!    `grazing`  borders of faces that are seen nearly edge-on, and whether these faces hide them
+//! 3. `refine`   adds points on the surface between crossings until the chords are near enough; divides at cusps
+//! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
 //!    `split`    and where the image of a curve would lie on itself
 //! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
 //! ```
@@ -37,7 +37,7 @@ mod tests;
 use crate::lines::View;
 use hlr_brep::geometry::surface::Surface;
 
-/// |N . v| up to here counts as nothing: a view along an axis that the file rounds.
+/// |N . v| up to this counts as 0, so that views along an axis work although the file rounds its numbers.
 pub const TIE: f64 = 5e-7;
 
 /// The mesh and the surfaces under it, borrowed.
@@ -49,23 +49,23 @@ pub struct Model<'a> {
     /// Triangles incident to edge e: incident[offsets[e]..offsets[e + 1]].
     pub offsets: &'a [i32],
     pub incident: &'a [i32],
-    /// Edges across which the surface goes on smoothly.
+    /// Edges across which the surface continues smoothly.
     pub smooth: &'a [bool],
     /// The edge of the B-rep of which an edge is a chord, -1 for none.
     pub source: &'a [i32],
-    /// Per triangle corner its place in uv.
+    /// Per triangle corner, the index of its node in `uv`.
     pub corner: &'a [[i32; 3]],
     pub uv: &'a [[f64; 2]],
     pub faces: Vec<FaceRecord>,
     pub surfaces: &'a [Option<Surface>],
     pub view: View,
-    /// How far chords may stay off the curve, in the model.
+    /// How far chords may be off the curve, in model units.
     pub chord: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub struct FaceRecord {
-    /// In `surfaces`; None where outlines are not asked for or not known.
+    /// Index into `surfaces`; None where outlines are not asked for or the surface is not known.
     pub surface: Option<u32>,
     /// Rows of the matrix from the surface's frame into the model.
     pub place: [[f64; 4]; 3],

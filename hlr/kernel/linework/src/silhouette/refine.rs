@@ -29,26 +29,27 @@ impl Stretch {
     }
 }
 
-/// Away from the facets at a silhouette of this kind; seen from inside, against the normal.
+/// The direction away from the facets at a silhouette: the normal, or its opposite where the surface is concave.
 pub fn outward(normal: &Vector, concave: bool) -> Vector {
     if concave { normal.map(|x| -x) } else { *normal }
 }
 
-/// How far the corners of triangles stand out beyond the plane through a point, square to a unit normal. Corners lie on
-/// the surface: nothing does where it is convex, and by a chord's bulge where it is a saddle.
+/// How far (model units) the corners of triangles stand out beyond the plane through a point with a given unit normal.
+/// Corners lie on the surface, so this is 0 where it is convex, and at most a chord's bulge where it is a saddle.
 pub fn rise(model: &Model, triangles: &[i32], point: &Vector, normal: &Vector) -> f64 {
     let corners = triangles.iter().filter(|&&t| t >= 0).flat_map(|&t| model.triangles[t as usize]);
     corners.map(|v| dot(&sub(&model.points[v as usize], point), normal)).fold(0.0, f64::max)
 }
 
 const DEEPEST: u32 = 6;
-/// Curvature along the sight times the chord tolerance: less is straight.
+/// Curvature along the line of sight times the chord tolerance: a surface with less is straight.
 const STRAIGHT: f64 = 1e-9;
 
-/// |N . v| in the middle of what can only be a short cut from one curve to another.
+/// |N . v| in the middle of a stretch: with more, the stretch can only be a short cut from one curve to another.
 const ASTRAY: f64 = 0.3;
 
-/// The stretch between two crossings; none where a triangle is so large that two curves which leave the face cross it.
+/// The stretches between two crossings of one triangle. Empty if the triangle is so large that two different curves,
+/// which both leave the face, cross it.
 pub fn stretches(model: &Model, triangle: i32, face: &Face, from: Place, to: Place) -> Vec<Stretch> {
     let chord = model.chord;
     let mut places = vec![from];
@@ -87,7 +88,7 @@ fn divide(face: &Face, a: &Place, b: &Place, chord: f64, depth: u32, out: &mut V
         return;
     }
     let Some(middle) = between(face, a, b, 0.5) else { return };
-    // The sagitta alone may be nothing by chance where the curve turns back and forth: normals tell more.
+    // The sagitta alone may be 0 by chance where the curve bends back and forth, so the normals are compared, too.
     if from_line(&middle.point, &a.point, &b.point) <= chord {
         return;
     }

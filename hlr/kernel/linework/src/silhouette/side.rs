@@ -4,7 +4,7 @@ use super::face::{Face, Place, root};
 use super::{Model, TIE};
 use hlr_brep::geometry::vector::{Vector, dot};
 
-/// One triangle at an edge a-b: f at both, and the parameters of both.
+/// One triangle at an edge a-b, with f and the surface parameters at a and b.
 pub struct Side<'a> {
     pub triangle: i32,
     pub number: i32,
@@ -25,7 +25,7 @@ impl Side<'_> {
         self.away(0) != self.away(1)
     }
 
-    /// The parameter of the change along a-b.
+    /// The parameter along a-b at which f changes sign.
     pub fn change(&self) -> f64 {
         let Some(face) = &self.face else { return 0.5 };
         let back = usize::from(!self.away(0));
@@ -50,7 +50,7 @@ pub fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Optio
     let nodes = &model.corner[t as usize];
     let record = &model.faces[number as usize];
     if !record.curved {
-        // A plane: one normal, whichever place is asked.
+        // A plane has the same normal everywhere.
         let normal = Face::new(model, number)?.normal(model.uv[nodes[i] as usize])?;
         let f = [a, b].map(|v| dot(&normal, &model.sight(&model.points[v as usize])));
         return Some(Side { triangle: t, number, corners: [a, b], uv: [[0.0; 2]; 2], f, face: None, normal });
@@ -64,7 +64,7 @@ pub fn side<'a>(model: &'a Model<'a>, values: &[f64], e: usize, t: i32) -> Optio
     let mut ends = [uv[i], uv[j]];
     for k in 0..2 {
         if pole[k] {
-            // The parameter that means nothing there is that of the other end.
+            // At a pole one parameter has no meaning; it is taken from the other end.
             let speed = face.speeds(ends[k]);
             let idle = usize::from(speed[1] < speed[0]);
             ends[k][idle] = ends[1 - k][idle];

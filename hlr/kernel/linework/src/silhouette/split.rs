@@ -1,4 +1,4 @@
-//! Splits a curve so that the image of no piece lies on itself, and decides in which direction each runs.
+//! Splits a curve so that the image of no piece lies on itself, and decides the direction of each piece.
 
 use std::cmp::Ordering;
 
@@ -6,13 +6,13 @@ use super::Model;
 use super::refine::Stretch;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub};
 
-/// Cosine of the turn that is one back.
+/// Cosine of the turn (measured from straight back) within which the image counts as turning back.
 const BACK: f64 = 0.7;
 /// Radians; a curve that closes after one turn stays whole.
 const TURN: f64 = std::f64::consts::TAU;
 const SLACK: f64 = 0.2;
 
-/// Whether the image of two stretches goes back from where they meet, so that the two may lie on one another.
+/// Whether the image turns back where two stretches meet, so that the two may lie on one another.
 pub fn turns_back(model: &Model, a: &Stretch, b: &Stretch) -> bool {
     let sight = model.sight(&b.from);
     let (p, q) = (image(a, &sight), image(b, &sight));
@@ -49,7 +49,7 @@ fn image(s: &Stretch, sight: &Vector) -> Vector {
     along(&way, sight, -dot(&way, sight))
 }
 
-/// The stretches of a curve from its lower end on; a closed one from its lowest point toward the lower neighbour.
+/// The stretches of a curve from its lower end; of a closed curve from its lowest point toward the lower neighbour.
 pub fn canonical(run: &[(i32, Stretch)], closed: bool) -> Vec<(i32, Stretch)> {
     let mut out = run.to_vec();
     let last = out.len() - 1;

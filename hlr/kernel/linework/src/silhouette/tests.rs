@@ -1,4 +1,4 @@
-//! Outlines of simple bodies, as the whole of the tracer gives them.
+//! Outlines of simple bodies, traced by all steps together.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use crate::lines::View;
 const SIDES: usize = 24;
 const RADIUS: f64 = 2.0;
 
-/// One face without a seam in its mesh: its corners in (u, v) count on beyond a whole turn.
+/// One face without a seam in its mesh: u of its corners continues beyond a whole turn.
 struct Body {
     points: Vec<Vector>,
     triangles: Vec<[i32; 3]>,

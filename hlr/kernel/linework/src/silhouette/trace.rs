@@ -23,14 +23,14 @@ pub struct Silhouette {
     pub concave: bool,
     pub points: Vec<Vector>,
     pub normals: Vec<Vector>,
-    /// Of every point, as in a `Stretch`.
+    /// The rise at every point, as in a `Stretch`.
     pub rise: Vec<f64>,
     /// None where it is straight, or runs along an edge of the B-rep: `source`, else -1.
     pub curve: Option<Curve>,
     pub source: i32,
 }
 
-/// All that is found: the curves, and the edges whose faces are seen nearly edge-on.
+/// The result: the curves, and the edges whose faces are seen nearly edge-on.
 pub struct Traced {
     pub silhouettes: Vec<Silhouette>,
     pub grazing: Vec<Grazing>,
@@ -94,7 +94,7 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
     for walk in walks(&links) {
         parted(&links, &walk, &same, model, &mut out);
     }
-    // The order of triangles is not to be seen.
+    // The result must not depend on the order of triangles.
     out.sort_by(|a, b| a.face.cmp(&b.face).then_with(|| in_order(&a.points, &b.points)));
     Some(Traced { silhouettes: out, grazing })
 }
@@ -143,7 +143,7 @@ fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing)
     })
 }
 
-/// Where two curves that run into one apex go on as one, it is but a pole of the parameters.
+/// Joins two curves that run into one apex and continue each other there: it is only a pole of the parameters.
 fn through_poles(links: &mut [Link]) {
     let poles: HashSet<u32> = links
         .iter()
@@ -257,7 +257,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
     for &(i, backward) in walk {
         let link = &links[i];
         let mut own = link.stretches.clone();
-        // Both faces at a joint end in the very same point.
+        // The curves of both faces at a joint end in exactly the same point.
         let (first, last) = (0, own.len() - 1);
         if let Some(p) = same.place.get(&link.ends[0]) {
             own[first].from = *p;
@@ -278,7 +278,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
     if pieces.is_empty() {
         return;
     }
-    // Near a pole rounding decides how the surface bends: over less than the tolerance it says nothing.
+    // Near a pole rounding decides the sign of the curvature: over less than the tolerance it is ignored.
     let n = pieces.len();
     for k in if closed { 0..n } else { 1..n.max(2) - 1 } {
         let (before, after) = (pieces[(k + n - 1) % n].1.concave, pieces[(k + 1) % n].1.concave);

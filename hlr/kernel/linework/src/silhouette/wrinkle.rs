@@ -1,11 +1,11 @@
 //! Wrinkles: strips and spots of a face that turn over and back without rising above the tolerance.
 //!
-//! Spline surfaces have them at their knots, where one patch dips against the next by a hair. Wherever a node of the
-//! mesh happens to lie in one, N . v changes its sign and changes back, and the drawing would show a row of dashes
-//! beside nothing. A patch of nodes is taken for its surroundings if, from each of them, the surface turns back that
-//! soon. How far it has risen over that way w along the sight is some N . v times w at most. Next to the patch's rim
-//! that is told by the mesh; from nodes amid the patch the line of sight is followed on the surface, so that a finer
-//! mesh says the same.
+//! Spline surfaces have them at their knots, where one patch dips slightly below the next. Wherever a node of the mesh
+//! happens to lie in one, N . v changes its sign and changes back, and the drawing would show a row of meaningless
+//! dashes. A set of connected nodes with one sign is a wrinkle if, from each of them, the surface turns back within the
+//! tolerance. Over a way w along the line of sight it rises by at most the largest |N . v| times w. Next to the rim of
+//! the set the mesh tells this; from inner nodes the line of sight is followed on the surface, so that a finer mesh
+//! gives the same result.
 //!
 //! ```text
 //!     +     +     +
@@ -29,7 +29,7 @@ struct Tie {
     border: bool,
 }
 
-/// Replace the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay.
+/// Replaces the values at nodes in wrinkles by one from around them. Wrinkles that reach the border of their face stay.
 pub fn flatten(model: &Model, values: &mut [f64]) {
     let ties = ties(model, values);
     let away = |n: u32| values[n as usize] >= -TIE;
@@ -41,7 +41,7 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
         }
     }
     let patch: Vec<usize> = (0..values.len() as u32).map(|n| patches.root(n) as usize).collect();
-    // What rises above the tolerance somewhere is no wrinkle; zeros are decided by the rule for ties.
+    // A patch that rises above the tolerance anywhere is no wrinkle. Zeros are decided by the rule for ties.
     let mut wide = vec![false; values.len()];
     let mut rim = vec![false; values.len()];
     for tie in &ties {
@@ -68,7 +68,7 @@ pub fn flatten(model: &Model, values: &mut [f64]) {
             around[own] = around[own].max(f[1 - k]);
         }
     }
-    // A patch without surroundings is none; of a part without any change of sign nothing is asked.
+    // A patch without surroundings is no wrinkle. A part without any change of sign needs no test.
     for tie in &ties {
         for n in tie.nodes.map(|n| n as usize) {
             let own = patch[n];
@@ -104,13 +104,14 @@ fn turns_back(face: &Face, model: &Model, node: usize, f: f64) -> bool {
     })
 }
 
-/// Spheres turn over once; cylinders and cones do along whole rulings, from border to border: none has wrinkles.
+/// Whether a face may have wrinkles. Spheres turn over once, cylinders and cones along whole rulings from border to
+/// border: none of them has wrinkles.
 fn bends(model: &Model, face: i32) -> bool {
     let surface = model.faces[face as usize].surface.and_then(|s| model.surfaces[s as usize].as_ref());
     !matches!(surface, None | Some(Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Sphere(..)))
 }
 
-/// NaN is the value of a pole, and of nodes of faces that are not traced.
+/// The ties between nodes with a value; NaN is the value of a pole, and of nodes of faces that are not traced.
 fn ties(model: &Model, values: &[f64]) -> Vec<Tie> {
     let mut found: Vec<(i32, u32, u32)> = model
         .corner
@@ -130,7 +131,7 @@ fn ties(model: &Model, values: &[f64]) -> Vec<Tie> {
         .collect()
 }
 
-/// Sets of nodes that hang together.
+/// Sets of connected nodes.
 struct Patches(Vec<u32>);
 
 impl Patches {
