@@ -21,9 +21,9 @@ from hlr.source.model import Frame
 Floats = npt.NDArray[np.float64]
 
 NEAR = 1e-3
-"""Of the eye's distance to its target: nothing nearer to the eye plane is drawn."""
+"""Distance of the near plane from the eye, as a share of the eye's distance from its target."""
 WIDEST = 120.0
-"""Degrees: the field of view where none is given, at most."""
+"""Degrees: the widest field of view that is chosen where none is given."""
 ASPECT = 4.0 / 3.0
 """Width to height of the frame that a field of view spans."""
 MARGIN = 1.05
@@ -55,18 +55,18 @@ class Camera:
     def project(self, points: Floats, divide: bool = False) -> Floats:
         """(n, 3) model coordinates -> (n, 3) x right, y up, depth; perspective: z maps to -distance^2 / z.
 
-        divide: by the distance from the eye also in a parallel view, where it is 1 everywhere.
+        divide: divide by the distance from the eye in a parallel view as well, where that distance is 1 everywhere.
         """
         image = self.scaled(1.0).image(np.ascontiguousarray(points, np.float64))
         return image / np.ones((len(points), 1)) if divide and self.eye is None else image
 
     def scaled(self, per_model: float) -> _kernel.Camera:
-        """As the kernel takes it, with the millimetres on paper per model unit."""
+        """The camera as the kernel takes it. per_model: millimetres on paper per model unit."""
         eye = None if self.eye is None or self.distance is None else (self.eye, self.distance)
         return _kernel.Camera(self.direction, self.right, self.up, eye, per_model)
 
     def ahead(self, points: Floats) -> Floats:
-        """(n,) distance from the eye's plane, positive before the eye; depth along the view for parallel views."""
+        """(n,) distance from the eye's plane, positive in front of the eye; in parallel views minus the depth."""
         if self.eye is None:
             return -dot(points, self.direction)
         return -dot(points - np.asarray(self.eye), self.direction)
@@ -87,7 +87,7 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
     perspective = options.perspective
     eye = target = None
     if perspective is not None and perspective.eye is not None:
-        # The camera looks elsewhere than the view says: neither its name nor its up has a meaning.
+        # A given eye replaces the direction of the view: the view's name and up vector do not apply.
         name, named_up = EYE, None
         eye, target, direction = _eye(perspective, (0.0, 0.0, 1.0), frame, bounds)
     else:
@@ -102,7 +102,7 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
 
 
 def _to_model(frame: Frame, v: Vector) -> Vector:
-    """World (z up) to model axes: the transpose of `up`, which is a rotation."""
+    """World (z up) to model axes: multiplied by the transpose of `frame.up`, which is a rotation."""
     u = frame.up
     x, y, z = (u[0][k] * v[0] + u[1][k] * v[1] + u[2][k] * v[2] + 0.0 for k in range(3))
     return (x, y, z)

@@ -1,7 +1,7 @@
 """Cut an image by planes before a perspective view: the near plane, and the frame where the eye is given.
 
-Done only where something crosses a plane. A cut surface is open, so culling is switched off for it: through the cut one
-may see a face from behind.
+An image is cut only where something crosses a plane. A cut surface is open, so culling is switched off for it: a face
+may be seen from behind through the cut.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from hlr.tables.line_classes import INTERIOR
 
 @dataclass(frozen=True, slots=True)
 class Plane:
-    """Kept: points with normal . p >= offset."""
+    """A plane that keeps the points p with normal . p >= offset."""
 
     normal: Vector
     offset: float
@@ -65,9 +65,9 @@ def _volume(camera: Camera, aspect: float) -> tuple[list[Plane], list[Plane]]:
 
 
 def clipped(image: Image, planner: Planner) -> Image:
-    """What the camera may see, cut only where something crosses the near plane or the frame.
+    """The image cut at the near plane and at the frame, where something crosses them.
 
-    A plane that nothing crosses would leave the image as it is: where clipping is forced, all are gone through.
+    A plane that nothing crosses leaves the image as it is. Forced clipping applies such planes as well.
     """
     camera = image.camera
     for name, cuts in zip(("near clipping", "side clipping"), _volume(camera, image.placement.aspect), strict=True):
@@ -82,7 +82,7 @@ def clipped(image: Image, planner: Planner) -> Image:
 
 
 def _around(image: Image, name: str) -> list[Plane]:
-    """A near plane, or four sides, that have all of the image on the side that is kept."""
+    """A near plane, or four side planes, that keep all of the image."""
     reach = 2.0 * float(np.abs(image.points).max(initial=0.0)) + 1.0
     camera = image.camera
     d = camera.direction
@@ -92,13 +92,16 @@ def _around(image: Image, name: str) -> list[Plane]:
 
 
 def _crossed(image: Image, plane: Plane) -> bool:
-    """Whether anything lies beyond; only points that something uses count: earlier cuts leave unused ones behind."""
+    """Whether anything lies beyond the plane. Only points of edges count: earlier cuts leave unused points behind."""
     beyond = plane.height(image.points) < 0.0
     return bool(beyond.any()) and bool(beyond[image.edges].any())
 
 
 def clip(image: Image, cuts: list[Plane], every: bool = False) -> tuple[Image, int]:
-    """The part of the image that all planes keep, and how many of them cut anything. every: go through all the same."""
+    """The part of the image that all planes keep, and how many planes cut anything.
+
+    every: planes that nothing crosses are applied as well.
+    """
     used = 0
     for plane in cuts:
         crossed = _crossed(image, plane)
@@ -109,7 +112,7 @@ def clip(image: Image, cuts: list[Plane], every: bool = False) -> tuple[Image, i
 
 
 def _compact(image: Image) -> Image:
-    """Without the points that nothing uses any more: behind the eye they have no place on paper."""
+    """The image without its unused points: behind the eye they have no place on paper."""
     used = np.zeros(len(image.points), bool)
     used[image.edges.ravel()] = True
     used[image.triangles.ravel()] = True
@@ -130,7 +133,7 @@ def _cut(image: Image, height: Floats) -> Image:
     n = len(image.points)
     new_vertex = np.full(len(image.edges), -1, np.int32)
     new_vertex[crossing] = n + np.arange(np.count_nonzero(crossing), dtype=np.int32)
-    # From the lower to the higher vertex always: both triangles at an edge get the same point.
+    # Always from the lower to the higher vertex: both triangles at an edge get the same point.
     t = (height[a[crossing]] / (height[a[crossing]] - height[b[crossing]]))[:, None]
     pa, pb = image.points[a[crossing]], image.points[b[crossing]]
     points = np.concatenate([image.points, pa + (pb - pa) * t])
@@ -148,7 +151,7 @@ def _cut(image: Image, height: Floats) -> Image:
     at = np.searchsorted(known, key)
     there = keep & (at < len(known))
     there[there] = known[at[there]] == key[there]
-    # Edges without triangles (free wires) live on behind the others.
+    # Edges without triangles (free wires) are appended after the others.
     loose = keep & ~there
     target = np.full(len(image.edges), -1, np.int32)
     target[there] = at[there]
@@ -195,7 +198,10 @@ def _cut(image: Image, height: Floats) -> Image:
 def _cut_silhouettes(
     image: Image, crossing: np.ndarray, t: Floats, target: Ints, moved: Callable[[np.ndarray, int], np.ndarray]
 ) -> Silhouettes | None:
-    """With new points at (k, 1) parameters t of crossing edges; what was shortened is compared with all alike."""
+    """The silhouettes with new points at parameters t (k, 1) of the crossing edges.
+
+    A shortened edge loses its own faces: it is compared with all faces alike.
+    """
     old = image.silhouettes
     if old is None:
         return None
@@ -211,7 +217,7 @@ def _cut_silhouettes(
 
 
 def _cut_own(own: OwnFaces, target: Ints) -> OwnFaces:
-    """Those of edges of which nothing was cut off; target (e,): where each edge went, -1 for one that was."""
+    """The own faces of the edges that were not cut. target (e,): new index of each edge, -1 for one that was cut."""
     of = np.repeat(np.arange(len(own.edge)), np.diff(own.offsets))
     lost = (target[own.edge] < 0) | (target[own.line] < 0)
     lost[of[target[own.off] < 0]] = True
@@ -245,7 +251,7 @@ def _cut_triangles(
     new_vertex: Ints,
     n: int,
 ) -> tuple[Ints, Ints]:
-    """Triangles of the kept side and the triangle each came from.
+    """Triangles on the kept side, and the triangle that each came from.
 
     ::
 
@@ -281,7 +287,7 @@ def _moved_chains(chains: Chains, target: Ints, swapped: np.ndarray) -> Chains:
     edge = target[chains.edges]
     kept = np.flatnonzero(edge >= 0)
     owner = np.repeat(np.arange(len(chains.kind)), np.diff(chains.offsets))[kept]
-    # A chain that lost an edge in between goes on as another.
+    # A chain that lost an edge in between continues as a new chain.
     fresh = np.ones(len(kept), bool)
     fresh[1:] = (np.diff(kept) > 1) | (np.diff(owner) > 0)
     head = np.flatnonzero(fresh)

@@ -16,14 +16,17 @@ from hlr.source.model import Curves
 
 @dataclass(frozen=True, slots=True)
 class OwnFaces:
-    """Edges whose own faces are seen nearly edge-on, or stretches of them between places where a face turns over.
+    """Edges whose own faces are seen nearly edge-on, divided into stretches where a face turns over.
 
-    edge (s,) ascending, range (s, 2): parameters of the stretch on the edge's image; line (s,): the edge that is the
-    stretch, beside (s,) uint8: its faces, those of a closed body, show it (1), hide it (2), or it is not known (0),
-    dented (s,) bool: its own triangles fold over there, though the faces do not
-    offsets (s + 1,): its faces are face (k,) of all parts' faces, off (k,): the edge that is the stretch off that face.
-    Of line and off none has triangles or is ever drawn, but where the stretch is all of the edge.
-    first (p,) the number of each part's first face; sheet (f,) one number for faces that go on smoothly into others
+    edge (s,) ascending: the edge of each stretch; range (s, 2): the stretch's parameters on the edge's image
+    line (s,): the edge of the image that runs along the stretch; the edge itself where the stretch is all of it
+    beside (s,) uint8: the faces of a closed body show the stretch (1), hide it (2), or it is not known (0)
+    dented (s,) bool: the edge's own triangles fold over there, though the faces do not
+    offsets (s + 1,): where each stretch begins in face (k,), its faces, numbered through all parts, and in off (k,),
+    the edges of the image that run along the stretch, moved off that face
+    first (p,): number of each part's first face; sheet (f,): the same number for faces that join smoothly
+
+    The edges of line and off have no triangles and are never drawn, except where line is the edge itself.
     """
 
     edge: Ints
@@ -39,7 +42,7 @@ class OwnFaces:
 
     @staticmethod
     def none() -> OwnFaces:
-        """Of a scene without curved faces."""
+        """No own faces, as in a scene without curved faces."""
         no = np.zeros(0, np.int32)
         few, never = no.astype(np.uint8), no.astype(bool)
         return OwnFaces(no, np.zeros((0, 2)), no, few, never, np.zeros(1, np.int32), no, no, no, no)
@@ -47,12 +50,13 @@ class OwnFaces:
 
 @dataclass(frozen=True, slots=True)
 class Silhouettes:
-    """The outlines of true surfaces, which are lines without triangles among the image's edges.
+    """The outlines of true surfaces: edges of the image that have no triangles.
 
     lift (n, 3): how far points are moved before visibility is decided: an outline runs within the tolerance of its own
     facets, which must not hide it. hidden (e,) bool: the outline's own body hides it.
-    number (e,): of the outline to which an edge belongs, -1 for none
-    curves of the outlines; NONE where one is straight, or runs along an edge of the model: source (o,) int32, else -1
+    number (e,): the outline to which an edge belongs, -1 for none
+    curves: of the o outlines; of kind NONE where an outline is straight, or runs along an edge of the model
+    source (o,) int32: the index of that edge of the model, else -1
     own: the faces that edges and outlines bound, where these are seen nearly edge-on
     """
 
@@ -84,7 +88,7 @@ class Image(Geometry):
         return self.camera.project(self.points, divide)
 
     def lifted(self, divide: bool = False) -> Floats:
-        """The same, with the points of outlines moved off their own surface, as visibility is decided with."""
+        """The same, with the points of outlines moved off their own surface: visibility is decided on these."""
         if self.silhouettes is None:
             return self.projected(divide)
         return self.camera.project(self.points + self.silhouettes.lift, divide)

@@ -2,9 +2,9 @@
 
 The kernel counts what lies in front of a line on the tessellation. The true outline runs in and out of its own facets,
 by up to their deflection; so it is moved outward by a little more than that, square to the line of sight, before it is
-compared with them: its own facets are then beside it and cannot hide it, while everything else still does. By how much
-is told by the corners of the triangles that it runs over, which are points of the surface: where that is convex, none
-of them stands out beyond the outline, and hardly any lift is needed; where it is a saddle, the facets' bulge is.
+compared with them: its own facets are then beside it and cannot hide it, while everything else still does. The corners
+of the triangles that it runs over are points of the surface and tell how far: where the surface is convex, no corner
+stands out beyond the outline, and hardly any lift is needed; where it is a saddle, the lift is the bulge of the facets.
 
 ::
 
@@ -71,16 +71,19 @@ def _traced(
     chord: float,
     threads: int,
 ) -> _kernel.Outlines:
-    """The kernel's answer."""
+    """The outlines as the kernel traces them.
+
+    face (t,): numbered through all parts; smooth (e,) bool: the surface goes on; chord: chord error, model units
+    """
     wanted = surfaces.curved.copy()
-    # Planes as well, where a curved face runs into them: they may be what the fold is against.
+    # Planar faces that a curved face joins smoothly are traced as well: the curved face may fold over against them.
     bent = where(lambda row: row.border and row.tangent)[image.edge_kind]
     bent[: len(bent)] &= np.diff(image.offsets) == 2
     first = image.offsets[:-1][bent]
     one, two = face[image.incident[first]], face[image.incident[first + 1]]
     wanted[one[surfaces.curved[two]]] = True
     wanted[two[surfaces.curved[one]]] = True
-    # Where several run along one chord, any of them tells the fold's curve.
+    # Where several chains share a mesh edge, any of them gives the curve of the fold.
     source = np.full(len(image.edges), -1, np.int32)
     tied = np.flatnonzero(image.chains.index >= 0)
     count = np.diff(image.chains.offsets)
@@ -93,7 +96,7 @@ def _traced(
 
 
 def _untraced(image: Image, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Edges at which a mesh contour is still an outline: no face there has been traced."""
+    """(e,) bool: edges at which a mesh contour is still an outline, because no face there has been traced."""
     known = np.zeros(len(image.edges), bool)
     faced = np.diff(image.offsets) > 0
     if len(image.incident):
@@ -106,14 +109,14 @@ def _with_lines(image: Image, surfaces: TrueSurfaces, found: _kernel.Outlines, d
     offsets, face, source = found.offsets, found.face, found.source
     n, m = len(image.points), len(offsets) - 1
     count = np.diff(offsets)
-    # Every two neighbours of one line are an edge.
+    # Each pair of neighbouring points of one outline becomes an edge.
     inner = np.ones(len(found.points), bool)
     inner[offsets[1:] - 1] = False
     start = np.flatnonzero(inner).astype(np.int32)
     line = np.repeat(np.arange(m, dtype=np.int32), count)[start]
     lines = np.stack([start + n, start + n + 1], axis=1).astype(np.int32)
     part = (np.searchsorted(surfaces.first, face, side="right") - 1).astype(np.int32)
-    # Groups follow faces: a face's triangles hang together.
+    # All triangles of a face are in one group.
     group_of_face = np.zeros(len(surfaces.number), np.int32)
     group_of_face[surfaces.first[image.triangle_part] + image.triangle_face] = image.triangle_group
     group = group_of_face[face]
@@ -153,17 +156,17 @@ def _with_lines(image: Image, surfaces: TrueSurfaces, found: _kernel.Outlines, d
         chains=merge_chains(image.chains, walks),
     )
     grazing = found.grazing
-    # Edges and outlines, those that their own body does not hide anyway.
+    # The edges that bound faces. Outlines follow below, without those that their own body hides anyway.
     bare = where(lambda row: row.border)[image.edge_kind[grazing.edge]]
     if image.convex and not bare.any():
-        # Of one convex body culling alone decides: nothing has to be told apart from its own faces.
+        # For one convex body culling alone decides: no edge needs its own faces.
         return shown
     closed = image.groups.cull[image.edge_group[grazing.edge[bare]]]
-    # Of a closed body the outer side alone is seen, and whatever lies on it is within reach of the sight.
+    # Only the outer side of a closed body is seen; of an open one, the side that faces the viewer.
     side = np.where(closed | grazing.front[bare], 1.0, -1.0)[:, None, None]
     beside = np.where(closed, grazing.beside[bare], np.uint8(0))
-    # Beside the end of an outline the edge is moved like the outline: what touches the face there has facets too. And
-    # toward the viewer: moved off its curved face it may lie in the plane of the other one.
+    # Beside the end of an outline the edge is moved like the outline: what touches the face there has facets too. It is
+    # also moved toward the viewer: off its curved face it might lie in the plane of the other face.
     rise = grazing.rise[bare]
     turns = ((beside == 1) & (rise >= 0.0).all(axis=1))[:, None, None]
     ends = image.points[image.edges[grazing.edge[bare]]]
@@ -178,7 +181,7 @@ def _with_lines(image: Image, surfaces: TrueSurfaces, found: _kernel.Outlines, d
         off=np.concatenate(
             [
                 OWN_LIFT * deflection * side * grazing.normals[bare],
-                # Not less than from everything else: its triangles may stand out by more.
+                # At least as far as from all other triangles: those of its own face may stand out by more.
                 (outward * np.maximum(distance, OWN_LIFT * deflection)[:, None])[lines[free] - n],
             ]
         ),
@@ -190,5 +193,5 @@ def _with_lines(image: Image, surfaces: TrueSurfaces, found: _kernel.Outlines, d
 
 
 def _lift(rise: Floats, deflection: float) -> Floats:
-    """How far points are moved of which triangles stand out by `rise`."""
+    """How far points are moved where triangles stand out by `rise`; both in model units."""
     return np.asarray(np.minimum(rise + OUTLINE_SPARE * deflection, OUTLINE_LIFT * deflection))

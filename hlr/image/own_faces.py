@@ -1,7 +1,7 @@
-"""Edges and outlines beside their own faces: where they lie when they are compared with these faces' triangles.
+"""Where edges and outlines lie when they are compared with the triangles of the faces that they bound.
 
-The kernel compares them polygon by polygon (`kernel/visibility/src/scan/own_faces.rs`). It is told where by edges that
-are added to the image without triangles, and are never drawn.
+The kernel compares them polygon by polygon (`kernel/visibility/src/scan/own_faces.rs`). Edges without triangles, which
+are added to the image and never drawn, give it their places.
 """
 
 from __future__ import annotations
@@ -21,11 +21,12 @@ from hlr.tables.line_classes import INTERIOR, where
 
 @dataclass(frozen=True, slots=True)
 class Grazing:
-    """Stretches of edges with one face of theirs each, sorted by edge, and by where they are on it.
+    """Stretches of edges, each with one of the faces that its edge bounds; sorted by edge, then by parameter.
 
-    edge (k,), range (k, 2): parameters from the edge's first to its second vertex; face (k,) of all parts' faces;
-    off (k, 2, 3): how far off that face both ends are compared with it, in the model; lift (k, 2, 3): how far they are
-    moved, all faces of a stretch in all, before it is compared with everything else, where it is not the whole edge;
+    edge (k,), range (k, 2): parameters from the edge's first to its second vertex; face (k,) numbered through all parts
+    off (k, 2, 3): how both ends are moved off that face before the stretch is compared with it, model units
+    lift (k, 2, 3): how both ends are moved before the stretch is compared with everything else, model units; summed
+    over the faces of a stretch, and used only where the stretch is not the whole edge
     beside (k,) uint8, dented (k,) bool: as in OwnFaces
     """
 
@@ -39,7 +40,7 @@ class Grazing:
 
 
 def with_own_faces(image: Image, surfaces: TrueSurfaces, grazing: Grazing) -> Image:
-    """An image that has silhouettes, with these faces."""
+    """The image with these own faces; unchanged where it has no silhouettes, or where there are no stretches."""
     if image.silhouettes is None or len(grazing.edge) == 0:
         return image
     head = np.ones(len(grazing.edge), bool)
@@ -94,7 +95,7 @@ def with_own_faces(image: Image, surfaces: TrueSurfaces, grazing: Grazing) -> Im
 
 
 def _sheets(image: Image, surfaces: TrueSurfaces) -> Ints:
-    """(f,) one number for all faces that go on smoothly into one another."""
+    """(f,) the same number for all faces that join smoothly."""
     face = surfaces.first[image.triangle_part] + image.triangle_face
     count = np.diff(image.offsets)
     tangent = np.flatnonzero(where(lambda row: row.tangent)[image.edge_kind] & (count == 2))

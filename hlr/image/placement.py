@@ -46,9 +46,9 @@ class Placement:
     fit: tuple[float, float] | None = None
 
     def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placement:
-        """The same with the size taken from the mesh itself; (n, 3) model coordinates.
+        """The placement with the size taken from the mesh: points (n, 3) in model coordinates.
 
-        Curves bulge over their chords, and are drawn within a share of the accuracy.
+        Curves bulge over their chords and are fitted within a share of the accuracy: `curved` leaves room for both.
         """
         if self.fit is None:
             return self
@@ -110,7 +110,7 @@ def _magnified(camera: Camera, points: Floats) -> float:
 def _sized(
     width: float, height: float, options: Options, unit: float, brep: bool, aspect: float, magnified: float
 ) -> Placement:
-    """width, height: on the image plane, model units."""
+    """Scale and tolerances of a view. width, height: on the image plane, model units."""
     scale = options.scale
     if options.fit is not None:
         ratios = [f / (s * unit) for f, s in zip(options.fit, (width, height), strict=True) if s > 0.0]

@@ -12,13 +12,13 @@ from hlr.image.camera import Camera
 from hlr.source.model import Source
 
 MOST = 3
-"""Parts that may be strays; and no more than a quarter of all."""
+"""The largest number of strays; they are also a quarter of all parts at most."""
 
 STRETCH = 3.0
-"""How many times as large they make the drawing, at least."""
+"""Strays make the drawing at least this many times as large."""
 
 GAP = 1.0
-"""How far each is from the rest, in diagonals of the rest."""
+"""Least distance of each stray from the rest, in diagonals of the rest."""
 
 
 def stray_note(source: Source, camera: Camera) -> Note | None:
@@ -48,7 +48,7 @@ def strays(low: Floats, high: Floats) -> list[int]:
     """Numbers of the parts that lie apart, by the corners (n, 2) of their boxes on paper; none where there are many."""
     whole, kept, out = _diagonal(low, high), np.arange(len(low)), []
     for _ in range(min(MOST, len(low) // 4)):
-        # One of those at the rim of all: whichever leaves the smallest rest.
+        # Of the parts that touch the box around all, take out the one that leaves the smallest rest.
         rim = {int(i) for i in (*low[kept].argmin(axis=0), *high[kept].argmax(axis=0))}
         rests = {i: np.delete(kept, i) for i in sorted(rim)}
         best = min(rests, key=lambda i: _diagonal(low[rests[i]], high[rests[i]]))

@@ -24,7 +24,7 @@ def opacity_of(look: Appearance) -> float:
 
 
 def glass_of(scene: Scene, looks: Mapping[str, Appearance]) -> npt.NDArray[np.bool_]:
-    """(t,) bool: the triangle is transparent, somewhere at least."""
+    """(t,) bool: the triangle is transparent at one corner at least."""
     colours, paint = corner_colors(scene, looks)
     return np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))
 
@@ -41,12 +41,12 @@ def hiding(scene: Scene, looks: Mapping[str, Appearance]) -> list[Note]:
 
 
 def without_glass(image: Image, glass: npt.NDArray[np.bool_]) -> Image:
-    """The image in which the triangles of glass (t,) hide nothing; edges stay, those of glass alone as wires."""
+    """The image without the triangles of glass (t,) bool: they hide nothing. Edges of glass alone stay as wires."""
     kept = ~glass
     number = np.cumsum(kept, dtype=np.int32) - 1
     held = kept[image.incident]
     per_edge = np.add.reduceat(np.append(held, False), image.offsets[:-1]) if len(image.edges) else np.zeros(0, int)
-    # Of an edge without triangles reduceat gives what comes next.
+    # For an edge without triangles reduceat gives the next value: its count is zero.
     per_edge = np.where(np.diff(image.offsets) > 0, per_edge, 0)
     opened = np.zeros(len(image.groups.cull), bool)
     opened[image.triangle_group[glass]] = True

@@ -38,7 +38,7 @@ LEAST_SPAN = 30.0
 """Degrees: a shorter arc could be any curve."""
 
 UNEVEN = 2.0
-"""Times the usual chord: a longer one is a flat, unless it is within the accuracy of the circle."""
+"""A chord longer than this many times the usual one is a flat, unless it is within the accuracy of the circle."""
 
 Point = tuple[float, float, float]
 
@@ -94,7 +94,7 @@ def _vertices(image: Image, edges: Ints, backward: npt.NDArray[np.bool_]) -> Flo
 
 
 def _bent(points: Floats, most: float) -> bool:
-    """Whether a chain turns by more than so many radians somewhere: a quick no for most."""
+    """Whether a chain turns by more than `most` radians anywhere: a quick test that rules out most chains."""
     way = np.diff(points, axis=0)
     one, two = way[:-1], way[1:]
     size = np.sqrt((one * one).sum(axis=1) * (two * two).sum(axis=1))
@@ -102,14 +102,17 @@ def _bent(points: Floats, most: float) -> bool:
 
 
 def _magnified(camera: Camera, points: Floats) -> float:
-    """How much larger than at the image plane the nearest of the points is drawn."""
+    """How much larger than in the image plane the nearest of the points (n, 3) is drawn."""
     if camera.eye is None or camera.distance is None:
         return 1.0
     return camera.distance / max(float(camera.ahead(points).min()), 1e-9 * camera.distance)
 
 
 def _circle(points: list[Point], most: float, step: float) -> tuple[Record, float] | None:
-    """The circle through points within `most`, and how far it rises above their chords."""
+    """The circle that passes the points within `most`, and how far it rises above their chords; both in model units.
+
+    step: radians between neighbouring vertices, which all must be below; None where there is no such circle
+    """
     closed = points[0] == points[-1]
     ring = points[:-1] if closed else points
     n = len(ring)
@@ -167,7 +170,7 @@ def _centre(away: list[Point], normal: Point) -> Point | None:
     u = _scaled(u, 1.0 / sqrt(_dot(u, u)))
     v = _cross(normal, u)
     flat = [(_dot(p, u), _dot(p, v)) for p in away]
-    # Coordinates about their mean: three equations fall apart into one and two.
+    # Coordinates about their mean separate the radius from the centre: two of the three equations remain.
     xx, xy, yy = (fsum(p[i] * p[j] for p in flat) for i, j in ((0, 0), (0, 1), (1, 1)))
     zx, zy = (fsum(p[i] * (p[0] * p[0] + p[1] * p[1]) for p in flat) for i in (0, 1))
     det = xx * yy - xy * xy

@@ -1,7 +1,7 @@
 """The curves along which lines run: those of B-rep edges, outlines of true surfaces, circles of meshes.
 
-The visibility pass works on mesh edges. What it found stays what decides: the kernel makes of each polyline the
-interval of its curve between its two ends, on paper an arc, a chain of Bezier curves or a straight line
+The visibility pass works on mesh edges and decides where each line ends. The kernel then replaces each polyline by the
+interval of its curve between these ends: on paper an arc, a chain of Bezier curves or a straight line
 (`kernel/linework/src/fit`).
 """
 
@@ -25,15 +25,15 @@ EdgeCurveLookup = Callable[[Ints, Ints], EdgeCurves] | None
 
 NO_CURVES = pack_curves([])
 HERE = np.eye(3, 4)[None]
-"""The place of curves that lie where they are: no matrix moves them."""
+"""(1, 3, 4) the identity: the place of curves that are in model coordinates already."""
 
 
 @dataclass(frozen=True, slots=True)
 class Guides:
-    """Curves of chains. known: there may be some; curves, n records; places (p, 3, 4).
+    """Curves of c chains. known: there may be some; curves: n records; places (p, 3, 4): matrices into the model.
 
-    curve (c,) of each chain, -1 for none; place (c,); bulge (c,): the most that the curve rises above the chords that
-    it was found on, millimetres on paper; sought: for how many lines one was looked for
+    curve (c,): each chain's record, -1 for none; place (c,): its matrix; bulge (c,): the most that the curve rises
+    above the chords that it was found on, millimetres on paper; sought: for how many lines a curve was looked up
     """
 
     known: bool
@@ -46,9 +46,9 @@ class Guides:
 
 
 def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_curves: EdgeCurveLookup) -> Guides:
-    """The curves of chains; looked up are those of `lines` (n,), which are the chains of lines."""
+    """The curves of chains. lines (n,): the chain of each line; only the curves of these are looked up."""
     edge, part, straight = chains.edge, chains.part, chains.straight
-    # Of each chain the number of an outline or a circle, which lie where they are.
+    # number (c,): the outline or circle of each chain; both are in model coordinates already.
     number, own, bulge = np.full(len(edge), -1, np.int32), NO_CURVES, np.zeros(0)
     silhouettes = image.silhouettes
     if silhouettes is not None:
@@ -58,7 +58,7 @@ def guides(image: Image, plan: Plan, chains: _kernel.Chains, lines: Ints, edge_c
         own, bulge = silhouettes.curves, np.zeros(len(silhouettes.curves.kind))
     if plan.every_curve and edge_curves is not None:
         edge_curves(part[straight], edge[straight])
-    # Where two planes meet, the line between the vertices is all there is to know.
+    # Two planes meet in the straight line between the vertices: there is no curve to look up.
     edge[straight] = -1
     round_ = circles(image, plan, chains)
     if round_ is not None:

@@ -1,4 +1,4 @@
-"""Segments become lines: chained, merged, one for each set of coincident ones, tied to part, edge and face."""
+"""Segments become lines: chained, merged, without coincident copies, each tied to its part, edge and face."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from hlr.visibility.segments import Segments
 
 @dataclass(frozen=True, slots=True)
 class Linework:
-    """lines; origin: the lower left corner of them all; curves_sought: of how many lines a curve was looked for."""
+    """origin: lower left corner of all lines, mm on paper; curves_sought: for how many lines a curve was looked up."""
 
     lines: Sequence[Line]
     origin: tuple[float, float]

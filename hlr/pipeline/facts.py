@@ -20,7 +20,7 @@ def note_reading(planner: Planner, source: Source) -> None:
 
 
 def note_meshing(planner: Planner, scene: Scene) -> None:
-    """What meshing took. The mesher makes no difference between planar and curved faces: they are told apart here."""
+    """State what meshing took. The mesher treats planar and curved faces alike: they are counted apart here."""
     surfaces = scene.true_surfaces
     if surfaces is None:
         curved = planar = triangles = bent = 0
@@ -38,7 +38,7 @@ def note_meshing(planner: Planner, scene: Scene) -> None:
 
 
 def note_rescue(planner: Planner, scene: Scene, meshed: Tessellation) -> None:
-    """What became of the faces that the kernel could not mesh."""
+    """State what became of the faces that the kernel could not mesh."""
     failed = meshed.rescued + meshed.lost
     planner.on("rescue of faces", Facts(failed=failed, faces=scene.true_surfaces is not None))
     planner.spent("rescue of faces", rescued_faces=meshed.rescued, lost_faces=meshed.lost)

@@ -30,7 +30,7 @@ from hlr.window.frame import Frame
 
 @dataclass(frozen=True, slots=True)
 class Solved:
-    """What became of one view: its image, what was decided, the segments, and the lines made of them."""
+    """The results of one view: its image, what was decided, the segments, and the lines made of them."""
 
     image: Image
     plan: Plan
@@ -50,7 +50,7 @@ def finished(
 ) -> Drawing:
     """The drawing of one view of a scene.
 
-    request: what was asked for; remarks: what else is to be said.
+    request: what was asked for; remarks: further notes.
     """
     image, plan, segments = solved.image, solved.plan, solved.segments
     camera, placement = image.camera, image.placement
@@ -119,7 +119,7 @@ STEPS = {
     "depth pyramid": ("pyramid",),
     "piercing search": ("piercings",),
 }
-"""The kernel's steps that an effect is timed by."""
+"""The steps of the kernel whose times add up to that of an effect."""
 
 
 def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[str, int]:

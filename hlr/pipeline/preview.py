@@ -43,7 +43,7 @@ from hlr.tables.line_classes import LINE_CLASSES
 from hlr.writers.png import parse_color
 
 MARGIN = 0.04
-"""Of the picture's smaller side: what is left empty around the model."""
+"""Empty margin around the model, as a share of the picture's smaller side."""
 
 INK = (0, 0, 0, 255)
 
@@ -129,7 +129,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
 def _ink(
     pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tuple[int, int, int, int]], threads: int
 ) -> None:
-    """The lines over a picture, in place: in one ink, or in as many as tell depths apart, the farthest first."""
+    """Draw the lines over a picture, in place: in one ink, or in one ink per depth level, the farthest level first."""
     widths = [LINE_CLASSES[line.kind].width_mm for line in drawing.lines]
     for wide in sorted(set(widths)):
         lines = [line for line, own in zip(drawing.lines, widths, strict=True) if own == wide]

@@ -1,6 +1,6 @@
-"""A session: one source, opened once and meshed once, before as many cameras as are asked for.
+"""A session: one source, opened once and meshed once, seen by any number of cameras.
 
-The stages in order. Whoever needs less than a drawing stops where it has what it needs::
+The stages in order; on the right, what stops there because it needs no more::
 
     Session          source -> cameras, placements               info, within
       .scene_at      source meshed -> scene                      info, methods
@@ -115,7 +115,7 @@ class Session:
     def drafts(self) -> list[Draft]:
         """One draft per view, of one scene, meshed finely enough for all.
 
-        With a size to fit into, the true scale is known only when the outlines are: then they are found here.
+        With a size to fit into, the scale depends on the outlines: these are then traced here.
         """
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
@@ -136,7 +136,7 @@ class Session:
         return drafts
 
     def _fitted(self, camera: Camera, placement: Placement, planner: Planner) -> Draft:
-        """Outlines of curved faces reach beyond their mesh, by less than the accuracy: they are what has to fit."""
+        """The draft at its final scale: outlines have to fit, which reach beyond the mesh by less than the accuracy."""
         image = image_of(self.scene, camera, placement)
         if placement.fit is None:
             return Draft(image, self.options, planner)
@@ -150,7 +150,7 @@ class Session:
         return Draft(image.placed(fitted), self.options, planner)
 
     def shown(self, draft: Draft) -> Image:
-        """The image as it is drawn: with outlines, without what is seen through, cut off where nothing is seen."""
+        """The image as it is drawn: with outlines, clipped, and without glass where the viewer sees through it."""
         image, planner, threads = draft.image, draft.planner, draft.options.threads
         least = min(map(opacity_of, self.looks.values()), default=1.0)
         if planner.on("seeing through glass", Facts(opacity=least)):

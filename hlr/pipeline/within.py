@@ -3,7 +3,7 @@
 1. The source is opened once. The first pass is COARSE times coarser than the accuracy that a drawing of its size has.
 2. What the passes took tells how time grows with fineness: as a power of it (time ~ accuracy^-p). The next accuracy is
    the finest of the ladder that this lets finish; where not even the next rung would, the last drawing is the result.
-3. Growth is only foreseen: a pass that turns out to take longer is given up between two stages.
+3. The growth is an estimate: a pass that turns out to take longer is given up between two stages.
 
 ::
 
@@ -14,7 +14,7 @@
                 |  x  0.2   0.1         0.02 mm
                 | 0.5
 
-Each finished drawing is handed over at once: whoever writes it keeps it, whatever happens to those after it.
+Each finished drawing is handed over at once: the caller can write it before the next pass begins.
 """
 
 from __future__ import annotations
@@ -40,21 +40,22 @@ from hlr.tables.readers import is_brep
 COARSE = 10.0
 """How much coarser than usual the first drawing is: 0.5 mm, the width of a line, where 0.05 is usual."""
 FINEST = 0.04
-"""Of the usual accuracy: where none is asked for, nothing finer is drawn. 0.002 mm, which no printer shows."""
+"""Finest accuracy where none is asked for, as a share of the usual one: 0.002 mm, which no printer shows."""
 LADDER = (1.0, 0.4, 0.2, 0.1, 0.04, 0.02, 0.01, 0.004)
-"""Of the first accuracy: 0.5, 0.2, 0.1, ... Few rungs, so that chance seldom decides between two drawings."""
+"""Shares of the first accuracy: mostly 0.5, 0.2, 0.1, ... mm. Few rungs, so that chance seldom picks the drawing."""
 
 FIRST_GROWTH = 1.8
-"""Power of the growth before two passes have shown it: the steepest that was met, a screw with its thread, from 0.05 mm
-on. Where it is steeper still, the pass is given up after meshing, before the time is over."""
+"""Exponent p of the growth until two passes have shown it: the steepest that was measured, on a screw with its thread,
+from 0.05 mm on. Where the growth is steeper still, the pass is given up after meshing, before the time is over."""
 MESH_GROWTH = 0.8
-"""The same for a mesh, which has its triangles: only lines become more."""
+"""The same for a mesh: its triangles are given, only the number of lines grows."""
 LEAST_GROWTH, CAUTION = 0.4, 0.3
-"""To the growth that two passes have shown: the first loaded libraries, and meshing grows faster as it gets fine."""
+"""Least exponent, and what is added to the one that two passes have shown: the first pass also loaded libraries, and
+meshing grows faster as it gets finer."""
 BOLDEST = 6.0
-"""How much finer one pass may be than the last."""
+"""One pass is at most this many times finer than the last."""
 TELLING = 0.2
-"""Share of a pass that must be over before it tells how long the rest takes: of a mesh, meshing is next to nothing."""
+"""Share of a pass that must be over before the rest is estimated from it: meshing a mesh takes next to nothing."""
 SPARE = 0.9
 """Share of the remaining time that a pass may be expected to take."""
 
@@ -122,7 +123,7 @@ def draw_within(
 
 
 def _range(opened: Source, views: list[View], options: Options) -> tuple[float, float]:
-    """The first accuracy, and the one that is not exceeded, millimetres."""
+    """The first accuracy and the finest one, millimetres on paper."""
     placements = Session(opened, views, replace(options, accuracy=None)).placements
     usual = min(placement.tolerances.accuracy for placement in placements)
     goal = options.accuracy if options.accuracy is not None else FINEST * usual
@@ -130,7 +131,7 @@ def _range(opened: Source, views: list[View], options: Options) -> tuple[float, 
 
 
 def _growth(passes: Sequence[tuple[float, float, dict[str, float]]], guess: float) -> float:
-    """The power by which the time of a pass grows with its fineness; a guess before two have shown it."""
+    """The exponent by which the time of a pass grows with its fineness; a guess until two passes have shown it."""
     if len(passes) < 2:
         return guess
     (a, time_a, _), (b, time_b, _) = passes[-2:]
@@ -140,7 +141,7 @@ def _growth(passes: Sequence[tuple[float, float, dict[str, float]]], guess: floa
 def _next(
     passes: Sequence[tuple[float, float, dict[str, float]]], first: float, goal: float, left: float, guess: float
 ) -> float | None:
-    """The finest accuracy that will be there in `left` seconds; None: none is."""
+    """The finest accuracy that can be finished in `left` seconds; None where there is none."""
     accuracy, took, _ = passes[-1]
     if accuracy <= goal or left <= 0.0:
         return None

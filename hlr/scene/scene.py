@@ -20,11 +20,11 @@ class Groups:
     closed   (g,) bool: every edge is used as often in one direction as in the other
     cull     (g,) bool: closed, and turned outward: faces turned away need not be looked at
     inward   (g,) bool: closed, and turned inward, as a cavity is
-    sound    (g,) bool: does not pass through itself, as far as its source vouches for it
+    sound    (g,) bool: does not pass through itself, as far as its source tells
     bare     (g,) bool: a piece of a mesh without B-rep
     tight    (g,) bool: lines that lie exactly on other groups' triangles
-    planar   (g,) bool: nothing but planar faces: exact, but for what the file rounds
-    extent   (g,) float64: its thickness, or the smallest side of its box where that is less or it is open; model units
+    planar   (g,) bool: only planar faces: exact, except for the rounding of the file
+    extent   (g,) float64: its thickness; the smallest side of its box if that is less or it is open; model units
     low, high (g, 3) float64: its box
     """
 
@@ -61,7 +61,7 @@ class TrueSurfaces:
     surfaces: Surfaces
 
     def of(self, wanted: npt.NDArray[np.bool_], face: Ints) -> _kernel.TrueSurfaces:
-        """As the kernel takes them, with the surfaces of the faces that are wanted (f,); face (t,) of each triangle."""
+        """As the kernel takes them. wanted (f,) bool: faces whose surfaces are included; face (t,) of each triangle."""
         known = wanted & (self.number >= 0)
         used, which = np.unique(self.number[known], return_inverse=True)
         number = np.full(len(known), -1, np.int32)
@@ -122,14 +122,14 @@ class Geometry:
 
     points (n, 3) model coordinates; triangles (t, 3); edges (e, 2), lower vertex first.
     triangle_part, triangle_group, triangle_face (t,): whose each triangle is.
-    triangle_origin (t,): which triangle of its part each is, or is a piece of, of those that the source handed over.
-    turned (t,) bool: listed the other way round by the source, which had the surface inside out.
+    triangle_origin (t,): the triangle of the source, numbered within its part, that each is or is a piece of.
+    turned (t,) bool: the source listed the corners the other way round, because its surface was inside out.
     incident[offsets[i]:offsets[i + 1]] are the triangles at edge i. Edges without triangles are wires, or intersection
     lines, which belong to a group of their own, or outlines of true surfaces, which belong to their part's group.
     edge_kind (e,): an EdgeClass or INTERIOR; edge_curved (e,) bool: a curved surface may show its outline there.
     true_surfaces: None where no part has a B-rep.
-    convex: all there is is one convex body, as far as floating point tells.
-    facets (t, 3): normals of bare meshes as far as their coordinates support any, zero where none; None: all is B-rep.
+    convex: everything is one convex body, as far as floating point tells.
+    facets (t, 3): normals of bare meshes, zero where the coordinates are too coarse for one; None: all is B-rep.
     """
 
     points: Floats
@@ -158,7 +158,7 @@ class Geometry:
         return _kernel.Mesh(self.points, self.triangles, self.edges, self.offsets, self.incident)
 
     def all_faces(self) -> Ints:
-        """(t,) of each triangle its face, numbered through all parts; only where there are true surfaces."""
+        """(t,) the face of each triangle, numbered through all parts. Raises ValueError without true surfaces."""
         if self.true_surfaces is None:
             raise ValueError("no face of this scene has a surface")
         return (self.true_surfaces.first[self.triangle_part] + self.triangle_face).astype(np.int32)
@@ -166,6 +166,6 @@ class Geometry:
 
 @dataclass(frozen=True, slots=True)
 class Scene(Geometry):
-    """All parts of a source, meshed; the same from wherever they are looked at. notes: what is wrong with them."""
+    """All parts of a source, meshed; the same for every view. notes: what is wrong with them."""
 
     notes: tuple[Note, ...] = ()

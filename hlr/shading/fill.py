@@ -20,15 +20,16 @@ from hlr.source.model import Appearance
 from hlr.tables.line_classes import where
 
 MOST = 6_000_000
-"""Points of the grid on which is looked for what is seen: about 150 MB while it is made."""
+"""Largest number of points of the grid on which visibility is sampled: about 150 MB while it is made."""
 
 MOST_A_SIDE = 16_000
+"""Largest number of points along one side of the grid."""
 
 LEAST_A_SIDE = 400
-"""Points along the longer side: small drawings are looked at as closely as large ones."""
+"""Least number of points along the longer side, so that small drawings are sampled as finely as large ones."""
 
 BAND = 0.3
-"""Millimetres on paper that a band of light is wide, as a rule at least."""
+"""Least width of a band of equal light, as a rule; millimetres on paper."""
 
 
 def filled(
@@ -103,7 +104,7 @@ def _per_mm(extent: Floats, accuracy: float) -> float:
 
 
 def _labels(scene: Scene) -> Ints:
-    """(t,) the face of each triangle: of a B-rep its own; of a mesh the triangles connected without a crease."""
+    """(t,) number of each triangle's face; a mesh's faces are its triangles connected without a crease."""
     face = scene.triangle_face.astype(np.int64)
     own = scene.triangle_part.astype(np.int64) * (int(face.max()) + 1) + face
     bare = scene.groups.bare[scene.triangle_group]

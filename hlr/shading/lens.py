@@ -13,10 +13,10 @@ from hlr.request.directions import cross, normalized
 from hlr.request.options import Vector
 
 SINGLE = 2.0**-23
-"""Of 1: what numbers of single precision are off by, twice: at the corners, and between them."""
+"""Error of a depth from 0 to 1 in single precision, which is rounded twice: at the corners, and between them."""
 
 ROOM = 1e-6
-"""Of the depth's range: so much wider it is taken, that rounding keeps all within."""
+"""The range of depths is widened by this share of itself, so that rounding keeps all points within."""
 
 
 def lens(camera: Camera, points: Floats, scale: float, size: tuple[int, int]) -> Lens:
@@ -59,7 +59,7 @@ def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int],
 def depth_step(eye: Lens) -> float:
     """The least difference of depth that the picture resolves, at its farthest point: model units.
 
-    The picture keeps them in single precision, 0 to 1; in perspective as 1 - nearest / depth, over the farthest of it.
+    The picture keeps depths from 0 to 1 in single precision; in perspective as 1 - nearest / depth, over its maximum.
     """
     nearest, farthest = eye.range
     if not eye.distance:

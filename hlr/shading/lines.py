@@ -34,7 +34,7 @@ PALEST = 0.22
 
 
 def cues(background: tuple[int, ...]) -> list[tuple[int, int, int, int]]:
-    """Inks from far to near, opaque: black that fades toward the background, or toward white where that is clear."""
+    """Inks from far to near, opaque: black that fades toward the background, or toward white if that is transparent."""
     ground = background[:3] if background[3] == 255 else (255, 255, 255)
     ink = 255 if sum(ground) < 300 else 0
     shares = [PALEST + (1.0 - PALEST) * k / (CUES - 1) for k in range(CUES)]

@@ -16,7 +16,7 @@ FLAT = np.int32(-1)
 """In place of a number: the triangle's own normal."""
 
 LEVEL = 1e-3
-"""Radians between the triangles of a face up to which it is a plane, and shaded as one."""
+"""Radians: a face whose triangles differ by no more is a plane, and is shaded as one."""
 
 
 def corner_normals(scene: Geometry, threads: int = 0) -> tuple[Normals, Ints]:
@@ -46,10 +46,10 @@ def _of_surfaces(scene: Geometry, threads: int) -> tuple[Normals, Ints]:
 def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_]) -> tuple[Normals, Ints]:
     """Facets around a vertex that are connected without a crease share one normal.
 
-    Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each counts with its
-    angle there (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets", Journal of Graphics
-    Tools 3, 1998): how a fan is triangulated makes no difference. Where a file's face is a plane, that has one normal
-    up to its border, which is also that of the rounds that run into it.
+    Where a vertex lies on a side of a larger facet, the needle between them counts for that facet. Each facet is
+    weighted by its angle at the vertex (G. Thuermer, C. A. Wuethrich, "Computing vertex normals from polygonal facets",
+    Journal of Graphics Tools 3, 1998), so that the triangulation of a fan makes no difference. A planar face of the
+    file has one normal up to its border; rounds that run into it have that normal there, too.
     """
     triangles = scene.triangles
     count = np.diff(scene.offsets)
@@ -64,7 +64,7 @@ def _up_to_creases(scene: Geometry, facets: Floats, bare: npt.NDArray[np.bool_])
         vertex = scene.edges[inner, k][:, None]
         corner = [3 * t + np.argmax(triangles[t] == vertex, axis=1) for t in (one, two)]
         pairs.append(np.stack(corner, axis=1))
-    # The last of these edges, from each corner to itself, tell the component that the corner belongs to.
+    # Each corner is also paired with itself: these last pairs tell the component of each corner.
     corners = np.arange(3 * len(triangles))
     joined = np.concatenate([*pairs, np.stack([corners, corners], axis=1)])
     component = _kernel.edge_components(np.ascontiguousarray(joined, np.int32), len(corners))[-len(corners) :]

@@ -24,7 +24,7 @@ def empty_picture(size: tuple[int, int], background: tuple[int, ...]) -> Pixels:
 def shaded_picture(
     shaded: ShadedScene, camera: Camera, eye: Lens, effects: Effects, background: tuple[int, ...], threads: int
 ) -> Pixels:
-    """(h, w, 4) the faces that the lens shows, lit from over the shoulder."""
+    """(h, w, 4) the faces that the lens shows, lit from over the viewer's shoulder."""
     toward = toward_light(camera, SHOULDER)
     sun = light_lens(toward, camera, shaded.points, effects.shadows) if effects.shadows else None
     return shaded.model.picture(

@@ -18,7 +18,7 @@ from hlr.source.model import Appearance
 
 @dataclass(frozen=True, slots=True)
 class ShadedScene:
-    """model: the kernel's; points (n, 3) of all that is shown; opacity: the least of all; glass (t,) bool."""
+    """points (n, 3): of all that is shown; opacity: the least of all; glass (t,) bool: transparent triangles."""
 
     model: _kernel.ShadedModel
     points: Floats
@@ -31,8 +31,8 @@ def shaded_scene(
 ) -> ShadedScene:
     """The triangles of a scene, ready for any number of pictures.
 
-    near: (n,) not positive for points behind the near plane; None: there are none. Bodies that reach behind it are cut
-    open and show their inside.
+    near: (n,) zero or negative for points behind the near plane; None: there are none. Bodies that reach behind it are
+    cut open and show their inside.
     """
     normals, corner = corner_normals(scene, threads)
     colours, paint = corner_colors(scene, looks)

@@ -18,7 +18,7 @@ __all__ = ["open_source"]
 
 
 def open_source(thing: Any, var: str | None = None, annotations: bool = False) -> Source:
-    """Open anything that can be drawn: with the reader in `hlr.tables.readers` that it fits.
+    """Open anything that can be drawn, with the reader of `hlr.tables.readers` that accepts it.
 
     Args:
         thing: the name of a file, a CadQuery, build123d, OpenCASCADE, trimesh or manifold3d object, a list of CAD
@@ -29,7 +29,7 @@ def open_source(thing: Any, var: str | None = None, annotations: bool = False) -
 
     Raises:
         SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
-        OptionError: it has no such variable.
+        OptionError: var is given, and the script has no such variable, or `thing` is no script.
     """
     if isinstance(thing, str | os.PathLike):
         return _open_path(Path(os.fspath(thing)), var, annotations)
@@ -53,7 +53,7 @@ def _cure(missing: list[str]) -> str:
 
 
 FEW = 4
-"""An object that lacks no more of the protocol is meant to be a source."""
+"""An object that lacks at most this many members of the protocol is taken for an incomplete source."""
 
 
 def _open_path(path: Path, var: str | None, annotations: bool) -> Source:

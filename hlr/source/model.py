@@ -68,10 +68,10 @@ class PartMesh:
     edge_index        (e,)   int32: index of the edge in the part's TopExp edge map
     edge_class        (e,)   uint8: EdgeClass (SHARP, SMOOTH, SEAM or BOUNDARY)
     surface_parameters       where the triangles lie on their true surfaces; None where there are none
-    precision         how far the coordinates of a mesh may be off by what they were rounded to, in model units
-    joined            no two points are in one place
-    origin            (m,) int32: of a mesh that the scene has repaired, which of the source's own triangles each one
-                      is, or is a piece of; None: the same
+    precision         how far rounding may have moved the coordinates of a mesh, in model units
+    joined            bool: no two points are in one place
+    origin            (m,) int32, of a mesh that the scene has repaired: the source's own triangle that each one is, or
+                      is a piece of; None: triangles are those of the source
 
     A mesh without B-rep leaves the four edge arrays empty and sets `brep` to False: creases and borders are then
     found by the scene. Free edges (belonging to no face) are edges of class SHARP whose nodes no triangle uses.
@@ -113,7 +113,7 @@ class Appearance:
 
 
 def rgba(color: Color | None, opacity: float) -> Rgba | None:
-    """A colour with its opacity; None stays."""
+    """A colour with its opacity; None where there is no colour."""
     return None if color is None else (*color, opacity)
 
 
@@ -209,10 +209,10 @@ class Source(Protocol):
         """(2, 3) lower and upper corner in model coordinates; cheap, may be a little too large."""
 
     def names(self) -> list[str]:
-        """Of every part, in the order of the parts."""
+        """The names of all parts, in the order of the parts."""
 
     def infos(self) -> list[PartInfo]:
-        """Every part's counts, in the order of the parts."""
+        """The counts of all parts, in the order of the parts."""
 
     def boxes(self) -> list[Floats]:
         """(k, 3) corners of every part in model coordinates, in the order of the parts; cheap, may be too far out."""
@@ -227,12 +227,12 @@ class Source(Protocol):
         """Some part may be transparent; cheap, and sure where it says no."""
 
     def appearances(self) -> Mapping[str, Appearance]:
-        """How the parts look, by name; gathered when it is asked for, for a drawing has no use of it."""
+        """How the parts look, by name; gathered only when asked for, because most drawings do not need it."""
 
 
 def missing_of_source(thing: object) -> list[str]:
     """What an object lacks of the protocol `Source`, by name; nothing is called, and no property read."""
     found = {name for cls in type(thing).__mro__ for name in vars(cls)} | set(getattr(thing, "__dict__", ()))
     missing = [name for name in vars(Source) if not name.startswith("_") and name not in found]
-    # What stands for another object passes on what it does not have.
+    # A proxy forwards the attributes that it does not have itself.
     return [name for name in missing if not hasattr(type(thing), "__getattr__") or not hasattr(thing, name)]

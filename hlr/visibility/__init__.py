@@ -1,1 +1,1 @@
-"""Scene, view and plan become visible and hidden segments."""
+"""Visibility: from an image and its plan to visible and hidden segments."""

@@ -65,7 +65,7 @@ MOST_STEP = 45.0
 def decide(image: Image, options: Options, planner: Planner) -> Plan:
     """Instructions for one view of a scene; planner: knows what was decided before."""
     tolerances = image.placement.tolerances
-    # By whether an edge is curved and by its class: where a curved surface goes on, it may fold over.
+    # roles[edge_curved, edge_kind]: where a curved surface goes on across an edge, it may fold over there.
     roles = np.stack([np.zeros(256, np.uint8), np.where(goes_on(), np.uint8(OUTLINE), np.uint8(0))])
     drawn_kind = np.array([row.drawn(options) for row in by_number()])
     roles[:, : len(drawn_kind)] |= np.where(drawn_kind, np.uint8(DRAWN), np.uint8(0))
@@ -119,8 +119,8 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
 def _coming_near(image: Image, delta: Floats, lift: float) -> int:
     """How many groups come within the contact tolerance of another: their boxes, grown by it, meet.
 
-    Along the model's axes in parallel views, whose depth is a distance; around the images of their corners in
-    perspective, where it is not. lift: how far lines may be off their surfaces.
+    The boxes lie along the model's axes in parallel views, where depth is a distance. In perspective it is not: there
+    they are boxes around the images of the corners. lift: how far lines may be off their surfaces, model units.
     """
     groups, camera = image.groups, image.camera
     used = np.flatnonzero(np.isfinite(groups.low[:, 0]))
@@ -142,12 +142,13 @@ def _coming_near(image: Image, delta: Floats, lift: float) -> int:
 
 
 def _contact(image: Image, tolerances: Tolerances) -> tuple[Floats, Floats]:
+    """(g,) contact tolerance of each group, and (g,) its upper limit, both in view depth."""
     groups, camera = image.groups, image.camera
     delta = contact_depths(groups, tolerances.contact, tolerances.contact_planar)
     delta = np.where(groups.tight, tolerances.rounding, delta)
     used: npt.NDArray[np.bool_] = np.isfinite(groups.low[:, 0])
-    # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet has none: only
-    # what a file rounds is forgiven there.
+    # Half a part's thickness at most, or the far side of a thin sheet would show through. An open sheet may have no
+    # thickness: it gets at least the rounding of its file.
     cap = np.where(groups.closed, 0.5 * groups.extent, np.maximum(0.5 * groups.extent, tolerances.rounding))
     if camera.eye is None or camera.distance is None:
         return delta, cap

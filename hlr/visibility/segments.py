@@ -38,7 +38,7 @@ class Segments:
 def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: str = "exact") -> Segments:
     """Visibility of all edges that the plan draws; lifted (n, 3) as `Image.lifted` gives it.
 
-    arithmetic: of the predicates, "exact"; "f64" and "f32" show what that is worth, and are for nothing else.
+    arithmetic: of the predicates, "exact"; "f64" and "f32" serve comparisons only.
 
     Raises KeyboardInterrupt within milliseconds of Ctrl-C.
     """
@@ -49,7 +49,7 @@ def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: st
         cull=plan.cull,
         sound=plan.sound,
         delta=np.ascontiguousarray(plan.delta),
-        # Of tolerance and cap the less counts: so the grid, which leaves room for the tolerance, stays the same.
+        # The smaller of tolerance and cap counts: a cap of zero switches the tolerance off and keeps the grid.
         cap=np.ascontiguousarray(plan.cap if plan.contact else np.zeros_like(plan.cap)),
         tight=image.groups.tight,
     )
@@ -68,7 +68,7 @@ def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: st
     edge, t0, t1, state = found.edge, found.t0, found.t1, found.state
     contacts = int(np.count_nonzero(state >= WITHIN))
     if contacts:
-        # A line on a surface is never quite above or below it: less than the tolerance means nothing there.
+        # A line on a surface is above or below it by rounding alone: within the tolerance it is visible.
         on_surface = (state >= WITHIN) & image.groups.tight[image.edge_group[edge]]
         state = np.where(on_surface, np.uint8(VISIBLE), state)
     if image.silhouettes is not None and image.silhouettes.hidden.any():
@@ -92,7 +92,7 @@ def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: st
 
 
 def _own_faces(image: Image) -> _kernel.OwnFaces | None:
-    """The faces that edges and outlines bound, as the kernel takes them; None where there are none to think of."""
+    """The faces that edges and outlines bound, as the kernel takes them; None where there are none."""
     if image.silhouettes is None or len(image.silhouettes.own.edge) == 0:
         return None
     own = image.silhouettes.own

@@ -65,7 +65,7 @@ def _around(curve: Curve | None, points: Floats) -> Floats:
 def _cut(line: Line, frame: Frame) -> list[Line]:
     track = track_of(line)
     breaks = distinct(np.concatenate([track.breaks, *(track.crossings(*side) for side in frame.sides)]))
-    # Between two breaks it lies on one side of each side: its middle tells.
+    # Between two breaks the line crosses no side of the window: its middle tells whether it is inside.
     middle = track.at(0.5 * (breaks[:-1] + breaks[1:]))
     kept = np.all((middle >= frame.low - SLACK) & (middle <= frame.high + SLACK), axis=1).tolist()
     if all(kept):
@@ -80,7 +80,7 @@ def _cut(line: Line, frame: Frame) -> list[Line]:
 
 
 def _piece(line: Line, track: Track, a: float, b: float, frame: Frame) -> Line | None:
-    """The piece from parameter a to b; None where that is a single point."""
+    """The piece of the line from parameter a to b; None where that is a single point."""
     between = (track.params > a) & (track.params < b)
     ends = [_end(line, track, t, frame) for t in (a, b)]
     points = np.clip(np.stack([ends[0][0], *line.points[between], ends[1][0]]), frame.low, frame.high)
@@ -91,7 +91,7 @@ def _piece(line: Line, track: Track, a: float, b: float, frame: Frame) -> Line |
     curve = track.between(a, b)
     if isinstance(curve, Bezier):
         for which, t in ((0, a), (-1, b)):
-            if t != track.params[which]:  # the last bit: the end lies on the side
+            if t != track.params[which]:  # the end lies on the side, to the last bit
                 curve.points[which] = points[which]
     return replace(line, points=points, points3=space, curve=curve)
 

@@ -17,10 +17,10 @@ from hlr.drawing.line import Line
 Floats = npt.NDArray[np.float64]
 
 SAMPLES = 16
-"""Places on each Bezier curve among which that of a point is sought, before it is made exact."""
+"""Samples of each Bezier curve: the one nearest to a point starts the search for its parameter."""
 
 ROWS = 256
-"""Points that are sought at once: bounds the memory."""
+"""Points that are located at once: bounds the memory."""
 
 
 class Track(Protocol):
@@ -52,7 +52,7 @@ def track_of(line: Line) -> Track:
 
 
 class Polyline:
-    """The parameter is the number of the point."""
+    """A polyline; its parameter is the number of the point."""
 
     def __init__(self, points: Floats) -> None:
         self.points = points
@@ -76,7 +76,7 @@ class Polyline:
 
 
 class ArcTrack:
-    """The parameter is the angle that was run through since the start."""
+    """An arc; its parameter is the angle from its start, in radians."""
 
     def __init__(self, arc: Arc, points: Floats) -> None:
         self.arc = arc
@@ -113,7 +113,7 @@ class ArcTrack:
 
 
 class BezierTrack:
-    """The parameter counts the curves of the chain."""
+    """A chain of Bezier curves; its parameter runs from i to i + 1 on curve i."""
 
     def __init__(self, chain: Bezier, points: Floats) -> None:
         self.chain = chain
