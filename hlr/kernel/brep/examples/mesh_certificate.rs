@@ -4,13 +4,13 @@
 //! cargo run --release -p hlr-brep --example mesh_certificate -- SHARE FILE SIZE [FILE SIZE]... [--faces]
 //! ```
 //!
-//! The deflection is a share of the size. Errors are in deflections:
+//! The deflection is given as a share of the size. Errors are printed in deflections:
 //!
 //! ```text
-//! proved    no triangle of a curved face is farther off its surface
-//! measured      one place is as far off as that
-//! above     triangles that the proof does not show to keep the deflection
-//! unproved  triangles across the ends of a period, and on surfaces that are known by their values only
+//! proved    upper bound on the error of all triangles of curved faces
+//! measured  largest error found at a single place
+//! above     triangles whose proved bound exceeds the deflection
+//! unproved  triangles across the ends of a period, and on surfaces of which only values are known
 //! ```
 
 use std::sync::atomic::AtomicUsize;

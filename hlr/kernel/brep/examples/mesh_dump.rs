@@ -1,4 +1,4 @@
-//! Meshes every face of a dump (`BinTools.Write` of a shape without triangles) and prints what came of it.
+//! Meshes every face of a dump (`BinTools.Write` of a shape without triangles) and prints the result.
 //!
 //! ```text
 //! cargo run --release -p hlr-brep --example mesh_dump -- FILE DEFLECTION [--faults] [--slow] [--kinds] [--only FACE] [--loops FACE] [--driver]

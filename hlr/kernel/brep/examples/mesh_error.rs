@@ -1,4 +1,4 @@
-//! Measures the chord error of each face of a dump against dense samples of its surface, and where it comes from.
+//! Measures the chord error of each face of a dump against dense samples of its surface, and shows where it comes from.
 //!
 //! ```text
 //! cargo run --release -p hlr-brep --example mesh_error -- FILE DEFLECTION [--all]
@@ -7,11 +7,11 @@
 //! All figures are in deflections; faces with a total above 1 are printed (`--all`: every one):
 //!
 //! ```text
-//! total   places of the surface amid triangles, to the triangles around
-//! gap     the same with the border's corners moved onto the surface: what refining can mend
-//! corner  corners of the border from the places of the surface that they stand for
-//! edge    curves of the face's edges from the surface, on the shortest way: the file's own
-//! known   the greatest tolerance of the face's edges
+//! total   distance of surface points within triangles from the triangles around
+//! gap     the same with the border's corners moved onto the surface: the part that a finer mesh would reduce
+//! corner  distance of the border's corners from the surface at their (u, v)
+//! edge    shortest distance of the curves of the face's edges from the surface: the file's own error
+//! known   largest tolerance of the face's edges
 //! ```
 
 use std::collections::BTreeMap;
@@ -26,9 +26,9 @@ use hlr_brep::model::Model;
 use hlr_brep::shapes::Face;
 use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
 
-/// Places looked at along each edge.
+/// Number of places compared along each edge.
 const ALONG: usize = 200;
-/// Amid triangles and their edges, as shares of two corners.
+/// Places inside triangles and on their edges, by the weights of two corners.
 const PLACES: [[f64; 2]; 13] = [
     [0.33, 0.33],
     [0.5, 0.25],
@@ -90,10 +90,10 @@ fn main() {
     );
 }
 
-/// Greatest distance of surface points amid triangles and their edges to the triangles around; where that is more than
-/// enough, to the nearest of all.
+/// Greatest distance from surface points within triangles and on their edges to the triangles around. If it exceeds
+/// `enough`, the distance to the nearest of all triangles is taken.
 fn error(surface: &Surface, mesh: &FaceMesh, points: &[Vector], enough: f64) -> f64 {
-    // All corners at a pole are one.
+    // All corners at a pole count as one.
     let mut at_node = BTreeMap::new();
     let place: Vec<usize> =
         (0..points.len()).map(|i| mesh.nodes.get(i).map_or(i, |&node| *at_node.entry(node).or_insert(i))).collect();
@@ -112,7 +112,7 @@ fn error(surface: &Surface, mesh: &FaceMesh, points: &[Vector], enough: f64) -> 
             if own > worst {
                 let nearer = |least: f64, k: usize| least.min(from_triangle(&p, corners(k)));
                 let beside = t.iter().flat_map(|&i| &around[place[i as usize]]).fold(own, |least, &k| nearer(least, k));
-                // At an apex a needle in (u, v) passes over triangles that it does not touch.
+                // At an apex a needle in (u, v) passes over triangles that it does not touch in space.
                 let least = if beside > enough { (0..mesh.triangles.len()).fold(beside, nearer) } else { beside };
                 worst = worst.max(least);
             }
@@ -138,7 +138,7 @@ fn from_segment(p: &Vector, a: &Vector, b: &Vector) -> f64 {
     length(&sub(&q, &scaled(&d, t)))
 }
 
-/// Greatest distance of the face's edges, as their curves in space run, from its surface.
+/// Greatest distance of the face's edges, as curves in space, from its surface.
 fn edge_off(model: &Model, face: &Face, surface: &Surface, made: &Tessellation) -> f64 {
     let mut worst = 0.0f64;
     for used in face.wires.iter().flatten() {

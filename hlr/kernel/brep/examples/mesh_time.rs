@@ -1,4 +1,4 @@
-//! Times the way from a dump to its mesh, in milliseconds on one thread: the least of several runs.
+//! Measures the time from a dump to its mesh, in milliseconds on one thread: the shortest of several runs.
 //!
 //! ```text
 //! cargo run --release -p hlr-brep --example mesh_time -- RUNS FILE DEFLECTION [FILE DEFLECTION]...

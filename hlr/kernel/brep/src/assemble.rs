@@ -16,12 +16,12 @@ pub struct PartMesh {
     pub points: Vec<[f64; 3]>,
     pub triangles: Vec<[i32; 3]>,
     pub triangle_face: Vec<i32>,
-    /// Polylines of edges into points, one after another; number and class of each edge.
+    /// Indices into `points` of the edges' polylines, one after another; then number and class of each edge.
     pub edge_nodes: Vec<i32>,
     pub edge_counts: Vec<i32>,
     pub edge_index: Vec<i32>,
     pub edge_class: Vec<u8>,
-    /// Corners of the triangles in uv: a point on an edge has different parameters on each of its faces.
+    /// Corners of the triangles as indices into uv: a point on an edge has different parameters on each of its faces.
     pub corner: Vec<[i32; 3]>,
     pub uv: Vec<[f64; 2]>,
     pub face_shape: Vec<i32>,
@@ -33,7 +33,7 @@ pub fn assemble(model: &Model, meshed: &Tessellation) -> Vec<PartMesh> {
     (0..model.topology.len()).into_par_iter().map(|p| part(model, meshed, p)).collect()
 }
 
-/// Places of edges in a part: of each edge's polyline the numbers of its corners.
+/// For each edge of a part the point numbers of its polyline's corners.
 struct Corners {
     start: Vec<u32>,
     of_edge: Vec<u32>,
@@ -98,7 +98,7 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
         let found = &meshed.faces[face.face as usize];
         let mesh = &found.mesh;
         let place = |p: &[f64; 3]| face.place.as_ref().map_or(*p, |m| moved(m, p));
-        // Nodes of the face as points of the part; an edge's nodes stand one after another.
+        // Points of the part for the nodes of the face; the nodes of an edge are consecutive.
         let mut last: Option<((u32, u32), u32)> = None;
         let nodes: Vec<u32> = found
             .nodes
@@ -108,7 +108,7 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
                     let key = (shape, face.location(location));
                     let known = corners.vertices.get(&key).or_else(|| degenerate_ends.get(&key));
                     known.copied().unwrap_or_else(|| {
-                        // Of edges without a polyline: it is placed with the first point that has its number.
+                        // A vertex of edges without a polyline: its place comes from the first point with its number.
                         let next = corners.points.len() as u32;
                         degenerate_ends.insert(key, next);
                         corners.points.push([f64::NAN; 3]);
@@ -194,7 +194,7 @@ fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners,
     }
 }
 
-/// Points that something uses, in their order.
+/// Keeps the points that are used, in their order.
 fn compress(points: &[[f64; 3]], out: &mut PartMesh) {
     let mut number = vec![-1i32; points.len()];
     out.points.reserve(points.len());

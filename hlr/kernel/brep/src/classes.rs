@@ -1,5 +1,5 @@
-//! The class of each edge of a part: sharp, smooth, seam or border. Where it changes along an edge, the edge has
-//! pieces.
+//! The class of each edge of a part: sharp, smooth, seam or boundary. An edge along which the class changes is divided
+//! into pieces.
 
 use crate::format::Orientation;
 use crate::part_topology::{PartFace, PartTopology};
@@ -23,8 +23,9 @@ pub struct Classes {
     pub more: Vec<(f64, EdgeClass)>,
 }
 
-/// An edge of two faces is smooth where the surface normals agree along it; a seam whose normals do not agree is a
-/// crease. Edges of more than two faces, and edges of none, are sharp; those of one face are its border.
+/// The classes of an edge. An edge of two faces is smooth where the surface normals agree along it. A seam whose
+/// normals do not agree is a crease. Edges of more than two faces, and edges of none, are sharp. An edge of one face is a
+/// boundary.
 pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
     let placed = &part.edges[number];
     let edge = &shapes.edges[placed.edge as usize];
@@ -81,10 +82,10 @@ fn one_side<'a>(shapes: Shapes<'a>, placed: &'a PartFace, used: &Use) -> Option<
     Some(Side { surface: face.surface.as_ref()?, curve, place: placed.place.as_ref(), reversed: placed.reversed, free })
 }
 
-/// Plane, cylinder, cone, sphere, torus.
+/// The highest kind of an elementary surface: plane, cylinder, cone, sphere, torus.
 const LAST_ELEMENTARY: u8 = 5;
 
-/// None where the face does not have the edge once in each sense.
+/// The seam's side in each sense; None unless the face has the edge once in each sense.
 fn sides_of_seam<'a>(shapes: Shapes<'a>, part: &'a PartTopology, face: u32, number: u32) -> Option<[Side<'a>; 2]> {
     let placed = &part.faces[face as usize];
     let both: Vec<&Use> = uses(shapes, part, face, number).collect();

@@ -1,6 +1,6 @@
 //! Walks the shape tree of every part and lists its faces, its edges, and which face uses which edge.
 //!
-//! The order is that of TopExp::MapShapes: a number here is an index in the part's face or edge map.
+//! The order is that of TopExp::MapShapes: a number here is an index into the part's face or edge map.
 
 use rustc_hash::FxHashMap;
 
@@ -20,7 +20,7 @@ pub struct PlacedEdge {
     pub location: u32,
 }
 
-/// An edge in a wire of a face: numbers within the part. A face that stands there twice uses its edges twice.
+/// A use of an edge by a wire of a face: numbers within the part. A face that occurs twice uses its edges twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlacedUse {
     pub edge: u32,
@@ -42,7 +42,7 @@ pub struct Explored {
     pub parts: Vec<Part>,
 }
 
-/// The most shapes that all parts may have together. A file whose nesting makes more of them is damaged.
+/// Limit on the shapes of all parts together. A file whose nesting produces more is damaged.
 const MOST: usize = 200_000_000;
 
 /// A shape during the walk: the face it belongs to, and its location and orientation relative to the part.
@@ -54,10 +54,10 @@ struct Item {
     face: Option<u32>,
 }
 
-/// `chosen`: numbers of the root's children, which are the parts; None: all of them.
+/// Lists the faces and edges of the parts. `chosen`: numbers of the root's children that are the parts; None for all.
 ///
 /// # Errors
-/// The root is no compound, it has no such child, or the parts hold more than can be.
+/// The root is no compound, a chosen child does not exist, or the parts contain too many shapes.
 pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Damaged> {
     let root = &dump.shapes[dump.root.shape as usize];
     if root.kind != Kind::Compound {

@@ -1,7 +1,7 @@
 //! Joins the mesh of a face that another mesher made to the polylines of the face's edges.
 //!
-//! The border of that mesh has other corners than the polylines. Each is moved along the edge to the nearest corner of
-//! the polyline. Corners of the polyline that received none divide the triangle beside them:
+//! The border of that mesh has other corners than the polylines. Each of them moves along the edge to the nearest
+//! corner of the polyline. Corners of the polyline that none moved to divide the triangle beside them:
 //!
 //! ```text
 //!  ours     o-----o-----o-----o        o-----o-----o-----o
@@ -31,11 +31,11 @@ pub struct ForeignMesh {
     pub uv: Vec<[f64; 2]>,
     /// Counterclockwise in (u, v).
     pub triangles: Vec<[u32; 3]>,
-    /// One for each edge in each wire of the face.
+    /// One border for each edge in each wire of the face.
     pub borders: Vec<Border>,
 }
 
-/// The face with the foreign mesh; None if its border is not that of the face, or its area is not that of the surface.
+/// The face with the foreign mesh; None if the mesh has another border than the face, or another area than the surface.
 pub fn with_foreign_mesh(
     model: &Model,
     meshed: &Tessellation,
@@ -73,7 +73,7 @@ pub fn with_foreign_mesh(
             } else {
                 node_of.entry(at).or_insert_with(|| corner(k));
                 foreign.points[at as usize] = place(k);
-                // Corners that the foreign mesh does not have.
+                // Corners of the polyline that the foreign mesh lacks.
                 let mut between = Vec::new();
                 for inner in before + 1..k {
                     let share = (inner - before) as f64 / (k - before) as f64;
@@ -103,8 +103,8 @@ pub fn with_foreign_mesh(
     Some(ordered(foreign, triangles, &node_of, face.surface.as_ref()))
 }
 
-/// Whether triangles have the area in space that the surface has where they are in (u, v): those that join both sides
-/// of a seam have none, those that lie in folds have more.
+/// Whether the triangles have the same area in space as the part of the surface below them in (u, v). Triangles that
+/// join both sides of a seam have no such part; folds have too much area.
 fn covers(surface: &Surface, foreign: &ForeignMesh, triangles: &[[u32; 3]]) -> bool {
     let (mut flat, mut true_area) = (0.0, 0.0);
     for t in triangles {
@@ -117,10 +117,10 @@ fn covers(surface: &Surface, foreign: &ForeignMesh, triangles: &[[u32; 3]]) -> b
     (flat - true_area).abs() <= OTHER_AREA * true_area
 }
 
-/// Share of the area: what chords may leave out of it.
+/// Largest relative difference between the two areas, which allows for the chords.
 const OTHER_AREA: f64 = 0.1;
 
-/// Whether no triangle is turned over in (u, v), and each side has its counterpart: a side of a neighbour, or a chord
+/// Whether no triangle is turned over in (u, v), and each side has its counterpart: the side of a neighbour, or a chord
 /// of the border in the right sense.
 fn is_sound(foreign: &ForeignMesh, orientations: impl Iterator<Item = Orientation>) -> bool {
     let mut sides: FxHashMap<[u32; 2], i32> = FxHashMap::default();
@@ -134,7 +134,7 @@ fn is_sound(foreign: &ForeignMesh, orientations: impl Iterator<Item = Orientatio
             *sides.entry([t[k], t[(k + 1) % 3]]).or_default() += 1;
         }
     }
-    // Beyond the border runs the counterpart.
+    // The counterpart of a chord is a side in the opposite sense.
     let mut chord = |a: u32, b: u32| *sides.entry([b, a]).or_default() += 1;
     for (border, orientation) in foreign.borders.iter().zip(orientations) {
         for w in border.nodes.windows(2) {
@@ -157,14 +157,14 @@ fn nearest(parameters: &[f64], t: f64) -> usize {
     if above > 0 && t - parameters[above - 1] < parameters[above] - t { above - 1 } else { above }
 }
 
-/// One side with corners upon it after the other.
+/// Divides a triangle at the corners on its sides, one side after another.
 fn divide(t: [u32; 3], fans: &FxHashMap<[u32; 2], Vec<u32>>, out: &mut Vec<[u32; 3]>) {
     for k in 0..3 {
         let [a, b, c] = [t[k], t[(k + 1) % 3], t[(k + 2) % 3]];
         if let Some(between) = fans.get(&[a, b]) {
             let mut from = a;
             for &to in between.iter().chain([&b]) {
-                // The other two sides may be divided, too: those of the first and the last piece.
+                // The other two sides may be divided as well: they belong to the first and the last piece.
                 divide([from, to, c], fans, out);
                 from = to;
             }
@@ -174,7 +174,7 @@ fn divide(t: [u32; 3], fans: &FxHashMap<[u32; 2], Vec<u32>>, out: &mut Vec<[u32;
     out.push(t);
 }
 
-/// Nodes of the border first, then the others.
+/// Renumbers the nodes: those of the border first, then the others.
 fn ordered(
     foreign: ForeignMesh,
     triangles: Vec<[u32; 3]>,

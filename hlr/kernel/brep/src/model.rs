@@ -17,17 +17,18 @@ pub struct Model {
     pub faces: Vec<Face>,
     pub parts: Vec<Part>,
     pub topology: Vec<PartTopology>,
-    /// By part and edge.
+    /// Classes by part and edge.
     pub classes: Vec<Vec<Classes>>,
-    /// In (u, v), as curves in space with z = 0.
+    /// Curves in (u, v), as curves in space with z = 0.
     pub curves2: Vec<Option<Curve>>,
 }
 
 impl Model {
-    /// The parts are the children of the dump's root, a compound: all, or those with the numbers `chosen`.
+    /// Reads a model from a dump. The parts are the children of its root, a compound: all, or those with the numbers
+    /// `chosen`.
     ///
     /// # Errors
-    /// The bytes are damaged, their shapes nest beyond all measure, or there is no such child.
+    /// The bytes are damaged, the parts contain too many shapes, or a chosen child does not exist.
     pub fn read(bytes: &[u8], chosen: Option<&[u32]>) -> Result<Model, Damaged> {
         let mut dump = crate::format::read(bytes)?;
         let found = explore::explore(&mut dump, chosen)?;
@@ -45,7 +46,7 @@ impl Model {
         Ok(model)
     }
 
-    /// How the faces of all parts meet; where that changes along an edge, its polyline gets a corner.
+    /// Classifies the edges of all parts. Where the class changes along an edge, its polyline gets a corner.
     fn classify(&mut self) {
         let shapes = Shapes { edges: &self.edges, faces: &self.faces, curves2: &self.curves2 };
         let of_part = |part: &PartTopology| -> Vec<Classes> {
@@ -76,7 +77,7 @@ fn edge(dump: &mut Dump, shape: u32) -> Edge {
         degenerate,
         ends: [None; 2],
         end_points: [None; 2],
-        // 0: nothing recorded, 1: C0, from there on tangent.
+        // 0: nothing recorded, 1: C0, above: tangent.
         tangent: continuity > 1,
         on: Vec::with_capacity(on.len()),
         polygon: None,

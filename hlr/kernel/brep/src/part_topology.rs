@@ -9,14 +9,14 @@ use crate::shapes::{Edge, Face, Vertex};
 pub struct PartTopology {
     pub edges: Vec<PartEdge>,
     pub faces: Vec<PartFace>,
-    /// Per edge, each use by a face: face, wire, and number in the wire, in the order of the faces.
+    /// The uses of each edge by faces: face, wire, and number in the wire, in the order of the faces.
     places: Vec<[u32; 3]>,
-    /// Of each edge.
+    /// Index in `places` of the first use of each edge.
     first_place: Vec<u32>,
 }
 
 impl PartTopology {
-    /// Where a face runs through an edge, in its order: wire, and number in the wire.
+    /// The uses of an edge by a face, in order: wire, and number in the wire.
     pub fn places(&self, edge: u32, face: u32) -> impl Iterator<Item = [usize; 2]> + '_ {
         let [begin, end] = [0, 1].map(|k| self.first_place[edge as usize + k] as usize);
         let all = self.places[begin..end].iter().filter(move |place| place[0] == face);
@@ -29,11 +29,11 @@ pub struct PartEdge {
     pub location: u32,
     pub place: Option<Matrix>,
     pub ends: [Vertex; 2],
-    /// Faces of the part around it, each once.
+    /// The faces of the part that share the edge, each once.
     pub faces: Vec<u32>,
-    /// A face has it more than once.
+    /// Whether a face has the edge more than once.
     pub twice: bool,
-    /// It lies inside a face.
+    /// Whether the edge lies inside a face.
     pub inner: bool,
 }
 
@@ -42,9 +42,9 @@ pub struct PartFace {
     pub place: Option<Matrix>,
     pub reversed: bool,
     pub mirrored: bool,
-    /// Numbers in the part of the edges that its wires run through, one wire after another.
+    /// Numbers in the part of the edges that the face's wires use, one wire after another.
     pub uses: Vec<u32>,
-    /// From locations within the face to locations within the part.
+    /// Locations within the part by locations within the face.
     locations: FxHashMap<u32, u32>,
 }
 

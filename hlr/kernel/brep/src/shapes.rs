@@ -7,25 +7,25 @@ use crate::geometry::surface::Surface;
 /// A vertex: its underlying shape, and its location within the shape that holds it.
 pub type Vertex = (u32, u32);
 
-/// Stands for the missing vertex at the end of an edge, combined with the edge's number.
+/// Flag of a missing vertex at the end of an edge, combined with the edge's number.
 pub const NO_VERTEX: u32 = 1 << 31;
 
 /// An underlying edge, in its own frame.
 pub struct Edge {
-    /// None: only its curves on surfaces are known.
+    /// The curve in space; None if only the curves on surfaces are known.
     pub curve: Option<Curve>,
     pub range: [f64; 2],
     pub tolerance: f64,
-    /// All of it is one point: a pole.
+    /// The edge is a single point in space: a pole.
     pub degenerate: bool,
-    /// First and last vertex, and where they are.
+    /// First and last vertex; `end_points` are their places in the edge's frame.
     pub ends: [Option<Vertex>; 2],
     pub end_points: [Option<[f64; 3]>; 2],
-    /// A file or a modeller recorded that two faces are tangent along it.
+    /// A file or a modeller states that two faces are tangent along the edge.
     pub tangent: bool,
     pub on: Vec<OnSurface>,
     pub polygon: Option<Vec<[f64; 3]>>,
-    /// Of an edge without a curve in space: number of its curve in (u, v), and the surface in the edge's frame.
+    /// For an edge without a curve in space: number of its curve in (u, v), and the surface in the edge's frame.
     pub only_on: Option<(usize, Surface)>,
     /// Parameters at which its polyline has a corner, ascending.
     pub joints: Vec<f64>,
@@ -39,22 +39,22 @@ pub struct OnSurface {
     pub range: [f64; 2],
 }
 
-/// An underlying face, in its own frame; taken forward.
+/// An underlying face in its own frame, with forward orientation.
 pub struct Face {
     pub record: Option<SurfaceRecord>,
     pub surface: Option<Surface>,
     pub tolerance: f64,
     pub wires: Vec<Vec<Use>>,
-    /// Triangles that are all the face has.
+    /// The face's own triangles, for a face without a surface.
     pub own: Option<Triangulation>,
 }
 
-/// An edge in a wire of a face.
+/// A use of an edge by a wire of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Use {
     pub edge: u32,
     pub location: u32,
-    /// Where the location puts it; None: where it is.
+    /// The matrix of the location; None for the identity.
     pub place: Option<Matrix>,
     pub orientation: Orientation,
     /// First and last vertex of the edge, as the face sees them.
@@ -64,13 +64,13 @@ pub struct Use {
 }
 
 impl Edge {
-    /// First and last vertex; one that there is not is the edge's own.
+    /// First and last vertex; a missing vertex is replaced by one of the edge's own.
     pub fn ends(&self, number: u32) -> [Vertex; 2] {
         self.ends.map(|end| end.unwrap_or((NO_VERTEX | number, 0)))
     }
 }
 
-/// What a part's numbers of edges, faces and curves in (u, v) refer to, borrowed from a model.
+/// The edges, faces and curves in (u, v) to which a part's numbers refer, borrowed from a model.
 #[derive(Clone, Copy)]
 pub struct Shapes<'a> {
     pub edges: &'a [Edge],

@@ -1,7 +1,7 @@
 //! The mesh of a model: each edge once, then each underlying face once, on all threads.
 //!
-//! Chords that are too coarse for one of their faces, or cross there, are divided for both; the faces beside them
-//! follow.
+//! Chords that are too coarse for one of their faces, or cross there, are divided for all faces that share them; these
+//! faces are then meshed again.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -15,37 +15,38 @@ use crate::mesh::{Done, FaceMesh, Fault, Progress, border_share, mesh_face};
 use crate::model::Model;
 use crate::shapes::Face;
 
-/// Rounds of dividing chords.
+/// Limit on the rounds in which chords are divided.
 const MOST_ROUNDS: usize = 12;
-/// Rounds in which a face is still divided that was not certified: its chords may be to blame, or its surface.
+/// Limit on the rounds for a face without a proof of its chord error: either its chords or its surface may be the
+/// reason.
 const ROUNDS_UNCERTIFIED: usize = 3;
-/// Corners of one edge beyond which it is divided no more.
+/// An edge with more corners is not divided any further.
 const MOST_CORNERS: usize = 100_000;
 
 pub struct Tessellation {
-    /// By edge; None: an edge without any curve.
+    /// Polylines by edge; None for an edge without any curve.
     pub lines: Vec<Option<Polyline>>,
-    /// By face.
+    /// Meshes by face.
     pub faces: Vec<MeshedFace>,
 }
 
 #[derive(Clone, Debug, Default)]
 pub struct MeshedFace {
     pub mesh: FaceMesh,
-    /// What the numbers of nodes in the mesh stand for.
+    /// The vertex or corner for each node number of the mesh.
     pub nodes: Vec<Node>,
-    /// Why there is no mesh.
+    /// The reason if there is no mesh.
     pub fault: Option<Fault>,
 }
 
-/// How far the work is, and whether it is to be stopped.
+/// Progress of the work, and the request to stop it.
 pub struct Watch<'a> {
     pub stopped: &'a (dyn Fn() -> bool + Sync),
-    /// Grows by `OF_A_FACE` for each face.
+    /// Units done so far: `OF_A_FACE` for each face.
     pub done: &'a AtomicUsize,
 }
 
-/// The mesh at a chord error and a turning angle (radians); None: stopped.
+/// The mesh of a model for a chord error and a turning angle in radians; None if it was stopped.
 pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> Option<Tessellation> {
     let shares = shares_of_edges(model);
     let mut lines: Vec<Option<Polyline>> = model
@@ -57,7 +58,7 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
     let faces_of = faces_of_edges(model);
     let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
-    // Faces whose coarse chords cannot be divided any more: they are meshed with these.
+    // Faces whose coarse chords cannot be divided any further: they are meshed with these chords.
     let mut settled: BTreeSet<usize> = BTreeSet::new();
     let told: Vec<AtomicUsize> = model.faces.iter().map(|_| AtomicUsize::new(0)).collect();
     for round in 0..=MOST_ROUNDS {
@@ -118,7 +119,7 @@ fn by_edge(divided: &BTreeSet<(u32, u32)>) -> Vec<(u32, Vec<usize>)> {
     all.chunk_by(|a, b| a.0 == b.0).map(|group| (group[0].0, group.iter().map(|c| c.1 as usize).collect())).collect()
 }
 
-/// Of the deflection, what each edge may take: the least that its faces leave it.
+/// Share of the deflection that the chords of each edge may use: the smallest share of its faces.
 fn shares_of_edges(model: &Model) -> Vec<f64> {
     let mut shares = vec![1.0f64; model.edges.len()];
     for face in &model.faces {
@@ -191,13 +192,14 @@ const PLANE: u8 = 1;
 
 struct Tried {
     face: MeshedFace,
-    /// Chords that are to be divided: edge and chord along it.
+    /// Chords to be divided, each as edge and number along the edge.
     coarse: Vec<(u32, u32)>,
-    /// For that: it was not tried.
+    /// The face was not meshed, because its chords are to be divided first.
     waits: bool,
 }
 
-/// divisible: chords that are too coarse may still be divided; the face is not meshed before they are.
+/// Meshes one face. `divisible`: chords that are too coarse can still be divided, and the face is meshed only after
+/// that.
 fn try_face(
     model: &Model,
     face: &Face,
@@ -234,7 +236,7 @@ fn try_face(
         return Tried { waits: true, ..failed(Fault::NotCertified(f64::INFINITY), coarse) };
     }
     let Border { mut loops, nodes, chords, .. } = found;
-    // What two edges enclose that are one and the same chord is nothing at this deflection.
+    // Two edges that consist of the same single chord enclose nothing at this deflection.
     let encloses = |l: &Vec<crate::mesh::LoopPoint>| l.len() > 2;
     let kept: Vec<usize> = (0..loops.loops.len()).filter(|&i| encloses(&loops.loops[i])).collect();
     if kept.is_empty() {

@@ -1,7 +1,7 @@
 //! Bounds on spline surfaces and their derivatives over a rectangle of parameters, from their control nets.
 //!
-//! A spline lies in the convex hull of its control points. Those of the piece over a small rectangle lie near the
-//! piece.
+//! A spline lies in the convex hull of its control points. The smaller the rectangle, the closer the control points of
+//! its piece lie to the surface.
 
 use crate::geometry::curve::Curve;
 use crate::geometry::nurbs::Nurbs;
@@ -28,7 +28,7 @@ impl ControlNet {
         ControlNet { degree, count, knots, poles: poles.to_vec(), period: surface.period() }
     }
 
-    /// Of a spline moved along a direction; None for other curves.
+    /// The control net of a spline extruded along `way`; None for other curves.
     pub fn of_extrusion(way: &Vector, curve: &Curve) -> Option<ControlNet> {
         let Curve::Spline(n) = curve else { return None };
         let both = |p: &[f64; 4]| [*p, [p[0] + way[0] * p[3], p[1] + way[1] * p[3], p[2] + way[2] * p[3], p[3]]];
@@ -41,7 +41,7 @@ impl ControlNet {
         })
     }
 
-    /// By u (0) or v (1).
+    /// The control net of the derivative by u (0) or v (1).
     pub fn derived(&self, side: usize) -> ControlNet {
         let (p, knots) = (self.degree[side], &self.knots[side]);
         let mut count = self.count;
@@ -66,7 +66,7 @@ impl ControlNet {
         ControlNet { degree, count, knots: all, poles, period: self.period }
     }
 
-    /// Of a curve alone, along v.
+    /// The control net of a curve, which runs along v.
     pub fn of_curve(n: &Nurbs) -> ControlNet {
         ControlNet {
             degree: [0, n.degree],
@@ -77,14 +77,14 @@ impl ControlNet {
         }
     }
 
-    /// Whether a rectangle goes on beyond the ends of a period, where nothing is known of the slopes.
+    /// Whether a rectangle crosses the ends of a period, where nothing is known of the slopes.
     pub fn comes_round(&self, side: usize, [low, high]: Range) -> bool {
         let turn = self.period[side];
         let ends = [self.knots[side][self.degree[side]], self.knots[side][self.count[side]]];
         turn > 0.0 && ends.iter().any(|k| [-turn, 0.0, turn].iter().any(|t| low < k + t && k + t < high))
     }
 
-    /// How far the slope of a form by u (0) or v (1) jumps at most at knots inside a rectangle: all jumps together.
+    /// An upper bound on the jumps of a form's slope by u (0) or v (1) at knots inside a rectangle, all jumps added up.
     pub fn jump(&self, side: usize, form: &[f64; 4], rectangle: [Range; 2]) -> f64 {
         let (p, knots, period) = (self.degree[side], &self.knots[side], self.period[side]);
         let [low, high] = rectangle[side];
@@ -98,7 +98,7 @@ impl ControlNet {
             if run.len() < p || p == 0 || begin == 0 || end == knots.len() || !inside {
                 continue;
             }
-            // The pole that the spline passes there, and how long the spans beside it are.
+            // The pole that the spline passes through there, and p over the lengths of the spans beside it.
             let pole = begin - 1;
             let shares = [run[0] - knots[begin - 1], knots[end] - run[0]].map(|width| p as f64 / width);
             let value = |along: usize, across: usize| -> f64 {
@@ -121,7 +121,7 @@ impl ControlNet {
         sum
     }
 
-    /// What the form a x w + b y w + c z w + d w can be on a rectangle.
+    /// The range of the form a x w + b y w + c z w + d w over a rectangle.
     pub fn range(&self, form: &[f64; 4], rectangle: [Range; 2]) -> Range {
         let [u, v] = [0, 1].map(|side| self.cells(side, rectangle[side]));
         let mut found = [f64::INFINITY, f64::NEG_INFINITY];
@@ -148,7 +148,7 @@ impl ControlNet {
         found
     }
 
-    /// Spans between knots that a range touches, and what it has of each.
+    /// The spans between knots that a range touches, each with the part of the range inside it.
     fn cells(&self, side: usize, [low, high]: Range) -> Vec<(usize, Range)> {
         let (p, count, knots, period) = (self.degree[side], self.count[side], &self.knots[side], self.period[side]);
         let mut out = Vec::new();
@@ -161,7 +161,7 @@ impl ControlNet {
         for turn in turns {
             let (low, high) = (low - turn as f64 * period, high - turn as f64 * period);
             for span in (p..count).filter(|&span| knots[span] < knots[span + 1]) {
-                // Beyond the ends the outermost pieces go on.
+                // Beyond the ends of the domain the outermost pieces continue.
                 let begin = if period == 0.0 && knots[span] <= first { f64::NEG_INFINITY } else { knots[span] };
                 let end = if period == 0.0 && knots[span + 1] >= last { f64::INFINITY } else { knots[span + 1] };
                 if begin <= high && low <= end {
@@ -173,8 +173,8 @@ impl ControlNet {
     }
 }
 
-/// Control values of a piece of a span, in place of the spline's own: the polar form with the upper end so many times,
-/// else the lower one.
+/// Replaces the control values of a span by those of its piece low..high. Control value j is the polar form with `high`
+/// j times and `low` otherwise (de Boor).
 fn restricted(values: &mut [f64], knots: &[f64], span: usize, [low, high]: Range) {
     let p = values.len() - 1;
     let given = values.to_vec();
@@ -193,7 +193,7 @@ fn restricted(values: &mut [f64], knots: &[f64], span: usize, [low, high]: Range
     }
 }
 
-/// n . (S - origin), times the weight.
+/// The form n . (S - origin), times the weight.
 pub fn height(n: &Vector, origin: &Vector) -> [f64; 4] {
     [n[0], n[1], n[2], -dot(n, origin)]
 }

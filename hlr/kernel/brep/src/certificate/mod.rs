@@ -1,17 +1,20 @@
-//! A proof that the mesh of a face keeps its chord error: within each triangle in (u, v), the surface is nowhere
-//! farther from the triangle than that, measured along the mean normal of the corners or at right angles to the
-//! triangle.
+//! A proof that the mesh of a face keeps its chord error. For each triangle in (u, v) it bounds the distance of the
+//! surface from the triangle, measured along the mean normal of the corners or at right angles to the triangle.
 //!
-//! The error is measured between points of the surface. The distance of a file's edges from the surface is not part of
-//! it.
+//! The error is measured between points of the surface. The distance of a file's edges from the surface is not
+//! included.
 //!
-//! With f the height of the surface above the plane through its places at a triangle's corners, times the surface's
-//! weight where it has one, and H its second derivative: f - sum l_i f(v_i) = - sum l_i H_i(v_i - x, v_i - x) / 2, with
-//! means H_i of H on the way from x to the corner v_i. H lies in a box by `second_derivatives`; in the middle of the
-//! box the sum is a quadratic form, whose extreme is exact, and what H can be beside it adds at most (dH_uu a^2 + 2
-//! dH_uv a b + dH_vv b^2) / 8 for the triangle's width a and height b. Where a knot lets the slope jump by J along u, J
-//! a / 4 is added, and so along v. What that leaves in doubt is cut in four; the doubt shrinks by as much or more,
-//! along jumps by half.
+//! Let f be the height of the surface above the plane through its points at a triangle's corners, times the surface's
+//! weight where it has one. Let H be the second derivative of f, and H_i its mean on the way from x to the corner v_i.
+//! Then, with l_i the barycentric coordinates of x,
+//!
+//! f(x) - sum l_i f(v_i) = - sum l_i H_i(v_i - x, v_i - x) / 2.
+//!
+//! `second_derivatives` gives a box that contains H. For the middle of the box the sum is a quadratic form, whose
+//! extreme is exact. The rest of the box adds at most (dH_uu a^2 + 2 dH_uv a b + dH_vv b^2) / 8 for the triangle's
+//! width a and height b. A knot at which the slope jumps by J along u adds J a / 4, and likewise along v. Where the
+//! bound is too large, the triangle is divided into four. That divides the uncertainty by four or more, or by two where
+//! slopes jump.
 
 mod control_net;
 mod second_derivatives;
@@ -22,17 +25,17 @@ use crate::mesh::FaceMesh;
 use control_net::Range;
 use second_derivatives::{Bends, Ranges, plus, times};
 
-/// How often a triangle may be divided into four.
+/// How many times in a row a triangle may be divided into four.
 const DEPTH: u32 = 7;
-/// Share of the actual error at which the proof stops, where that error exceeds what was asked.
+/// Where the measured error exceeds the limit, the proof stops as soon as its bound is at most this factor larger.
 const CLOSE: f64 = 1.02;
-/// Share of the deflection that is left for rounding.
+/// Share of the deflection that is allowed for rounding.
 const ROUNDING: f64 = 1e-9;
-/// Between a triangle's own normal and the mean of its corners: where they differ by more it is a needle, and its own
-/// one says nothing.
+/// Cosine of the angle between a triangle's own normal and the mean normal of its corners. Below it the triangle is a
+/// needle, and its own normal is not used.
 const UPRIGHT: f64 = 0.9;
 
-/// What is proved of a mesh. Errors are in its unit.
+/// What is proved of a mesh. Errors are in the unit of the mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certificate {
     /// Upper bound: no triangle is farther from the surface.
@@ -40,10 +43,10 @@ pub struct Certificate {
     /// Lower bound: some point of the surface is this far from its triangle.
     pub measured: f64,
     pub triangles: usize,
-    /// Triangles that may be farther off than was asked, by the proof.
+    /// Triangles whose proved bound exceeds the deflection.
     pub above: usize,
-    /// Triangles of which nothing can be proved: across the ends of a period, and on surfaces that are known by their
-    /// values only.
+    /// Triangles of which nothing can be proved: across the ends of a period, and on surfaces of which only values are
+    /// known.
     pub unproved: usize,
 }
 
@@ -59,7 +62,7 @@ impl Certificate {
     }
 }
 
-/// The proof for a face's mesh at a deflection.
+/// Proves the chord error of a face's mesh against a deflection.
 pub fn certify(surface: &Surface, mesh: &FaceMesh, deflection: f64) -> Certificate {
     let mut all = Certificate { triangles: mesh.triangles.len(), ..Certificate::default() };
     if matches!(surface, Surface::Plane(_)) {
@@ -83,7 +86,7 @@ pub fn certify(surface: &Surface, mesh: &FaceMesh, deflection: f64) -> Certifica
                 Proof { surface, bends: bends.as_ref()?, n, origin, uv, heights, limit: deflection, measured: 0.0 };
             Some((proof.bound(uv, [0.0; 3], 0)?, proof.measured))
         });
-        // The second one is asked where the first one does not do.
+        // The triangle's own normal is tried only where the mean normal gives too large a bound.
         let mut least: Option<(f64, f64)> = None;
         for (bound, measured) in proofs {
             least = Some(least.map_or((bound, measured), |(b, s)| (b.min(bound), s.min(measured))));
@@ -102,21 +105,22 @@ pub fn certify(surface: &Surface, mesh: &FaceMesh, deflection: f64) -> Certifica
     all
 }
 
-/// Of one triangle.
+/// The proof for one triangle.
 struct Proof<'a> {
     surface: &'a Surface,
     bends: &'a Bends<'a>,
     n: Vector,
     origin: Vector,
     uv: [[f64; 2]; 3],
-    /// Of its corners.
+    /// Heights of the corners above the plane through the first corner, along n.
     heights: [f64; 3],
     limit: f64,
     measured: f64,
 }
 
 impl Proof<'_> {
-    /// A bound of the gap on a part of the triangle, from the gaps at the part's corners.
+    /// An upper bound of the gap on a part of the triangle, from the gaps at the part's corners; None where there is no
+    /// bound.
     fn bound(&mut self, uv: [[f64; 2]; 3], gaps: [f64; 3], depth: u32) -> Option<f64> {
         let known = gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
         self.measured = self.measured.max(known);
@@ -142,12 +146,12 @@ impl Proof<'_> {
         parts.into_iter().try_fold(0.0f64, |most, (uv, gaps)| Some(most.max(self.bound(uv, gaps, depth + 1)?)))
     }
 
-    /// Height of the surface above the triangle's plane along n, at one and the same place in (u, v).
+    /// Height of the surface above the triangle along n, both taken at the same (u, v).
     fn gap(&self, p: [f64; 2]) -> f64 {
         dot(&self.n, &sub(&self.surface.point(p), &self.origin)) - self.plane(p)
     }
 
-    /// Height of the triangle.
+    /// Height of the triangle along n at a point in (u, v).
     fn plane(&self, p: [f64; 2]) -> f64 {
         let [x, y] = self.slopes();
         self.heights[0] + x * (p[0] - self.uv[0][0]) + y * (p[1] - self.uv[0][1])
@@ -193,7 +197,8 @@ impl Proof<'_> {
     }
 }
 
-/// Greatest |h01 l0 l1 + h12 l1 l2 + h20 l2 l0| on a triangle: amid an edge, or where it is level inside.
+/// Greatest |h01 l0 l1 + h12 l1 l2 + h20 l2 l0| on a triangle: at the middle of an edge, or at a stationary point
+/// inside.
 fn extreme([p, q, r]: [f64; 3]) -> f64 {
     let edges = [p, q, r].iter().fold(0.0f64, |m, h| m.max(0.25 * h.abs()));
     // p l1 + r l2 = p l0 + q l2 = r l0 + q l1.

@@ -5,37 +5,38 @@ use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, along, cross, dot, length, scaled, sub};
 
-/// A surface, with the values that the bounds need again and again.
+/// A surface, with the control nets that the bounds use repeatedly.
 pub enum Bends<'a> {
-    /// By the change of the second derivatives at most: from their values in the middle.
+    /// A smooth surface: the second derivatives in the middle, with a bound on how much they change.
     Smooth(&'a Surface),
     Nets(Box<Nets>),
-    /// A spline about an axis: a point of it, its direction.
+    /// A spline turned about an axis: a point of the axis, its direction, and control nets.
     Round(Vector, Vector, Box<[ControlNet; 3]>),
 }
 
 pub struct Nets {
     whole: ControlNet,
     slopes: [ControlNet; 2],
-    /// By uu, uv, vv.
+    /// Second derivatives by uu, uv, vv.
     bends: [ControlNet; 3],
     rational: bool,
 }
 
-/// Of the height times the weight, on a rectangle: second derivatives by uu, uv, vv; of the weight itself all of them.
+/// Ranges over a rectangle: the second derivatives (uu, uv, vv) of height times weight; the value, first and second
+/// derivatives of the weight.
 pub struct Ranges {
     pub height: [Range; 3],
     pub weight: Range,
     pub slopes: [Range; 2],
     pub bends: [Range; 3],
-    /// How far the slopes of the height and of the weight jump, by u and v.
+    /// Bounds on the jumps of the slopes, first of the height, then of the weight; each by u and v.
     pub jumps: [[f64; 2]; 2],
 }
 
 const WEIGHT: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
 
 impl Bends<'_> {
-    /// None where nothing is known of the surface but its values.
+    /// None where only the values of the surface are known.
     pub fn new(surface: &Surface) -> Option<Bends<'_>> {
         let nets = |whole: ControlNet, rational| {
             let slopes = [0, 1].map(|side| whole.derived(side));
@@ -60,7 +61,7 @@ impl Bends<'_> {
         }
     }
 
-    /// None where the rectangle goes on beyond a period.
+    /// None where the rectangle crosses the end of a period.
     pub fn on(&self, n: &Vector, origin: &Vector, rectangle: [Range; 2]) -> Option<Ranges> {
         let none = [0.0; 2];
         let one = |height| Ranges { height, weight: [1.0; 2], slopes: [none; 2], bends: [none; 3], jumps: [none; 2] };

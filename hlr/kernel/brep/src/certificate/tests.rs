@@ -4,8 +4,8 @@ use super::*;
 use crate::mesh::tests::shapes::{Random, circle, frame, loops, surface};
 use crate::mesh::{Progress, mesh_face};
 
-/// The greatest gap at many places of each triangle: along the mean normal of its corners, or its own, whichever is
-/// less.
+/// The greatest gap, sampled at many places of each triangle: along the mean normal of its corners or along its own
+/// normal, whichever gap is less.
 fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
     const STEPS: u32 = 12;
     let of_triangle = |t: &[u32; 3]| {
@@ -49,7 +49,7 @@ fn a_bound_is_never_less_than_the_error_and_comes_near_it() {
     let line = [1.0, 1.0, 0.2, 0.0, 1.0, 0.0, 0.3, 0.0, 0.0, 0.0];
     let arc = [2.0, 3.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0];
     let spline = |weight: f64| {
-        // Of degree 2, its knot in the middle as often: a corner.
+        // Degree 2 with a double knot in the middle: the surface has a kink there.
         let knots = [0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0];
         let poles = [[2.0, 0.0], [2.5, 0.3], [2.4, 0.6], [2.3, 0.9], [2.0, 1.2]];
         let poles = poles.iter().flat_map(|[x, z]| [*x, 0.0, *z, if *z == 0.3 { weight } else { 1.0 }]);
@@ -87,7 +87,7 @@ fn a_bound_is_never_less_than_the_error_and_comes_near_it() {
 
 #[test]
 fn a_jump_of_the_slope_counts_only_where_it_is() {
-    // Of degree 1: two planes that meet at u = 0.5, at an angle or at none; with weights, too.
+    // Degree 1: two planes that meet at u = 0.5, with and without a kink, with and without weights.
     for (rise, weight) in [(0.3, 1.0), (0.0, 1.0), (0.3, 2.0), (0.0, 2.0)] {
         let mut data = vec![1.0, 1.0, 3.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0];
         for (u, z) in [(0.0, 0.0), (0.5, rise), (1.0, 0.0)] {

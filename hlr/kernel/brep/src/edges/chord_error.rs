@@ -9,7 +9,7 @@ pub fn chord_error(curve: &Curve, a: f64, b: f64) -> f64 {
     let h = 0.5 * (b - a);
     let middle = 0.5 * (a + b);
     let sum = |p: &Vec3, x: f64, q: &Vec3, y: f64| add(&scaled(p, x), &scaled(q, y));
-    // What stands upright on a chord of some direction.
+    // Length of the part of a vector that is perpendicular to a chord.
     let upright = |v: &Vec3, chord: &Vec3| {
         let square = dot(chord, chord);
         if square > 0.0 { length(&along(v, chord, -dot(v, chord) / square)) } else { length(v) }
@@ -17,7 +17,7 @@ pub fn chord_error(curve: &Curve, a: f64, b: f64) -> f64 {
     match curve {
         Curve::Line { .. } => 0.0,
         Curve::Ellipse { a: x, b: y, .. } => {
-            // Past a half turn the chord says nothing of the arc.
+            // Beyond half a turn the chord gives no bound on the arc.
             let (sin, cos) = middle.sin_cos();
             if h >= std::f64::consts::FRAC_PI_2 {
                 return length(x) + length(y);
@@ -51,7 +51,7 @@ fn spline_error(n: &Nurbs, a: f64, b: f64) -> f64 {
                 (inner, heaviest) = (inner.max(off), heaviest.max(w));
             }
         }
-        // The inner control points never have all of the weight.
+        // The inner control points together never have the full weight.
         let ends = 0.5f64.powi(p as i32 - 1);
         let inner_share = (1.0 - ends) * heaviest / ((1.0 - ends) * heaviest + ends * lightest);
         worst = worst.max(outer).max(inner_share * inner + (1.0 - inner_share) * outer);
@@ -59,7 +59,7 @@ fn spline_error(n: &Nurbs, a: f64, b: f64) -> f64 {
     worst
 }
 
-/// The parts of a..b between knots.
+/// The parts of a..b between knots of the spline.
 fn pieces(n: &Nurbs, a: f64, b: f64) -> impl Iterator<Item = [f64; 2]> + '_ {
     let inner = &n.knots[n.degree..=n.poles.len()];
     let first = inner.partition_point(|&k| k <= a);
@@ -98,7 +98,7 @@ fn polar<const N: usize>(n: &Nurbs, span: usize, low: f64, high: f64, j: usize) 
     d[p]
 }
 
-/// From a point to a chord, which ends where it ends.
+/// Distance from a point to a chord, which ends at a and b.
 pub fn from_chord(p: &Vec3, a: &Vec3, b: &Vec3) -> f64 {
     let (d, q) = (sub(b, a), sub(p, a));
     let square = dot(&d, &d);

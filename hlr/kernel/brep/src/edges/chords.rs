@@ -1,4 +1,5 @@
-//! Divides a curve into as few chords as keep the chord error and the turning angle, each with an equal share of both.
+//! Divides a curve into the fewest chords that keep the chord error and the turning angle, each with an equal share of
+//! both.
 
 use std::f64::consts::{FRAC_PI_3, TAU};
 
@@ -7,13 +8,13 @@ use crate::geometry::curve::Curve;
 use crate::geometry::vector::{cross, dot, length};
 use hlr_accuracy::CHORD_AIM;
 
-/// Points of a smooth stretch at which the curvature is evaluated.
+/// Number of points of a smooth stretch at which the curvature is evaluated.
 const SAMPLES: usize = 12;
 const SAMPLES_OF_SPAN: usize = 4;
 const MOST_CHORDS: usize = 50_000;
 const MOST_HALVINGS: u32 = 30;
 
-/// Parameters from first to last, both among them, whose chords keep the error and turn by no more than `angle`.
+/// Parameters from first to last, both included, whose chords keep the chord error and turn by at most `angle` radians.
 pub fn chords(curve: &Curve, [first, last]: [f64; 2], deflection: f64, angle: f64) -> Vec<f64> {
     let mut out = vec![first];
     for (low, high) in smooth_stretches(curve, first, last) {
@@ -22,7 +23,7 @@ pub fn chords(curve: &Curve, [first, last]: [f64; 2], deflection: f64, angle: f6
     out
 }
 
-/// Between corners of the curve.
+/// Stretches between the corners of the curve.
 fn smooth_stretches(curve: &Curve, first: f64, last: f64) -> Vec<(f64, f64)> {
     let mut bounds = vec![first];
     if let Curve::Spline(n) = curve {
@@ -45,18 +46,18 @@ fn stretch(curve: &Curve, low: f64, high: f64, deflection: f64, angle: f64, out:
         && (length(a) - length(b)).abs() <= 1e-9 * length(a)
         && dot(a, b).abs() <= 1e-9 * dot(a, a)
     {
-        // 1 - cos(h / 2) of the radius.
+        // The sagitta of an arc of the angle h is 1 - cos(h / 2), in radii.
         let step = 2.0 * (1.0 - (deflection / length(a)).min(0.5)).acos();
         let mut count = ((high - low) / step.min(angle).min(FRAC_PI_3) - 1e-9).ceil().clamp(1.0, MOST_CHORDS as f64);
         if high - low > TAU - 1e-9 {
-            // A whole circle is as wide as it is high.
+            // A whole circle gets a multiple of four chords, so that it is as wide as it is high.
             count = 4.0 * (count / 4.0).ceil();
         }
         out.extend((1..count as usize).map(|i| low + (high - low) * i as f64 / count));
         out.push(high);
         return;
     }
-    // How many chords it takes from the beginning on.
+    // Number of chords needed from the start up to each sample.
     let samples = places(curve, low, high);
     let rate = |t: f64| {
         let [_, d, dd] = curve.derivatives(t);
@@ -119,10 +120,10 @@ fn halve(curve: &Curve, from: f64, to: f64, deflection: f64, angle: f64, depth: 
     halve(curve, middle, to, deflection, angle, depth + 1, out);
 }
 
-/// Angle between the tangents at both ends.
+/// Angle in radians between the tangents at both ends.
 fn turning(curve: &Curve, from: f64, to: f64) -> f64 {
     let width = to - from;
-    // A little inside: ends may be corners.
+    // Evaluated slightly inside: the ends may be corners.
     let [a, b] = [from + 1e-6 * width, to - 1e-6 * width].map(|t| curve.derivatives(t)[1]);
     length(&cross(&a, &b)).atan2(dot(&a, &b))
 }

@@ -1,4 +1,4 @@
-//! Edges as polylines: each underlying edge once, shared by all of its faces.
+//! Polylines of edges: each underlying edge once, shared by all of its faces.
 
 mod chord_error;
 mod chords;

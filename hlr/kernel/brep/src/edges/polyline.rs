@@ -8,7 +8,7 @@ use crate::model::Model;
 use crate::shapes::Edge;
 use hlr_accuracy::{CHORD_SAMPLED, EDGE_CERTAIN};
 
-/// Corners of an edge's polyline, in the edge's frame; parameters ascend. The ends are the vertices.
+/// Corners of an edge's polyline, in the edge's frame, by ascending parameters. The ends are the vertices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Polyline {
     pub parameters: Vec<f64>,
@@ -49,20 +49,18 @@ impl Polyline {
     }
 }
 
-/// Of a turn about a pole: the parts of its line in (u, v).
+/// Number of parts per full turn into which the line of a pole in (u, v) is divided.
 const POLE_PARTS: f64 = 16.0;
-/// How far from the vertex a polyline leaves its curve, in distances between vertex and curve.
+/// Distance from the vertex at which a polyline leaves its curve, in multiples of the gap between vertex and curve.
 const LEAVES: f64 = 3.0;
-/// Share of the first chord: where it would leave it beyond that, it is left as it is.
+/// Share of the first chord: no corner is added beyond that.
 const MOST_SHARE: f64 = 0.4;
-/// Tolerances from an end within which a polyline has no corner; what OpenCASCADE takes as the same point.
+/// No inner corner is closer to an end than this many tolerances; OpenCASCADE treats such points as equal.
 const NEAR_END: f64 = 2.0;
 const SAME: f64 = 1e-7;
 const MOST_HALVINGS: u32 = 14;
 
-/// The polyline of an edge at a chord error and a turning angle.
-///
-/// None: it has no curve at all.
+/// The polyline of an edge for a chord error and a turning angle in radians; None for an edge without any curve.
 pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Option<Polyline> {
     let on = edge.only_on.as_ref().and_then(|(curve, surface)| Some((model.curves2[*curve].as_ref()?, surface)));
     let [first, last] = edge.range;
@@ -122,7 +120,7 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
     let (parameters, points) = apart(parameters, points, edge.tolerance.min(EDGE_CERTAIN * deflection));
     let end = points.len() - 1;
     let finite = points.iter().flatten().all(|c| c.is_finite());
-    // A closed edge of one chord would be none.
+    // A closed edge of a single chord would have no length: it gets inner corners.
     if finite && end == 1 && points[0] == points[end] {
         let middle = 0.5 * (first + last);
         let curve = edge.curve.as_ref()?;
@@ -133,8 +131,8 @@ pub fn polyline(model: &Model, edge: &Edge, deflection: f64, angle: f64) -> Opti
     finite.then_some(Polyline { parameters, points })
 }
 
-/// Where a vertex is off the end of the curve, one more corner not far from it: the polyline leaves its curve there,
-/// and not on all the way to the next corner.
+/// Adds a corner close to a vertex that lies off the end of the curve. The polyline then leaves the curve only there,
+/// and not along the whole first chord.
 ///
 /// ```text
 ///  o                        vertex
@@ -163,7 +161,8 @@ fn beside_ends(
     }
 }
 
-/// Without inner corners that are no further from an end than the edge is known: a chord from there may run anywhere.
+/// Removes inner corners that are within the edge's tolerance of an end: the direction of a chord from there is
+/// arbitrary.
 fn apart(parameters: Vec<f64>, points: Vec<Vec3>, tolerance: f64) -> (Vec<f64>, Vec<Vec3>) {
     let end = points.len() - 1;
     let far =
@@ -204,7 +203,7 @@ mod tests {
         };
         let found = made(0.01, 10.0);
         assert!(found.iter().zip([0.0, 0.3, 9.7, 10.0]).all(|(t, wanted)| (t - wanted).abs() < 1e-12));
-        // What is within the deflection, and edges as short as they are uncertain, stay as they are.
+        // Gaps within the deflection change nothing, nor do edges that are as short as their tolerance.
         assert_eq!(made(0.2, 10.0), [0.0, 10.0]);
         assert_eq!(made(0.01, 0.5), [0.0, 0.5]);
     }

@@ -13,25 +13,25 @@ use crate::model::Model;
 use crate::shapes::{Face, Use, Vertex};
 use hlr_accuracy::CHORD_MOST;
 
-/// A place that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
+/// A point that faces share, as one face sees it: a vertex, or a corner inside an edge's polyline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
     Vertex(Vertex),
-    /// Edge, location, corner.
+    /// Number of the edge, its location, number of the corner.
     Edge(u32, u32, u32),
 }
 
 #[derive(Clone, Debug)]
 pub struct Border {
     pub loops: FaceLoops,
-    /// What the numbers of nodes in `loops` stand for.
+    /// The vertex or corner for each node number in `loops`.
     pub nodes: Vec<Node>,
-    /// For each chord of each loop its edge and chord along the edge; None between the ends of two edges.
+    /// For each chord of each loop its edge and its number along the edge; None between the ends of two edges.
     pub chords: Vec<Vec<Option<(u32, u32)>>>,
 }
 
 impl Border {
-    /// Chords whose middle in (u, v) lies off the chord in space: edge and chord along it.
+    /// Chords whose middle in (u, v) lies too far off the chord in space, each as edge and number along the edge.
     pub fn coarse(&self, surface: &Surface, deflection: f64) -> Vec<(u32, u32)> {
         let mut found = Vec::new();
         if matches!(surface, Surface::Plane(_)) {
@@ -44,7 +44,7 @@ impl Border {
                 let turns = if i + 1 < count { [0.0; 2] } else { whole_turns(p.uv, q.uv, self.loops.periods) };
                 let middle = [0, 1].map(|k| 0.5 * (p.uv[k] + q.uv[k] + turns[k]));
                 let off = from_chord(&surface.point(middle), &p.point, &q.point);
-                // Where the edge itself is off the surface, dividing it helps nobody.
+                // Where the edge itself is off the surface, dividing it does not help.
                 let own = |p: &LoopPoint| length(&sub(&surface.point(p.uv), &p.point));
                 if off > deflection * CHORD_MOST && off > deflection * CHORD_MOST + own(&p).max(own(&q)) {
                     found.push(*chord);
@@ -56,7 +56,7 @@ impl Border {
 }
 
 /// # Errors
-/// An edge has no place on the surface, or the edges make no closed loops.
+/// An edge cannot be located on the surface, or the edges form no closed loops.
 pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflection: f64) -> Result<Border, Fault> {
     let Some(surface) = &face.surface else { return Err(Fault::Degenerate) };
     let periods = surface.periods();
@@ -72,7 +72,7 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
         }
         wires.push(runs);
     }
-    // An edge inside the face, there and back: a slit.
+    // An edge inside the face is passed in both directions: a slit.
     for used in inner.into_iter().filter(|used| used.orientation == Orientation::Internal) {
         let slit = [Orientation::Forward, Orientation::Reversed].map(|orientation| Use { orientation, ..*used });
         let runs: Result<Vec<_>, _> =
@@ -98,7 +98,7 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
                 let last = run.uv.len() - 1;
                 let (next, next_shift) = order[(k + 1) % count];
                 let at = |uv: [f64; 2], shift: [f64; 2]| [uv[0] + shift[0], uv[1] + shift[1]];
-                // The end is where the next edge begins; at a pole that may be another place in (u, v).
+                // The run ends where the next edge begins; at a pole, that may be elsewhere in (u, v).
                 let (end, begin) = (at(run.uv[last], shift), at(runs[next].uv[0], next_shift));
                 let turns = if k + 1 < count { [0.0; 2] } else { whole_turns(end, begin, periods) };
                 let joined = (0..2).all(|k| (end[k] - begin[k] - turns[k]).abs() <= NEAR * extent[k]);
@@ -121,7 +121,7 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
     if out.loops.loops.is_empty() { Err(Fault::Open) } else { Ok(out) }
 }
 
-/// From `begin` to `end`, as far as that is whole periods.
+/// The difference end - begin, rounded to whole periods.
 fn whole_turns(end: [f64; 2], begin: [f64; 2], periods: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|k| if periods[k] > 0.0 { ((end[k] - begin[k]) / periods[k]).round() * periods[k] } else { 0.0 })
 }
@@ -136,7 +136,7 @@ fn node(run: &Run, corner: usize, last: usize) -> Node {
     }
 }
 
-/// Loops of a periodic surface moved by whole turns to where the largest one is.
+/// Moves loops of a periodic surface by whole periods to the largest loop.
 fn together(loops: &mut FaceLoops) {
     let bounds = |points: &Vec<LoopPoint>, k: usize| {
         points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.uv[k]), h.max(p.uv[k])))

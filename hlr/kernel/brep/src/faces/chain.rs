@@ -1,6 +1,7 @@
-//! Puts the edges of a wire in order: each begins at the vertex where the one before it ends, and near it in (u, v).
+//! Puts the edges of a wire in order: each begins at the vertex where the previous one ends, and close to it in (u, v).
 //!
-//! Modellers write the edges of a wire in any order. Where a seam, a pole or two loops share a vertex, (u, v) decides.
+//! Modellers write the edges of a wire in any order. Where seams, poles or several loops share a vertex, (u, v)
+//! decides.
 
 use super::uses::Run;
 use crate::mesh::Fault;
@@ -8,12 +9,12 @@ use crate::mesh::Fault;
 /// Share of the face's extent in (u, v) below which two ends count as one.
 pub const NEAR: f64 = 1e-3;
 
-/// Numbers of runs in order, and by how much each is to be moved in (u, v).
+/// Numbers of runs in order, each with its shift in (u, v).
 pub type Loop = Vec<(usize, [f64; 2])>;
 
 /// Loops of the runs of one wire.
 ///
-/// extent: of the face in u and v; periods: 0 where there is none.
+/// `extent`: extent of the face in u and v. `periods`: of u and v; 0 where there is none.
 pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<Loop>, Fault> {
     let gap = |a: [f64; 2], b: [f64; 2]| {
         (0..2).map(|k| (b[k] - a[k]).abs() / extent[k].max(f64::MIN_POSITIVE)).fold(0.0, f64::max)
@@ -30,12 +31,13 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
         let [start, mut end] = runs[first].uv_ends();
         let (start_vertex, mut vertex) = (runs[first].ends[0], runs[first].ends[1]);
         let mut found: Loop = vec![(first, [0.0; 2])];
-        // After which edge (u, v) jump: at a pole that has no edge of its own.
+        // The edge after which (u, v) jump, at a pole that has no edge of its own.
         let mut pole = None;
         loop {
             let here = vertex == start_vertex;
             let before = &runs[found[found.len() - 1].0];
-            // Back along the same edge only where nothing else goes on; then what is near, if need be a turn away.
+            // The same edge backwards is chosen only if nothing else continues; otherwise the nearest, up to whole
+            // periods.
             let choice = left
                 .iter()
                 .enumerate()
@@ -49,7 +51,7 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
                         shift = found[found.len() - 1].1;
                         near = gap(end, plus(at, shift));
                     }
-                    // Steps of the tolerance: what is near is equally near.
+                    // Distances within the tolerance count as equal.
                     let step = |g: f64| if g <= NEAR { 0.0 } else { g };
                     ((step(near), back, step(far)), (k, i, shift))
                 })
@@ -61,7 +63,7 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
                 }
                 return Err(Fault::Open);
             };
-            // It may come round to where it began, whole turns away: a band without a seam.
+            // A loop may return to its start shifted by whole periods: a band without a seam.
             if closed || (here && near > NEAR && gap(end, plus(start, turns(end, start))) <= NEAR) {
                 break;
             }
@@ -73,7 +75,7 @@ pub fn chained(runs: &[Run], extent: [f64; 2], periods: [f64; 2]) -> Result<Vec<
             vertex = runs[i].ends[1];
             found.push((i, shift));
         }
-        // Where (u, v) jump they may jump by a turn more or less: so that the loop closes.
+        // At a jump of (u, v), whole periods may be added so that the loop closes.
         let over = turns(end, start);
         if let Some(pole) = pole
             && gap(end, plus(start, over)) <= NEAR

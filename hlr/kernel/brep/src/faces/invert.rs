@@ -14,7 +14,7 @@ pub fn near(surface: &Surface, point: &Vector, guess: [f64; 2]) -> Option<[f64; 
     let (mut place, mut du, mut dv) = surface.d1(uv);
     let mut off = sub(point, &place);
     for _ in 0..MOST_STEPS {
-        // Gauss and Newton: the surface as its tangent plane.
+        // A Gauss-Newton step: the surface is replaced by its tangent plane.
         let (a, b, c) = (dot(&du, &du), dot(&du, &dv), dot(&dv, &dv));
         let (e, f) = (dot(&du, &off), dot(&dv, &off));
         let determinant = a * c - b * b;
@@ -44,7 +44,7 @@ pub fn near(surface: &Surface, point: &Vector, guess: [f64; 2]) -> Option<[f64; 
     place.iter().all(|c| c.is_finite()).then_some(uv)
 }
 
-/// The same without a guess, from the ranges of u and v.
+/// The parameters of the surface's point nearest to a given point, without a guess, within ranges of u and v.
 pub fn anywhere(surface: &Surface, point: &Vector, [u, v]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let mut best: Option<(f64, [f64; 2])> = None;
     for i in 0..=GRID {

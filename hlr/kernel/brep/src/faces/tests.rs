@@ -25,10 +25,10 @@ fn the_side_of_a_cylinder_runs_up_one_side_of_its_seam_and_down_the_other() {
     let side = &borders[0];
     assert_eq!(side.loops.loops.len(), 1);
     assert!((area(side) - 2.0 * std::f64::consts::TAU).abs() < 1e-9);
-    // Two circles and the seam: each place once, whatever side it is seen from.
+    // Two circles and the seam: each point has one node, on both sides of the seam.
     let circle = lines.iter().flatten().map(|l| l.points.len()).max().unwrap() - 1;
     assert_eq!((side.loops.loops[0].len(), side.nodes.len()), (2 * circle + 2, 2 * circle));
-    // The lids lie in planes; their surfaces' parameters are those of the places.
+    // The lids are planes, so the surface at their parameters must be the points themselves.
     for lid in &borders[1..] {
         assert!(area(lid) > 3.0 && area(lid) < std::f64::consts::PI);
         assert!(lid.nodes.iter().all(|node| side.nodes.contains(node)));

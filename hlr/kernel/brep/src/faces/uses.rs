@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::shapes::{Use, Vertex};
 use hlr_accuracy::EDGE_IN_FACE;
 
-/// In the sense of the wire; the polyline's chords are numbered along the edge.
+/// Points run in the sense of the wire; the polyline's chords are numbered along the edge.
 pub struct Run {
     pub edge: u32,
     pub location: u32,
@@ -29,7 +29,7 @@ impl Run {
     }
 }
 
-/// None for an edge inside the face, which bounds nothing.
+/// The run of an edge; None for an edge inside the face, which bounds nothing.
 pub fn run(
     model: &Model,
     surface: &Surface,
@@ -76,7 +76,7 @@ fn extent(points: &[Vector]) -> f64 {
     points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()))
 }
 
-/// From the curve in (u, v) at the edge's parameters; where that is off the edge, from the edge's own places.
+/// The run by the edge's curve in (u, v); where that is off the edge in space, by inversion of the edge's own points.
 fn by_curve(
     surface: &Surface,
     curve: &Curve,

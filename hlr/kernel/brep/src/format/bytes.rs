@@ -88,7 +88,7 @@ impl<'a> Bytes<'a> {
         Ok(out)
     }
 
-    /// How many items of at least `size` bytes follow: no more than there are bytes for.
+    /// Reads a count of items of at least `size` bytes each. It may not exceed what the remaining bytes can hold.
     pub fn count(&mut self, size: usize) -> Read<usize> {
         let count = self.integer()?;
         self.fitting(count, size)
@@ -101,7 +101,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// A number that counts from 1 among `most` items, as one that counts from 0.
+    /// Reads a number from 1 to `most`, and returns it counted from 0.
     pub fn index(&mut self, most: usize) -> Read<usize> {
         match usize::try_from(self.integer()?) {
             Ok(number) if (1..=most).contains(&number) => Ok(number - 1),
@@ -109,7 +109,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// A number that counts from 1; 0 is none.
+    /// Reads a number that counts from 1 and returns it counted from 0; None for 0.
     pub fn maybe_index(&mut self, most: usize) -> Read<Option<usize>> {
         match usize::try_from(self.integer()?) {
             Ok(0) => Ok(None),
@@ -118,7 +118,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// The bytes up to the end of the line, which is passed.
+    /// The bytes up to the end of the line. The reading position moves behind it.
     pub fn line(&mut self) -> Read<&'a [u8]> {
         let rest = &self.all[self.at..];
         match rest.iter().take(LONGEST_LINE).position(|&b| b == b'\n') {
@@ -130,7 +130,7 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    /// The header of a section, its name and a count; each item has `size` bytes at least.
+    /// The header of a section: its name and a count. Each item has at least `size` bytes.
     pub fn header(&mut self, name: &'static str, size: usize) -> Read<usize> {
         let line = self.line()?;
         let number = line.strip_prefix(name.as_bytes()).and_then(|rest| rest.strip_prefix(b" "));

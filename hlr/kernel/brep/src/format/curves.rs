@@ -17,12 +17,12 @@ pub fn section(
     (0..count).map(|_| one(bytes, 0)).collect()
 }
 
-/// A curve in space; None where its kind has no form here.
+/// A curve in space; None for a kind that is not supported.
 pub fn space_curve(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>> {
     curve::<3>(bytes, nested)
 }
 
-/// A curve in (u, v), as one in space with z = 0.
+/// A curve in (u, v), as a curve in space with z = 0.
 pub fn plane_curve(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>> {
     curve::<2>(bytes, nested)
 }
@@ -34,7 +34,7 @@ fn vector<const N: usize>(bytes: &mut Bytes) -> Read<Vec3> {
     Ok(out)
 }
 
-/// Origin and the directions of x and y; in space the normal stands between.
+/// Origin and the directions of x and y; for a curve in space, the normal is written between them.
 fn axes<const N: usize>(bytes: &mut Bytes) -> Read<(Vec3, Vec3, Vec3)> {
     let origin = vector::<N>(bytes)?;
     if N == 3 {
@@ -83,7 +83,7 @@ fn curve<const N: usize>(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>
             let distance = bytes.finite()?;
             let way = if N == 3 { vector::<3>(bytes)? } else { [0.0, 0.0, 1.0] };
             let basis = basis::<N>(bytes, nested)?;
-            // In the plane an offset is to the right of the curve, in space along the tangent times the direction.
+            // In the plane an offset is to the right of the curve, in space along the tangent x the direction.
             return Ok(basis.and_then(|basis| offset_curve(&basis, distance, &way)));
         }
         _ => return bytes.fault("a curve of unknown kind"),
@@ -106,7 +106,7 @@ fn poles<const N: usize>(bytes: &mut Bytes, count: usize, rational: bool) -> Rea
     (0..count).map(|_| pole::<N>(bytes, rational)).collect()
 }
 
-/// Times its weight, which follows it where there are weights.
+/// A pole times its weight, which follows it in the dump if the curve is rational.
 pub fn pole<const N: usize>(bytes: &mut Bytes, rational: bool) -> Read<[f64; 4]> {
     let [x, y, z] = vector::<N>(bytes)?;
     let w = if rational { bytes.finite()? } else { 1.0 };
@@ -123,12 +123,12 @@ fn spline<const N: usize>(bytes: &mut Bytes) -> Read<Nurbs> {
     let knots = bytes.count(12)?;
     let poles = self::poles::<N>(bytes, poles, rational)?;
     let axis = Axis::read(bytes, degree, poles.len(), knots, periodic)?;
-    // So far that an edge may begin in one turn and end in the next.
+    // One turn more on either side, so that an edge may begin in one turn and end in the next.
     let (knots, order) = axis.flat(degree, poles.len(), 1);
     Ok(Nurbs { degree, rational, sampled: false, knots, poles: order.iter().map(|&i| poles[i]).collect() })
 }
 
-/// Knots of one direction, each with how often it stands there.
+/// Knots of one direction, each with its multiplicity.
 pub struct Axis {
     knots: Vec<(f64, usize)>,
     periodic: bool,
@@ -165,13 +165,13 @@ impl Axis {
         Ok(axis)
     }
 
-    /// 0 where it is not periodic.
+    /// The period; 0 where it is not periodic.
     pub fn period(&self) -> f64 {
         if self.periodic { self.knots[self.knots.len() - 1].0 - self.knots[0].0 } else { 0.0 }
     }
 
-    /// Every knot as often as it stands there, and which pole each basis function has; what is periodic is unrolled,
-    /// with so many turns more on either side.
+    /// All knots, repeated by multiplicity, and the pole of each basis function. A periodic spline is unrolled, with
+    /// `more` additional turns on either side.
     pub fn flat(&self, degree: usize, poles: usize, more: usize) -> (Vec<f64>, Vec<usize>) {
         let flat: Vec<f64> = self.knots.iter().flat_map(|&(value, times)| std::iter::repeat_n(value, times)).collect();
         if !self.periodic {

@@ -1,6 +1,6 @@
 //! The differences between layouts of the dump, and the nesting limit common to all.
 
-/// How deep curves and surfaces may be trimmed or offset, one upon the other.
+/// Limit on the nesting of trimmed and offset curves and surfaces.
 pub const MOST_NESTED: usize = 16;
 
 #[derive(Clone, Copy)]

@@ -1,8 +1,8 @@
 //! Locations of sub-shapes, composed, compared and cancelled exactly as TopLoc_Location does it.
 //!
-//! OpenCASCADE says that two sub-shapes are the same when their underlying shape and their *location* agree, and a
-//! location is not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may
-//! differ; a chain times its inverse vanishes. The index maps of a part depend on this, so chains are composed here.
+//! OpenCASCADE treats two sub-shapes as the same when their underlying shape and their *location* agree. A location is
+//! not a matrix but a chain of elementary transformations with powers. Two chains with equal matrices may differ; a
+//! chain times its inverse cancels. The index maps of a part depend on this, so chains are composed here.
 
 use rustc_hash::FxHashMap;
 
@@ -12,7 +12,7 @@ use super::bytes::{Bytes, Read};
 type Chain = Vec<(u32, i32)>;
 pub type Matrix = [[f64; 4]; 3];
 
-/// The longest chain and the highest power; a file with more is damaged.
+/// Limit on the length of a chain and on its powers; a file that exceeds it is damaged.
 const LONGEST: usize = 1000;
 
 /// A growing table of locations; number 0 is the identity. Equal chains have equal numbers.
@@ -23,7 +23,7 @@ pub struct Locations {
     numbers: FxHashMap<Chain, u32>,
     products: FxHashMap<(u32, u32), u32>,
     matrices: FxHashMap<u32, Matrix>,
-    /// From the dump's numbers to ours.
+    /// Numbers in this table by numbers in the dump.
     written: Vec<u32>,
 }
 
@@ -55,7 +55,7 @@ pub fn read(bytes: &mut Bytes) -> Read<Locations> {
                         break;
                     }
                     let power = bytes.integer()?;
-                    // Factors stand from the innermost to the outermost; each is a location written earlier.
+                    // Factors are written from the innermost to the outermost; each is a location written earlier.
                     let factor = match usize::try_from(number) {
                         Ok(number) if number < all.written.len() => &all.chains[all.written[number] as usize],
                         _ => return bytes.fault("a location of nothing"),
@@ -83,7 +83,7 @@ fn inverse(chain: &Chain) -> Chain {
     chain.iter().rev().map(|&(datum, power)| (datum, -power)).collect()
 }
 
-/// Only neighbours of one and the same elementary move merge: what TopLoc_Location::Multiplied does.
+/// Merges only neighbours of the same elementary transformation, as TopLoc_Location::Multiplied does.
 fn composed(outer: &Chain, inner: &Chain) -> Chain {
     let mut chain = outer.clone();
     for &(datum, power) in inner {
@@ -102,12 +102,12 @@ fn composed(outer: &Chain, inner: &Chain) -> Chain {
 }
 
 impl Locations {
-    /// How many the dump has, the identity among them.
+    /// Number of locations in the dump, including the identity.
     pub fn count(&self) -> usize {
         self.written.len()
     }
 
-    /// Our number of a location that the dump numbers so.
+    /// The number in this table of a location with the given number in the dump.
     pub fn written(&self, number: u32) -> u32 {
         self.written[number as usize]
     }
@@ -122,7 +122,7 @@ impl Locations {
         number
     }
 
-    /// outer * inner
+    /// The location outer * inner.
     pub fn product(&mut self, outer: u32, inner: u32) -> u32 {
         if outer == 0 || inner == 0 {
             return outer + inner;
@@ -136,7 +136,7 @@ impl Locations {
         number
     }
 
-    /// outer^-1 * inner
+    /// The location outer^-1 * inner.
     pub fn quotient(&mut self, outer: u32, inner: u32) -> u32 {
         if outer == 0 {
             return inner;
@@ -165,7 +165,7 @@ impl Locations {
 
 pub const IDENTITY: Matrix = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
 
-/// Moves by `inner`, then by `outer`.
+/// The transformation by `inner`, then by `outer`.
 pub fn chained(outer: &Matrix, inner: &Matrix) -> Matrix {
     outer.map(|[a, b, c, d]| {
         [0, 1, 2, 3].map(|j| a * inner[0][j] + b * inner[1][j] + c * inner[2][j] + if j == 3 { d } else { 0.0 })

@@ -4,8 +4,8 @@
 //! Locations, Curve2ds, Curves, Polygon3D, PolygonOnTriangulations, Surfaces, Triangulations, TShapes, root
 //! ```
 //!
-//! The bytes may be anything: what is not a dump gives an error, counts are compared with the bytes that are left
-//! before memory is taken, and nesting is bounded.
+//! The bytes are not trusted: anything but a dump gives an error, counts are compared with the remaining bytes before
+//! memory is allocated, and nesting is limited.
 
 mod bytes;
 mod curves;
@@ -25,10 +25,10 @@ use crate::geometry::curve::Curve;
 use bytes::{Bytes, Read};
 use layout::Layout;
 
-/// What a dump holds; underlying shapes stand before those that consist of them.
+/// The content of a dump. Underlying shapes come before the shapes that contain them.
 pub struct Dump {
     pub locations: Locations,
-    /// In (u, v), as curves in space with z = 0. None: of a kind that is not known here.
+    /// Curves in (u, v), as curves in space with z = 0; None for a kind that is not supported.
     pub curves2: Vec<Option<Curve>>,
     pub curves: Vec<Option<Curve>>,
     /// Polygons in space.
@@ -39,10 +39,10 @@ pub struct Dump {
     pub root: Sub,
 }
 
-/// The shape of a dump.
+/// Reads the shape of a dump.
 ///
 /// # Errors
-/// The bytes are not those of a dump in a layout that is known here.
+/// The bytes are no dump in a supported layout.
 pub fn read(data: &[u8]) -> Read<Dump> {
     let mut bytes = Bytes::new(data);
     let mut version = bytes.line()?;

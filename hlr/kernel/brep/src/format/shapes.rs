@@ -3,7 +3,7 @@
 use super::bytes::{Bytes, Read};
 use super::layout::Layout;
 
-/// A shape inside another one: which, how it stands there, and where.
+/// A shape inside another one: its number, orientation and location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sub {
     pub shape: u32,
@@ -20,13 +20,13 @@ pub enum Orientation {
 }
 
 impl Orientation {
-    /// Whether what stands so bounds something.
+    /// Whether a shape of this orientation bounds the shape that contains it.
     pub fn bounds(self) -> bool {
         matches!(self, Orientation::Forward | Orientation::Reversed)
     }
 
-    /// As one in the frame of a parent that stands like `self`: an internal or external shape stays so, a reversed
-    /// parent turns the child round.
+    /// The orientation of a child, seen from the frame of its parent. Internal and external children keep theirs; a
+    /// reversed parent reverses the others.
     pub fn compose(self, inner: Orientation) -> Orientation {
         use Orientation::{Forward, Reversed};
         match (self, inner) {
@@ -39,12 +39,12 @@ impl Orientation {
     }
 }
 
-/// What an edge is on, besides the surfaces' continuity across it.
+/// The geometry of an edge, besides the continuity of the surfaces across it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum On {
     /// A curve in space.
     Curve { curve: usize, location: u32, range: [f64; 2] },
-    /// Curves in (u, v) of a surface; the second one of a seam is that of the reversed edge.
+    /// Curves in (u, v) of a surface. For a seam the second curve is that of the reversed edge.
     Surface { curves: [usize; 2], surface: usize, location: u32, range: [f64; 2] },
     /// A polygon in space.
     Polygon { polygon: usize, location: u32 },
@@ -68,7 +68,7 @@ pub struct Shape {
     pub subs: Vec<Sub>,
 }
 
-/// How many things there are that a shape may refer to.
+/// Number of items of each kind that a shape may refer to.
 pub struct Limits {
     pub locations: usize,
     pub curves2: usize,
@@ -100,7 +100,7 @@ pub fn read(bytes: &mut Bytes, limits: &Limits) -> Read<(Vec<Shape>, Sub)> {
         bytes.skip(FLAGS)?;
         let mut subs = Vec::new();
         while let Some(sub) = sub(bytes, count, limits)? {
-            // Nothing consists of what comes later: so nothing consists of itself.
+            // A shape may refer only to shapes before it, so it cannot contain itself.
             if sub.shape as usize >= number || !may_hold(&kind, &shapes[sub.shape as usize].kind) {
                 return bytes.fault("a shape where it cannot be");
             }
@@ -134,12 +134,12 @@ fn sub(bytes: &mut Bytes, count: usize, limits: &Limits) -> Read<Option<Sub>> {
         b'*' => return Ok(None),
         _ => return bytes.fault("an orientation that there is not"),
     };
-    // Counted from the last one.
+    // Shapes are numbered from the last one.
     let shape = (count - 1 - bytes.index(count)?) as u32;
     Ok(Some(Sub { shape, orientation, location: location(bytes, limits)? }))
 }
 
-/// 0 is the identity.
+/// The number of a location; 0 is the identity.
 fn location(bytes: &mut Bytes, limits: &Limits) -> Read<u32> {
     match usize::try_from(bytes.integer()?) {
         Ok(number) if number < limits.locations => Ok(number as u32),
@@ -150,7 +150,7 @@ fn location(bytes: &mut Bytes, limits: &Limits) -> Read<u32> {
 fn vertex(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
     let tolerance = bytes.finite()?;
     let point = bytes.reals()?;
-    // Parameters on curves and surfaces: the places of vertices are taken from the edges.
+    // Parameters of the vertex on curves and surfaces are skipped: the edges give its place.
     loop {
         match bytes.byte()? {
             0 => return Ok(Kind::Vertex { tolerance, point }),

@@ -5,7 +5,7 @@ use super::curves::{Axis, degree, pole, space_curve};
 use super::layout::MOST_NESTED;
 use crate::geometry::curve::Curve;
 
-/// A surface as numbers: what `Surface::read` takes, and what Python hands to other parts of the kernel.
+/// A surface as numbers, as `Surface::read` and other parts of the kernel take them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceRecord {
     pub kind: u8,
@@ -17,10 +17,10 @@ pub fn section(bytes: &mut Bytes) -> Read<Vec<Option<SurfaceRecord>>> {
     (0..count).map(|_| surface(bytes, 0)).collect()
 }
 
-/// Origin, then the directions of x, y and z; in the dump that of z comes before the others.
+/// Origin, then the directions of x, y and z; in the dump z comes before x and y.
 fn frame(bytes: &mut Bytes) -> Read<Vec<f64>> {
     let [a, b, c, zx, zy, zz, x @ .., yx, yy, yz] = bytes.reals::<12>()?;
-    // With places for two radii.
+    // Capacity for two radii as well.
     let mut data = Vec::with_capacity(14);
     data.extend([a, b, c].into_iter().chain(x).chain([yx, yy, yz, zx, zy, zz]));
     Ok(data)
@@ -40,7 +40,7 @@ fn swept(kind: u8, mut data: Vec<f64>, curve: Option<Curve>) -> Option<SurfaceRe
     Some(SurfaceRecord { kind, data })
 }
 
-/// None where its kind has no form here.
+/// None for a kind that is not supported.
 fn surface(bytes: &mut Bytes, nested: usize) -> Read<Option<SurfaceRecord>> {
     if nested > MOST_NESTED {
         return bytes.fault("surfaces nested too deep");

@@ -3,7 +3,7 @@
 use super::bytes::{Bytes, Read};
 use super::layout::Layout;
 
-/// A face's own triangles; uv is empty where none are known.
+/// A face's own triangles; uv is empty if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangulation {
     pub points: Vec<[f64; 3]>,
@@ -24,7 +24,7 @@ pub fn polygons(bytes: &mut Bytes) -> Read<Vec<Vec<[f64; 3]>>> {
     (0..count).map(one).collect()
 }
 
-/// Polygons of nodes of triangulations are passed over; how many there are.
+/// Skips polygons on triangulations, and returns their number.
 pub fn skip_polygons_on_triangulations(bytes: &mut Bytes) -> Read<usize> {
     let count = bytes.header("PolygonOnTriangulations", 13)?;
     for _ in 0..count {

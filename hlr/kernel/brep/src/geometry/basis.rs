@@ -3,21 +3,21 @@
 //! L. Piegl, W. Tiller, "The NURBS Book", 2nd ed. 1997: A2.1 (span), A2.2 (basis functions), (2.7) (derivatives from
 //! those of lower degree).
 
-/// Values, first and second derivatives of the basis functions that are not zero at a parameter, and the first one's
-/// number. N: at least one more than the degree. Short arrays are much faster, and most splines are of low degree.
+/// The nonzero basis functions at a parameter: values, first and second derivatives, and the number of the first
+/// function. N: at least one more than the degree. Short arrays are much faster, and most splines have a low degree.
 pub struct Basis<const N: usize> {
     pub first: usize,
     pub rows: [[f64; N]; 3],
 }
 
 impl<const N: usize> Basis<N> {
-    /// Of so many poles. Beyond the ends of the domain the outermost polynomial goes on.
+    /// The basis of `count` poles at x. Beyond the ends of the domain the outermost polynomial continues.
     pub fn at(knots: &[f64], p: usize, count: usize, x: f64) -> Basis<N> {
         let span = span_of(knots, p, count, x);
-        // The knots that take part, and one over the lengths of the functions' supports, of degree p and p - 1.
+        // The knots involved, and the reciprocal lengths of the functions' supports, for degrees p and p - 1.
         let near = &knots[span + 1 - p..=span + p];
         let mut over = [[0.0; N]; 2];
-        // Of degree p, p - 1 and p - 2.
+        // Functions of degree p, p - 1 and p - 2.
         let mut by_degree = [[0.0; N]; 3];
         let mut value = [0.0; N];
         value[0] = 1.0;
@@ -58,7 +58,7 @@ impl<const N: usize> Basis<N> {
     }
 }
 
-/// The span of non-zero length that holds x, or is nearest to it.
+/// The span of nonzero length that contains x, or is nearest to it.
 fn span_of(knots: &[f64], p: usize, count: usize, x: f64) -> usize {
     let mut span = knots.partition_point(|&k| k <= x).clamp(p + 1, count) - 1;
     while span > p && knots[span + 1] <= knots[span] {
@@ -70,7 +70,7 @@ fn span_of(knots: &[f64], p: usize, count: usize, x: f64) -> usize {
     span
 }
 
-/// The first function that is not zero at a parameter, and the values alone, to the last digit those of `Basis::at`.
+/// The number of the first nonzero function at a parameter, and the values alone, bit for bit those of `Basis::at`.
 pub fn values<const N: usize>(knots: &[f64], p: usize, count: usize, x: f64) -> (usize, [f64; N]) {
     let span = span_of(knots, p, count, x);
     let near = &knots[span + 1 - p..=span + p];

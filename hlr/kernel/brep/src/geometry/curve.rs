@@ -21,7 +21,7 @@ pub enum Curve {
     Spline(Nurbs),
 }
 
-/// Kinds of records, as `hlr.source.curve_records` writes them; 0 is a curve that is not known.
+/// Kinds of records, as `hlr.source.curve_records` writes them; 0 is an unsupported curve.
 pub const LINE: u8 = 1;
 pub const ELLIPSE: u8 = 2;
 pub const PARABOLA: u8 = 3;
@@ -29,8 +29,8 @@ pub const HYPERBOLA: u8 = 4;
 pub const SPLINE: u8 = 5;
 
 impl Curve {
-    /// From the numbers of a record: three vectors, or (degree, poles, rational, knots, poles of x y z w); where it is
-    /// sampled, rational is 2. None where they do not make a curve.
+    /// Reads the numbers of a record: three vectors, or (degree, poles, rational, knots, poles of x y z w). `rational`
+    /// is 2 for a sampled curve. None if the numbers make no curve.
     pub fn from_record(kind: u8, values: &[f64]) -> Option<Curve> {
         if kind == SPLINE {
             let [degree, count, rational, rest @ ..] = values else { return None };
@@ -62,7 +62,7 @@ impl Curve {
         }
     }
 
-    /// The record of the curve, its numbers appended to `values`.
+    /// Appends the numbers of the curve's record to `values`, and returns its kind.
     pub fn record(&self, values: &mut Vec<f64>) -> u8 {
         let (kind, three) = match self {
             Curve::Line { p, a } => (LINE, [*p, *a, [0.0; 3]]),
@@ -81,7 +81,7 @@ impl Curve {
         kind
     }
 
-    /// Moved by a (3, 4) matrix.
+    /// The curve moved by a (3, 4) matrix.
     pub fn moved(&self, m: &[[f64; 4]; 3]) -> Curve {
         let turn = |v: &Vec3, w: f64| m.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2] + row[3] * w);
         let (point, vector) = (|v: &Vec3| turn(v, 1.0), |v: &Vec3| turn(v, 0.0));
@@ -134,7 +134,7 @@ impl Curve {
         }
     }
 
-    /// Where t may be; `size` stands for what has no end.
+    /// Range of t; `size` replaces an infinite end.
     pub fn domain(&self, size: f64) -> [f64; 2] {
         match self {
             Curve::Ellipse { .. } => [0.0, std::f64::consts::TAU],
@@ -143,7 +143,7 @@ impl Curve {
         }
     }
 
-    /// After how much t the curve comes back to itself; 0 where it does not, or where nobody says so.
+    /// The period of the curve in t; 0 where it is not periodic, or not known to be.
     pub fn period(&self) -> f64 {
         if matches!(self, Curve::Ellipse { .. }) { std::f64::consts::TAU } else { 0.0 }
     }

@@ -4,11 +4,11 @@ use super::curve::Curve;
 
 type Matrix = [[f64; 4]; 3];
 
-/// Share of a volume: less is rounding.
+/// Largest departure of the determinant from 1 that counts as rounding.
 const LENGTHENS: f64 = 1e-9;
 
-/// The numbers of a record, as `Surface::read` takes them, moved by a (3, 4) matrix; None where they make no surface,
-/// and where the matrix changes lengths: parameters are lengths, too.
+/// The numbers of a record, as `Surface::read` takes them, moved by a (3, 4) matrix. None if they make no surface, or
+/// if the matrix changes lengths, since some parameters are lengths.
 pub fn moved(kind: u8, data: &[f64], m: &Matrix) -> Option<Vec<f64>> {
     let apply = |v: &[f64], w: f64| m.map(|r| r[0] * v[0] + r[1] * v[1] + r[2] * v[2] + r[3] * w);
     let determinant = (0..3)
@@ -36,7 +36,7 @@ pub fn moved(kind: u8, data: &[f64], m: &Matrix) -> Option<Vec<f64>> {
             let (number, curve) = rest.split_first()?;
             if kind == 6 {
                 out.extend(apply(&axis[..3], 1.0));
-                // A mirror turns the other way about.
+                // A mirror image reverses the sense of rotation.
                 out.extend(apply(&axis[3..], 0.0).map(|c| c * determinant.signum()));
             } else {
                 out.extend(apply(axis, 0.0));
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use crate::geometry::surface::Surface;
 
-    /// Mirrored and turned.
+    /// A mirror image with a rotation.
     const MOVE: Matrix = [[0.0, 1.0, 0.0, 1.0], [1.0, 0.0, 0.0, -3.0], [0.0, 0.0, 1.0, 0.5]];
 
     #[test]

@@ -11,7 +11,7 @@ pub const MOST_DEGREE: usize = 25;
 pub struct Nurbs {
     pub degree: usize,
     pub rational: bool,
-    /// Made from places of another curve, which it follows closely: nothing to be taken over pole by pole.
+    /// The curve is a close fit to samples of another curve, so its poles have no meaning of their own.
     pub sampled: bool,
     pub knots: Vec<f64>,
     pub poles: Vec<[f64; 4]>,
@@ -30,14 +30,14 @@ pub fn find_span(knots: &[f64], degree: usize, poles: usize, t: f64) -> usize {
         let middle = usize::midpoint(low, high);
         if t < knots[middle] { high = middle } else { low = middle }
     }
-    // Before the domain the first span that is not empty goes on.
+    // Before the domain the first nonempty span continues.
     while knots[low + 1] <= knots[low] && low + 1 < poles {
         low += 1;
     }
     low
 }
 
-/// The basis functions that are not zero on a span, with their first derivatives: out[k][j] is the k-th derivative of
+/// The nonzero basis functions on a span, with their first derivatives: out[k][j] is the k-th derivative of
 /// N(span - degree + j). N: at least one more than the degree; short arrays are much faster.
 pub fn basis<const N: usize>(knots: &[f64], degree: usize, span: usize, t: f64) -> [[f64; N]; 2] {
     let p = degree;
@@ -82,7 +82,7 @@ impl Nurbs {
         }
     }
 
-    /// The point alone, to the last digit that of the derivatives.
+    /// The point alone, bit for bit that of the derivatives.
     pub fn point(&self, t: f64) -> [f64; 3] {
         match self.degree {
             0..=3 => self.by_values::<4>(t),

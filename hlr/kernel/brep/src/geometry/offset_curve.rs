@@ -4,11 +4,11 @@ use super::curve::{Curve, Vec3};
 use super::nurbs::Nurbs;
 use super::vector::{add, along, cross, dot, length, scaled, sub, unit};
 
-/// Share of the curve's size: how closely it is followed.
+/// Tolerance of the fit, as a share of the curve's size.
 const CLOSE: f64 = 1e-9;
 const MOST_PIECES: usize = 4000;
 
-/// The curve at a distance along tangent x `way`; None where it has no form here.
+/// The curve at a distance along tangent x `way`; None where it cannot be represented.
 pub fn offset_curve(basis: &Curve, distance: f64, way: &Vec3) -> Option<Curve> {
     let way = unit(way)?;
     match basis {
@@ -20,7 +20,7 @@ pub fn offset_curve(basis: &Curve, distance: f64, way: &Vec3) -> Option<Curve> {
             let (one, two) = (length(a), length(b));
             let upright = dot(&unit(&cross(a, b))?, &way);
             if (one - two).abs() <= 1e-12 * one && dot(a, b).abs() <= 1e-12 * one * two && upright.abs() > 1.0 - 1e-12 {
-                // Outward where the curve turns about the direction.
+                // Outward if the curve turns counterclockwise about `way`.
                 let radius = one + distance * upright.signum();
                 return Some(Curve::Ellipse { p: *p, a: scaled(a, radius / one), b: scaled(b, radius / two) });
             }
@@ -38,7 +38,7 @@ pub fn offset_curve(basis: &Curve, distance: f64, way: &Vec3) -> Option<Curve> {
     }
 }
 
-/// A cubic spline through places of the offset curve, with its derivatives there.
+/// A cubic spline that interpolates points and derivatives of the offset curve.
 fn followed(basis: &Curve, distance: f64, way: &Vec3, breaks: &[f64]) -> Option<Curve> {
     let at = |t: f64| -> Option<(Vec3, Vec3)> {
         let [p, d, dd] = basis.derivatives(t);

@@ -1,9 +1,9 @@
 //! Converts periodic B-splines to non-periodic ones.
 
-/// Knots and poles' numbers over one period, and over so many more on either side.
+/// Knots and numbers of poles over one period, and over `more` periods on either side.
 ///
-/// ring: the knots of one period, each as often as it stands there, one for each pole; `begin` copies of the first one,
-/// after the last of which the span of poles 0..=degree begins.
+/// `ring`: the knots of one period, repeated by multiplicity, one for each pole. `begin`: number of copies of the first
+/// knot, after the last of which the span of poles 0..=degree begins.
 pub fn unrolled(ring: &[f64], begin: usize, period: f64, degree: usize, more: usize) -> (Vec<f64>, Vec<usize>) {
     let n = ring.len() as i64;
     let (p, begin, more) = (degree as i64, begin as i64, more as i64);

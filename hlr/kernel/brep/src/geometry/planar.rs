@@ -8,7 +8,7 @@ const REVOLUTION: u8 = 6;
 const EXTRUSION: u8 = 7;
 const SPLINES: u8 = 8;
 const OFFSET: u8 = 9;
-/// Of directions: less is rounding.
+/// Cosines between directions below this are rounding.
 const UPRIGHT: f64 = 1e-9;
 
 /// Whether the surface of a record departs from a plane by no more than the tolerance.
@@ -51,7 +51,7 @@ pub fn is_flat(kind: u8, data: &[f64], tolerance: f64) -> bool {
             let by = |a: &&Vec3, b: &&Vec3| from_line(a, &first, &far).total_cmp(&from_line(b, &first, &far));
             let Some(side) = poles.iter().max_by(by) else { return false };
             let Some(normal) = unit(&cross(&sub(&far, &first), &sub(side, &first))) else { return true };
-            // The plane may lie amid the poles.
+            // The plane may lie halfway between the outermost poles.
             spread(poles.iter().map(|p| dot(&sub(p, &first), &normal))) <= 2.0 * tolerance
         }
         OFFSET if data.len() > 2 => is_flat(data[1] as u8, &data[2..], tolerance),

@@ -2,38 +2,38 @@
 
 use super::basis::Basis;
 
-/// Of higher degrees powers lose digits: 7 is the last one that keeps them to a few hundred roundings.
+/// Powers of higher degrees lose digits: up to 7 the error stays within a few hundred roundings.
 pub const MOST_DEGREE: usize = 7;
 
 #[derive(Clone, Debug)]
 pub struct Spans {
     degree: usize,
-    /// Places for the coefficients of one power: one for each function, and spare ones.
+    /// Number of coefficients stored per power: one for each function, and spare ones.
     stride: usize,
     spans: Vec<Span>,
-    /// By spans, from the highest power down, by functions.
+    /// Coefficients by span, then from the highest power down, then by function.
     powers: Vec<f64>,
     low: f64,
-    /// Shares of the domain, of even width, for each unit of the parameter; and the span at the beginning of each.
+    /// Cells of equal width per unit of the parameter, and the span at the beginning of each cell.
     per: f64,
     begins: Vec<u32>,
 }
 
-/// The first function that is not zero; values and first derivatives.
+/// The number of the first nonzero function; values and first derivatives.
 pub type Slopes<const N: usize> = (usize, [[f64; N]; 2]);
 
 #[derive(Clone, Copy, Debug)]
 struct Span {
     start: f64,
     middle: f64,
-    /// One over half its length.
+    /// The reciprocal of half the span's length.
     scale: f64,
-    /// The first function that is not zero.
+    /// The number of the first nonzero function.
     first: u32,
 }
 
 impl Spans {
-    /// None where the degree is too high, or there is no span with a length.
+    /// None if the degree is too high, or no span has a length.
     pub fn new(knots: &[f64], degree: usize, count: usize, stride: usize) -> Option<Spans> {
         if degree > MOST_DEGREE || degree >= stride {
             return None;
@@ -73,7 +73,7 @@ impl Spans {
         k
     }
 
-    /// The powers of a span, and the parameter within it: -1 to 1.
+    /// The span of a parameter, its coefficients, and the parameter within the span: -1 to 1.
     fn at<const N: usize>(&self, x: f64) -> (&Span, &[[f64; N]], f64) {
         let k = self.find(x);
         let span = &self.spans[k];
@@ -81,7 +81,7 @@ impl Spans {
         (span, self.powers[k * size..(k + 1) * size].as_chunks().0, (x - span.middle) * span.scale)
     }
 
-    /// N: the stride.
+    /// Values, first and second derivatives at a parameter. N: the stride.
     pub fn basis<const N: usize>(&self, x: f64) -> Basis<N> {
         let (span, powers, t) = self.at::<N>(x);
         let (mut value, mut slope, mut bend) = ([0.0; N], [0.0; N], [0.0; N]);
@@ -100,7 +100,7 @@ impl Spans {
         Basis { first: span.first as usize, rows: [value, slope, bend] }
     }
 
-    /// The same without second derivatives.
+    /// Values and first derivatives at a parameter. N: the stride.
     pub fn slopes<const N: usize>(&self, x: f64) -> Slopes<N> {
         let (span, powers, t) = self.at::<N>(x);
         let (mut value, mut slope) = ([0.0; N], [0.0; N]);
@@ -116,7 +116,7 @@ impl Spans {
         (span.first as usize, [value, slope])
     }
 
-    /// The first function that is not zero, and the values.
+    /// The number of the first nonzero function, and the values.
     pub fn values<const N: usize>(&self, x: f64) -> (usize, [f64; N]) {
         let (span, powers, t) = self.at::<N>(x);
         let mut value = [0.0; N];
@@ -129,7 +129,7 @@ impl Spans {
     }
 }
 
-/// Of the functions that are not zero on a span, the coefficients by powers of (x - middle) / half.
+/// The nonzero functions on a span, as coefficients of the powers of (x - middle) / half.
 fn polynomials(
     knots: &[f64],
     degree: usize,
@@ -140,7 +140,7 @@ fn polynomials(
     const N: usize = MOST_DEGREE + 1;
     let mut functions = [[0.0; N]; N];
     functions[0][0] = 1.0;
-    // Times (constant + slope t).
+    // Multiplies by (constant + slope t).
     let times = |f: &[f64; N], constant: f64, slope: f64| {
         let mut out = [0.0; N];
         for k in 0..N {

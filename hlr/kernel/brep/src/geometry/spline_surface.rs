@@ -7,7 +7,7 @@ use super::jet::Jet;
 use super::spans::{Slopes, Spans};
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
-/// Share of a surface's size: poles that are as near to where they would be are there.
+/// Share of a surface's size: a pole within this distance of its expected place counts as being there.
 const SAME: f64 = 1e-10;
 
 pub const MAX_DEGREE: usize = 25;
@@ -16,17 +16,17 @@ pub const MAX_DEGREE: usize = 25;
 pub struct SplineSurface {
     degree: [usize; 2],
     count: [usize; 2],
-    /// 0: not periodic.
+    /// Periods of u and v; 0 where it is not periodic.
     period: [f64; 2],
     knots: [Vec<f64>; 2],
     /// (x w, y w, z w, w), v fastest.
     poles: Vec<[f64; 4]>,
-    /// Of u and v; None: of too high a degree.
+    /// Polynomial spans along u and v; None if a degree is too high.
     spans: [Option<Spans>; 2],
 }
 
 impl SplineSurface {
-    /// From a record's numbers; None where they are not those of a surface.
+    /// Reads the numbers of a record; None if they make no surface.
     pub fn read(data: &[f64]) -> Option<SplineSurface> {
         let (head, rest) = data.split_at_checked(6)?;
         let whole = |x: f64, most: f64| (x >= 1.0 && x <= most && x.fract() == 0.0).then_some(x as usize);
@@ -45,12 +45,12 @@ impl SplineSurface {
         let knots = [u.to_vec(), v.to_vec()];
         let stride = if degree[0].max(degree[1]) <= 3 { 4 } else { 8 };
         let spans = [0, 1].map(|k| Spans::new(&knots[k], degree[k], count[k], stride));
-        // Both, or neither: the stride has to fit both degrees.
+        // Either both or neither: the stride must fit both degrees.
         let spans = if spans.iter().all(Option::is_some) { spans } else { [None, None] };
         Some(SplineSurface { degree, count, period: [head[4], head[5]], knots, poles, spans })
     }
 
-    /// Of u and v; 0 where it is not periodic.
+    /// Periods of u and v; 0 where it is not periodic.
     pub fn period(&self) -> [f64; 2] {
         self.period
     }
@@ -141,7 +141,7 @@ impl SplineSurface {
 
     fn second_derivatives<const N: usize>(&self, u: f64, v: f64) -> Jet {
         let (a, b) = (self.basis::<N>(0, u), self.basis::<N>(1, v));
-        // By u, v: 00, 10, 01, 20, 11, 02.
+        // Derivatives by u and v in the order 00, 10, 01, 20, 11, 02.
         let mut sums = [[0.0f64; 4]; 6];
         for i in 0..=self.degree[0] {
             let row = &self.poles[(a.first + i) * self.count[1] + b.first..][..=self.degree[1]];
@@ -162,7 +162,7 @@ impl SplineSurface {
         let [p, pu, pv, puu, puv, pvv] = sums;
         let over = 1.0 / p[3];
         let point = scaled(&[p[0], p[1], p[2]], over);
-        // (P - w_a S_b - ...) / w, for one derivative after the other.
+        // (P - w_a S_b - ...) / w, for one derivative after another.
         let derived = |q: [f64; 4], less: &[(f64, Vector)]| {
             let start = along(&[q[0], q[1], q[2]], &point, -q[3]);
             scaled(&less.iter().fold(start, |sum, (w, s)| along(&sum, s, -w)), over)
@@ -184,13 +184,13 @@ impl SplineSurface {
         (knots, [knots[p], knots[self.count[side]]], self.period[side])
     }
 
-    /// The parameter, u (0) or v (1), along which the surface is straight, if its tangent plane is the same all along:
-    /// a part of a cylinder, of a cone, or of what is like these over another curve.
+    /// The parameter, u (0) or v (1), along which the surface is straight with a constant tangent plane, as on a
+    /// cylinder or a cone over any curve; None where there is none.
     pub fn unrolls_along(&self) -> Option<usize> {
         [1, 0].into_iter().find(|&side| self.degree[side] == 1 && self.count[side] == 2 && self.is_scaled(side))
     }
 
-    /// Whether one end curve is the other one, moved and scaled.
+    /// Whether one end curve is the other one, translated and scaled.
     fn is_scaled(&self, side: usize) -> bool {
         let pole = |i: usize, end: usize| {
             let [x, y, z, w] = self.poles[if side == 1 { i * self.count[1] + end } else { end * self.count[1] + i }];
@@ -205,7 +205,7 @@ impl SplineSurface {
             size = size.max(length(a)).max(length(b));
         }
         let far = (0..self.count[1 - side]).map(|i| length(&sub(&pole(i, 1).0, &pole(i, 0).0))).fold(size, f64::max);
-        // The smaller end, which may be an apex, from the larger one.
+        // Predicts the smaller end curve, which may be an apex, from the larger one.
         let large = usize::from(squares[1] > squares[0]);
         let scale = if squares[large] > 0.0 { up / squares[large] } else { return false };
         scale >= 0.0
@@ -213,7 +213,7 @@ impl SplineSurface {
             && (0..chords.len()).all(|i| (pole(i, 0).1 / pole(i, 1).1 - 1.0).abs() <= SAME)
     }
 
-    /// The parameter within the domain that means the same, on a periodic side.
+    /// On a periodic side, the equivalent parameter within the domain.
     fn inside(&self, side: usize, x: f64) -> f64 {
         let (_, [low, high], period) = self.knots(side);
         if period > 0.0 && !(low..=high).contains(&x) { low + (x - low).rem_euclid(period) } else { x }

@@ -34,20 +34,20 @@ pub enum Surface {
     Sphere(Frame, f64),
     /// Major and minor radius.
     Torus(Frame, f64, f64),
-    /// A point of the axis and its direction, about which the curve is turned.
+    /// A point of the axis, the direction of the axis, and the curve that is turned about it.
     Revolution(Vector, Vector, Box<Curve>),
     Extrusion(Vector, Box<Curve>),
     Spline(Box<SplineSurface>),
     Offset(Box<Surface>, f64),
 }
 
-/// Share of the longer derivative's square: an area below says that the surface has no normal there.
+/// Share of the square of the longer derivative: if |du x dv| is below that, the surface has no normal there.
 const SINGULAR: f64 = 1e-13;
-/// Share of the way to a point beside: where the normal of a singular point is taken, which turns by as little.
+/// Share of the way to a nearby point at which the normal of a singular point is evaluated.
 const BESIDE: f64 = 1e-8;
 
 impl Surface {
-    /// None for a kind that is not known, and for numbers that are not those of its kind.
+    /// Reads a record; None for an unknown kind, or numbers that do not fit the kind.
     pub fn read(kind: u8, data: &[f64]) -> Option<Surface> {
         let frame = |count: usize| {
             let three = |i: usize| [data[i], data[i + 1], data[i + 2]];
@@ -119,7 +119,7 @@ impl Surface {
         }
     }
 
-    /// After how much u and v the surface comes back to itself; 0 where it does not.
+    /// Periods of u and v; 0 where it is not periodic.
     pub fn periods(&self) -> [f64; 2] {
         match self {
             Surface::Plane(_) => [0.0; 2],
@@ -132,7 +132,7 @@ impl Surface {
         }
     }
 
-    /// Where u and v may be; `size` stands for what has no end.
+    /// Ranges of u and v; `size` replaces an infinite end.
     pub fn domain(&self, size: f64) -> [[f64; 2]; 2] {
         let (turn, open) = ([0.0, TAU], [-size, size]);
         match self {
@@ -173,7 +173,7 @@ impl Surface {
         (p, upright(&du, &dv))
     }
 
-    /// The unit normal; at a pole or an apex that of a place close by, toward the parameters `beside`.
+    /// The unit normal; at a pole or an apex, that of a point close by, toward the parameters `beside`.
     pub fn normal_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Vector> {
         self.normal(uv).or_else(|| {
             let (_, du, dv) = self.d1([0, 1].map(|k| uv[k] + BESIDE * (beside[k] - uv[k])));
@@ -197,18 +197,18 @@ impl Frame {
         self.z
     }
 
-    /// About which u turns from x to y; with a left-handed frame the other way than `axis`.
+    /// The direction about which u turns from x to y; opposite to `axis` in a left-handed frame.
     pub(super) fn pole(&self) -> Vector {
         cross(&self.x, &self.y)
     }
 
-    /// Outward and onward directions at the angle u about z.
+    /// Radial and tangential directions at the angle u about z.
     pub(super) fn around(&self, u: f64) -> (Vector, Vector) {
         let (sin, cos) = u.sin_cos();
         (along(&scaled(&self.x, cos), &self.y, sin), along(&scaled(&self.y, cos), &self.x, -sin))
     }
 
-    /// A circle of radius `minor` at the distance `major` from the axis, turned about it.
+    /// Point and derivatives of a circle of radius `minor`, at the distance `major` from the axis and turned about it.
     fn ring(&self, u: f64, v: f64, major: f64, minor: f64) -> (Vector, Vector, Vector) {
         let (out, turn) = self.around(u);
         let (sin, cos) = v.sin_cos();
@@ -221,7 +221,8 @@ impl Frame {
     }
 }
 
-/// The normal of an offset surface is that of its basis; how it turns is taken from normals to both sides.
+/// The normal of an offset surface is that of its basis; its derivatives are difference quotients of normals on both
+/// sides.
 fn offset(basis: &Surface, distance: f64, uv: [f64; 2]) -> (Vector, Vector, Vector) {
     let (p, du, dv) = basis.d1(uv);
     let Some(n) = upright(&du, &dv) else { return (p, du, dv) };

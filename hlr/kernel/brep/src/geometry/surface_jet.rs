@@ -57,7 +57,7 @@ impl Surface {
         }
     }
 
-    /// A circle of radius `minor` at the distance `major` from the axis, turned about it.
+    /// A circle of radius `minor`, at the distance `major` from the axis and turned about it.
     fn ring_jet(f: &Frame, [u, v]: [f64; 2], major: f64, minor: f64) -> Jet {
         let (out, turn) = f.around(u);
         let (sin, cos) = v.sin_cos();
@@ -72,8 +72,8 @@ impl Surface {
         }
     }
 
-    /// Knots of the parameter u (0) or v (1) between `low` and `high`, rising, both ends left out: where derivatives
-    /// may jump.
+    /// Knots of the parameter u (0) or v (1) between `low` and `high`, ascending, without the ends. Derivatives may
+    /// jump there.
     pub fn knots(&self, side: usize, low: f64, high: f64) -> Vec<f64> {
         let within = |knots: &[f64], first: f64, last: f64, period: f64| {
             let mut out = Vec::new();
@@ -109,7 +109,7 @@ impl Surface {
     }
 }
 
-/// The first derivatives by Weingarten's equations, the second ones from these at both sides.
+/// First derivatives by Weingarten's equations, second derivatives by differences of these on both sides.
 fn offset(basis: &Surface, distance: f64, uv: [f64; 2]) -> Jet {
     let first = |uv: [f64; 2]| {
         let j = basis.jet(uv);
@@ -183,9 +183,9 @@ mod tests {
         let offset = Surface::read(9, &[&[0.5, 7.0], &extruded(&curve)[..]].concat()).unwrap();
         assert_eq!(both(&offset), both(&plain));
         assert_eq!(both(&Surface::read(7, &extruded(&line)).unwrap()), [vec![], vec![]]);
-        // Both ends are left out.
+        // Both ends are excluded.
         assert_eq!(plain.knots(0, 5.0, 8.0), [0.0; 0]);
-        // Degrees 1, three poles along u, two along v; periods 10 and none.
+        // Degree 1, three poles along u, two along v; period 10 along u, none along v.
         let poles: Vec<f64> = (0..6).flat_map(|i| [f64::from(i), f64::from(i * i), 0.0, 1.0]).collect();
         let head = [1.0, 1.0, 3.0, 2.0, 10.0, 0.0, 0.0, 0.0, 4.0, 10.0, 10.0, 0.0, 0.0, 1.0, 1.0];
         let spline = Surface::read(8, &[&head[..], &poles].concat()).unwrap();

@@ -4,13 +4,13 @@ use super::surface::Surface;
 use super::vector::{Vector, cross, scaled};
 
 impl Surface {
-    /// The axis about which the unit normal turns on the way from `uv` by `step`, its length the angle in radians: 0
-    /// where it stays as it is. None where it does not turn evenly, or nobody says so.
+    /// The rotation of the unit normal on the way from `uv` by `step`: a vector along the axis, its length the angle in
+    /// radians; 0 for a constant normal. None if the rate is not constant, or not known to be.
     pub fn turning(&self, [u, v]: [f64; 2], [along_u, along_v]: [f64; 2]) -> Option<Vector> {
         match self {
             Surface::Plane(_) => Some([0.0; 3]),
             Surface::Cylinder(f, _) => Some(scaled(&f.pole(), along_u)),
-            // Beyond its apex the normal is turned over.
+            // Beyond the apex of a cone the normal is reversed.
             Surface::Cone(f, r, sin, _) => {
                 let one_side = (r + v * sin) * (r + (v + along_v) * sin) > 0.0;
                 one_side.then(|| scaled(&f.pole(), along_u))
@@ -32,7 +32,7 @@ mod tests {
     use super::*;
     use crate::geometry::vector::{add, dot, length, sub, unit};
 
-    /// Turned about an axis by its length.
+    /// Rotates about an axis by its length in radians.
     fn turned(v: &Vector, axis: &Vector) -> Vector {
         let angle = length(axis);
         let Some(k) = unit(axis) else { return *v };
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn normals_turn_as_they_are_said_to() {
-        // Right-handed and left-handed.
+        // Right-handed and left-handed frames.
         for hand in [1.0, -1.0] {
             let frame = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0, 0.6, 0.8, 0.0, -0.8 * hand, 0.6 * hand];
             let of = |kind: u8, more: &[f64]| Surface::read(kind, &[&frame, more].concat()).unwrap();

@@ -31,13 +31,13 @@ pub fn length(a: &Vector) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// None for a vector without length.
+/// The vector scaled to length 1; None for the zero vector.
 pub fn unit(a: &Vector) -> Option<Vector> {
     let size = length(a);
     (size > 0.0 && size.is_finite()).then(|| scaled(a, 1.0 / size))
 }
 
-/// From p to the line through a and b; to the point where they are one.
+/// Distance from p to the line through a and b; to the point a if b is the same.
 pub fn from_line(p: &Vector, a: &Vector, b: &Vector) -> f64 {
     let (d, q) = (sub(b, a), sub(p, a));
     let square = dot(&d, &d);

@@ -3,7 +3,7 @@
 use super::outline::Outline;
 use super::plane::distance2;
 
-/// Squares along one side at most.
+/// Limit on the number of squares along one side.
 const MOST: f64 = 2048.0;
 
 pub struct BorderGrid<'a> {
@@ -12,7 +12,7 @@ pub struct BorderGrid<'a> {
     /// Width and height of a square.
     step: [f64; 2],
     counts: [usize; 2],
-    /// Chords by squares, row by row.
+    /// Chords of each square, row by row.
     first: Vec<u32>,
     chords: Vec<u32>,
 }
@@ -21,7 +21,7 @@ impl<'a> BorderGrid<'a> {
     pub fn new(outline: &'a Outline) -> BorderGrid<'a> {
         let [low, high] = outline.bounds();
         let size = [0, 1].map(|k| (high[k] - low[k]).max(f64::MIN_POSITIVE));
-        // About two squares for a chord, as square as can be.
+        // About two squares per chord, as nearly square as possible.
         let side = (size[0] * size[1] / (2.0 * outline.len() as f64)).sqrt();
         let counts = size.map(|s| (s / side).clamp(1.0, MOST).ceil() as usize);
         let step = [0, 1].map(|k| size[k] / counts[k] as f64);
@@ -79,7 +79,7 @@ impl<'a> BorderGrid<'a> {
         &self.chords[self.first[square] as usize..self.first[square + 1] as usize]
     }
 
-    /// Where the line at the height y crosses the loops, rising.
+    /// Where the line at the height y crosses the loops, in ascending order.
     pub fn crossed(&self, y: f64, out: &mut Vec<f64>) {
         out.clear();
         let row = self.cell(1, y);
@@ -88,7 +88,7 @@ impl<'a> BorderGrid<'a> {
                 let [a, b] = self.ends(chord);
                 if (a[1] <= y) != (b[1] <= y) {
                     let x = a[0] + (b[0] - a[0]) * ((y - a[1]) / (b[1] - a[1]));
-                    // Once, though it is in several squares.
+                    // A chord in several squares is counted once.
                     if self.cell(0, x) == column {
                         out.push(x);
                     }
@@ -98,7 +98,7 @@ impl<'a> BorderGrid<'a> {
         out.sort_unstable_by(f64::total_cmp);
     }
 
-    /// Whether a chord is nearer than the distance.
+    /// Whether any chord is closer to the point than the distance.
     pub fn is_near(&self, p: [f64; 2], distance: f64) -> bool {
         let range = |k: usize| self.cell(k, p[k] - distance)..=self.cell(k, p[k] + distance);
         range(1).any(|row| {

@@ -5,20 +5,21 @@ use rustc_hash::FxHashSet;
 use super::outline::Outline;
 use super::plane::area;
 
-/// Share of the largest parameter times the triangle's width and height: what rounding makes of an area of nothing.
+/// Largest rounding error of a zero area, as a share of the largest parameter times the triangle's width plus height.
 const ROUNDING: f64 = 4e-15;
 
-/// What is proved of triangles that fill what the loops enclose.
+/// The result of the proof that triangles fill what the loops enclose.
 pub struct Proof {
-    /// Whether each chord has its triangle to the left, as it should.
+    /// Whether each chord has its triangle to the left, as it should have.
     pub in_sense: bool,
 }
 
-/// A proof that each chord has one triangle beside it, every other edge two that run along it in opposite senses, and
-/// no triangle is turned over. The triangles then fill exactly what the loops enclose, in (u, v), by the rule of even
-/// and odd: whatever way a loop runs.
+/// Proves that each chord has one triangle beside it, that every other edge has two triangles that run along it in
+/// opposite senses, and that no triangle is turned over. The triangles then fill exactly what the loops enclose in
+/// (u, v), by the even-odd rule, whatever the sense of a loop.
 ///
-/// `uv`: places of all vertices; `stand_in`: of points of the outline at one place, the one that is used.
+/// `uv`: parameters of all vertices. `stand_in`: for each point of the outline the point that the triangles use in its
+/// place.
 pub fn proof(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles: &[[u32; 3]]) -> Option<Proof> {
     let [low, high] = outline.bounds();
     let size = low.iter().chain(&high).fold(0.0f64, |m, x| m.max(x.abs()));
@@ -33,7 +34,7 @@ pub fn proof(outline: &Outline, uv: &[[f64; 2]], stand_in: &[u32], triangles: &[
 fn filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 3]]) -> Option<Proof> {
     let chords = outline.chords().map(|c| [c, outline.after(c)].map(|p| stand_in[p as usize]));
     let edges = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-    // Sorted by the lower end: a place for each, then within it by the upper one.
+    // A counting sort by the lower end, then a sort by the upper end within each.
     let mut first = vec![0u32; count + 1];
     for [a, b] in edges.clone().chain(chords.clone()) {
         first[a.min(b) as usize + 1] += 1;
@@ -54,8 +55,8 @@ fn filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 
     let sound = first.windows(2).all(|w| {
         let part = &mut sorted[w[0] as usize..w[1] as usize];
         part.sort_unstable();
-        // Kinds: 0, 1 triangles to and fro; 2, 3 chords. A chord may run to and fro: a slit, or all of a face without
-        // area.
+        // Kinds: 0, 1 triangles in either sense; 2, 3 chords in either sense. A chord may occur in both senses: a slit,
+        // or a face without area.
         part.chunk_by(|a, b| a.0 == b.0).all(|group| {
             in_sense &= !matches!(group, [(_, 0), (_, 3)] | [(_, 1), (_, 2)]);
             matches!(
@@ -67,7 +68,7 @@ fn filled(outline: &Outline, count: usize, stand_in: &[u32], triangles: &[[u32; 
     sound.then_some(Proof { in_sense })
 }
 
-/// Numbers of the loops that have a triangle to the right of a chord.
+/// Numbers of the loops that have a triangle to the right of one of their chords.
 pub fn turned(outline: &Outline, stand_in: &[u32], triangles: &[[u32; 3]]) -> Vec<usize> {
     let edges: FxHashSet<[u32; 2]> = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
     let against = |c: &u32| {
@@ -122,7 +123,7 @@ mod tests {
             }
             assert!(!sound(&outline, &[]));
         }
-        // The hole filled as well.
+        // With the hole filled as well.
         assert!(!sound(&outline(true), &[&ring[..], &[[4, 7, 6], [4, 6, 5]]].concat()));
     }
 }

@@ -3,10 +3,10 @@
 use super::outline::Outline;
 use super::plane::side;
 
-/// More pairs than that say no more.
+/// Limit on the pairs that are listed: more of them would add no information.
 const MOST: usize = 1000;
 
-/// Pairs of chords, as points that they begin at, that have more in common than ends.
+/// Pairs of chords that share more than end points. A chord is given by the point at which it begins.
 pub fn crossings(outline: &Outline) -> Vec<[u32; 2]> {
     let ends = |c: u32| [outline.uv[c as usize], outline.uv[outline.after(c) as usize]];
     let range = |c: u32, k: usize| {
@@ -32,8 +32,8 @@ pub fn crossings(outline: &Outline) -> Vec<[u32; 2]> {
     found
 }
 
-/// Whether two chords whose boxes overlap have points in common that are not ends of both. The two sides of a slit, one
-/// chord to and fro, have not.
+/// Whether two chords with overlapping boxes share a point that is not an end of both. The two sides of a slit, which
+/// are the same chord in both senses, do not count.
 fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     if (a == d && b == c) || (a == c && b == d) {
         return a == c;
@@ -42,7 +42,7 @@ fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     let to = |p: &[f64; 2]| side(&c, &d, p);
     let (s, t, u, v) = (of(&c), of(&d), to(&a), to(&b));
     if s == 0.0 && t == 0.0 {
-        // On one line: an end strictly between the others' ends.
+        // On one line: whether an end of one lies strictly between the ends of the other.
         let k = usize::from((b[0] - a[0]).abs() < (b[1] - a[1]).abs());
         let between = |x: f64, e: f64, f: f64| (e < x && x < f) || (f < x && x < e);
         return between(c[k], a[k], b[k])

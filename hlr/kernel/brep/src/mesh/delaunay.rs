@@ -15,18 +15,18 @@ struct Corner<'a> {
 impl HasPosition for Corner<'_> {
     type Scalar = f64;
 
-    /// Asked at every step: that is where one can stop.
+    /// Called at every step of the triangulation, so a stop is checked here.
     fn position(&self) -> Point2<f64> {
         self.steps.step();
         self.place
     }
 }
 
-/// Triangles inside loops, by a method that stands loops that touch.
+/// Triangles inside loops. The loops may touch one another.
 pub struct Delaunay {
     /// Counterclockwise.
     pub triangles: Vec<[u32; 3]>,
-    /// Of points of the outline at one place, the first one.
+    /// For each point of the outline the first point at the same place.
     pub stand_in: Vec<u32>,
 }
 
@@ -72,15 +72,15 @@ impl Delaunay {
     }
 }
 
-/// `slits`: chords that run to and fro, lower point first, the same on either side.
-///
 /// The triangles inside the loops, counterclockwise: those with an odd number of chords between them and the outside.
+///
+/// `slits`: chords that occur in both senses, lower point first. Both sides of a slit are inside, or both outside.
 fn inside(mesh: &Mesh, slits: &[[u32; 2]]) -> Vec<[u32; 3]> {
     const UNKNOWN: u8 = 2;
     let mut state = vec![UNKNOWN; mesh.num_all_faces()];
     let mut stack = Vec::new();
     for hull in mesh.convex_hull() {
-        // The hull's edges have the outside on one hand.
+        // An edge of the hull has the outside on one side.
         let edge = if hull.is_outer_edge() { hull.rev() } else { hull };
         let index = edge.face().fix().index();
         if !edge.is_outer_edge() && state[index] == UNKNOWN {
@@ -112,7 +112,7 @@ fn toggles(edge: DirectedEdgeHandle<Corner<'_>, (), spade::CdtEdge<()>, ()>, sli
     slits.binary_search(&[a.min(b), a.max(b)]).is_err()
 }
 
-/// For each point of a chord the first one at its place.
+/// For each point of a chord the first point at the same place.
 fn stand_ins(outline: &Outline) -> Vec<u32> {
     let mut order: Vec<u32> = outline.chords().collect();
     let at = |i: u32| outline.uv[i as usize];

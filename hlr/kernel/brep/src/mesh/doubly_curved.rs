@@ -1,8 +1,8 @@
 //! The mesh of a face that curves in both directions.
 //!
-//! 1. a lattice of inner points in a chart of (u, v)
-//! 2. constrained Delaunay triangles in the chart
-//! 3. more points, until every triangle keeps the chord error
+//! 1. Place a lattice of inner points in a chart of (u, v).
+//! 2. Compute constrained Delaunay triangles in the chart.
+//! 3. Insert more points until every triangle keeps the chord error.
 
 use super::border_grid::BorderGrid;
 use super::delaunay::Delaunay;
@@ -20,16 +20,18 @@ use super::triangulation::Triangulation;
 use crate::geometry::surface::Surface;
 use hlr_accuracy::MESH_BESIDE_BORDER;
 
-/// Rounds of more points.
+/// Limit on the rounds in which points are inserted.
 const ROUNDS: usize = 16;
-/// Points inside one face.
+/// Limit on the points inside one face.
 const MOST: usize = 8_000_000;
-/// Share of the length of a chord: new points are kept so far off it in the chart; nearer only where there is no other
-/// way.
+/// Distance in the chart that new points keep from a chord, as a share of the chord's length. The smaller one is used
+/// only where the larger one leaves no place.
 const OFF: [f64; 2] = [0.2, 0.02];
 
-/// `straight`: with a chart that is slower to be filled and never wrong. Faults of the loops as None beside their
-/// outline: whoever asks finds out why.
+/// The mesh before its proof. If the loops cannot be filled, their outline, from which the caller can find out why.
+///
+/// `straight`: with a chart that is not bent. It is slower to fill, but chords cross in it only where they cross in
+/// (u, v).
 pub fn triangulate(
     surface: &Surface,
     loops: &FaceLoops,
@@ -61,8 +63,8 @@ pub fn triangulate(
     Ok(Ok(Draft { outline, corners, triangles: net.into_triangles(), stand_in, error, turned: Vec::new() }))
 }
 
-/// Share of the work on a face, about: when its inner points are known, when they are joined, when they are judged
-/// once.
+/// Approximate share of the work on a face that is done when its inner points are known, when they are triangulated,
+/// and when all triangles have been judged once.
 const DONE: [f64; 3] = [0.2, 0.6, 0.8];
 
 struct Filled {
@@ -71,7 +73,7 @@ struct Filled {
     stand_in: Vec<u32>,
 }
 
-/// Points inside the loops, and triangles; None where the loops cannot be filled.
+/// The points inside the loops, and the triangles; None where the loops cannot be filled.
 fn filled(field: &Field, chart: &Outline, steps: &Progress) -> Result<Option<Filled>, Fault> {
     let own = || (0..chart.len() as u32).collect();
     if let Some(Strips { inner, triangles, loose }) = strips(field, chart, MOST, steps) {
@@ -119,16 +121,16 @@ struct Work<'a> {
     chart: &'a Outline,
     corners: Vec<Corner>,
     bends: Vec<Bend>,
-    /// Between which knots the corners are.
+    /// Spans between knots that hold the corners.
     spans: Vec<[u32; 2]>,
-    /// Of the corners, in the chart.
+    /// Places of the corners in the chart.
     places: Vec<[f64; 2]>,
     deflection: f64,
     net: Triangulation,
     steps: &'a Progress<'a>,
 }
 
-/// A triangle that does not keep the deflection, with its number: it is still there if it still has these corners.
+/// A triangle that exceeds the deflection. It still exists if the triangle of this number still has these corners.
 struct Coarse {
     gap: Gap,
     corners: [u32; 3],
@@ -148,7 +150,7 @@ impl<'a> Work<'a> {
         Work { surface, field, chart, corners, bends, spans, places: chart.uv.clone(), deflection, net, steps }
     }
 
-    /// The points of the outline, then those inside.
+    /// Evaluates the surface at the points of the outline, then at the inner points.
     fn evaluate(&mut self, outline: &Outline, inner: &[[f64; 2]]) {
         let count = outline.len() + inner.len();
         self.corners.reserve(count);
@@ -157,7 +159,7 @@ impl<'a> Work<'a> {
         for (&uv, &point) in outline.uv.iter().zip(&outline.points) {
             self.add(uv, Some(point));
         }
-        // In a row all have one v.
+        // All points of a row have the same v.
         let mut row = [f64::NAN; 2];
         for &[x, y] in inner {
             if y != row[0] {
@@ -176,7 +178,7 @@ impl<'a> Work<'a> {
         self.spans.push(self.field.span(uv));
     }
 
-    /// The greatest error that remains.
+    /// Inserts points where triangles are too coarse. Returns the largest error that remains.
     fn refine(&mut self) -> f64 {
         let (mut worst, mut coarse) = (0.0f64, Vec::new());
         (0..self.net.triangles().len()).for_each(|number| self.judge(number, &mut worst, &mut coarse));
@@ -187,7 +189,7 @@ impl<'a> Work<'a> {
                 break;
             }
             coarse.retain(|c| self.net.triangles()[c.number] == c.corners);
-            // All triangles that were not there have a new point.
+            // Every new triangle has a new point as a corner.
             for point in known as u32..self.corners.len() as u32 {
                 for number in self.net.around(point) {
                     if self.net.triangles()[number].iter().all(|&i| i >= point || i < known as u32) {
@@ -199,7 +201,8 @@ impl<'a> Work<'a> {
         coarse.iter().fold(worst, |w, c| w.max(c.gap.whole))
     }
 
-    /// Whether a triangle keeps the deflection, or is as good as the border lets it be.
+    /// Judges a triangle. It is coarse if it exceeds the deflection, unless the chords of the border beside it allow no
+    /// better.
     fn judge(&self, number: usize, worst: &mut f64, coarse: &mut Vec<Coarse>) {
         self.steps.step();
         let t = self.net.triangles()[number];
@@ -223,7 +226,8 @@ impl<'a> Work<'a> {
         a < count && b < count && (self.chart.after(a) == b || self.chart.after(b) == a)
     }
 
-    /// One more point for each coarse triangle that has no neighbour with a new one. Whether there was any.
+    /// Inserts a point for each coarse triangle, unless a neighbour already got one in this round. Returns whether any
+    /// was inserted.
     fn divide(&mut self, coarse: &mut [Coarse]) -> bool {
         coarse.sort_by(|a, b| b.gap.whole.total_cmp(&a.gap.whole).then(a.corners.cmp(&b.corners)));
         let mut touched = vec![false; self.corners.len()];
@@ -245,7 +249,8 @@ impl<'a> Work<'a> {
         any
     }
 
-    /// Amid the edge with the greatest error, or amid the triangle where that is too near the border.
+    /// The place of a new point: the middle of the edge with the greatest error, or the centroid where that is too near
+    /// the border.
     fn place(&self, gap: &Gap, t: [u32; 3]) -> Option<[f64; 2]> {
         let [a, b, c] = t.map(|i| self.places[i as usize]);
         let ends = [(a, b), (b, c), (c, a)];

@@ -6,12 +6,12 @@ use super::outline::Outline;
 /// Triangles of a face before their proof (`check`).
 pub struct Draft {
     pub outline: Outline,
-    /// Points of the outline, then inner ones.
+    /// The points of the outline, then the inner points.
     pub corners: Vec<Corner>,
     pub triangles: Vec<[u32; 3]>,
-    /// Of points of the outline at one place, the one that triangles have.
+    /// For each point of the outline the point that the triangles use in its place.
     pub stand_in: Vec<u32>,
     pub error: f64,
-    /// Loops that run the wrong way, once that is known.
+    /// Numbers of the loops that run the wrong way, once known.
     pub turned: Vec<usize>,
 }

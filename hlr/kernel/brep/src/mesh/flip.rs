@@ -2,10 +2,11 @@
 
 use super::plane::{area, side};
 
-/// Rounds over all edges.
+/// Limit on the rounds over all edges.
 const ROUNDS: usize = 16;
 
-/// Turn edges that cost more than the limit, where the other diagonal costs less. Whether any was.
+/// Flips edges that cost more than the limit, where the other diagonal costs less. Returns whether any edge was
+/// flipped.
 pub fn flip(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], cost: &impl Fn(u32, u32) -> f64, limit: f64) -> bool {
     let mut twins = twins(triangles);
     let mut changed = false;
@@ -37,14 +38,14 @@ pub fn flip(uv: &[[f64; 2]], triangles: &mut [[u32; 3]], cost: &impl Fn(u32, u32
     changed
 }
 
-/// Turn edges of triangles that are turned over, where that sets them upright: a chart of (u, v) keeps the sense of its
-/// own triangles only.
+/// Flips edges of triangles that are turned over in (u, v), where that corrects them. Triangles that are
+/// counterclockwise in a bent chart may be clockwise in (u, v).
 pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
     let over = |t: [u32; 3]| {
         let [a, b, c] = t.map(|i| &uv[i as usize]);
         side(a, b, c) < 0.0
     };
-    // Rounded first: that tells nearly all of them.
+    // The rounded area decides nearly all triangles without exact arithmetic.
     let doubtful = |t: &&[u32; 3]| {
         let [a, b, c] = t.map(|i| uv[i as usize]);
         area(&a, &b, &c) <= 0.0
@@ -68,11 +69,12 @@ pub fn upright(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// Height over length of a triangle that is no needle.
+/// Height divided by longest side. Below this a triangle is a needle.
 const NEEDLE: f64 = 1e-6;
 
-/// Turn the longest sides of needles, where what comes of it is higher. In a plane corners of the border may lie in one
-/// line but for rounding; a needle between them has no normal, and the grid of an image turns it over.
+/// Flips the longest sides of needles, where the new triangles are less slim. In a plane, corners of the border may lie
+/// on one line except for rounding. A needle between them has no normal, and snapping the image to its grid may turn it
+/// over.
 ///
 /// ```text
 ///      p ---- q ---- r          p ---- q ---- r
@@ -81,7 +83,7 @@ const NEEDLE: f64 = 1e-6;
 ///             s                       s
 /// ```
 pub fn without_needles(uv: &[[f64; 2]], triangles: &mut [[u32; 3]]) {
-    // The height over the longest side, over that; and that side.
+    // The height over the longest side divided by that side, and the number of that side.
     let slim = |t: [u32; 3]| {
         let p = t.map(|i| uv[i as usize]);
         let length = |k: usize| (p[(k + 1) % 3][0] - p[k][0]).hypot(p[(k + 1) % 3][1] - p[k][1]);
@@ -128,7 +130,7 @@ pub fn before_in(edge: usize) -> usize {
     edge - edge % 3 + (edge + 2) % 3
 }
 
-/// a b c and b a d become c d b and d c a.
+/// Flips an edge: the triangles a b c and b a d become c d b and d c a.
 pub fn turn(triangles: &mut [[u32; 3]], twins: &mut [u32], edge: usize, twin: usize) {
     let (a, b) = (start(triangles, edge), start(triangles, twin));
     let (c, d) = (start(triangles, before_in(edge)), start(triangles, before_in(twin)));
@@ -150,12 +152,12 @@ pub fn turn(triangles: &mut [[u32; 3]], twins: &mut [u32], edge: usize, twin: us
     join(3 * one, 3 * other as u32);
 }
 
-/// For each edge of each triangle the one that runs along it in the other sense.
+/// For each edge of each triangle the edge that runs along it in the opposite sense.
 pub fn twins(triangles: &[[u32; 3]]) -> Vec<u32> {
     let count = triangles.iter().flatten().max().map_or(0, |&i| i as usize + 1);
     let edges = 0..3 * triangles.len();
     let ends = |edge: usize| (start(triangles, edge), start(triangles, after_in(edge)));
-    // By their lower ends, then by their upper ones.
+    // Sorted by lower end, then by upper end.
     let mut first = vec![0u32; count + 1];
     for edge in edges.clone() {
         let (a, b) = ends(edge);

@@ -1,32 +1,33 @@
 //! An estimate of the largest distance between a surface and a triangle whose corners lie on it.
 //!
-//! Along a fixed direction n, with H the second derivative of n . S and x = sum l_i v_i a point of the triangle, the
-//! gap is sum l_i H(v_i - x, v_i - x) / 2, H taken as a mean on the way from x to v_i. H is known at the corners, and
-//! taken to change evenly between them; for what it does else, a share of its size is added.
+//! Let n be a fixed direction, H the second derivative of n . S, and x = sum l_i v_i a point of the triangle. The gap
+//! along n is sum l_i H_i(v_i - x, v_i - x) / 2, where H_i is a mean of H on the way from x to v_i. H is known at the
+//! corners and assumed to change linearly between them. For departures from that, a share of its size is added.
 
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, add, cross, dot, sub, unit};
 
-/// Of the size of H on the triangle's rectangle of width a and height b, (H_uu a^2 + 2 H_uv a b + H_vv b^2) / 8.
+/// Allowance for a nonlinear change of H, as a share of (H_uu a^2 + 2 H_uv a b + H_vv b^2) / 8. H is its largest value
+/// at the corners, a and b the width and height of the triangle in (u, v).
 const SHARE: f64 = 0.06;
-/// What is measured at four places may be more beside these.
+/// Factor on the gap that is measured at four places: it may be larger between them.
 const MARGIN: f64 = 1.1;
-/// Share of the largest H along an edge: where it differs by more from corner to corner, it may change unevenly.
+/// If H differs by more than this share of its largest value from corner to corner, its change may be nonlinear.
 const UNEVEN: f64 = 0.3;
 
-/// A corner of triangles.
+/// A corner of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Corner {
     pub uv: [f64; 2],
     pub point: Vector,
-    /// 0 where there is none.
+    /// The unit normal; 0 where the surface has none.
     pub normal: Vector,
 }
 
-/// Second derivatives duu, duv, dvv at a corner, and its place on the surface.
+/// Second derivatives duu, duv, dvv at a corner, and the point of the surface there.
 pub type Bend = [Vector; 4];
 
-/// A corner at a place of the surface, or at a point beside it.
+/// A corner on the surface, or at a given point beside the surface.
 pub fn corner(surface: &Surface, uv: [f64; 2], point: Option<Vector>) -> (Corner, Bend) {
     let jet = surface.jet(uv);
     let n = cross(&jet.du, &jet.dv);
@@ -36,16 +37,17 @@ pub fn corner(surface: &Surface, uv: [f64; 2], point: Option<Vector>) -> (Corner
     (corner, [jet.duu, jet.duv, jet.dvv, jet.point])
 }
 
-/// A triangle's error: as a whole, and along its three edges by themselves: 0-1, 1-2, 2-0.
+/// A triangle's error: as a whole, and along each of its edges 0-1, 1-2, 2-0.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Gap {
     pub whole: f64,
     pub edges: [f64; 3],
 }
 
-/// Where that is enough to keep the deflection, a bound that is told at a glance.
+/// The error of a triangle. If a quick bound already keeps the deflection, that bound, without the errors of the edges.
 ///
-/// `kinked`: knots of a spline lie between the corners. There, and where H changes much, gaps are measured as well.
+/// `kinked`: knots of a spline lie between the corners. In that case, and where H changes much, gaps are measured as
+/// well.
 pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], kinked: bool, deflection: f64) -> Gap {
     if let Surface::Sphere(_, r) = surface {
         return on_sphere(r.abs(), corners);
@@ -55,7 +57,7 @@ pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], kinked: 
     let forms = bends.map(|bend| [0, 1, 2].map(|k| dot(&bend[k], &n)));
     let steps = [(a, b), (b, c), (c, a)].map(|(p, q)| [q.uv[0] - p.uv[0], q.uv[1] - p.uv[1]]);
     let form = |h: &[f64; 3], [u, v]: [f64; 2]| h[0] * u * u + 2.0 * h[1] * u * v + h[2] * v * v;
-    // H of each corner along each edge.
+    // H at each corner, applied to each edge.
     let along = steps.map(|step| [0, 1, 2].map(|k| form(&forms[k], step)));
     let size = [0, 1].map(|k| steps.iter().fold(0.0f64, |m, s| m.max(s[k].abs())));
     let most = [0, 1, 2].map(|k| forms.iter().fold(0.0f64, |m, f| m.max(f[k].abs())));
@@ -67,7 +69,7 @@ pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], kinked: 
     };
     let doubtful = kinked || along.iter().any(uneven);
     let measured = if doubtful { MARGIN * measured(surface, corners, bends, &n) } else { 0.0 };
-    // sum l_i l_j is a third at most.
+    // sum l_i l_j is at most one third.
     let glance = largest / 6.0 + rest(size);
     let glance = glance.max(measured);
     if glance <= deflection {
@@ -75,12 +77,12 @@ pub fn gap(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], kinked: 
     }
     Gap {
         whole: measured.max(0.5 * extreme(&along) + rest(size)),
-        // Along an edge by itself, with H from one end to the other.
+        // Along an edge H changes linearly from one end to the other.
         edges: [0, 1, 2].map(|i| 0.0625 * (along[i][i] + along[i][(i + 1) % 3]).abs() + rest(steps[i].map(f64::abs))),
     }
 }
 
-/// The gap along n amid the triangle and its edges.
+/// The largest gap along n at the middles of the edges and at the centroid.
 fn measured(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], n: &Vector) -> f64 {
     let mut most = 0.0f64;
     for l in &PLACES[..4] {
@@ -91,7 +93,8 @@ fn measured(surface: &Surface, corners: [&Corner; 3], bends: [&Bend; 3], n: &Vec
     most
 }
 
-/// Places in a triangle where gaps are compared, as shares of its corners: they have their greatest values near these.
+/// Barycentric coordinates of the places in a triangle where gaps are compared. The gaps are greatest near these
+/// places.
 const PLACES: [[f64; 3]; 10] = {
     const T: f64 = 1.0 / 3.0;
     [
@@ -108,8 +111,8 @@ const PLACES: [[f64; 3]; 10] = {
     ]
 };
 
-/// Greatest |sum l_i H_i'(v_i - x, v_i - x)|, where H_i' is a third of H_i and two thirds of H at x: what a form that
-/// changes evenly makes of its mean on the way. `along`: H of each corner along the edges 0-1, 1-2, 2-0.
+/// Greatest |sum l_i H_i'(v_i - x, v_i - x)|, where H_i' is a third of H at v_i and two thirds of H at x: the mean on
+/// the way of a form that changes linearly. `along`: H at each corner, applied to the edges 0-1, 1-2, 2-0.
 fn extreme(along: &[[f64; 3]; 3]) -> f64 {
     let mut most = 0.0f64;
     for l in PLACES {
@@ -131,7 +134,8 @@ fn extreme(along: &[[f64; 3]; 3]) -> f64 {
     most
 }
 
-/// Exact: the circle through the corners, or the longest edge where its middle is not in the triangle.
+/// The exact error on a sphere: from the circle through the corners, or from the longest edge if the centre of that
+/// circle is not in the triangle.
 fn on_sphere(radius: f64, corners: [&Corner; 3]) -> Gap {
     let [a, b, c] = corners.map(|k| k.point);
     let squares = [sub(&b, &a), sub(&c, &b), sub(&a, &c)].map(|d| dot(&d, &d));
@@ -154,7 +158,7 @@ mod tests {
     /// A bicubic patch over the unit square: x = u, y = v, and a height of the third degree.
     fn patch(c: [f64; 7]) -> Surface {
         let terms = [(2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3)];
-        // Of u^k among Bernstein's polynomials of degree 3.
+        // u^k in Bernstein polynomials of degree 3.
         let share = |i: u8, k: u8| match k {
             0 => 1.0,
             1 => f64::from(i) / 3.0,

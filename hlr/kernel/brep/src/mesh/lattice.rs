@@ -9,15 +9,15 @@ use super::border_grid::BorderGrid;
 use super::progress::Progress;
 use super::spacing::Field;
 
-/// Height of an equilateral triangle.
+/// Height of an equilateral triangle of side 1.
 const HEIGHT: f64 = 0.866;
-/// Spacings within a row of one block differ by no more.
+/// Largest ratio of spacings within a row of one block.
 const EVEN: f64 = 1.3;
-/// Rows in a run with one number of steps: the numbers that they would have differ by no more.
+/// Neighbouring rows get the same number of steps if the numbers they ask for differ by no more than this factor.
 const RUN: f64 = 1.14;
-/// In spacings: points are kept so far off the border.
+/// Least distance of inner points from the border, in spacings.
 pub const MARGIN: f64 = 0.45;
-/// Rows and columns that would be fewer by a hair are fewer.
+/// Counts of rows and steps are rounded up, unless their fraction is no larger than this.
 const HAIR: f64 = 0.05;
 
 /// Points inside the loops; None where they would be more than `most`.
@@ -42,7 +42,7 @@ pub struct Level {
     pub y: f64,
     pub spacing: f64,
     odd: bool,
-    /// Of even width, along the block.
+    /// Number of equal steps along the block.
     pub steps: f64,
 }
 
@@ -55,16 +55,16 @@ pub fn is_uneven(field: &Field, i: [usize; 2], j: [usize; 2]) -> bool {
         })
 }
 
-/// Least and greatest spacing in a row of cells.
+/// Smallest and largest spacing in a row of cells.
 fn range(field: &Field, i: [usize; 2], row: usize) -> (f64, f64) {
     let each = (i[0]..i[1]).map(|k| field.in_cell(k, row));
     each.fold((f64::INFINITY, 0.0), |(low, high), h| (low.min(h), high.max(h)))
 }
 
-/// The rows of a block of cells; None where they are too many.
+/// The rows of a block of cells; None where there are too many.
 pub fn levels(field: &Field, i: [usize; 2], j: [usize; 2]) -> Option<Vec<Level>> {
     let (xs, ys) = (&field.chart[0], &field.chart[1]);
-    // The uppermost line is border; a line between blocks belongs to the block before it.
+    // The topmost line is border; a line between blocks belongs to the block before it.
     let open = j[1] < field.counts()[1];
     let sizes: Vec<f64> = (j[0]..j[1])
         .map(|row| {
@@ -85,7 +85,7 @@ pub fn levels(field: &Field, i: [usize; 2], j: [usize; 2]) -> Option<Vec<Level>>
         if number == count as usize && !open {
             break;
         }
-        // Where the rows passed make the wanted number.
+        // The height at which the wanted number of rows is reached.
         let wanted = total * number as f64 / count;
         while row + 1 < sizes.len() && passed + heights[row] / (HEIGHT * sizes[row]) < wanted {
             passed += heights[row] / (HEIGHT * sizes[row]);
@@ -98,8 +98,8 @@ pub fn levels(field: &Field, i: [usize; 2], j: [usize; 2]) -> Option<Vec<Level>>
     Some(levels)
 }
 
-/// The same number of steps for as many rows as can have it: where it changes the points of two rows drift past one
-/// another, and triangles get right angles.
+/// Gives as many consecutive rows as possible the same number of steps. Where the number changes, the points of two
+/// rows shift against one another, and triangles become right-angled.
 fn even_out(levels: &mut [Level], width: f64) {
     let mut rest = levels;
     while !rest.is_empty() {
@@ -119,13 +119,13 @@ fn even_out(levels: &mut [Level], width: f64) {
     }
 }
 
-/// The places of a row's points; `open`: the right end is one, if the row has one there.
+/// The points of a row along x. `open`: the right end is a point too, if the row has one there.
 pub fn across(ends: [f64; 2], open: bool, level: &Level) -> impl Iterator<Item = f64> {
     let even = Even::new(ends, open, level);
     (0..even.count).map(move |k| even.at(k))
 }
 
-/// Points at even distances.
+/// Points at equal distances.
 struct Even {
     left: f64,
     step: f64,
@@ -181,7 +181,7 @@ impl Lattice<'_> {
         self.border.crossed(level.y, &mut self.crossed);
         let even = Even::new(ends, open, level);
         for pair in self.crossed.chunks_exact(2) {
-            // Numbers of the points between two crossings.
+            // Numbers of the points between two crossings with the border.
             let from = even.number(pair[0]).ceil().max(0.0) as usize;
             let to = even.number(pair[1]).floor().min(even.count as f64 - 1.0);
             if to < 0.0 {

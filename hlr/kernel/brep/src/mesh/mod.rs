@@ -36,20 +36,22 @@ pub fn area([a, b, c]: &[[f64; 2]; 3]) -> f64 {
     plane::area(a, b, c)
 }
 
-/// The mesh of a face: chord error at most `deflection` in the surface's unit. Inner points are laid out so that the
-/// surface turns by about `angle` radians from one to the next; triangles that are long beside flat directions turn by
+/// The mesh of a face, with a chord error of at most `deflection` in the surface's unit. Inner points are spaced so
+/// that the surface turns by about `angle` radians from one to the next. Long triangles beside flat directions turn by
 /// up to twice as much.
 ///
-/// The loops' points are kept as they are. The chord error is counted from the loops' own places: what these are off
-/// the surface is not in it, and no mesh can mend it. They are off where the file's edges and vertices are, which share
-/// one place among all faces around: an edge by its tolerance, which readers that sew faces raise to hundredths of a
-/// millimetre. (The example `mesh_error` tells both apart. Of 28 models, at 5e-5 of their size, 8 have such faces, by
-/// up to 32 times the deflection; at 5e-4, one.) On a sphere it is exact, on cylinders and cones in closed form;
-/// elsewhere it follows from the second derivatives at the corners, with a margin, and is measured where these change
-/// unevenly: `certificate` proves how true that is.
+/// The loops' points are kept as they are. The chord error does not include their own distance from the surface, which
+/// no mesh can reduce. They are off the surface where the file's edges and vertices are, since all faces around share
+/// them: an edge may be off by its tolerance, which readers that sew faces raise to hundredths of a millimetre. (The
+/// example `mesh_error` reports both separately. Of 28 models, at a deflection of 5e-5 of their size, 8 have such
+/// faces, by up to 32 times the deflection; at 5e-4, one.)
+///
+/// The error is exact on a sphere, and in closed form on cylinders and cones. Elsewhere it follows from the second
+/// derivatives at the corners, with a margin, and is measured where these change unevenly. `certificate` proves bounds
+/// on the true error.
 ///
 /// # Errors
-/// The loops cross, do not close, or the deflection cannot be shown to be kept with chords as coarse as the border's.
+/// The loops cross or do not close, or the deflection cannot be proved with chords as coarse as the border's.
 pub fn mesh_face(
     surface: &Surface,
     loops: &FaceLoops,
@@ -89,17 +91,18 @@ pub fn mesh_face(
     Ok(finish(surface, made))
 }
 
-/// Of the deflection: how coarse the border of a face may be, so that the triangles beside it can keep the whole.
+/// Share of the deflection that the chords of a face's border may use, so that the triangles beside them keep the
+/// deflection.
 pub fn border_share(surface: &Surface) -> f64 {
     if bends_both_ways(surface) { MESH_BORDER } else { 1.0 }
 }
 
-/// Whether its faces have points inside.
+/// Whether the meshes of its faces have inner points.
 pub fn bends_both_ways(surface: &Surface) -> bool {
     ruled::straight_along(surface).is_none()
 }
 
-/// With all points of the loops, and proved to fill them; the outline where that is not so.
+/// The mesh, proved to fill the loops and use all of their points; the outline where the proof fails.
 fn proved(made: Result<Draft, Box<Outline>>) -> Result<Draft, Box<Outline>> {
     let mut made = made?;
     made.outline.rejoin(&mut made.triangles);
@@ -114,7 +117,7 @@ fn proved(made: Result<Draft, Box<Outline>>) -> Result<Draft, Box<Outline>> {
     Ok(made)
 }
 
-/// Without inner points. Where the loops cannot be filled, their outline.
+/// The mesh without inner points; the outline where the loops cannot be filled.
 fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) -> Result<Draft, Box<Outline>> {
     let Some((triangles, stand_in, error)) = ruled::triangulate(surface, &outline, deflection, steps) else {
         return Err(Box::new(outline));
@@ -129,13 +132,13 @@ fn flat(surface: &Surface, outline: Outline, deflection: f64, steps: &Progress) 
 
 const ROUNDING: f64 = 1e-9;
 
-/// Why loops could not be filled.
+/// The reason why loops could not be filled.
 fn why(outline: &Outline) -> Fault {
     let crossed = crossing::crossings(outline);
     if crossed.is_empty() {
         return Fault::Open;
     }
-    // Of a pole no chord can be refined by anybody else.
+    // Points that were added on a pole are not in `origin`: no edge can be divided there.
     let named = |c: u32| outline.origin.get(c as usize).copied().unwrap_or_default();
     let pairs = crossed.iter().map(|&[a, b]| {
         let ((loop_a, a), (loop_b, b)) = (named(a), named(b));
@@ -146,7 +149,7 @@ fn why(outline: &Outline) -> Fault {
 
 fn finish(surface: &Surface, made: Draft) -> FaceMesh {
     let Draft { outline, mut corners, mut triangles, turned, .. } = made;
-    // At poles triangles may have two corners in one place.
+    // At poles, triangles may have two corners at the same place.
     let node = |i: u32| outline.nodes.get(i as usize);
     let apart = |a: u32, b: u32| node(a).is_none() || node(a) != node(b);
     triangles.retain(|&[a, b, c]| apart(a, b) && apart(b, c) && apart(c, a));
@@ -162,7 +165,7 @@ fn finish(surface: &Surface, made: Draft) -> FaceMesh {
             toward(&mut corners[t[k] as usize], [0, 1].map(|c| 0.5 * (p[c] + q[c])));
         }
     }
-    // Corners of nothing but such triangles.
+    // Points that were corners of removed triangles only.
     let bounds = outline.bounds();
     for c in &mut corners {
         let middle = [c.uv[0], 0.5 * (bounds[0][1] + bounds[1][1])];
@@ -178,8 +181,8 @@ fn finish(surface: &Surface, made: Draft) -> FaceMesh {
     }
 }
 
-/// Without pairs of triangles between the same nodes that are turned opposite ways: they enclose nothing. Where the
-/// border comes twice through one node, at a tip or beside a seam, a narrow face folds onto itself like that.
+/// Removes pairs of triangles with the same nodes and opposite orientation, which enclose nothing. They arise where the
+/// border passes twice through one node, at a tip or beside a seam, and a narrow face folds onto itself.
 fn without_folds(nodes: &[u32], triangles: &mut Vec<[u32; 3]>) {
     let mut sorted: Vec<(u32, u32)> = nodes.iter().copied().zip(0..).collect();
     sorted.sort_unstable();
@@ -189,7 +192,8 @@ fn without_folds(nodes: &[u32], triangles: &mut Vec<[u32; 3]>) {
     }
     let Some(&(last, _)) = sorted.last().filter(|_| twice.contains(&true)) else { return };
     let place = |i: u32| nodes.get(i as usize).map_or_else(|| last + 1 + i, |&node| node);
-    // By their nodes, rising; then in their order, and how each is turned: whether these follow one another in it.
+    // Each triangle's nodes in ascending order, its number, and whether its own order is a rotation of the ascending
+    // one.
     let mut found: Vec<([u32; 3], usize, bool)> = Vec::new();
     for (i, t) in triangles.iter().enumerate() {
         if t.iter().any(|&point| twice.get(point as usize) == Some(&true)) {
@@ -202,7 +206,7 @@ fn without_folds(nodes: &[u32], triangles: &mut Vec<[u32; 3]>) {
     found.sort_unstable();
     let mut kept = vec![true; triangles.len()];
     for same in found.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1) {
-        // Those that have no counterpart yet: all turned the same way.
+        // Triangles without a counterpart so far: all have the same orientation.
         let mut open: Vec<(usize, bool)> = Vec::new();
         for &(_, i, rising) in same {
             match open.pop_if(|(_, other)| *other != rising) {
@@ -226,7 +230,7 @@ mod folds {
 
     #[test]
     fn triangles_that_lie_on_one_another_turned_over_go() {
-        // Points 1 and 4 are one node; 5 and 6 are inside the face.
+        // Points 1 and 4 share a node; 5 and 6 are inside the face.
         let nodes = [0, 1, 2, 3, 1];
         assert_eq!(left(&nodes, vec![[0, 1, 3], [0, 3, 4], [2, 3, 4]]), [[2, 3, 4]]);
         assert_eq!(left(&nodes, vec![[1, 5, 6], [5, 4, 6], [2, 3, 4]]), [[2, 3, 4]]);

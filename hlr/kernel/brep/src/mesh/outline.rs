@@ -12,18 +12,18 @@ pub struct Outline {
     after: Vec<u32>,
     /// Loop and number of each point in `FaceLoops`; points that were added on poles follow these.
     pub origin: Vec<(usize, usize)>,
-    /// Points that are where the one before them is, and which one that is. They are in no chord.
+    /// Points at the same place as an earlier point, each with that point. They are in no chord.
     aside: Vec<(u32, u32)>,
 }
 
 const NONE: u32 = u32::MAX;
-/// Share of the outline's extent: neighbours this close to one another in (u, v) are at one place there. What ends of
-/// edges that miss their vertex do between themselves is less than that.
+/// Share of the outline's extent: neighbours this close in (u, v) count as one place. Ends of edges that miss their
+/// vertex tangle within a smaller distance.
 const SAME: f64 = 1e-6;
 
 impl Outline {
-    /// Chords whose ends share a node are poles: they are one place in space, and `divide` may put points on them. It
-    /// gets the ends of such a chord and appends shares of the way, rising.
+    /// Chords whose ends share a node are poles: in space they are one point. `divide` may put points on them: it gets
+    /// the ends of such a chord and appends shares of the way, in ascending order.
     pub fn new(face: &FaceLoops, divide: impl Fn([f64; 2], [f64; 2], &mut Vec<f64>)) -> Result<Outline, Fault> {
         let mut out = Outline::with_capacity(face.loops.iter().map(Vec::len).sum());
         for (number, points) in face.loops.iter().enumerate() {
@@ -46,7 +46,7 @@ impl Outline {
         Ok(out)
     }
 
-    /// Joins points of a loop to a ring, and puts those aside that are no new places.
+    /// Links the points of a loop into a ring, and sets aside those that repeat the place before them.
     fn link(&mut self, start: u32, count: u32, near: [f64; 2]) -> Result<(), Fault> {
         let at = |i: u32| (start + i % count.max(1)) as usize;
         let same = |i: usize, j: usize| {
@@ -80,7 +80,7 @@ impl Outline {
         Ok(())
     }
 
-    /// Points aside that are nodes of their own come back, each with a triangle that has no area.
+    /// Restores points set aside that have a node of their own, each with a triangle of zero area.
     pub fn rejoin(&mut self, triangles: &mut Vec<[u32; 3]>) {
         for (point, beside) in std::mem::take(&mut self.aside).into_iter().rev() {
             if self.nodes[point as usize] == self.nodes[beside as usize] {
@@ -100,7 +100,7 @@ impl Outline {
         }
     }
 
-    /// Points that chords begin at.
+    /// The point at which each chord begins.
     pub fn chords(&self) -> impl Iterator<Item = u32> + Clone + '_ {
         (0..self.uv.len() as u32).filter(|&c| self.after[c as usize] != NONE)
     }
@@ -130,7 +130,7 @@ impl Outline {
     }
 
     fn add(&mut self, uv: [f64; 2], point: [f64; 3], node: u32, before: u32, after: u32) {
-        // Minus zero would be another place than zero to whoever compares bits.
+        // Adding zero turns minus zero into zero: the two differ where bits are compared.
         self.uv.push(uv.map(|x| x + 0.0));
         self.points.push(point);
         self.nodes.push(node);
@@ -171,17 +171,17 @@ impl Outline {
         self.before[point as usize]
     }
 
-    /// The chord of a point leads to this one.
+    /// The point at which the chord from this point ends.
     pub fn after(&self, point: u32) -> u32 {
         self.after[point as usize]
     }
 
-    /// Whether the chord from this point is one place in space.
+    /// Whether the chord from this point is a single point in space.
     pub fn is_pole(&self, point: u32) -> bool {
         self.nodes[point as usize] == self.nodes[self.after(point) as usize]
     }
 
-    /// Least and greatest parameters.
+    /// Smallest and largest parameters.
     pub fn bounds(&self) -> [[f64; 2]; 2] {
         let start = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         self.uv

@@ -2,18 +2,18 @@
 
 use robust::{Coord, orient2d};
 
-/// Above 0 where c is to the left of the line from a to b; the sign is exact.
+/// Positive where c is to the left of the line from a to b; the sign is exact.
 pub fn side(a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
     let coord = |p: &[f64; 2]| Coord { x: p[0], y: p[1] };
     orient2d(coord(a), coord(b), coord(c))
 }
 
-/// From left to right, on one upright line from below to above.
+/// Whether a comes before b: from left to right, and upward on a vertical line.
 pub fn precedes(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] < b[0] || (a[0] == b[0] && a[1] < b[1])
 }
 
-/// Twice the area, rounded.
+/// Twice the area of a triangle, rounded.
 pub fn area(a: &[f64; 2], b: &[f64; 2], c: &[f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }

@@ -17,7 +17,7 @@ pub struct Progress<'a> {
     count: Cell<u32>,
 }
 
-/// Units of progress that are done: on all faces, and on this one.
+/// Units of progress done so far: on all faces, and on this face.
 #[derive(Clone, Copy)]
 pub struct Done<'a> {
     pub all: &'a AtomicUsize,
@@ -31,7 +31,7 @@ impl<'a> Progress<'a> {
         Progress { stopped, told, count: Cell::new(0) }
     }
 
-    /// Never stopped.
+    /// Progress that is never stopped.
     pub fn free() -> Progress<'static> {
         Progress::new(&|| false, None)
     }
@@ -50,7 +50,7 @@ impl<'a> Progress<'a> {
         let count = self.count.get().wrapping_add(1);
         self.count.set(count);
         if count.is_multiple_of(OFTEN) && (self.stopped)() {
-            // No panic: nothing is wrong, and no hook is called.
+            // Unwinds without a panic hook: a stop is no error.
             resume_unwind(Box::new(Stopped));
         }
     }

@@ -1,9 +1,9 @@
 //! Faces that are straight along u or v (planes, cylinders, cones, extrusions, and splines like these): no inner
 //! points.
 //!
-//! The sweep goes along the other parameter; no triangle reaches farther in it than the chord whose mountain it is in.
-//! On a surface that can be unrolled the gap between surface and triangle is greatest at the triangle's edges: what
-//! holds for them holds everywhere.
+//! The sweep goes along the other parameter. Along it no triangle extends beyond the chord over which it lies (its
+//! mountain, see `sweep`). On a developable surface the gap between surface and triangle is greatest at the triangle's
+//! edges, so a bound for the edges holds everywhere.
 
 use super::delaunay::Delaunay;
 use super::flip::{flip, without_needles};
@@ -13,13 +13,12 @@ use super::sweep;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, from_line, sub, unit};
 
-/// Where the sweep does not get through, v is made so short that Delaunay's triangles are as narrow in u as they can
-/// be.
+/// Factor on v for Delaunay triangulation, where the sweep fails: triangles become as narrow in u as possible.
 const FLAT: f64 = 1e-3;
-/// What a parabola through three gaps along an edge may be less than the greatest one.
+/// Factor on the largest value of a parabola through three gaps along an edge: the true largest gap may exceed it.
 const MARGIN: f64 = 1.02;
 
-/// The parameter, u (0) or v (1), along which a surface is straight and does not turn; a plane is so in any direction.
+/// The parameter, u (0) or v (1), along which a surface is straight with a constant normal. On a plane it is v.
 pub fn straight_along(surface: &Surface) -> Option<usize> {
     match surface {
         Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => Some(1),
@@ -28,7 +27,7 @@ pub fn straight_along(surface: &Surface) -> Option<usize> {
     }
 }
 
-/// Triangles and the error that is shown for them.
+/// Triangles, stand-ins of the outline's points, and a bound of the error.
 pub fn triangulate(surface: &Surface, outline: &Outline, deflection: f64, steps: &Progress) -> Option<Triangles> {
     if straight_along(surface) == Some(0) {
         let (mut triangles, stand_in, error) =
@@ -78,7 +77,8 @@ fn upright(
     Some((triangles, stand_in, most))
 }
 
-/// How far the surface is from the straight line between two of its points, on the shortest way along it.
+/// Largest distance of the surface from the straight line between two of its points, measured along the shortest path
+/// between them on the surface.
 fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64 {
     let turn = (a[0] - b[0]).abs();
     if turn == 0.0 {
@@ -104,7 +104,7 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
             let height = |t: f64| from_line(&flat(a[0] + t * (b[0] - a[0])), &from, &to);
             MARGIN * peak([0.25, 0.5, 0.75].map(height))
         }
-        // The distance between the edge and the straight lines of the surface that it passes.
+        // The distance between the edge and the rulings of the surface that it passes.
         Surface::Spline(s) => {
             let at = |[x, y]: [f64; 2]| surface.point(if swapped { [y, x] } else { [x, y] });
             let (_, [low, high], _) = s.knots(usize::from(!swapped));
@@ -128,7 +128,7 @@ fn edge_error(surface: &Surface, a: [f64; 2], b: [f64; 2], swapped: bool) -> f64
     }
 }
 
-/// Greatest of three values at even distances, and of the parabola through them.
+/// Greatest of three values at equal distances and of the parabola through them.
 fn peak([a, b, c]: [f64; 3]) -> f64 {
     let (most, bend) = (a.max(b).max(c), 2.0 * b - a - c);
     if bend > 0.0 && (c - a).abs() < 2.0 * bend { most.max(b + (c - a) * (c - a) / (8.0 * bend)) } else { most }

@@ -1,8 +1,8 @@
-//! The spacing of points on a doubly curved face, and a chart of (u, v) in which it is the same in every direction.
+//! The spacing of points on a doubly curved face, and a chart of (u, v) in which it is the same in all directions.
 //!
-//! With the second fundamental form L du^2 + 2 M du dv + N dv^2 of the surface, a chord is L du^2 / 8 off along u.
-//! Spacings are such that both directions are off by as much. The chart stretches u and v each by a function of its
-//! own: on a sphere that is Mercator's, and nothing is left to be stretched.
+//! With the second fundamental form L du^2 + 2 M du dv + N dv^2 of the surface, a chord along u has the error
+//! L du^2 / 8. Spacings are chosen so that the errors along u and v are equal. The chart stretches u and v each by a
+//! function of its own. On a sphere this is the Mercator projection, which makes the spacing uniform in all directions.
 
 use std::f64::consts::LN_2;
 
@@ -12,41 +12,42 @@ use crate::geometry::surface::Surface;
 use crate::geometry::vector::{along, cross, dot, length, unit};
 use hlr_accuracy::{MESH_AIM, MESH_SHORTEST};
 
-/// Cells along u and v to begin with, and at most.
+/// Number of cells along u and v: at the start, and at most.
 const FEWEST: usize = 4;
 const MOST: usize = 256;
-/// Within one cell: spacings that differ by more ask for finer cells.
+/// Largest ratio of spacings within a cell; beyond it finer cells are used.
 const STEADY: f64 = 1.4;
-/// The same along the meridians of a surface of revolution, where cells are few.
+/// The same along the meridians of a surface of revolution, which need few cells.
 const STEADY_ROUND: f64 = 1.1;
-/// Triangles are at most so many times longer than wide where the surface bends in one direction only.
+/// Largest ratio of length to width of triangles where the surface bends in one direction only.
 const LONGEST: f64 = 12.0;
-/// Share of the angle asked for: between the normals at the ends of an edge inside the face. Neighbouring triangles,
-/// whose middles are nearer to one another, differ by less than the angle.
+/// Angle between the normals at the ends of an edge inside the face, as a share of the angle asked for. Neighbouring
+/// triangles, whose centroids are closer together, differ by less than the angle.
 const TURN: f64 = 1.03;
-/// Radians between the directions of coordinate lines at the ends of an edge: about a pole.
+/// Largest angle in radians between the directions of coordinate lines at the ends of an edge. It limits edges near a
+/// pole.
 const FAN: f64 = 0.8;
 
 /// Rounds of fitting the chart to the spacings.
 const FITS: usize = 4;
-/// Between logarithms of slopes: a chart that is stretched by less is not stretched.
+/// Range of the logarithm of the chart's slopes, below which the chart is left straight.
 const STRAIGHT: f64 = 0.4;
 
 pub struct Field {
-    /// Between cells, of u and v.
+    /// Lines between cells: values of u, and of v.
     lines: [Vec<f64>; 2],
     /// The same lines in the chart.
     pub chart: [Vec<f64>; 2],
-    /// Spacing in the chart, by cells: u slow, v fast.
+    /// Spacing in the chart per cell, v fastest.
     spacing: Vec<f64>,
-    /// Of u and v, where the chart does nothing else: powers of two, which round nothing.
+    /// Factors on u and v if the chart only scales: powers of two, so that nothing is rounded.
     scale: Option<[f64; 2]>,
-    /// Of the surface, within the face.
+    /// Knots of the surface within the face, along u and v.
     knots: [Vec<f64>; 2],
 }
 
 impl Field {
-    /// `straight`: the chart is not bent, nor rounded: what crosses in it crosses in (u, v), and the other way round.
+    /// `straight`: the chart only scales and rounds nothing, so chords cross in it exactly where they cross in (u, v).
     pub fn new(
         surface: &Surface,
         [low, high]: [[f64; 2]; 2],
@@ -56,7 +57,7 @@ impl Field {
         steps: &Progress,
     ) -> Option<Field> {
         let knots = [0, 1].map(|k| surface.knots(k, low[k], high[k]));
-        // Turned about an axis, a surface is the same for all u.
+        // A surface of revolution is the same for all u.
         let round = matches!(surface, Surface::Sphere(..) | Surface::Torus(..) | Surface::Revolution(..));
         let mut parts = [0, 1].map(|k| if round && k == 0 { 1 } else { FEWEST.div_ceil(knots[k].len() + 1) });
         loop {
@@ -91,7 +92,7 @@ impl Field {
         [0, 1].map(|k| self.parameter(k, xy[k]))
     }
 
-    /// u (0) or v (1) of a place in the chart, from x or y.
+    /// The parameter u (k = 0) or v (k = 1) at the coordinate x or y of the chart.
     pub fn parameter(&self, k: usize, x: f64) -> f64 {
         match self.scale {
             Some(scale) => x / scale[k],
@@ -103,7 +104,7 @@ impl Field {
         [0, 1].map(|k| self.lines[k].len() - 1)
     }
 
-    /// Between which knots a place on the surface is.
+    /// Numbers of the spans between knots, along u and v, that hold a point.
     pub fn span(&self, uv: [f64; 2]) -> [u32; 2] {
         [0, 1].map(|k| self.knots[k].partition_point(|&knot| knot <= uv[k]) as u32)
     }
@@ -113,36 +114,36 @@ impl Field {
         self.spacing[i * self.counts()[1] + j]
     }
 
-    /// The least spacing in the chart.
+    /// The smallest spacing in the chart.
     pub fn least(&self) -> f64 {
         self.spacing.iter().fold(f64::INFINITY, |m, h| m.min(*h))
     }
 
-    /// Spacing in the chart at a place in it.
+    /// Spacing at a place in the chart.
     pub fn at(&self, xy: [f64; 2]) -> f64 {
         let [i, j] = [0, 1].map(|k| cell_of(&self.chart[k], xy[k]));
         self.in_cell(i, j)
     }
 }
 
-/// What one cell asks for.
+/// The spacing that one cell asks for.
 struct Need {
-    /// Its width and height.
+    /// Width and height of the cell.
     cell: [f64; 2],
     /// Spacing along u and v.
     size: [f64; 2],
-    /// How many times greater spacings are at one end, along u and along v.
+    /// Ratio of the largest to the smallest spacing, along u and along v.
     rough: [f64; 2],
 }
 
 impl Need {
-    /// How many points it takes.
+    /// Number of points in the cell.
     fn points(&self) -> f64 {
         (self.cell[0] / self.size[0]) * (self.cell[1] / self.size[1])
     }
 }
 
-/// Rising lines from low to high, the knots among them, each span cut into equal parts.
+/// Ascending lines from low to high that include the knots. Each span is divided into equal parts.
 fn subdivided(knots: &[f64], low: f64, high: f64, parts: usize) -> Vec<f64> {
     let mut out = vec![low];
     for &end in knots.iter().chain([&high]) {
@@ -153,7 +154,7 @@ fn subdivided(knots: &[f64], low: f64, high: f64, parts: usize) -> Vec<f64> {
     out
 }
 
-/// The least spacings of each cell's corners and middle. `round`: they are the same for all u.
+/// The smallest spacings at the corners and middle of each cell. `round`: spacings are the same for all u.
 fn sampled(
     surface: &Surface,
     lines: &[Vec<f64>; 2],
@@ -193,7 +194,7 @@ fn sampled(
     Some(out)
 }
 
-/// Sides of triangles along u and v, equilateral where both are stretched to one length.
+/// Sides of triangles along u and v, which are equilateral once both sides are stretched to the same length.
 fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
     let free = [f64::INFINITY; 2];
     let Some(n) = unit(&cross(&jet.du, &jet.dv)) else { return free };
@@ -206,10 +207,10 @@ fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
     let least = bend / (LONGEST * LONGEST);
     let (a, b) = (l.abs().max(e * least), k.abs().max(g * least));
     let twist = m.abs() / (a * b).sqrt();
-    // A triangle of the side s is off by s^2 / 6 where both bend to one side, by s^2 / 8 on a saddle.
+    // The error of a triangle of side s is s^2 / 6 where both curvatures have one sign, and s^2 / 8 on a saddle.
     let square = MESH_AIM * deflection * if l * k < 0.0 { 8.0 / 1.0f64.hypot(twist) } else { 6.0 / (1.0 + twist) };
     let turn = [(l * l / e + m * m / g).sqrt(), (k * k / g + m * m / e).sqrt()];
-    // How the directions of the lines along v turn along u, and the other way round.
+    // How much the direction of lines along v turns along u, and the other way round.
     let across = |d: &[f64; 3], square: f64| length(&along(&jet.duv, d, -dot(&jet.duv, d) / square)) / square.sqrt();
     let fan = [across(&jet.dv, g), across(&jet.du, e)];
     let side = |k: usize, form: f64, metric: f64| {
@@ -219,8 +220,8 @@ fn spacing(jet: &Jet, deflection: f64, angle: f64) -> [f64; 2] {
     [side(0, a, e), side(1, b, g)]
 }
 
-/// Slopes of the chart: g(v) / f(u) is as near to the ratio of spacings as such a product can be, in its logarithm,
-/// most of all where most points are.
+/// Slopes of the chart: g(v) / f(u) fits the ratio of spacings as closely as such a product can, by least squares of
+/// logarithms, weighted by the number of points.
 fn charted(lines: [Vec<f64>; 2], needs: &[Need], straight: bool) -> Field {
     let counts = lines.each_ref().map(|l| l.len() - 1);
     let mut logs = [vec![0.0f64; counts[0]], vec![0.0f64; counts[1]]];
@@ -265,8 +266,8 @@ fn charted(lines: [Vec<f64>; 2], needs: &[Need], straight: bool) -> Field {
     Field { lines, chart, spacing, scale, knots: [Vec::new(), Vec::new()] }
 }
 
-/// Means from sums and weights. Where they hardly differ they are made one: a chart that is not bent keeps straight
-/// lines.
+/// Means from sums and weights. If they hardly differ they are made equal, so that the chart is not bent and straight
+/// lines stay straight.
 fn even(sums: &[[f64; 2]], least: f64) -> Vec<f64> {
     let total = sums.iter().fold([0.0; 2], |t, s| [t[0] + s[0], t[1] + s[1]]);
     let means: Vec<f64> = sums.iter().map(|s| s[0] / s[1]).collect();
@@ -281,7 +282,7 @@ fn cell_of(lines: &[f64], x: f64) -> usize {
 fn mapped(from: &[f64], to: &[f64], x: f64) -> f64 {
     let k = cell_of(from, x);
     let width = from[k + 1] - from[k];
-    // Ends of cells are kept to the last digit: sides of a frame stay straight.
+    // Ends of cells are reproduced to the last digit, so that the sides of a rectangle stay straight.
     if x == from[k] || width <= 0.0 {
         to[k]
     } else if x == from[k + 1] {

@@ -14,19 +14,20 @@ use super::plane::area;
 use super::progress::Progress;
 use super::spacing::Field;
 
-/// Share of the least spacing: points of the border may be so far off the rectangle's sides.
+/// Share of the smallest spacing by which points of the border may be off the rectangle's sides.
 const OFF: f64 = 0.02;
 
 pub struct Strips {
-    /// Points of the rows; they are numbered after those of the outline.
+    /// Points of the rows, numbered after those of the outline.
     pub inner: Vec<[f64; 2]>,
     /// Counterclockwise in the chart.
     pub triangles: Vec<[u32; 3]>,
-    /// So many of them, the first ones, may not be Delaunay's.
+    /// The first `loose` triangles may violate the Delaunay condition.
     pub loose: usize,
 }
 
-/// None where the border is no rectangle, the spacing changes along rows, or a strip is not free.
+/// The mesh of such a face. None where the border is no rectangle, the spacing changes along rows, or something lies in
+/// a strip.
 pub fn strips(field: &Field, chart: &Outline, most: usize, steps: &Progress) -> Option<Strips> {
     let counts = field.counts();
     let (i, j) = ([0, counts[0]], [0, counts[1]]);
@@ -74,7 +75,7 @@ pub fn strips(field: &Field, chart: &Outline, most: usize, steps: &Progress) -> 
     Some(Strips { inner: places.split_off(chart.len()), loose: loose.min(triangles.len()), triangles })
 }
 
-/// Numbers of the points of a row, which are appended to `places`.
+/// Appends the points of a row to `places` and returns their numbers.
 fn row([low, high]: [[f64; 2]; 2], level: &Level, first: usize, places: &mut Vec<[f64; 2]>) -> Vec<u32> {
     let margin = lattice::MARGIN * level.spacing;
     if level.y - low[1] < margin || high[1] - level.y < margin {
@@ -86,7 +87,7 @@ fn row([low, high]: [[f64; 2]; 2], level: &Level, first: usize, places: &mut Vec
     (first as u32..places.len() as u32).collect()
 }
 
-/// The border's points by sides, lower, right, upper, left, each from corner to corner, counterclockwise.
+/// The border's points on the lower, right, upper and left side, each from corner to corner, counterclockwise.
 fn sides(chart: &Outline, off: f64) -> Option<[Vec<u32>; 4]> {
     let [low, high] = chart.bounds();
     let at = |i: u32| chart.uv[i as usize];
@@ -110,7 +111,7 @@ fn sides(chart: &Outline, off: f64) -> Option<[Vec<u32>; 4]> {
     let mut passed = 0;
     for (k, side) in found.iter_mut().enumerate() {
         let (start, stop) = (corners[k].1, corners[(k + 1) % 4].1);
-        // Along the side, and across it.
+        // Coordinates along the side and across it.
         let (along, across) = (k % 2, 1 - k % 2);
         let sense = if k < 2 { 1.0 } else { -1.0 };
         let mut last = start;
@@ -136,9 +137,9 @@ struct Strip<'a> {
 }
 
 impl Strip<'_> {
-    /// Triangles between two chains, which have the strip to their left (a) and to their right (b): each the one of the
-    /// two that can come next whose circle has not the other's corner in it. None where a triangle would be turned
-    /// over.
+    /// Triangles between two chains; the strip is to the left of a and to the right of b. Of the two triangles that can
+    /// come next, the one is taken whose circumcircle does not contain the other's corner. None where a triangle would
+    /// be turned over.
     fn zip(&mut self, a: &[u32], b: &[u32]) -> Option<()> {
         let at = |i: u32| &self.places[i as usize];
         let (mut i, mut j) = (0, 0);
@@ -166,7 +167,7 @@ impl Strip<'_> {
     }
 }
 
-/// Whether s is in the circle through p, r and q, which are counterclockwise; rounded.
+/// Whether s is inside the circle through p, r and q, which are counterclockwise; rounded.
 fn within(p: &[f64; 2], r: &[f64; 2], q: &[f64; 2], s: &[f64; 2]) -> bool {
     let [a, b, c] = [p, r, q].map(|x| [x[0] - s[0], x[1] - s[1]]);
     let square = |x: [f64; 2]| x[0] * x[0] + x[1] * x[1];
@@ -182,7 +183,7 @@ mod tests {
     use crate::geometry::surface::Surface;
     use crate::mesh::tests::shapes::{circle, frame, loops, surface};
 
-    /// The chart of a loop, and its strips.
+    /// The chart of a loop, and the strips made in it.
     fn made(surface: &Surface, places: Vec<[f64; 2]>) -> (Outline, Option<Strips>) {
         let face = loops(surface, &[places]);
         let outline = Outline::new(&face, |_, _, _| ()).unwrap();
@@ -200,7 +201,7 @@ mod tests {
         for (surface, places) in [
             (&torus, frame([0.0, 0.0], [TAU, TAU], 90, 40)),
             (&torus, frame([0.1, 0.2], [0.5, FRAC_PI_2], 7, 13)),
-            // Narrow: without rows.
+            // A narrow face: strips without rows.
             (&torus, frame([0.0, 0.0], [TAU, 0.01], 90, 1)),
             (&torus, frame([0.0, 0.0], [0.01, TAU], 1, 40)),
             (&sphere, frame([0.3, -1.2], [1.8, 1.3], 30, 40)),

@@ -1,8 +1,8 @@
 //! Triangulates loops without inner points, by a sweep from left to right.
 //!
-//! The trapezoids between the chords above and below each point are cut by a diagonal from their left corner to their
-//! right one, where these are not on one chord. What is left is a mountain over each chord: a chain that runs from the
-//! chord's left end to its right end on the chord's inner side. Mountains are cut by a stack.
+//! Each trapezoid between the chords above and below is cut by a diagonal from the point at its left end to the point
+//! at its right end, unless both are on one chord. What remains is a mountain over each chord: a polygon between the
+//! chord and a chain from its left end to its right end on its inner side. Each mountain is triangulated with a stack.
 //! (A. Fournier, D. Montuno, "Triangulating simple polygons and equivalent problems", ACM ToG 3, 1984.)
 //!
 //! ```text
@@ -12,7 +12,8 @@
 //!           '------+----'            triangles' error.
 //! ```
 //!
-//! All decisions are signs of exact determinants. O(n log n), and O(k) for each point below k chords.
+//! All decisions are signs of exact determinants. The time is O(n log n), plus O(k) for each point with k chords above
+//! it.
 
 use super::outline::Outline;
 use super::plane::{precedes, side};
@@ -27,7 +28,7 @@ pub fn triangulate(outline: &Outline, steps: &Progress) -> Option<Vec<[u32; 3]>>
         if a == p || b == p {
             return None;
         }
-        // At one place chords end first, then go on, then begin.
+        // At one place, chords that end come first, then those that continue, then those that begin.
         let kind = match (precedes(&a, &p), precedes(&b, &p)) {
             (true, true) => Kind::End,
             (false, false) => Kind::Begin,
@@ -61,12 +62,12 @@ const NONE: u32 = u32::MAX;
 
 struct Sweep<'a> {
     outline: &'a Outline,
-    /// Chords under the sweep line from below to above: those at even places have the inside above them. A chord has
-    /// the number of the point that it begins at in its loop.
+    /// Chords that cross the sweep line, from bottom to top. Those at even indices have the inside above them. A chord
+    /// has the number of the point at which it begins in its loop.
     active: Vec<u32>,
-    /// Per chord: the last point of its mountain's chain.
+    /// For each chord the last point of its mountain's chain.
     last: Vec<u32>,
-    /// Points of chains with the one before.
+    /// Points of chains, each with the point before it.
     chains: Vec<(u32, u32)>,
     triangles: Vec<[u32; 3]>,
 }
@@ -93,7 +94,7 @@ impl<'a> Sweep<'a> {
         if precedes(&self.at(chord), &self.at(other)) { (chord, other) } else { (other, chord) }
     }
 
-    /// Above 0 where the point is above the chord.
+    /// Positive where the point is above the chord.
     fn above(&self, chord: u32, point: u32) -> f64 {
         let (left, right) = self.ends(chord);
         side(&self.at(left), &self.at(right), &self.at(point))
@@ -102,7 +103,7 @@ impl<'a> Sweep<'a> {
     fn begin(&mut self, p: u32) -> Option<()> {
         let (a, b) = (self.outline.before(p), self.outline.after(p));
         let turn = side(&self.at(p), &self.at(a), &self.at(b));
-        // The chord to `a` has the number of `a`.
+        // The chord between `a` and p begins at `a`, so `a` is its number.
         let (low, high) = match turn {
             t if t > 0.0 => (a, p),
             t if t < 0.0 => (p, a),
@@ -112,7 +113,7 @@ impl<'a> Sweep<'a> {
         let place = self.active.partition_point(|&chord| {
             let mut where_ = self.above(chord, p);
             if where_ == 0.0 {
-                // It begins at the same place: both of our chords are on one side of it.
+                // The other chord begins at the same place: both chords of p are on one side of it.
                 let (one, other) = (self.above(chord, a), self.above(chord, b));
                 exact &= self.at(self.ends(chord).0) == self.at(p) && one * other >= 0.0 && one != other;
                 where_ = one + other;
@@ -158,19 +159,19 @@ impl<'a> Sweep<'a> {
         Some(())
     }
 
-    /// Where a chord that ends at p is among the active ones.
+    /// The index of a chord that ends at p among the active chords.
     fn find(&self, chord: u32, p: u32) -> Option<usize> {
         let from = self.active.partition_point(|&c| c != chord && self.above(c, p) > 0.0);
         let found = self.active[from..].iter().position(|&c| c == chord);
         found.map(|k| from + k).or_else(|| self.active.iter().position(|&c| c == chord))
     }
 
-    /// The chords below and above a gap of the inside.
+    /// The chords below and above an interval of the inside.
     fn around(&self, place: usize) -> Option<(u32, u32)> {
         Some((*self.active.get(place.checked_sub(1)?)?, *self.active.get(place)?))
     }
 
-    /// The trapezoid on the inner side of an active chord ends at p.
+    /// Ends the trapezoid on the inner side of an active chord at p.
     fn close(&mut self, place: usize, p: u32) -> Option<()> {
         let (below, above) = self.around(place | 1)?;
         self.push(below, p, true);
@@ -183,7 +184,7 @@ impl<'a> Sweep<'a> {
         self.last[chord as usize] = self.chains.len() as u32 - 1;
     }
 
-    /// One more point of a chord's chain; what bulges away from the chord is cut off.
+    /// Adds a point to a chord's chain, and cuts off triangles where the chain bulges away from the chord.
     fn push(&mut self, chord: u32, p: u32, inside_above: bool) {
         let mut top = self.last[chord as usize];
         while let Some(&(b, below)) = self.chains.get(top as usize)

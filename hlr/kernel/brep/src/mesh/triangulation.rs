@@ -10,23 +10,23 @@ use super::flip::{NONE, after_in, before_in, turn, twins};
 use super::plane::side;
 use super::progress::Progress;
 
-/// Times the edges: turning more of them than that says that the triangles are no good to begin with.
+/// Limit on flips, in multiples of the number of edges. More flips mean that the initial triangles are unusable.
 const MOST_TURNS: usize = 200;
-/// Searches through all triangles, for points that no straight way leads to.
+/// Limit on searches through all triangles, for points that the walk does not reach.
 const MOST_SEARCHES: usize = 2000;
 
 pub struct Triangulation {
     triangles: Vec<[u32; 3]>,
-    /// By edges, 3 to a triangle: the one that runs along it in the other sense.
+    /// For each edge, 3 per triangle, the edge that runs along it in the opposite sense.
     twins: Vec<u32>,
-    /// For each point an edge that begins there.
+    /// For each point an edge that begins at it.
     begins: Vec<u32>,
     stack: Vec<u32>,
     searches: usize,
 }
 
 impl Triangulation {
-    /// `count`: of points, of which some may be in no triangle. `fixed`: edges inside that must not be turned.
+    /// `count`: number of points; some may be in no triangle. `fixed`: inner edges that must not be flipped.
     pub fn new(count: usize, triangles: Vec<[u32; 3]>, fixed: impl Fn(u32, u32) -> bool) -> Triangulation {
         let mut twins = twins(&triangles);
         let mut begins = vec![NONE; count];
@@ -53,8 +53,8 @@ impl Triangulation {
         self.triangles[edge / 3][edge % 3]
     }
 
-    /// Turns edges that are not Delaunay's, of so many triangles, the first ones, and what follows from that. False
-    /// where it does not come to an end.
+    /// Flips edges of the first `count` triangles that violate the Delaunay condition, and all edges that do so as a
+    /// result. False if that exceeds the limit.
     pub fn settle(&mut self, places: &[[f64; 2]], count: usize, steps: &Progress) -> bool {
         self.stack.clear();
         self.stack.extend(0..3 * count as u32);
@@ -64,7 +64,7 @@ impl Triangulation {
             if self.turned(places, edge as usize) {
                 let Some(less) = left.checked_sub(1) else { return false };
                 left = less;
-                // All four outer edges.
+                // All four outer edges of the two triangles.
                 let (one, other) = (edge as usize / 3, self.twins[edge as usize - edge as usize % 3] as usize / 3);
                 self.stack.extend([3 * one + 1, 3 * one + 2, 3 * other + 1, 3 * other + 2].map(|e| e as u32));
             }
@@ -72,7 +72,7 @@ impl Triangulation {
         true
     }
 
-    /// Turns an edge if the point beyond it is within the circle through its triangle.
+    /// Flips an edge if the point opposite to it is inside the circumcircle of its triangle.
     fn turned(&mut self, places: &[[f64; 2]], edge: usize) -> bool {
         let twin = self.twins[edge] as usize;
         if self.twins[edge] == NONE {
@@ -94,8 +94,8 @@ impl Triangulation {
         true
     }
 
-    /// Puts the last one of the places in; a point near it tells where to begin to look. False where it is on the
-    /// border, at another point, or outside.
+    /// Inserts the last one of the places; the search begins at the point `near`. False if the place is on the border,
+    /// at another point, or outside.
     pub fn insert(&mut self, places: &[[f64; 2]], near: u32) -> bool {
         let point = places.len() as u32 - 1;
         let p = &places[point as usize];
@@ -112,7 +112,7 @@ impl Triangulation {
             _ => return false,
         }
         while let Some(edge) = self.stack.pop() {
-            // It has the new point on its own side.
+            // The new point is on this edge's own side.
             let twin = self.twins[edge as usize] as usize;
             if self.turned(places, edge as usize) {
                 self.stack.extend([3 * (edge as usize / 3) + 1, 3 * (twin / 3) + 2].map(|e| e as u32));
@@ -125,7 +125,7 @@ impl Triangulation {
         side(&places[self.start(edge) as usize], &places[self.start(after_in(edge)) as usize], p)
     }
 
-    /// From triangle to triangle over edges that have the place on their other side.
+    /// Walks from triangle to triangle, across edges that have the place on their other side.
     fn walk(&self, places: &[[f64; 2]], p: &[f64; 2], start: usize) -> Option<usize> {
         let (mut here, mut from) = (start, NONE);
         for _ in 0..self.triangles.len() {
@@ -157,7 +157,7 @@ impl Triangulation {
         (0..self.triangles.len()).find(|&t| (3 * t..3 * t + 3).all(|e| self.beside(places, e, p) >= 0.0))
     }
 
-    /// Triangles from a point to a closed chain of edges around it, in place of those that the edges were of.
+    /// Replaces the triangles of a closed chain of edges by triangles from a point inside to each edge.
     fn fan(&mut self, point: u32, chain: &[usize]) {
         let mut outer = [(0u32, 0u32, NONE); 4];
         let mut numbers = [0usize; 4];
@@ -210,7 +210,7 @@ mod tests {
         let mut places = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let mut net = Triangulation::new(4, vec![[0, 1, 2], [0, 2, 3]], |_, _| false);
         for k in 0..500u32 {
-            // Some on edges, some at points that are there, some on the border, some outside.
+            // Some points are on edges, some at existing points, some on the border, some outside.
             let round = |x: f64| if k % 3 == 0 { (8.0 * x).round() / 8.0 } else { 1.1 * x };
             places.push([round(random.next()), round(random.next())]);
             let [x, y] = places[places.len() - 1];
@@ -248,7 +248,7 @@ mod tests {
     fn a_fan_over_a_row_is_turned_and_a_fixed_edge_is_not() {
         let places: Vec<[f64; 2]> =
             (0..20u8).map(|k| [f64::from(k), 0.0]).chain((0..20u8).map(|k| [f64::from(k), 1.0])).collect();
-        // All from the first point; then the upper row from the last one of the lower row.
+        // A fan from the first point, then one to the upper row from the last point of the lower row.
         let mut triangles: Vec<[u32; 3]> = (1..19).map(|k| [k, k + 1, 39]).collect();
         triangles.extend((20..39).map(|k| [0, k + 1, k]));
         triangles.push([0, 1, 39]);

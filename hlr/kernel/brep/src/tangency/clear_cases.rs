@@ -5,15 +5,15 @@ use crate::format::{determinant, turned};
 use crate::geometry::curve::Curve;
 use crate::geometry::vector::{Vector, cross, length, scaled, sub};
 
-/// Radians over the whole of an edge: normals that turn apart by less stay together.
+/// Radians over the whole of an edge: normals whose rotations differ by less count as turning together.
 const TOGETHER: f64 = 1e-9;
-/// So near an edge's ends its faces are compared as well.
+/// Share of the edge: the faces are also compared this close to its ends.
 const END: f64 = 1e-6;
-/// In differences between neighbouring places: how much farther the angle may go between these.
+/// Factor on the largest difference between neighbouring places: how much the angle may change between them.
 const FARTHER: f64 = 2.0;
 
-/// Whether the faces meet at one and the same angle all along: their normals stay, or turn alike, or one turns about
-/// the other. So do rulings, seams, rims, and chains of fillets of planes, cylinders, cones and tori.
+/// Whether the faces meet at the same angle all along the edge: both normals are constant, or turn alike, or one turns
+/// about the other. This covers rulings, seams, rims, and chains of fillets of planes, cylinders, cones and tori.
 pub fn is_even(sides: &[Fixed; 2]) -> bool {
     let [Some(one), Some(other)] = sides.each_ref().map(|s| turning(s.side)) else { return false };
     let stays = [&one, &other].map(|axis| length(axis) <= TOGETHER);
@@ -26,7 +26,7 @@ pub fn is_even(sides: &[Fixed; 2]) -> bool {
     }
 }
 
-/// The axis about which a side's normal turns from end to end, its length the angle.
+/// The rotation of a side's normal from end to end: a vector along the axis, its length the angle in radians.
 fn turning(side: &Side) -> Option<Vector> {
     let (from, step) = match side.curve {
         None => ([0.0; 2], [0.0; 2]),
@@ -36,12 +36,12 @@ fn turning(side: &Side) -> Option<Vector> {
         Some(_) => return None,
     };
     let axis = side.surface.turning(from, step)?;
-    // A mirror turns the other way about.
+    // A mirror image reverses the sense of rotation.
     Some(side.place.map_or(axis, |place| scaled(&turned(place, &axis), determinant(place).signum())))
 }
 
-/// Whether faces are tangent, where the middles of so many parts of their edge leave no doubt. All knots on the way
-/// have places on both sides.
+/// Whether the faces are tangent, judged at the middles of `parts` equal parts of the edge; None where that leaves a
+/// doubt. Between every two knots there is a place.
 pub fn clear_case(sides: &[Fixed; 2], parts: usize) -> Option<bool> {
     let spans = spans(sides);
     let mut breaks = divided(&spans, parts.div_ceil(spans.len() - 1));
@@ -102,7 +102,7 @@ mod tests {
         assert!(even(&side(&cylinder, &ruling, None), &side(&plane, &rim, None)));
         assert!(even(&one, &side(&cylinder, &helix, None)));
         assert!(!even(&one, &side(&cylinder, &ruling, None)));
-        // About another axis, about one beside it, and mirrored, where the same way in u is the other way round.
+        // About a tilted axis, about a parallel axis, and mirrored, where the same direction of u turns the other way.
         let tilted = [[1.0, 0.0, 0.0, 0.0], [0.0, 0.8, -0.6, 0.0], [0.0, 0.6, 0.8, 0.0]];
         let beside = [[1.0, 0.0, 0.0, 5.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
         let mirror = [[-1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];

@@ -1,8 +1,8 @@
 //! Decides where two faces are tangent along their common edge, from their true surfaces along the whole edge.
 //!
-//! The corners of an edge's polyline are no fair sample of it: a straight edge has two, however its free-form faces
-//! turn between them, and where a tessellation falls must not decide whether a line is drawn. So the surfaces at every
-//! edge of a free-form face are compared at places of the edge itself, close enough to be sure:
+//! The corners of an edge's polyline are too few samples: a straight edge has two, even where its free-form faces twist
+//! along it. And a line must not come or go with the tessellation. So the surfaces at every edge of a free-form face
+//! are compared at places of their own, close enough together to be sure:
 //!
 //! ```text
 //! knots of the curve in (u, v)   |               |               |
@@ -10,8 +10,9 @@
 //! places compared                ........................... ...
 //! ```
 //!
-//! Between two breaks surfaces and curve are smooth, and a span has several places. Where the faces are tangent along
-//! one stretch and meet at an angle along another, the edge falls into pieces, each of its own class.
+//! Between two breaks the surfaces and the curve are smooth, and each span has several places. Where the faces are
+//! tangent along one stretch and meet at an angle along another, the edge is divided into pieces, each with its own
+//! class.
 //!
 //! Most edges need none of this: `clear_cases` decides them in closed form, or from a few places far from every limit.
 
@@ -26,41 +27,43 @@ use clear_cases::{clear_case, is_even};
 use side::{Fixed, TANGENT, angle, ascending, crossed, divided, spans};
 pub use side::{NEARLY_TANGENT, Side};
 
-/// Radians: surfaces that were fitted to one another waver about TANGENT along an edge. They are tangent where no place
-/// is worse than the one, and the root of the mean square is less than the other.
+/// Radians. The angle between surfaces that were fitted to one another wavers about TANGENT along an edge. They count
+/// as tangent if no angle exceeds WAVERING and the root mean square does not exceed MOSTLY_TANGENT.
 const WAVERING: f64 = 0.02;
 const MOSTLY_TANGENT: f64 = 0.008;
-/// Least parts of an edge, and of a span of its curves in (u, v), in which crossed knots are sought; each is a break.
+/// Least number of parts of an edge (STEPS), and of a span of its curves in (u, v) (STEPS_OF_SPAN), in which crossed
+/// knots are sought. Every end of a part is a break.
 const STEPS: usize = 16;
 const STEPS_OF_SPAN: usize = 2;
-/// Parts of an edge whose surfaces cannot turn to and fro between the places.
+/// Number of parts of an edge between elementary surfaces: their angle cannot oscillate between the places.
 const STEPS_SIMPLE: usize = 3;
-/// Parts of any other edge, for a first look.
+/// Number of parts of any other edge, for a first look.
 const STEPS_AT_A_GLANCE: usize = 8;
-/// Shares of the way from break to break at which the faces are compared: at a knot, on either side of it.
+/// Places between two breaks at which the faces are compared, as shares of the way. At a knot this compares either side
+/// of it.
 const PLACES: [f64; 3] = [1e-6, 0.5, 1.0 - 1e-6];
-/// Of one edge; surfaces with more knots across it are compared at fewer.
+/// Limit on the breaks of one edge. Where surfaces have more knots across it, breaks are skipped evenly.
 const MOST_BREAKS: usize = 1000;
-/// Share of an edge's length: an angle along less says nothing of the edge. Where a face runs out to a point, its
-/// surface has no normal to speak of.
+/// Share of an edge's length: an angle along a shorter stretch is ignored. Where a face runs out to a point, the normal
+/// of its surface is unreliable.
 const SHORT_FOLD: f64 = 0.02;
-/// Share of an edge's length: along less, faces that meet at an angle elsewhere may come tangent without the line being
-/// interrupted, as where two pipes of one size cross.
+/// Share of an edge's length. Where faces meet at an angle elsewhere, a shorter tangent stretch does not interrupt the
+/// line, as where two pipes of the same diameter cross.
 const LONG_REST: f64 = 0.1;
-/// Of the step between two places, to find where faces begin to meet at an angle.
+/// Bisections between two places, to find where a piece ends.
 const HALVINGS: u32 = 24;
 
 /// How two faces meet at an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meeting {
-    /// The surfaces cannot be asked.
+    /// The surfaces give no answer.
     Unknown,
     Whole(bool),
-    /// Whether smooth, piece by piece, and the shares of the edge's length between them.
+    /// Whether each piece is smooth, and the shares of the edge's length at which the pieces join.
     Pieces(Vec<bool>, Vec<f64>),
 }
 
-/// How two faces meet at their common edge. recorded: a file or a modeller states that they are tangent there.
+/// How two faces meet at their common edge. `recorded`: a file or a modeller states that they are tangent there.
 pub fn meeting(sides: &[Side; 2], recorded: bool) -> Meeting {
     if sides.iter().any(|s| s.curve.is_none() && !matches!(s.surface, Surface::Plane(_))) {
         return Meeting::Unknown;
@@ -74,7 +77,7 @@ pub fn meeting(sides: &[Side; 2], recorded: bool) -> Meeting {
     if sides.iter().any(|s| s.side.free) { free_meeting(sides, recorded) } else { plain_meeting(sides, recorded) }
 }
 
-/// Of elementary surfaces.
+/// How two elementary surfaces meet.
 fn plain_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
     if !recorded && angle(sides, 0.5).is_some_and(|angle| angle > WAVERING) {
         return Meeting::Whole(false);
@@ -86,7 +89,7 @@ fn plain_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
     for angle in places(sides, false).into_iter().filter_map(|share| angle(sides, share)) {
         (least, most) = (least.min(angle), most.max(angle));
         (count, squares) = (count + 1, squares + angle.sin().powi(2));
-        // The other places cannot make it tangent any more.
+        // The remaining places cannot change the answer.
         if most > WAVERING && (!recorded || least <= NEARLY_TANGENT) {
             return Meeting::Whole(recorded);
         }
@@ -98,7 +101,7 @@ fn plain_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
     Meeting::Whole(most <= TANGENT || (least <= NEARLY_TANGENT && (recorded || wavers)))
 }
 
-/// Where one surface is not elementary.
+/// How two surfaces meet of which at least one is not elementary.
 fn free_meeting(sides: &[Fixed; 2], recorded: bool) -> Meeting {
     if let Some(smooth) = clear_case(sides, STEPS_AT_A_GLANCE) {
         return Meeting::Whole(smooth);
@@ -148,8 +151,8 @@ fn places(sides: &[Fixed; 2], free: bool) -> Vec<f64> {
     breaks.windows(2).flat_map(|w| PLACES.map(|p| w[0] + p * (w[1] - w[0]))).collect()
 }
 
-/// The pieces of one edge, from shares of its length, angles between its faces there, and places; closer: the angles at
-/// other shares.
+/// The pieces of one edge. `found`: shares of its length, each with the angle between the faces and the point there.
+/// `closer`: the angle at any other share.
 fn pieces(found: &[(f64, f64, Vector)], recorded: bool, closer: &dyn Fn(f64) -> Option<f64>) -> Meeting {
     let n = found.len();
     let mut long = vec![0.0; n];
@@ -165,7 +168,8 @@ fn pieces(found: &[(f64, f64, Vector)], recorded: bool, closer: &dyn Fn(f64) -> 
         (0..angle.len()).filter(|&i| keep(i)).map(|i| long[i]).sum()
     };
     if of(&angle, &|i| angle[i] <= TANGENT) >= LONG_REST {
-        // Where the parameters of a surface run back for a while, its normal is turned round and says nothing.
+        // Where the parameters of a surface run backwards for a stretch, its normal is reversed, and the angle is
+        // ignored.
         angle.iter_mut().for_each(|a| *a = if *a > PI - NEARLY_TANGENT { 0.0 } else { *a });
     }
     let mut smooth: Vec<bool> = angle.iter().map(|a| *a <= TANGENT).collect();
@@ -176,7 +180,7 @@ fn pieces(found: &[(f64, f64, Vector)], recorded: bool, closer: &dyn Fn(f64) -> 
             (smooth[i], angle[i]) = (true, 0.0);
         }
     }
-    // An angle that is hardly one makes no piece of its own: it waves, and the whole edge is tangent or is not.
+    // Where no angle is clear there are no pieces: the angle only wavers, and the whole edge is tangent or is not.
     let peaks = by_run(&smooth, &angle, 0.0, f64::max);
     let clear: Vec<bool> = (0..n).map(|i| !smooth[i] && peaks[i] > NEARLY_TANGENT).collect();
     if !clear.contains(&true) {
@@ -212,7 +216,7 @@ fn run_sums(flag: &[bool], long: &[f64]) -> Vec<f64> {
     by_run(flag, long, 0.0, |a, b| a + b)
 }
 
-/// For each place what its run of equal flags comes to.
+/// For each place the values of its run of equal flags, joined.
 fn by_run(flag: &[bool], values: &[f64], zero: f64, join: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     let mut out = Vec::with_capacity(flag.len());
     for run in flag.chunk_by(|a, b| a == b) {

@@ -5,25 +5,25 @@ use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, cross, dot, length, scaled};
 
-/// Radians: surfaces that meet at less are tangent; what STEP and IGES readers assume as well.
+/// Radians: surfaces that meet at less are tangent. STEP and IGES readers assume the same.
 pub const TANGENT: f64 = 0.01;
 
-/// Radians: an edge recorded as tangent is believed where its sides come as close as this somewhere, and faces that
-/// meet at less do not interrupt a tangent edge.
+/// Radians. An edge that is recorded as tangent counts as tangent if the angle falls to this value somewhere. Smaller
+/// angles do not interrupt a tangent edge.
 pub const NEARLY_TANGENT: f64 = 0.1;
 
 /// An edge on one of its faces.
 pub struct Side<'a> {
     pub surface: &'a Surface,
-    /// In (u, v), with its range; a plane needs none.
+    /// The curve in (u, v), with its range; a plane needs none.
     pub curve: Option<(&'a Curve, [f64; 2])>,
     pub place: Option<&'a Matrix>,
     pub reversed: bool,
-    /// Not one of the elementary surfaces.
+    /// The surface is not elementary.
     pub free: bool,
 }
 
-/// A side, with its outward normal where that is one and the same everywhere.
+/// A side, with its outward normal if that is the same everywhere.
 pub struct Fixed<'a> {
     pub side: &'a Side<'a>,
     normal: Option<Vector>,
@@ -35,7 +35,7 @@ impl<'a> Fixed<'a> {
         Fixed { side, normal: if flat { side.normal([0.0; 2]) } else { None } }
     }
 
-    /// The outward normal; None where there is none.
+    /// The outward normal at a share of the edge; None where the surface has none.
     pub fn at(&self, share: f64) -> Option<Vector> {
         self.normal.or_else(|| self.side.normal(self.side.uv(share)))
     }
@@ -66,7 +66,7 @@ impl Side<'_> {
         })
     }
 
-    /// Shares at which its curve in (u, v) may have a corner.
+    /// Shares of the edge at which its curve in (u, v) may have a corner.
     pub fn breaks(&self, out: &mut Vec<f64>) {
         if let Some((Curve::Spline(n), [first, last])) = self.curve {
             out.extend(n.knots.iter().map(|k| (k - first) / (last - first)).filter(|s| *s > 0.0 && *s < 1.0));
@@ -74,7 +74,7 @@ impl Side<'_> {
     }
 }
 
-/// Angle between the faces.
+/// Angle between the faces' normals in radians; None where a face has no normal.
 pub fn angle(sides: &[Fixed; 2], share: f64) -> Option<f64> {
     let (one, two) = (sides[0].at(share)?, sides[1].at(share)?);
     Some(length(&cross(&one, &two)).atan2(dot(&one, &two)))
@@ -85,7 +85,7 @@ pub fn ascending(shares: &mut Vec<f64>) {
     shares.dedup_by(|b, a| *b - *a <= 1e-9);
 }
 
-/// Shares from 0 to 1 between which the curves in (u, v) are smooth.
+/// Shares of the edge, from 0 to 1, between which the curves in (u, v) are smooth.
 pub fn spans(sides: &[Fixed; 2]) -> Vec<f64> {
     let mut spans = vec![0.0, 1.0];
     sides.iter().for_each(|s| s.side.breaks(&mut spans));
@@ -93,13 +93,13 @@ pub fn spans(sides: &[Fixed; 2]) -> Vec<f64> {
     spans
 }
 
-/// Each span in so many equal parts.
+/// The spans, each divided into `parts` equal parts.
 pub fn divided(spans: &[f64], parts: usize) -> Vec<f64> {
     let part = |w: &[f64], i: usize| w[0] + (w[1] - w[0]) * i as f64 / parts as f64;
     spans.windows(2).flat_map(|w| (0..parts).map(move |i| part(w, i))).chain([1.0]).collect()
 }
 
-/// Shares at which knots of the surfaces are crossed, as far as two of the breaks have them between them.
+/// Shares of the edge at which it crosses knots of the surfaces, as far as they lie between neighbouring breaks.
 pub fn crossed(sides: &[Fixed; 2], breaks: &[f64]) -> Vec<f64> {
     let mut crossed = Vec::new();
     for Fixed { side, .. } in sides {

@@ -1,4 +1,5 @@
-//! Along an edge two faces are tangent or not: the pieces that angles make, of an edge of length 10 along x.
+//! Tests of where two faces are tangent along an edge: angles along an edge of length 10 on the x axis, and the pieces
+//! that follow.
 
 use super::*;
 use crate::geometry::curve::Curve;
@@ -7,7 +8,7 @@ fn even(count: u32) -> Vec<f64> {
     (0..=count).map(|i| f64::from(i) / f64::from(count)).collect()
 }
 
-/// Pieces, and joints in tenths of the edge, to four digits.
+/// Whether each piece is smooth, and the joints in tenths of the edge, rounded to four digits.
 fn at(angle: &dyn Fn(f64) -> f64, shares: &[f64], recorded: bool) -> (Vec<bool>, Vec<f64>) {
     let found: Vec<(f64, f64, Vector)> = shares.iter().map(|&s| (s, angle(s), [10.0 * s, 0.0, 0.0])).collect();
     match pieces(&found, recorded, &|share| Some(angle(share))) {
@@ -28,7 +29,7 @@ fn of(angle: impl Fn(f64) -> f64) -> (Vec<bool>, Vec<f64>) {
 #[test]
 fn one_class_throughout() {
     assert_eq!(of(|_| 0.0), (vec![true], vec![]));
-    // A hundredth of a radian is the limit, where it does not waver.
+    // The limit is a hundredth of a radian where the angle does not waver.
     assert_eq!(of(|_| 0.0099), (vec![true], vec![]));
     assert_eq!(of(|_| 0.0101), (vec![false], vec![]));
     assert_eq!(of(|_| 0.5), (vec![false], vec![]));
@@ -39,17 +40,17 @@ fn pieces_of_two_classes() {
     assert_eq!(of(between(0.4, 0.7, 0.5, 0.001)), (vec![true, false, true], vec![4.0, 7.0]));
     assert_eq!(of(between(0.4, 2.0, 0.5, 0.001)), (vec![true, false], vec![4.0]));
     assert_eq!(of(between(-1.0, 0.4, 0.5, 0.001)), (vec![false, true], vec![4.0]));
-    // Of less than a tenth of the edge no tangent piece is made.
+    // A tangent stretch shorter than a tenth of the edge makes no piece.
     assert_eq!(of(between(0.085, 0.5, 0.5, 0.001)), (vec![false, true], vec![5.0]));
     assert_eq!(of(between(0.115, 0.5, 0.5, 0.001)), (vec![true, false, true], vec![1.15, 5.0]));
 }
 
 #[test]
 fn a_short_fold_says_nothing() {
-    // Less than a fiftieth of the length.
+    // An angle along less than a fiftieth of the length is ignored.
     assert_eq!(of(between(0.495, 0.505, 0.5, 0.001)), (vec![true], vec![]));
     assert_eq!(of(between(0.485, 0.515, 0.5, 0.001)).0, [true, false, true]);
-    // Three of them, together less than two may have; and five, together more.
+    // Three short folds, together below the limit for all short folds; five, together above it.
     let three = |at: f64| if [0.2, 0.5, 0.8].iter().any(|s: &f64| (at - s).abs() < 0.005) { 0.5 } else { 0.001 };
     assert_eq!(of(three), (vec![true], vec![]));
     let several = [0.2, 0.35, 0.5, 0.65, 0.8];
@@ -60,7 +61,8 @@ fn a_short_fold_says_nothing() {
 #[test]
 fn the_last_place_counts_half_a_step() {
     for end in [0.0f64, 1.0] {
-        // Of three places at an end, two and a half steps are more than a fiftieth; of two, less.
+        // At an end: a fold over three places (two and a half steps) is longer than a fiftieth, one over two places is
+        // not.
         let fold = |width: f64| move |at: f64| if (at - end).abs() < width { 0.5 } else { 0.001 };
         assert_eq!(of(fold(0.005)), (vec![true], vec![]));
         assert_eq!(of(fold(0.015)), (vec![true], vec![]));
@@ -70,11 +72,12 @@ fn the_last_place_counts_half_a_step() {
 
 #[test]
 fn what_waves_is_whole() {
-    // An angle that is nowhere a clear one makes no piece: all or nothing.
+    // An angle that is clear nowhere makes no piece: the whole edge is tangent or is not.
     assert_eq!(of(between(0.3, 0.7, 0.09, 0.001)).0, [false]);
     assert_eq!(at(&between(0.3, 0.7, 0.09, 0.001), &even(100), true).0, [true]);
     assert_eq!(at(&between(0.3, 0.7, 0.11, 0.001), &even(100), true).0, [true, false, true]);
-    // Up to 0.02 rad it is tangent where the mean square is little: 0.018 on a fifth of the edge, not on a third.
+    // An angle up to 0.02 rad is tangent if the root mean square is small: 0.018 on a fifth of the edge, not on a
+    // third.
     assert_eq!(of(between(0.4, 0.58, 0.018, 0.001)).0, [true]);
     assert_eq!(of(between(0.3, 0.7, 0.018, 0.001)).0, [false]);
     assert_eq!(of(between(0.4, 0.46, 0.021, 0.001)).0, [false]);
@@ -85,7 +88,7 @@ fn what_waves_is_whole() {
 fn a_normal_turned_round_says_nothing_where_the_rest_is_tangent() {
     assert_eq!(of(between(0.4, 0.7, PI - 0.05, 0.001)).0, [true]);
     assert_eq!(of(between(0.4, 0.7, PI - 0.15, 0.001)).0, [true, false, true]);
-    // But not where next to nothing else is.
+    // But not where almost nothing else of the edge is tangent.
     assert_eq!(of(between(0.05, 2.0, PI - 0.05, 0.001)).0, [false]);
 }
 
@@ -146,8 +149,7 @@ fn faces_that_meet_at_hardly_an_angle_are_tangent() {
 
 #[test]
 fn elementary_faces_that_waver_about_tangency_are_tangent_where_they_mostly_are() {
-    // A cone that is nearly flat, and a plane: the angle between them goes from one's tilt less the other's to their
-    // sum.
+    // A nearly flat cone and a plane: the angle between them ranges from the difference of their tilts to the sum.
     let frame = |turn: f64| {
         let (sin, cos) = f64::sin_cos(turn);
         [0.0, 0.0, 0.0, cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos]
@@ -168,7 +170,7 @@ fn elementary_faces_that_waver_about_tangency_are_tangent_where_they_mostly_are(
     }
 }
 
-/// Two flat patches side by side, the one with knots at every fifth of v, the edge along v; and the other without any.
+/// A flat patch over 0..1 in u, with the given knots along v.
 fn patch(knots: &[f64]) -> Surface {
     let (mut data, n) = (vec![1.0, 1.0, 2.0, knots.len() as f64, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, knots[0]], knots.len());
     data.extend(knots);
@@ -193,13 +195,13 @@ fn faces_are_compared_on_either_side_of_each_knot_that_an_edge_passes() {
         }
     }
     assert!(found.windows(2).all(|w| w[0] < w[1] && w[1] - w[0] < 1.0 / 16.0));
-    // Without them there are fewer.
+    // Without knots there are fewer places.
     assert!(places(&plain, &plain).len() < found.len());
 }
 
 #[test]
 fn a_glance_tells_what_is_far_from_every_limit_and_nothing_else() {
-    // Along v, beside a flat patch, one whose outer corners rise: the angle goes from one rise to the other.
+    // A flat patch beside one whose outer corners rise: along v the angle goes from one rise to the other.
     let rising = |low: f64, high: f64| {
         let mut data = vec![1.0, 1.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0];
         data.extend([0.0, 0.0, low, 1.0, 0.0, 1.0, high, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0]);

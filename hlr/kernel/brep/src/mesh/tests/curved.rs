@@ -1,4 +1,4 @@
-//! Spheres, tori, splines: chord error held against dense samples, and how many triangles it takes.
+//! Spheres, tori, splines: chord errors compared with dense samples, and the number of triangles.
 
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -8,7 +8,7 @@ use crate::geometry::surface::Surface;
 use crate::geometry::vector::{cross, dot, sub, unit};
 use crate::mesh::{FaceMesh, Progress, mesh_face};
 
-/// Chords of an arc at half the deflection.
+/// Number of chords of an arc that keep half the deflection.
 fn chords(radius: f64, angle: f64, deflection: f64) -> usize {
     let step = 2.0 * (1.0 - 0.5 * deflection / radius).acos();
     (angle / step.min(0.5)).ceil() as usize
@@ -20,13 +20,13 @@ fn meshed(surface: &Surface, places: &[Vec<[f64; 2]>], deflection: f64, most: f6
     let error = chord_error(surface, &mesh);
     println!("{} triangles, error {:.3} deflections", mesh.triangles.len(), error / deflection);
     assert!(error <= deflection, "{error}");
-    // Against as many equilateral triangles as the second fundamental form asks for.
+    // Compared with the number of equilateral triangles that the second fundamental form asks for.
     assert!((mesh.triangles.len() as f64) < most, "{} triangles, {most}", mesh.triangles.len());
     assert!(mesh.normals.iter().all(|n| (n.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-9));
     mesh
 }
 
-/// Loop round a sphere with its seam and two poles.
+/// The loop around a sphere, with its seam and two poles.
 fn whole_sphere(steps: usize) -> Vec<[f64; 2]> {
     let rise = |k: usize| -FRAC_PI_2 + PI * k as f64 / steps as f64;
     let mut places = vec![[0.0, -FRAC_PI_2]];
@@ -51,7 +51,7 @@ fn a_spherical_cap_without_pole() {
     let d = 0.01;
     let count = chords(7.0, 1.5, d);
     meshed(&sphere, &[frame([0.3, -0.4], [1.8, 0.9], count, count)], d, 1200.0);
-    // A round patch.
+    // A round patch with a round hole.
     meshed(&sphere, &[circle([1.0, 0.2], 0.6, 60, true), circle([1.1, 0.2], 0.1, 16, false)], d, 1200.0);
 }
 
@@ -104,7 +104,7 @@ fn a_wavy_patch_with_trimming() {
 
 #[test]
 fn a_fine_patch_in_a_coarse_face() {
-    // Flat but for one bump.
+    // Flat except for one bump.
     let poles = 40;
     let mut data = vec![3.0, 3.0, poles as f64, poles as f64, 0.0, 0.0];
     for _ in 0..2 {
@@ -152,7 +152,7 @@ fn an_offset_patch() {
     meshed(&s, &[frame([0.0, 0.0], [1.0, 1.0], 60, 60)], 0.01, 1e9);
 }
 
-/// Greatest angle between neighbouring triangles.
+/// Greatest angle in radians between neighbouring triangles.
 fn turning(mesh: &FaceMesh) -> f64 {
     let normal = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|i| mesh.points[i as usize]);

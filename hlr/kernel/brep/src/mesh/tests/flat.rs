@@ -25,7 +25,7 @@ fn a_disc_with_holes() {
 
 #[test]
 fn corners_in_one_line_have_no_needle_between_them() {
-    // Below the upper side, which goes farther to both sides, the lower one bulges by less than can be seen.
+    // The lower chain, below the wider upper side, bulges by less than is visible.
     let low = (0..=8).map(|i| [f64::from(i), -1e-13 * f64::from(i * (8 - i))]);
     let places = [low.chain([[9.0, 4.0], [-1.0, 4.0]]).collect::<Vec<_>>()];
     let mesh = meshed(&surface(1, &[]), &places, 0.1);
@@ -119,7 +119,7 @@ fn a_half_cylinder_with_an_oval_hole() {
 
 #[test]
 fn a_cone_to_its_apex() {
-    // Radius 2 at v = 0; the apex below.
+    // Radius 2 at v = 0; the apex is below.
     let half = 0.4f64;
     let cone = surface(3, &[2.0, half]);
     let apex = -2.0 / half.sin();
@@ -149,7 +149,7 @@ fn a_cone_with_a_coarse_small_end() {
     border.insert(small, [TAU, 0.0]);
     let mesh = meshed(&cone, &[border], deflection * 1.01);
     let error = chord_error(&cone, &mesh);
-    // At the border the edge itself is off by more: its arc lies partly in the surface.
+    // At the border the edge's own error is larger: part of its arc's deviation lies within the surface.
     let limit = deflection / half.cos();
     assert!(error < limit * 1.001, "{error} {limit}");
 }
@@ -210,7 +210,7 @@ fn loops_that_cross() {
     assert!(matches!(mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()), Err(Fault::Crossing(_))));
 }
 
-/// Ends of edges that miss their vertex: points in nearly one place, in an order that crosses itself.
+/// Ends of edges that miss their vertex: points at nearly the same place, in an order that crosses itself.
 #[test]
 fn neighbours_in_nearly_one_place() {
     let plane = surface(1, &[]);
@@ -218,7 +218,7 @@ fn neighbours_in_nearly_one_place() {
         vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0 + 1e-7], [4.0 + 1e-8, 3.0], [3.0, 3.0], [0.0, 3.0], [1e-8, 3.0]];
     let face = loops(&plane, std::slice::from_ref(&places));
     let mesh = mesh_face(&plane, &face, 0.1, 0.5, &Progress::free()).unwrap();
-    // Each is a node of its own, so each has its place in the mesh.
+    // Each point is a node of its own, so each must be in the mesh.
     assert_eq!(mesh.triangles.len(), places.len() - 2);
     assert_eq!(mesh.points, face.loops[0].iter().map(|p| p.point).collect::<Vec<_>>());
     let mut used: Vec<u32> = mesh.triangles.iter().flatten().copied().collect();
@@ -237,7 +237,7 @@ fn slivers() {
     meshed(&plane, &[places], 0.1);
 }
 
-/// Polygons on a small integer grid, full of coincidences: either a mesh that proves itself, or a crossing named.
+/// Polygons on a small integer grid, with many coincidences: the result is a proved mesh, or a crossing.
 #[test]
 fn random_polygons() {
     let plane = surface(1, &[]);
@@ -249,7 +249,7 @@ fn random_polygons() {
         let pick = |random: &mut Random| [random.below(size) as f64, random.below(size) as f64];
         let mut places: Vec<[f64; 2]> = (0..count).map(|_| pick(&mut random)).collect();
         if random.below(2) == 0 {
-            // Star-shaped about the middle: mostly simple.
+            // Star-shaped about the middle: mostly without crossings.
             let c = 0.5 * size as f64 - 0.4;
             places.sort_by(|a, b| (a[1] - c).atan2(a[0] - c).total_cmp(&(b[1] - c).atan2(b[0] - c)));
         }
@@ -268,7 +268,7 @@ fn random_polygons() {
     assert!(open < 3000, "{open}");
 }
 
-/// Many small polygons, none of which meets another, in any order.
+/// Many small polygons that do not meet, in any order.
 #[test]
 fn random_holes() {
     let plane = surface(1, &[]);
@@ -308,7 +308,7 @@ fn splines_that_unroll() {
             let s = Surface::read(8, &data).unwrap();
             let face = loops(&s, &[frame([0.0, 0.0], [1.0, 1.0], frame_of[0], frame_of[1])]);
             let mesh = mesh_face(&s, &face, 0.02, 0.5, &Progress::free()).unwrap();
-            // To an apex only every other one has an area.
+            // At an apex only every other triangle has an area.
             assert_eq!(mesh.triangles.len(), if top == 0.0 { 20 } else { 40 });
             assert!(chord_error(&s, &mesh) < 0.02);
         }

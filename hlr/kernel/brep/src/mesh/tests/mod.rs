@@ -1,4 +1,4 @@
-//! Faces made by hand, their meshes held against the surface by dense samples.
+//! Faces made by hand. Their meshes are compared with dense samples of the surface.
 
 mod curved;
 mod flat;

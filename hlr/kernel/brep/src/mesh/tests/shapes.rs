@@ -12,7 +12,7 @@ pub fn surface(kind: u8, more: &[f64]) -> Surface {
     Surface::read(kind, &[&FRAME, more].concat()).unwrap()
 }
 
-/// Loops on a surface; points of one place in space get one node.
+/// Loops on a surface; points at the same place in space get the same node.
 pub fn loops(surface: &Surface, places: &[Vec<[f64; 2]>]) -> FaceLoops {
     let mut known: HashMap<[i64; 3], (u32, Vector)> = HashMap::new();
     let mut point = |&uv: &[f64; 2]| {
@@ -32,7 +32,7 @@ pub fn circle(centre: [f64; 2], radius: f64, count: usize, forward: bool) -> Vec
     (0..count).map(at).collect()
 }
 
-/// Round a rectangle, with so many chords along u and along v.
+/// The loop around a rectangle, with the given numbers of chords along u and along v.
 pub fn frame(low: [f64; 2], high: [f64; 2], along_u: usize, along_v: usize) -> Vec<[f64; 2]> {
     let corners = [low, [high[0], low[1]], high, [low[0], high[1]]];
     let counts = [along_u, along_v, along_u, along_v];
@@ -48,7 +48,7 @@ pub fn frame(low: [f64; 2], high: [f64; 2], along_u: usize, along_v: usize) -> V
     out
 }
 
-/// A small generator of random numbers: the same ones everywhere.
+/// A small generator of random numbers, the same on all machines.
 pub struct Random(pub u64);
 
 impl Random {
@@ -64,7 +64,7 @@ impl Random {
     }
 }
 
-/// Greatest distance from points of the surface, taken where triangles are, to the mesh around them.
+/// Greatest distance from points of the surface, sampled within the triangles, to the mesh around them.
 pub fn chord_error(surface: &Surface, mesh: &FaceMesh) -> f64 {
     const STEPS: usize = 8;
     let mut around = vec![Vec::new(); mesh.points.len()];
@@ -109,7 +109,7 @@ fn from_segment(p: &Vector, a: &Vector, b: &Vector) -> f64 {
     length(&sub(&q, &scaled(&d, t)))
 }
 
-/// Twice the area of triangles in (u, v).
+/// Twice the total area of the triangles in (u, v).
 pub fn area(mesh: &FaceMesh) -> f64 {
     let of = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|i| mesh.uv[i as usize]);
@@ -118,7 +118,7 @@ pub fn area(mesh: &FaceMesh) -> f64 {
     mesh.triangles.iter().map(of).sum()
 }
 
-/// Twice the area that loops enclose.
+/// Twice the area that the loops enclose.
 pub fn enclosed(loops: &FaceLoops) -> f64 {
     let of = |l: &Vec<LoopPoint>| -> f64 {
         (0..l.len())
