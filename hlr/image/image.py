@@ -80,7 +80,7 @@ class Image(Geometry):
     silhouettes: Silhouettes | None = None
 
     def placed(self, placement: Placement) -> Image:
-        """The same at another place on paper."""
+        """The same image at another place on paper."""
         return replace(self, placement=placement)
 
     def projected(self, divide: bool = False) -> Floats:
@@ -88,7 +88,7 @@ class Image(Geometry):
         return self.camera.project(self.points, divide)
 
     def lifted(self, divide: bool = False) -> Floats:
-        """The same, with the points of outlines moved off their own surface: visibility is decided on these."""
+        """As `projected`, with the points of outlines moved off their own surface: visibility is decided on these."""
         if self.silhouettes is None:
             return self.projected(divide)
         return self.camera.project(self.points + self.silhouettes.lift, divide)

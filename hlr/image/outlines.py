@@ -101,7 +101,7 @@ def _untraced(image: Image, face: Ints, traced: npt.NDArray[np.bool_]) -> npt.ND
     faced = np.diff(image.offsets) > 0
     if len(image.incident):
         known[faced] = np.logical_or.reduceat(traced[face][image.incident], image.offsets[:-1][faced])
-    # A plane that a curved face runs into was taken for that face's outline.
+    # A traced face has its own outline: mesh edges, also those beside a planar face, no longer stand for it.
     return image.edge_curved & ~known
 
 

@@ -34,7 +34,7 @@ def lens(camera: Camera, points: Floats, scale: float, size: tuple[int, int]) ->
 
 
 def lens_at(camera: Camera, points: Floats, scale: float, size: tuple[int, int], middle: tuple[float, float]) -> Lens:
-    """The same, centred on a given point (2,) of the image plane, in model units."""
+    """The lens of `lens`, but centred on a given point (2,) of the image plane, in model units."""
     ahead = camera.ahead(points)
     nearest, farthest = float(ahead.min()), float(ahead.max())
     distance = 0.0 if camera.eye is None or camera.distance is None else camera.distance

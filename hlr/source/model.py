@@ -218,7 +218,7 @@ class Source(Protocol):
         """(k, 3) corners of every part in model coordinates, in the order of the parts; cheap, may be too far out."""
 
     def of_parts(self, names: Collection[str], choice: Choice) -> Source:
-        """The same source with these parts only; `choice` says how they were chosen."""
+        """The source with these parts only; `choice`: the patterns that chose them."""
 
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
         """Tessellate: chord error at most `deflection` (model units), turning at most `angle` (radians)."""

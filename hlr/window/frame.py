@@ -1,4 +1,4 @@
-"""The window on paper: its sides, and how a point on paper is taken back to the model."""
+"""The window on paper: its sides, and the point of the model that belongs to a point on paper."""
 
 from __future__ import annotations
 
