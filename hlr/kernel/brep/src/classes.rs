@@ -24,7 +24,7 @@ pub struct Classes {
 }
 
 /// The classes of an edge. An edge of two faces is smooth where the surface normals agree along it. A seam whose
-/// normals do not agree is a crease. Edges of more than two faces, and edges of none, are sharp. An edge of one face is a
+/// normals do not agree is sharp. Edges of more than two faces, and edges of none, are sharp. An edge of one face is a
 /// boundary.
 pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
     let placed = &part.edges[number];

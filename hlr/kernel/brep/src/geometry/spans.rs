@@ -14,7 +14,7 @@ pub struct Spans {
     /// Coefficients by span, then from the highest power down, then by function.
     powers: Vec<f64>,
     low: f64,
-    /// Cells of equal width per unit of the parameter, and the span at the beginning of each cell.
+    /// Number of equal cells per unit of the parameter, and the number of the span at the beginning of each cell.
     per: f64,
     begins: Vec<u32>,
 }

@@ -8,7 +8,7 @@
 //! ```text
 //!              .--------.
 //!         .---'    |     '--.        No triangle reaches farther to the side than the chord whose mountain it is in:
-//!        '-.       |     .---'       on a cylinder whose rulings stand upright here, the chords' error is the
+//!        '-.       |     .---'       on a cylinder whose rulings are vertical here, the chords' error is the
 //!           '------+----'            triangles' error.
 //! ```
 //!
