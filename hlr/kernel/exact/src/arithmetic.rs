@@ -198,7 +198,7 @@ mod tests {
         assert_eq!([-0.5f32, 0.0, 1e-30].map(Ring::sign), [-1, 0, 1]);
     }
 
-    /// What all kinds of numbers say alike where nothing needs to be rounded.
+    /// Checks that all number types agree where nothing needs to be rounded.
     fn agree<A: Arithmetic>() {
         let (area, volume) = (A::coordinate, A::depth);
         for (a, b, c, d) in [(2, 3, 5, 7), (5, 7, 2, 3), (-2, 3, 2, 3), (6, 4, 3, 8), (-5, 3, -2, 4), (1, 4, 2, 1)] {

@@ -23,7 +23,8 @@ pub struct Parameter {
     near: f64,
 }
 
-/// Two parameters whose roundings differ by more are in that order: each rounding is off by less than 4e-16.
+/// Two parameters whose roundings differ by more than this are in the order of their roundings: each rounding is off by
+/// less than 4e-16.
 const ROUNDING: f64 = 2e-15;
 
 impl Parameter {
@@ -63,7 +64,7 @@ impl Place for Parameter {
 pub struct Rounded(f64);
 
 impl Rounded {
-    /// Rounding may lead beyond the ends.
+    /// Rounding may lead beyond 0 and 1.
     #[inline]
     pub fn new(value: f64) -> Rounded {
         Rounded(value.clamp(0.0, 1.0))

@@ -33,8 +33,8 @@ fn power_of_two_scale(half: f64, limit: f64) -> f64 {
     s
 }
 
-/// The nearest integer, ties to even; beyond 32 bits the largest of these. As `round_ties_even` does, but without a
-/// call: between 2^52 and 2^53 doubles are whole, so adding 1.5 * 2^52 rounds.
+/// The nearest integer, ties to even, clamped to 32 bits. The result is that of `round_ties_even`, without a call:
+/// between 2^52 and 2^53 doubles are whole numbers, so adding 1.5 * 2^52 rounds.
 #[inline]
 fn nearest(x: f64) -> i32 {
     const WHOLE: f64 = 6_755_399_441_055_744.0;
@@ -82,8 +82,8 @@ impl Grid {
         ]
     }
 
-    /// So coarse in depth that a tolerance of `depth` fits: where all depth is rounding noise, as of a plane seen
-    /// face-on, the finest grid would turn that noise into steps larger than the tolerance.
+    /// Makes the grid so coarse in depth that a tolerance of `depth` fits. Where all depth is rounding noise, as for a
+    /// plane seen face-on, the finest grid would turn that noise into steps larger than the tolerance.
     pub fn with_room(self, depth: f64) -> Grid {
         let mut scale_z = self.scale_z;
         while depth * scale_z > DELTA_LIMIT {
@@ -92,7 +92,7 @@ impl Grid {
         Grid { scale_z, ..self }
     }
 
-    /// The same step along all axes, the coarser of both.
+    /// The same step along all axes: the coarser of the two.
     pub fn uniform(self) -> Grid {
         let scale = self.scale_xy.min(self.scale_z);
         Grid { scale_xy: scale, scale_z: scale, ..self }

@@ -12,28 +12,29 @@ const ROUNDING: f64 = 1e-9;
 
 #[derive(Clone, Debug, Default)]
 pub struct Bodies {
-    /// Per triangle its group; per group its part.
+    /// Group of each triangle; part of each group.
     pub group_of: Vec<i32>,
     pub part_of: Vec<i32>,
-    /// Every edge is used as often in one direction as in the other.
+    /// Per group: every edge is used as often in one direction as in the other.
     pub closed: Vec<bool>,
-    /// Closed, and turned outward; or inward.
+    /// Per group: closed and turned outward; closed and turned inward.
     pub cull: Vec<bool>,
     pub inward: Vec<bool>,
-    /// All faces are planar.
+    /// Per group: all faces are planar.
     pub planar: Vec<bool>,
-    /// Thickness, or the smallest side of the box where that is less or the group is open.
+    /// Per group, in model units: thickness, or the smallest side of the box where that is less or the group is open.
     pub extent: Vec<f64>,
     pub low: Vec<[f64; 3]>,
     pub high: Vec<[f64; 3]>,
-    /// Turned inside out by the source, and turned back; these are `cull` and no longer `inward`.
+    /// Per group: the source had it inside out, and it was turned; such groups are `cull` and no longer `inward`.
     pub turned: Vec<bool>,
-    /// Of a mesh without B-rep, with more than two triangles at an edge: bodies that were welded there are one
+    /// Per group of a mesh without B-rep: an edge has more than two triangles. Bodies that were welded there are one
     /// connected piece, and still touch one another as separate bodies do.
     pub welded: Vec<bool>,
 }
 
-/// Per triangle its group, per group its part: closed B-rep parts whole, everything else by connected piece.
+/// Returns the group of each triangle and the part of each group. A closed B-rep part is one group; everything else is
+/// grouped by connected piece.
 ///
 /// Unsewn faces of an IGES file touch as separate parts do, and need the same contact tolerance.
 fn grouped(whole: &[bool], triangles: &[[i32; 3]], part_of: &[i32], n_points: usize) -> (Vec<i32>, Vec<i32>) {
@@ -58,7 +59,7 @@ fn grouped(whole: &[bool], triangles: &[[i32; 3]], part_of: &[i32], n_points: us
     (label, parts)
 }
 
-/// curved: of each triangle.
+/// `curved`: per triangle, its face may show an outline.
 pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) -> Bodies {
     let (points, triangles) = (&tables.points, &tables.triangles);
     let odd = || facts.balance.iter().enumerate().filter(|(_, b)| **b != 0).map(|(e, _)| facts.around(e)[0] as usize);
@@ -79,9 +80,9 @@ pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) 
     for g in 0..count {
         let (low, high, six) = (&found.low[g], &found.high[g], found.volume[g]);
         let least = (0..3).map(|k| high[k] - low[k]).fold(f64::INFINITY, f64::min);
-        // Of a plate, a tube or a housing 2 V / A is the thickness of the wall, however it is turned; of a ball or a
-        // cube a third of the diameter. Half of the extent is allowed for contact: nearly twice the thickness still
-        // hides.
+        // 2 V / A is the wall thickness of a plate, a tube or a housing, in any direction, and a third of the diameter
+        // of a ball or a cube. The contact tolerance may take half of the extent, so an extent of nearly twice the
+        // thickness still lets a wall hide what is behind it.
         let thick = if out.closed[g] { 3.6 * (six / 6.0).abs() / (found.area[g] / 2.0) } else { f64::INFINITY };
         out.extent.push((if found.count[g] > 0 { least } else { 0.0 }).min(thick));
         out.cull.push(out.closed[g] && six > 0.0);
@@ -96,7 +97,7 @@ pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) 
     out
 }
 
-/// Closed and turned inward, but no cavity, which lies within an outer surface of its part.
+/// Per group: closed and turned inward, and no cavity (a cavity lies within an outer surface of its part).
 fn inside_out(cull: &[bool], inward: &[bool], part: &[i32], low: &[[f64; 3]], high: &[[f64; 3]]) -> Vec<bool> {
     let within = |g: usize, other: usize| {
         part[other] == part[g] && (0..3).all(|k| low[other][k] < low[g][k] && high[other][k] > high[g][k])
@@ -105,9 +106,9 @@ fn inside_out(cull: &[bool], inward: &[bool], part: &[i32], low: &[[f64; 3]], hi
     (0..inward.len()).map(|g| inward[g] && !outer.iter().any(|&other| within(g, other))).collect()
 }
 
-/// Not one convex body each, so that they may pass through themselves.
+/// Per group: it is not certainly one convex body, so it may pass through itself.
 ///
-/// What is closed, in one piece, bends outward or not at all at every edge, and goes round its middle once, is convex.
+/// A group is convex if it is closed, in one piece, nowhere bent inward, and winds around its middle once.
 pub fn may_fold(bodies: &Bodies, points: &[[f64; 3]], triangles: &[[i32; 3]], facts: &Facts) -> Vec<bool> {
     let count = bodies.closed.len();
     let size = |g: usize| (0..3).map(|k| bodies.high[g][k] - bodies.low[g][k]).fold(f64::NEG_INFINITY, f64::max);

@@ -4,8 +4,8 @@ type Vec3 = [f64; 3];
 
 /// The eight corners of each part's box, and the lower and upper corner of the box around all of them.
 ///
-/// `boxes`: lower, then upper corner; `root`: which of them each part has; `place`: where the part stands, the rows of
-/// a matrix. A box whose lower corner lies beyond its upper one is void: its corners are 0, and do not count.
+/// `boxes`: lower, then upper corner; `root`: the box of each part; `place`: the placement of each part, a matrix by
+/// rows. A box whose lower corner lies beyond its upper one is void: its corners are 0, and do not count.
 pub fn placed(boxes: &[[f64; 6]], root: &[i32], place: &[[f64; 16]]) -> (Vec<Vec3>, [Vec3; 2]) {
     let mut corners = vec![[0.0; 3]; 8 * root.len()];
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
@@ -19,7 +19,7 @@ pub fn placed(boxes: &[[f64; 6]], root: &[i32], place: &[[f64; 16]]) -> (Vec<Vec
             for i in 0..3 {
                 let c = m[4 * i] * x + m[4 * i + 1] * y + m[4 * i + 2] * z + m[4 * i + 3];
                 corner[i] = c;
-                // What is no number stays: the caller refuses it.
+                // NaN is kept: the caller refuses it.
                 low[i] = if c < low[i] || c.is_nan() { c } else { low[i] };
                 high[i] = if c > high[i] || c.is_nan() { c } else { high[i] };
             }

@@ -8,14 +8,15 @@ pub struct Clean {
     pub points: Vec<[f64; 3]>,
     /// Without repeated corners.
     pub triangles: Vec<[i32; 3]>,
-    /// Which of the triangles these were; None: all, in order.
+    /// Original numbers of the triangles; None where all were kept, in order.
     pub kept: Option<Vec<u32>>,
     pub not_finite: usize,
     pub out_of_range: usize,
     pub degenerate: usize,
 }
 
-/// Joins corners with exactly equal coordinates and drops triangles that have none, no numbers, or repeated corners.
+/// Joins corners with exactly equal coordinates. Drops triangles whose corners do not exist, are not finite or are
+/// repeated.
 pub fn clean(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> Clean {
     let mut out = Clean::default();
     let inside = |t: &[i32; 3]| t.iter().all(|&v| usize::try_from(v).is_ok_and(|v| v < points.len()));
@@ -48,12 +49,12 @@ pub fn clean(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> Clean {
     out
 }
 
-/// Minus zero becomes zero: equal numbers, equal bits.
+/// Turns minus zero into zero: equal numbers then have equal bits.
 fn plain(p: &[f64; 3]) -> [f64; 3] {
     p.map(|c| c + 0.0)
 }
 
-/// The new number of every used point, and the first of each kind in order.
+/// Returns the new number of every used point, and the first of each set of equal points, in order.
 fn joined(points: &[[f64; 3]], used: &[bool]) -> (Vec<i32>, Vec<u32>) {
     let bits = |v: u32| plain(&points[v as usize]).map(f64::to_bits);
     // One 64-bit hash sorts several times faster than three columns.
@@ -61,7 +62,7 @@ fn joined(points: &[[f64; 3]], used: &[bool]) -> (Vec<i32>, Vec<u32>) {
         (0..points.len() as u32).into_par_iter().filter(|&v| used[v as usize]).map(|v| (mixed(bits(v)), v)).collect();
     keys.par_sort_unstable();
     let mut number: Vec<i32> = vec![-1; points.len()];
-    // First the number of another point before it, as -2 - v, where there is an equal one.
+    // A point that equals an earlier point v first gets the number -2 - v.
     for run in keys.chunk_by(|a, b| a.0 == b.0).filter(|run| run.len() > 1) {
         let mut run: Vec<([u64; 3], u32)> = run.iter().map(|&(_, v)| (bits(v), v)).collect();
         run.sort_unstable();

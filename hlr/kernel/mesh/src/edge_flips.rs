@@ -14,16 +14,16 @@
 use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 
-/// Share of its longest side: what is lower is a needle however exact the coordinates are.
+/// Share of the longest side: a triangle lower than this is a needle however exact the coordinates are.
 const ROUNDING: f64 = 1e-6;
 
-/// Share of its longest side: what is higher is none, however coarse they are.
+/// Share of the longest side: a triangle higher than this is no needle however coarse the coordinates are.
 const SLENDER: f64 = 1e-3;
 
-/// The lower of the two new triangles is so many times as high as the lower of the two old ones.
+/// A flip must make the lower triangle of the two at least this many times as high as before.
 const HIGHER: f64 = 2.0;
 
-/// Turns per needle, on average: rows of needles on one side take several each.
+/// Limit of flips per needle, on average: rows of needles on one side take several each.
 const ROUNDS: usize = 16;
 
 /// The triangles that changed, ascending.
@@ -31,15 +31,16 @@ const ROUNDS: usize = 16;
 pub struct Turned {
     pub triangle: Vec<u32>,
     pub corners: Vec<[i32; 3]>,
-    /// The triangle before, whose face and colour each has now: a needle takes those of its neighbour.
+    /// Per changed triangle: the earlier triangle whose face and colour it has now. A needle takes those of its
+    /// neighbour.
     pub like: Vec<u32>,
-    /// Where each corner stood before: three times a triangle, plus 0..3.
+    /// Where each corner was before the flips: three times the triangle, plus 0..3.
     pub stood: Vec<[u32; 3]>,
 }
 
-/// Turns needles; `low`: what is lower than this has no normal that the coordinates support.
+/// Flips needles; `low`, in model units: a triangle lower than this has no normal that the coordinates support.
 ///
-/// Only where the longest side has two triangles, oppositely oriented, and the other diagonal is no edge yet.
+/// An edge is flipped only where it has two triangles, oppositely oriented, and the other diagonal is no edge yet.
 pub fn without_needles(points: &[[f64; 3]], triangles: &[[i32; 3]], low: f64) -> Turned {
     let shapes = Shapes { points, low };
     let needles: Vec<u32> = (0..triangles.len() as u32)
@@ -73,11 +74,12 @@ impl Shapes<'_> {
         (0..3).map(|c| (q[c] - p[c]) * (q[c] - p[c])).sum()
     }
 
-    /// Squares of the height over the longest side and of that side, and its number.
+    /// Returns the square of height / longest side, the square of the longest side, and that side's number.
     fn measures(&self, t: [i32; 3]) -> (f64, f64, usize) {
         let squares = [0, 1, 2].map(|k| self.square(t[k], t[(k + 1) % 3]));
         let longest = (1..3).fold(0, |best, k| if squares[k] > squares[best] { k } else { best });
-        // From the corner that lies opposite: its sides are the short ones, their cross product the most exact.
+        // Computed from the corner opposite the longest side: its two sides are the short ones, and their cross product
+        // is the most exact.
         let [o, p, q] = [2, 0, 1].map(|k| &self.points[t[(longest + k) % 3] as usize]);
         let [u, v] = [p, q].map(|p| [0, 1, 2].map(|c| p[c] - o[c]));
         let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
@@ -89,7 +91,7 @@ impl Shapes<'_> {
         self.measures(t).0
     }
 
-    /// Evaluated for every triangle, so without divisions and roots.
+    /// Runs for every triangle, so it needs no divisions and roots.
     fn is_needle(&self, t: [i32; 3]) -> bool {
         let [p, q, r] = t.map(|v| &self.points[v as usize]);
         let (u, v) = ([q[0] - p[0], q[1] - p[1], q[2] - p[2]], [r[0] - p[0], r[1] - p[1], r[2] - p[2]]);
@@ -102,7 +104,7 @@ impl Shapes<'_> {
     }
 }
 
-/// What has become of a triangle.
+/// Result of trying to flip a triangle's longest side.
 #[derive(Clone, Copy)]
 struct Now {
     corners: [i32; 3],
@@ -156,7 +158,7 @@ impl<'a> Work<'a> {
         self.changed.get(&t).copied().unwrap_or(first)
     }
 
-    /// First needles beside what is none, then those that lie against one another.
+    /// Flips needles beside ordinary triangles first, then needles beside needles.
     fn run(&mut self, needles: &[u32]) {
         let mut next: VecDeque<u32> = needles.iter().copied().collect();
         let mut against: VecDeque<u32> = VecDeque::new();
@@ -180,7 +182,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Turn the longest side of triangle t, if it is a needle. Beside another needle only where `pairs`.
+    /// Flips the longest side of triangle t if t is a needle. Where the neighbour is a needle as well, only with
+    /// `pairs`.
     fn turn(&mut self, t: u32, pairs: bool) -> Found {
         let needle = self.now(t);
         if !self.shapes.is_needle(needle.corners) {
@@ -203,7 +206,7 @@ impl<'a> Work<'a> {
             return Found::Nothing;
         }
         let (first, second) = ([a, b, d], [b, c, d]);
-        // Heights that are rounding alone are equal.
+        // Heights that differ by rounding alone count as equal.
         let (before, after) = (self.shapes.square(a, c), self.shapes.square(b, d));
         let noise = ROUNDING * ROUNDING * before;
         let lower = |s: [i32; 3], t: [i32; 3]| self.shapes.height(s).min(self.shapes.height(t)).max(noise);
@@ -213,7 +216,7 @@ impl<'a> Work<'a> {
             if !pairs {
                 return Found::Needle;
             }
-            // Four corners in one line, none of them higher: a shorter side may have a higher triangle beyond it.
+            // Four collinear corners give no higher triangle; a shorter side may have a higher triangle beyond it.
             better |= after < before && HIGHER * HIGHER * new >= old;
         }
         if !better {
@@ -227,7 +230,7 @@ impl<'a> Work<'a> {
         self.edges.insert(key(b, d), Edge { triangles: [t, u], count: 2 });
         self.hand_over(key(b, c), t, u);
         self.hand_over(key(d, a), u, t);
-        // Both, and those beyond their other sides: these may have waited for this one.
+        // Both triangles and those beyond their other sides are tried again: they may have waited for this flip.
         let mut touched = vec![t, u];
         for edge in [key(a, b), key(b, c), key(c, d), key(d, a)] {
             if let Some(Edge { triangles, count: 2 }) = self.edges.get(&edge) {
@@ -246,7 +249,7 @@ impl<'a> Work<'a> {
 
 enum Found {
     Turned(Vec<u32>),
-    /// Another one beyond the longest side.
+    /// The triangle beyond the longest side is a needle as well.
     Needle,
     Nothing,
 }

@@ -6,18 +6,18 @@ use crate::topology::{Topology, balance, folds, normals, repeated, topology};
 
 #[derive(Clone, Debug, Default)]
 pub struct Facts {
-    /// Lower vertex first, ascending; their triangles are incident[offsets[e]..offsets[e + 1]].
+    /// Edges, lower vertex first, ascending. The triangles of edge e are incident[offsets[e]..offsets[e + 1]].
     pub edges: Vec<[i32; 2]>,
     pub offsets: Vec<i32>,
     pub incident: Vec<i32>,
-    /// Triangles along the edge minus those against it.
+    /// Per edge: triangles along it minus triangles against it.
     pub balance: Vec<i32>,
-    /// Cosine of the fold, NaN where there are not two triangles with area.
+    /// Per edge: cosine of the fold, NaN where there are not two triangles with area.
     pub fold: Vec<f64>,
-    /// Zero for triangles without area, whose numbers are `flat`.
+    /// Unit normals; zero for triangles without area, whose numbers are in `flat`.
     pub normals: Vec<[f64; 3]>,
     pub flat: Vec<i64>,
-    /// A triangle is there twice.
+    /// Whether a triangle is there twice.
     pub repeated: bool,
 }
 

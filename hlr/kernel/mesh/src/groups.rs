@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 #[derive(Debug, Default)]
 pub struct Groups {
-    /// Boxes; infinite, turned round, of groups without triangles.
+    /// Bounding boxes; infinite, with low above high, for groups without triangles.
     pub low: Vec<[f64; 3]>,
     pub high: Vec<[f64; 3]>,
     pub count: Vec<u32>,
@@ -16,10 +16,10 @@ pub struct Groups {
     pub area: Vec<f64>,
 }
 
-/// Triangles that are measured before they are added up.
+/// Number of triangles that are measured in parallel before they are added up.
 const CHUNK: usize = 1 << 16;
 
-/// group: of each triangle, below `count`. Sums run in the order of the triangles, whatever the number of threads.
+/// `group`: per triangle, below `count`. Sums run in the order of the triangles, whatever the number of threads.
 pub fn groups(points: &[[f64; 3]], triangles: &[[i32; 3]], group: &[i32], count: usize) -> Groups {
     let (low, high) = boxes(points, triangles, group, count);
     let mut out = Groups { count: vec![0; count], volume: vec![0.0; count], area: vec![0.0; count], low, high };
@@ -90,7 +90,7 @@ pub struct Edges<'a> {
     pub normals: &'a [[f64; 3]],
 }
 
-/// Which groups bend inward at an edge by more than `least` of the group, or have an edge of not just two triangles.
+/// Per group: an edge bends inward by more than the group's `least`, or has other than two triangles.
 pub fn bent(points: &[[f64; 3]], triangles: &[[i32; 3]], mesh: Edges, group: &[i32], least: &[f64]) -> Vec<bool> {
     let bent: Vec<AtomicBool> = least.iter().map(|_| AtomicBool::new(false)).collect();
     mesh.edges.par_iter().enumerate().with_min_len(1 << 10).for_each(|(e, &[a, b])| {
@@ -102,7 +102,7 @@ pub fn bent(points: &[[f64; 3]], triangles: &[[i32; 3]], mesh: Edges, group: &[i
         }
         let hollow = |t: i32| {
             let apex = triangles[t as usize].iter().map(|&v| i64::from(v)).sum::<i64>() - i64::from(a) - i64::from(b);
-            // Of an edge that is none of the triangle's there would be no such point.
+            // An edge that is none of the triangle's sides has no such point.
             let Some(apex) = usize::try_from(apex).ok().and_then(|v| points.get(v)) else { return true };
             let (foot, n) = (&points[a as usize], &mesh.normals[s as usize]);
             (0..3).map(|k| n[k] * (apex[k] - foot[k])).sum::<f64>() > least[own]
@@ -114,7 +114,7 @@ pub fn bent(points: &[[f64; 3]], triangles: &[[i32; 3]], mesh: Edges, group: &[i
     bent.into_iter().map(AtomicBool::into_inner).collect()
 }
 
-/// How many connected pieces each group has; piece: of each triangle, numbered in order of appearance.
+/// Number of connected pieces of each group; `piece`: per triangle, numbered in order of appearance.
 pub fn pieces(group: &[i32], piece: &[i32], count: usize) -> Vec<u32> {
     let mut out = vec![0; count];
     let mut next = 0;

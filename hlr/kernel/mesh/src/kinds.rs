@@ -13,7 +13,7 @@ pub struct Limits {
     pub near: f64,
 }
 
-/// Of edges whose owner is `without_brep` the kind, and which of the interior ones are nearly creases.
+/// Returns the class of each edge whose owner is `without_brep`, and which of the interior ones are nearly creases.
 pub fn kinds(
     offsets: &[i32],
     fold: &[f64],

@@ -2,12 +2,13 @@
 
 use rayon::prelude::*;
 
-/// Along no axis and in no plane that models favour; one that passes an edge by chance costs a search, no more.
+/// A direction along no axis and in no plane that models favour. A ray that meets an edge by chance costs a search, no
+/// more.
 const RAY: [f64; 3] = [0.3574, 0.4915, 0.7942];
 
 type Vec3 = [f64; 3];
 
-/// Per group, of those that are asked for. Sums run in the order of the triangles, whatever the number of threads.
+/// Number of passes for each group in `asked`. Sums run in the order of the triangles, whatever the number of threads.
 pub fn passes(points: &[Vec3], triangles: &[[i32; 3]], group: &[i32], asked: &[bool]) -> Vec<i32> {
     let mut middle = vec![[0.0; 3]; asked.len()];
     let mut count = vec![0.0; asked.len()];
@@ -40,7 +41,7 @@ pub fn passes(points: &[Vec3], triangles: &[[i32; 3]], group: &[i32], asked: &[b
     out
 }
 
-/// Of the plane through the middle, a and b, on which the ray runs.
+/// Side of the plane through the middle, a and b on which the ray runs.
 fn side(a: &Vec3, b: &Vec3) -> f64 {
     let [x, y, z] = RAY;
     x * (a[1] * b[2] - a[2] * b[1]) + y * (a[2] * b[0] - a[0] * b[2]) + z * (a[0] * b[1] - a[1] * b[0])

@@ -14,20 +14,20 @@ const SMOOTH: u8 = 1;
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
     pub triangle_part: Vec<i32>,
-    /// Per edge with triangles: those of its first.
+    /// Per edge with triangles: the part of its first triangle.
     pub edge_part: Vec<i32>,
     pub edge_group: Vec<i32>,
     pub walks: Walks,
-    /// Per walk: two planar faces meet there at an angle.
+    /// Per walk: whether two planar faces meet there at an angle.
     pub straight: Vec<bool>,
-    /// Of every edge, those without triangles at the end; INTERIOR where no edge of the source runs.
+    /// Class of every edge; edges without triangles are at the end. INTERIOR where no edge of the source runs.
     pub kind: Vec<u8>,
     /// Per triangle: its face may show an outline.
     pub curved: Vec<bool>,
     /// Per edge with triangles: one of its faces may show an outline, or is a plane that such a face runs into.
     pub edge_curved: Vec<bool>,
     pub bodies: Bodies,
-    /// Per group: not surely one convex body.
+    /// Per group: it is not certainly one convex body.
     pub folded: Vec<bool>,
     /// Triangles and facts where something was turned the right way round: of these alone, else as they were.
     pub turned: Option<Turned>,
@@ -43,11 +43,11 @@ pub struct Turned {
     pub facts: Facts,
 }
 
-/// Of one part how many: border edges, edges of more than two triangles, edges between faces of opposite orientation,
+/// Counts of one part: border edges, edges of more than two triangles, edges between faces of opposite orientation,
 /// triangles without area, groups that are not closed, groups turned, triangles, edges of the source.
 pub type Report = [i64; 8];
 
-/// Per face of all parts where its surface stands in the model; per triangle its corners in (u, v).
+/// Per face of all parts: the placement of its surface in the model. Per triangle: its corners in (u, v).
 #[derive(Clone, Debug, Default)]
 pub struct Surfaces {
     pub corner: Option<Vec<[i32; 3]>>,
@@ -57,7 +57,7 @@ pub struct Surfaces {
 }
 
 impl Scene {
-    /// Per triangle: the planar face that it is of, counted over all parts; None where its face is curved.
+    /// Per triangle: the number of its planar face, counted over all parts; None where its face is curved.
     pub fn planar_face(&self, tables: &Tables) -> impl Iterator<Item = Option<i32>> {
         let face = |t: usize| tables.face_start[self.triangle_part[t] as usize] + tables.triangle_face[t];
         (0..self.curved.len()).map(move |t| (!self.curved[t]).then(|| face(t)))
@@ -97,7 +97,7 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     }
 }
 
-/// Of several walks along one edge the first gives its kind.
+/// Where several walks run along one edge, the first gives its class.
 fn kinds(edges: usize, walks: &Walks) -> Vec<u8> {
     let mut kind = vec![INTERIOR; edges + walks.loose.len()];
     for (walk, w) in walks.offsets.windows(2).enumerate().rev() {
@@ -208,7 +208,7 @@ fn surfaces(tables: &Tables, turned: Option<&Turned>, face_of: &dyn Fn(usize) ->
 
 fn composed(outer: &Matrix, inner: &Matrix) -> Matrix {
     outer.map(|[a, b, c, d]| {
-        // Plus zero first: no minus zeros in records.
+        // The sum starts from plus zero: records have no minus zeros.
         [0, 1, 2, 3].map(|j| 0.0 + a * inner[0][j] + b * inner[1][j] + c * inner[2][j] + if j == 3 { d } else { 0.0 })
     })
 }

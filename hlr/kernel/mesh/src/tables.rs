@@ -15,7 +15,7 @@ pub struct Tables {
     pub triangle_start: Vec<i32>,
     pub triangles: Vec<[i32; 3]>,
     pub triangle_face: Vec<i32>,
-    /// Which triangle of its part, as the source hands it over, each is or is a piece of.
+    /// Per triangle: the triangle of its part, as the source hands it over, that it is or is a piece of.
     pub origin: Vec<i32>,
     pub face_start: Vec<i32>,
     pub face_planar: Vec<bool>,
@@ -25,17 +25,17 @@ pub struct Tables {
     pub edge_nodes: Vec<i32>,
     pub edge_index: Vec<i32>,
     pub edge_class: Vec<u8>,
-    /// Per part: it has faces and edges; no two of its points are known to be in one place; its placement; what its
-    /// coordinates may be off by.
+    /// Per part: whether it has faces and edges; whether no two of its points are known to be in one place; its
+    /// placement; the error of its coordinates.
     pub brep: Vec<bool>,
     pub joined: Vec<bool>,
     pub transform: Vec<Matrix>,
     pub precision: Vec<f64>,
-    /// Per triangle its corners in uv, -1 for parts without surfaces; empty where no part has any.
+    /// Per triangle: its corners in `uv`, -1 for parts without surfaces; empty where no part has any.
     pub node_start: Vec<i32>,
     pub corner: Vec<[i32; 3]>,
     pub uv: Vec<[f64; 2]>,
-    /// Per face its surface, -1 for none; where that stands in the part; whether its normal points inward.
+    /// Per face: its surface, -1 for none; the placement of the surface in the part; whether its normal points inward.
     pub face_shape: Vec<i32>,
     pub face_place: Vec<Matrix>,
     pub face_reversed: Vec<bool>,
@@ -45,7 +45,7 @@ pub struct Tables {
 #[derive(Debug)]
 pub struct TooMany;
 
-/// Where a part stands, and which of the tables' parts it is.
+/// The placement of a part, and its number among the parts of the tables.
 #[derive(Clone, Copy, Debug)]
 pub struct Placed {
     pub part: usize,
@@ -75,7 +75,7 @@ impl Tables {
         }
     }
 
-    /// Ends a part: what was added since the last is its own.
+    /// Ends a part: all that was added since the last end belongs to it.
     fn end(&mut self) -> Result<(), TooMany> {
         let number = |count: usize| i32::try_from(count).map_err(|_| TooMany);
         // Three sides a triangle.
@@ -88,7 +88,7 @@ impl Tables {
         number(self.edge_nodes.len()).map(|_| ())
     }
 
-    /// Meshes of roots; planar: of every underlying face.
+    /// Tables of the meshes of roots; `planar`: per underlying face.
     pub fn of_roots(roots: Vec<PartMesh>, planar: &[bool]) -> Result<Tables, TooMany> {
         let mut out = Tables::open();
         for root in roots {
@@ -126,7 +126,7 @@ impl Tables {
         self.face_reversed.extend(&root.face_reversed);
     }
 
-    /// Tessellated geometry: faces are loose triangles, and what they share must be found by position.
+    /// Adds tessellated geometry: its faces are loose triangles, and what they share must be found by position.
     fn add_bare(&mut self, root: &PartMesh) {
         let (point, faces) = (self.points.len() as i32, root.face_shape.len());
         let found = clean(&root.points, &root.triangles);
@@ -137,7 +137,7 @@ impl Tables {
         self.points.extend(&found.points);
         self.triangles.extend(found.triangles.iter().map(|t| t.map(|v| v + point)));
         self.origin.extend(0..found.triangles.len() as i32);
-        // Of a round of few facets a face may be one: it may show an outline though it is flat.
+        // A face may be one flat facet of a round surface, so it may show an outline.
         self.face_planar.resize(self.face_planar.len() + faces, false);
         self.brep.push(false);
         self.corner.resize(self.triangles.len(), [-1; 3]);
@@ -146,7 +146,7 @@ impl Tables {
         self.face_reversed.resize(self.face_planar.len(), false);
     }
 
-    /// These parts, each where it stands; triangles of mirrored ones are turned round.
+    /// Returns these parts, each at its placement; triangles of mirrored ones are reversed.
     pub fn placed(&self, parts: &[Placed]) -> Result<Tables, TooMany> {
         let mut out = Tables::open();
         for placed in parts {
@@ -199,10 +199,10 @@ impl Tables {
         per_item(&self.triangle_start)
     }
 
-    /// Whether a part that is not joined may hold two points in one place: yes where it does.
+    /// Whether a part whose points are not joined may hold two points in one place; always true where it does.
     ///
-    /// A number stands for each place, so that one sort of plain numbers tells; that two different ones have the same
-    /// is a matter of 2^-64, or of coordinates made for it.
+    /// Each place is hashed to 64 bits, so that one sort of integers finds equal ones. Two different places have the
+    /// same hash with a chance of 2^-64, unless coordinates were made for it.
     pub fn places_repeated(&self) -> bool {
         let ranges = self.point_start.windows(2).zip(&self.joined).filter(|(_, joined)| !**joined).map(|(w, _)| w);
         (ranges.map(|w| w[0] as usize..w[1] as usize).collect::<Vec<_>>()).into_par_iter().any(|range| {
@@ -218,8 +218,8 @@ impl Tables {
     }
 }
 
-/// A number that depends on every bit: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014. Equal places have equal ones, minus zero or not.
+/// A hash of all bits: G. Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
+/// Equal places have equal hashes, whatever the sign of their zeros.
 fn place(point: &[f64; 3]) -> u64 {
     point.iter().fold(0, |sum: u64, c| {
         let mut x = sum.wrapping_add((c + 0.0).to_bits()).wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -235,7 +235,7 @@ fn mirrors(m: &Matrix) -> bool {
         < 0.0
 }
 
-/// The number of its owner for every item; start: of each owner the first item, and how many there are.
+/// The owner of every item; `start`: the first item of each owner, then the number of items.
 pub fn per_item(start: &[i32]) -> Vec<i32> {
     let mut out = Vec::with_capacity(start.last().map_or(0, |&n| n as usize));
     for (owner, w) in (0..).zip(start.windows(2)) {

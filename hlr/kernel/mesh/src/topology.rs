@@ -63,7 +63,7 @@ fn sides(t: &[i32; 3]) -> [(usize, u64, bool); 3] {
     [(p, q), (q, r), (r, p)].map(|(a, b)| (a.min(b) as usize, a.max(b) as u64, a != b))
 }
 
-/// Vertices in so many ranges of about as many sides each.
+/// Divides the vertices into `count` ranges of about as many sides each.
 fn ranges(first: &[u32], count: usize) -> Vec<Range<usize>> {
     let total = u64::from(first[first.len() - 1]);
     let end =
@@ -78,7 +78,7 @@ fn ranges(first: &[u32], count: usize) -> Vec<Range<usize>> {
     out
 }
 
-/// A slice in pieces of these lengths, one after another.
+/// Divides a slice into pieces of these lengths, one after another.
 fn parted<T>(mut rest: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
     lengths
         .map(|length| {
@@ -122,7 +122,7 @@ pub fn repeated(triangles: &[[i32; 3]], topology: &Topology) -> bool {
             [] | [_] => false,
             [s, t] => s != t && third(*s) == third(*t),
             _ => {
-                // A triangle with a corner twice is there twice itself.
+                // A triangle with a repeated corner is listed twice itself.
                 let mut all: Vec<(i64, i32)> = around.iter().map(|&t| (third(t), t)).collect();
                 all.sort_unstable();
                 all.dedup();

@@ -11,11 +11,11 @@ pub struct Walks {
     pub kind: Vec<u8>,
     pub part: Vec<i32>,
     pub index: Vec<i32>,
-    /// Edges that no triangle has, which had to be added: their numbers follow those of the others.
+    /// Edges that no triangle has; they were added, and their numbers follow those of the others.
     pub loose: Vec<[i32; 2]>,
 }
 
-/// The walks of all edges of B-reps; `edges` ascend. Steps between one and the same vertex vanish.
+/// The walks of all edges of B-reps; `edges` ascend. A step from a vertex to itself is left out.
 pub fn source_walks(tables: &Tables, edges: &[[i32; 2]]) -> Walks {
     let count = tables.edge_index.len();
     let mut out = Walks { offsets: Vec::with_capacity(count + 1), ..Walks::default() };

@@ -5,10 +5,10 @@
 //! 3. x of each edge goes on by 1 / m; where edges cross, the list is nearly sorted, and insertion sort repairs it at
 //!    the cost of one swap per crossing
 //!
-//! Where an edge starts, where it ends and where two cross, the list changes, and nowhere else: these events are
-//! counted.
+//! The list changes only where an edge starts, where one ends and where two cross: these events are counted.
 //!
-//! Done when the active list and the edge table both are empty; in a gap between rows it goes on at the next edge.
+//! The scan ends when the active list and the edge table are both empty; across a gap between rows it goes on at the
+//! next edge.
 
 use super::edge::{Edge, insertion_sort};
 use super::edge_record::{Active, Carried};
@@ -29,7 +29,7 @@ impl<'a, C: Carried> ActiveEdges<'a, C> {
         ActiveEdges { screen, table, edges: Vec::new(), merged: Vec::new(), row: -1 }
     }
 
-    /// On to the next row with edges; None where there is none left.
+    /// Goes on to the next row with edges; None where there is none left.
     pub fn next_row(&mut self, statistics: &mut Statistics) -> Option<i64> {
         self.row += 1;
         let row = self.row as i32;

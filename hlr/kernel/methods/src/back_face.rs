@@ -4,9 +4,9 @@
 //! perspective the sign of the plane at the eye decides; the projective map has moved the eye to infinity, before z =
 //! -inf, where that sign is the sign of -C again: one test for both.
 //!
-//! Right for closed, consistently oriented solids only; who is one, the scene says. C = 0 is edge-on: never painted,
-//! never divided by. A polygon that crosses itself so that its lobes cancel turns neither side to the viewer, and is
-//! kept.
+//! The test is right for closed, consistently oriented solids only; the scene says which polygons belong to one. C = 0
+//! is edge-on: such a polygon is never painted, and nothing is divided by its C. A polygon whose lobes cancel because
+//! it crosses itself faces neither way, and is kept.
 
 use super::plane::Point;
 
@@ -17,7 +17,7 @@ pub enum Facing {
     Neither,
 }
 
-/// From the area of all loops; `widest`: twice the area of the largest triangle of three corners.
+/// The facing by the total area of all loops; `widest`: twice the area of the largest triangle of three corners.
 pub fn facing<'a>(loops: impl Iterator<Item = &'a [Point]>, widest: i64) -> Facing {
     let (mut area, mut around) = (0i128, 0i128);
     let mut corners = 0;
@@ -30,7 +30,7 @@ pub fn facing<'a>(loops: impl Iterator<Item = &'a [Point]>, widest: i64) -> Faci
             p = q;
         }
     }
-    // Rounding moves each corner by half a step at most, and the area by its way around at most.
+    // Rounding moves each corner by half a step at most, so it changes the area by the length of the outline at most.
     let cancels = corners > 3 && area.abs() <= around && 2 * area.abs() < i128::from(widest).abs();
     match area.signum() {
         -1 if !cancels => Facing::Front,

@@ -20,7 +20,7 @@ impl Box3 {
         Box3 { columns: f.columns, rows: f.rows, depth: f.depth }
     }
 
-    /// Whether the ray through a pixel enters it. All rays run along z: the projective map has made them parallel.
+    /// Whether the ray through a pixel enters the box. All rays run along z: the projective map has made them parallel.
     #[inline(always)]
     pub fn is_hit(&self, column: i32, row: i32) -> bool {
         self.columns[0] <= column && column < self.columns[1] && self.rows[0] <= row && row < self.rows[1]
@@ -44,7 +44,7 @@ pub struct Hierarchy {
 
 struct Node {
     bounds: Box3,
-    /// Leaf: its facets. Inner node: empty, the left child follows, the right one is `right`.
+    /// Leaf: its facets. Inner node: empty; its left child follows it, its right child is `right`.
     facets: std::ops::Range<u32>,
     right: u32,
 }
@@ -74,7 +74,7 @@ impl Hierarchy {
             return Some(());
         }
         self.nodes.push(Node { bounds, facets: 0..0, right: 0 });
-        // Along the longer side of the picture; depth does not tell rays apart.
+        // Divided along the longer side of the picture: rays do not differ in depth.
         let wide = bounds.columns[1] - bounds.columns[0] >= bounds.rows[1] - bounds.rows[0];
         let middle = first + (end - first) / 2;
         self.facets[first..end].select_nth_unstable_by_key(middle - first, |&f| {
@@ -87,8 +87,8 @@ impl Hierarchy {
         self.build(middle, end, watch)
     }
 
-    /// Facets whose boxes the ray enters, the nearer subtree first; `nearest` is asked before each box whether anything
-    /// at the depth where it begins still matters.
+    /// Visits facets whose boxes the ray enters, the nearer subtree first. Before each box `nearest` is asked whether
+    /// anything beyond the box's nearest depth still matters.
     pub fn along(
         &self,
         column: i32,
@@ -97,7 +97,7 @@ impl Hierarchy {
         mut test: impl FnMut(u32, &mut Statistics) -> f64,
     ) {
         let mut nearest = f64::INFINITY;
-        // Halves of halves: as deep as the number of facets has bits.
+        // The tree is halved at each level, so it is at most as deep as the number of facets has bits.
         let (mut stack, mut top) = ([0u32; 64], usize::from(!self.nodes.is_empty()));
         while top > 0 {
             top -= 1;

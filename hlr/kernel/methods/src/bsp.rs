@@ -2,9 +2,9 @@
 //!
 //! H. Fuchs, Z. Kedem, B. Naylor, "On visible surface generation by a priori tree structures", 1980.
 //!
-//! 1. the plane of some polygon divides the rest: front is the side of its normal. What it passes through is split,
-//!    what lies in it stays in the node; that polygon itself always does, however little it bends, so that the tree
-//!    ends
+//! 1. the plane of some polygon divides the rest: front is the side of its normal. A polygon that it passes through is
+//!    split; polygons that lie in it stay in the node. The dividing polygon always stays, however little it bends, so
+//!    that the tree ends
 //! 2. each side is divided in the same way
 //! 3. seen from anywhere: draw the side away from the viewer, then the node, then the viewer's side
 //!
@@ -31,18 +31,18 @@ use super::view::View;
 const NIL: u32 = u32::MAX;
 /// Polygons tried as a node's plane; the one that splits least is taken.
 const TRIED: usize = 5;
-/// Share of the scene's extent: nearer to a plane is on it. What floating point is off by, and no more: on the screen
-/// that is less than a 256th of a pixel, whatever part of the scene the picture shows.
+/// Share of the scene's extent: a point nearer to a plane than this lies on it. It is the floating-point error and no
+/// more: on the screen less than a 256th of a pixel, whatever part of the scene the picture shows.
 const ON: f64 = 1.0 / (1u64 << 50) as f64;
-/// Share of the largest coordinate: what it was rounded to before it came here.
+/// Share of the largest coordinate: the rounding of the coordinates as they were given.
 const GIVEN: f64 = f64::EPSILON;
 
-/// What the planes above have left of a polygon.
+/// The part of a polygon that is left after cuts by the planes above it in the tree.
 #[derive(Clone, Debug)]
 pub struct Fragment {
     pub polygon: u32,
     pub loops: Vec<Vec<[f64; 3]>>,
-    /// The last cut that made it, and through it those before: index into `Tree::cuts`, or NIL.
+    /// The last cut that made the fragment; each cut leads to the one before. Index into `Tree::cuts`, or NIL.
     cut: u32,
 }
 
@@ -56,7 +56,7 @@ struct Cut {
 #[derive(Debug)]
 struct Node {
     plane: Flat,
-    /// The polygon whose plane it is; NIL once that has been taken out.
+    /// The polygon whose plane it is; NIL once that polygon has been removed.
     own: u32,
     /// Fragments that lie in the plane.
     fragments: Vec<u32>,
@@ -77,7 +77,7 @@ pub struct Tree {
 }
 
 impl Tree {
-    /// None where there was no time.
+    /// Builds the tree; None where time ran out.
     pub fn new(scene: &Scene, watch: &Watch, statistics: &mut Statistics) -> Option<Tree> {
         let mut tree = Tree::default();
         let all: Vec<u32> = (0..scene.len() as u32).collect();
@@ -85,7 +85,7 @@ impl Tree {
         Some(tree)
     }
 
-    /// Let polygons in: down the tree that is there, and on from its leaves.
+    /// Inserts polygons: down the existing tree, and on from its leaves.
     pub fn insert(
         &mut self,
         scene: &Scene,
@@ -111,7 +111,7 @@ impl Tree {
                 cut: NIL,
             }));
         }
-        // Work still to do: fragments, the slot of a node (parent, side) or the root, and how deep that is.
+        // Work to do: fragments; the slot of a node (parent, side) or the root; its depth in the tree.
         let mut work = vec![(here, NIL, 0usize, 1usize)];
         let mut held = 0;
         while let Some((fragments, parent, side, depth)) = work.pop() {
@@ -146,7 +146,7 @@ impl Tree {
         Some(())
     }
 
-    /// The origin, before anything is in the tree, and the tolerance.
+    /// Sets the origin, if the tree is empty, and the tolerance.
     fn measure(&mut self, scene: &Scene) {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for p in scene.points {
@@ -167,7 +167,7 @@ impl Tree {
         }
     }
 
-    /// Take polygons out; their planes go on dividing what is left.
+    /// Removes polygons; their planes still divide the others.
     pub fn remove(&mut self, polygons: &[u32]) {
         let mut out = vec![false; self.planes.len()];
         polygons.iter().for_each(|&p| out[p as usize] = true);
@@ -185,7 +185,7 @@ impl Tree {
         self.fragments.len() as u32 - 1
     }
 
-    /// A new node in a slot: the plane of the polygon that splits least, of a few.
+    /// Makes a node in a slot, with the plane of the polygon, of a few that are tried, that splits least.
     fn node(
         &mut self,
         fragments: &[u32],
@@ -200,7 +200,7 @@ impl Tree {
         for k in 0..tried {
             let own = self.fragments[fragments[k * count / tried] as usize].polygon;
             let Some(plane) = self.planes[own as usize] else { continue };
-            // Of a long list a sample tells enough.
+            // For a long list a sample is enough.
             let sample = (count / 256).max(1);
             let (mut split, mut balance) = (0usize, 0i64);
             for &f in fragments.iter().step_by(sample) {
@@ -229,7 +229,7 @@ impl Tree {
         Some(number)
     }
 
-    /// Behind and in front of a node's plane; what lies in it stays.
+    /// Divides fragments into those behind and in front of a node's plane; those in the plane stay in the node.
     fn divide(
         &mut self,
         fragments: &[u32],
@@ -266,7 +266,7 @@ impl Tree {
         Some(sides)
     }
 
-    /// Where a fragment lies to the plane of the polygon `own`.
+    /// On which side of the plane of the polygon `own` a fragment lies.
     fn side(&self, fragment: &Fragment, plane: &Flat, own: u32) -> Side {
         if fragment.polygon == own {
             return Side::On;
@@ -283,7 +283,7 @@ impl Tree {
 
     /// Fragments in the order of drawing, far to near.
     pub fn order(&self, view: &View, watch: &Watch, mut visit: impl FnMut(u32)) -> Option<()> {
-        // Nodes to enter, and nodes to draw, whose far side is done.
+        // Nodes still to enter, and nodes to draw because their far side is done.
         let mut stack = if self.nodes.is_empty() { vec![] } else { vec![(0u32, false)] };
         while let Some((number, draw)) = stack.pop() {
             if watch.over() {
@@ -315,11 +315,11 @@ impl Tree {
         while at != NIL {
             let cut = self.cuts[at as usize];
             let its = view.plane(&self.nodes[cut.node as usize].plane);
-            // The node's plane where the polygon's is met along the ray of (x, y): z = -(A x + B y + D) / C of its own.
+            // The node's plane along the polygon: z is replaced by -(A x + B y + D) / C of the polygon's own plane.
             let sign = if own[2] < 0.0 { -1.0 } else { 1.0 };
             let term = |k: usize| sign * (its[k] * own[2] - its[2] * own[k]);
             let (a, b) = (term(0), term(1));
-            // At pixel centres.
+            // Evaluated at pixel centres.
             out.push(Half { line: [a, b, term(3) + 0.5 * (a + b)], positive: cut.front });
             at = cut.before;
         }
@@ -339,7 +339,7 @@ impl Tree {
         std::array::from_fn(|k| p[k] + self.origin[k])
     }
 
-    /// The tree as (polygons in the node, behind, front), the root first; for teaching.
+    /// The tree's nodes as (polygons in the node, behind, front), the root first; for teaching.
     pub fn drawn(&self) -> Vec<(Vec<u32>, Option<u32>, Option<u32>)> {
         let child = |n: u32| (n != NIL).then_some(n);
         let polygon = |&f: &u32| self.fragments[f as usize].polygon;
@@ -357,7 +357,7 @@ enum Side {
     Split,
 }
 
-/// Paint the tree's fragments in their order.
+/// Paints the tree's fragments in their order.
 pub fn render(
     tree: &Tree,
     screen: &Screen,
@@ -367,7 +367,7 @@ pub fn render(
     statistics: &mut Statistics,
 ) -> Option<()> {
     let Some(view) = View::new(&tree.origin, camera) else { return Some(()) };
-    // The facets of each polygon: they follow one another.
+    // The facets of each polygon: they are stored one after another.
     let polygons = tree.planes.len();
     let mut first = vec![0u32; polygons + 1];
     screen.facets.iter().for_each(|f| first[f.id as usize + 1] += 1);

@@ -3,7 +3,7 @@
 use super::screen::NONE;
 use super::statistics::Statistics;
 
-/// A run of pixels [from, to) of a row that got a facet.
+/// A run of pixels [from, to) of a row, written with one facet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Write {
     pub row: u32,
@@ -12,7 +12,7 @@ pub struct Write {
     pub facet: u32,
 }
 
-/// How an area of Warnock's subdivision came to its end.
+/// How Warnock's subdivision finished with an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     /// (a) all polygons are disjoint.
@@ -28,8 +28,8 @@ pub enum Ending {
     Quartered,
 }
 
-/// An area that was looked at: columns and rows, end exclusive; how many halvings down; how many polygons were in its
-/// list and how many were passed over; what was seen in it.
+/// One area of Warnock's subdivision: columns and rows, end exclusive; number of halvings; number of polygons in its
+/// list, and of those passed over; what is visible in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Visit {
     pub columns: [i32; 2],
@@ -46,7 +46,7 @@ pub struct Canvas {
     pub height: usize,
     pub pixels: Vec<u32>,
     pub trace: Option<Vec<Write>>,
-    /// Areas in the order in which they were looked at; only with a trace.
+    /// Areas in the order of their visits; only with a trace.
     pub visits: Vec<Visit>,
 }
 
@@ -61,7 +61,7 @@ impl Canvas {
         self.pixels[row as usize * self.width + column as usize]
     }
 
-    /// Pixels [from, to) of a row.
+    /// Writes pixels [from, to) of a row.
     #[inline(always)]
     pub fn write(&mut self, row: i64, from: i64, to: i64, facet: u32, statistics: &mut Statistics) {
         let start = row as usize * self.width;
@@ -69,7 +69,7 @@ impl Canvas {
         statistics.written += (to - from) as u64;
         if let Some(trace) = &mut self.trace {
             match trace.last_mut() {
-                // One after another in a row: one write.
+                // Consecutive writes of one facet in a row count as one.
                 Some(last) if last.facet == facet && i64::from(last.row) == row && i64::from(last.to) == from => {
                     last.to = to as u32;
                 }

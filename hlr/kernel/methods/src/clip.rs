@@ -11,16 +11,17 @@
 //!   u >= 0    W w - u >= 0      v >= 0    H w - v >= 0      q - front w >= 0    back w - q >= 0
 //! ```
 //!
-//! What lies wholly beyond one of them is left out. What crosses front or back is cut there. What crosses a side is cut
-//! only where it reaches a guard band beyond, thousands of pixels off: a new corner would have to be rounded, and bend
-//! the edges that lead to it; the window of pixels clips by the sides without any error, for no centre lies on them.
+//! Polygons wholly beyond one of them are left out. Those that cross front or back are cut there. Those that cross a
+//! side are cut only where they reach a guard band thousands of pixels beyond: a new corner would have to be rounded,
+//! and would bend the edges that lead to it. Within the guard band the window of pixels clips without any error,
+//! because no pixel centre lies on its sides.
 //!
-//! A new corner is computed from the lower of its edge's two ends, in the order of their coordinates: both polygons at
-//! an edge get the same one, and no gap opens.
+//! A new corner is always computed from the lower of its edge's two ends, by the order of their coordinates: both
+//! polygons at an edge get the same corner, and no gap opens.
 
 use super::scene::Camera;
 
-/// A corner on its way to the picture.
+/// A corner before projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     /// u, v, q, w.
@@ -48,8 +49,8 @@ impl Wall {
     }
 }
 
-/// The planes of the view volume, the near cut of perspective first: beyond it w is positive. The side planes stand
-/// `guard` pixels off the frame.
+/// The planes of the view volume. In perspective the near cut comes first: beyond it w is positive. The side planes lie
+/// `guard` pixels outside the frame.
 pub fn walls(camera: &Camera, guard: f64) -> Vec<Wall> {
     let mut out = Vec::with_capacity(7);
     if camera.near.is_finite() {
@@ -68,7 +69,7 @@ pub fn walls(camera: &Camera, guard: f64) -> Vec<Wall> {
     out
 }
 
-/// One loop by one wall; `out` is emptied first.
+/// Clips one loop by one wall; `out` is emptied first.
 pub fn clip_loop(corners: &[Corner], wall: &Wall, out: &mut Vec<Corner>) {
     out.clear();
     let Some(mut p) = corners.last() else { return };
@@ -94,7 +95,7 @@ fn between(p: &Corner, hp: f64, q: &Corner, hq: f64) -> Corner {
     }
 }
 
-/// One loop of a flat polygon by the half-plane a x + b y + c >= 0, for pieces that come out of object space.
+/// Clips one loop of a flat polygon by the half-plane a x + b y + c >= 0: for pieces from object space.
 pub fn clip_2d(corners: &[[f64; 2]], line: &[f64; 3], out: &mut Vec<[f64; 2]>) {
     out.clear();
     let side = |p: &[f64; 2]| line[0] * p[0] + line[1] * p[1] + line[2];

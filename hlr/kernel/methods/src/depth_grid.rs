@@ -3,18 +3,19 @@
 use super::plane::{DEPTH_LIMIT, Point, STEPS};
 use super::scene::{Camera, Scene};
 
-/// Depth of zero and of one step: the finest power of two for which 2^48 steps reach from the nearest to the farthest.
+/// Depth of step 0, and size of a step: the finest power of two with which 2^48 steps reach from the nearest to the
+/// farthest depth.
 #[derive(Clone, Copy, Debug)]
 pub struct DepthGrid {
     zero: f64,
     step: f64,
 }
 
-/// Share of a polygon's extent in depth: so much a corner's depth may change with its place.
+/// Share of a polygon's extent in depth: the most that a corner's depth may change when its place is rounded.
 const SHARE: f64 = 1.0 / 16.0;
 
 impl DepthGrid {
-    /// For corners in pixels and depth.
+    /// The grid for corners in pixels and depth.
     pub fn new(camera: &Camera, corners: &[[f64; 3]]) -> DepthGrid {
         let (mut low, mut high) =
             corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[2]), h.max(p[2])));
@@ -32,11 +33,11 @@ impl DepthGrid {
         while range <= DEPTH_LIMIT * step * 0.5 && step > 1e-290 {
             step *= 0.5;
         }
-        // Whole steps from nought, so that what is written with few digits is not rounded at all.
+        // Step 0 is at a whole multiple of the step, so depths with few digits are not rounded at all.
         DepthGrid { zero: (low / step).floor() * step, step }
     }
 
-    /// A depth as a number of steps, not rounded.
+    /// A depth as a number of steps, unrounded.
     pub fn number(&self, depth: f64) -> f64 {
         (depth - self.zero) / self.step
     }
@@ -50,11 +51,12 @@ impl DepthGrid {
         number * self.step + self.zero
     }
 
-    /// Depths of the corners of a polygon whose places in the image are rounded already: those of its plane *there*,
-    /// not those of the corners half a 256th of a pixel beside. So the plane is kept to a step, however it leans.
+    /// Sets the depths of a polygon's corners whose image positions are already rounded: the depth of its plane at the
+    /// rounded position, not at the original one up to half a 256th of a pixel beside it. So the plane is exact to a
+    /// step, however steep.
     ///
-    /// `best`: three of the corners that span the plane. Where a polygon is so nearly edge-on that this would take
-    /// depths far beyond its own, the corners keep theirs.
+    /// `best`: three corners that span the plane. Where a polygon is so nearly edge-on that this would lead to depths
+    /// far beyond its own, the corners keep their own depths.
     pub fn lay(&self, exact: &[[f64; 3]], best: [&[f64; 3]; 3], rounded: &mut [Point]) {
         let difference = |a: &[f64; 3], b: &[f64; 3]| [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
         let (u, v) = (difference(best[0], best[1]), difference(best[0], best[2]));
@@ -81,7 +83,7 @@ pub struct Noise {
     w: f64,
 }
 
-/// Share of the numbers of the model: what a few operations are off by.
+/// Share of the coordinates of the model: the error of a few operations.
 const ROUNDING: f64 = 1.0 / (1u64 << 48) as f64;
 
 impl Noise {
@@ -100,7 +102,7 @@ impl Noise {
         Noise { image: row(0).max(row(1)), depth: row(2), w }
     }
 
-    /// In pixels and in depth, at a corner with its 1 / w.
+    /// Error in pixels and in depth at a corner, given its 1 / w.
     pub fn at(&self, corner: &[f64; 3], reciprocal: f64) -> [f64; 2] {
         let off = |own: f64, value: f64| (own + value.abs() * self.w) * reciprocal.abs();
         [off(self.image, corner[0].abs().max(corner[1].abs())), off(self.depth, corner[2])]

@@ -12,8 +12,8 @@
 //! 5. the projections are disjoint
 //!
 //! Otherwise 3 and 4 are tried with P and Q swapped, and Q is the new P, which is tested against all that overlap *it*.
-//! A polygon is moved up once: its mark tells that they overlap in a cycle. Then one is split by the plane of the
-//! other,
+//! A polygon is moved up only once and then marked: a marked one met again means a cycle. Then one is split by the
+//! plane of the other,
 //!
 //! ```text
 //!      P\   /Q         P is cut where the plane of Q passes through it;
@@ -22,10 +22,10 @@
 //!        / \
 //! ```
 //!
-//! In a cycle of polygons that all lie on one side of one another pairwise, the plane of one cuts some other of them:
-//! had it not, that plane would order them.
+//! In a cycle of polygons in which each pair lies on one side of each other, the plane of some polygon cuts another
+//! one: otherwise that plane would order them.
 //!
-//! The result is a list of polygons in the order of drawing, fit for a filled vector drawing.
+//! The result is a list of polygons in drawing order, suited for a filled vector drawing.
 
 use super::canvas::Canvas;
 use super::limits::Watch;
@@ -35,7 +35,7 @@ use super::screen::Screen;
 use super::statistics::Statistics;
 use super::stopwatch::Stopwatch;
 
-/// What cuts have left of a facet. Corners in 256ths of a pixel and steps of depth.
+/// A facet, or the part of it that cuts have left. Corners in 256ths of a pixel and steps of depth.
 #[derive(Clone, Debug)]
 pub struct Piece {
     pub facet: u32,
@@ -47,7 +47,7 @@ pub struct Piece {
     far: f64,
 }
 
-/// A facet's plane as depth over the image: a corner of it, and depth per step right and down.
+/// A facet's plane as depth over the image: one of its corners, and the change of depth per step right and down.
 struct Slope {
     corner: [f64; 3],
     right: f64,
@@ -76,13 +76,13 @@ pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &
     Some(())
 }
 
-/// Pieces in the order of drawing, and the facets whose place in it could not be found.
+/// Pieces in drawing order, and the facets whose place in it could not be found.
 pub struct Ordered {
     pub pieces: Vec<Piece>,
     pub wary: Vec<bool>,
 }
 
-/// None where there was no time.
+/// Finds the drawing order; None where time ran out.
 pub fn order(screen: &Screen, watch: &Watch, statistics: &mut Statistics) -> Option<Ordered> {
     let mut sort = Sort::new(screen);
     let mut out = Ordered { pieces: Vec::with_capacity(sort.pieces.len()), wary: vec![false; screen.facets.len()] };
@@ -106,7 +106,7 @@ impl Sort<'_> {
     fn new(screen: &Screen) -> Sort<'_> {
         let slopes = screen.facets.iter().map(|f| {
             let corner = screen.points[screen.loops[f.loops.start as usize].start as usize];
-            // The plane's depth there, should the corners lie in no plane.
+            // The depth of the plane there, in case the corners lie in no plane.
             let z = f.plane.depth(corner[0], corner[1]) as f64 / f.plane.c as f64;
             let per = |a: i128| -(a as f64) / f.plane.c as f64;
             let corner = [corner[0] as f64, corner[1] as f64, z];
@@ -119,7 +119,7 @@ impl Sort<'_> {
         Sort { screen, slopes, pieces, list }
     }
 
-    /// The piece that may be drawn next. Starts with the farthest; splits where they overlap in a cycle.
+    /// The next piece that may be drawn. Starts with the farthest; splits pieces that overlap in a cycle.
     fn next(&mut self, farthest: u32, wary: &mut [bool], watch: &Watch, statistics: &mut Statistics) -> Option<u32> {
         let mut marked: Vec<u32> = Vec::new();
         let mut p = farthest;
@@ -146,7 +146,7 @@ impl Sort<'_> {
                     continue 'candidate;
                 }
                 if !self.split_some(p, q, &marked, statistics) {
-                    // No plane tells them apart: rounding's doing. Their pixels will be compared one by one.
+                    // Because of rounding no plane separates them. Their pixels will be compared one by one.
                     wary[self.pieces[p as usize].facet as usize] = true;
                     wary[self.pieces[q as usize].facet as usize] = true;
                     continue;
@@ -159,7 +159,7 @@ impl Sort<'_> {
         }
     }
 
-    /// Tests 1 to 5: Q does not keep P from being drawn first.
+    /// Tests 1 to 5: whether P may be drawn before Q.
     fn may_precede(&self, p: u32, q: u32, statistics: &mut Statistics) -> bool {
         let (a, b) = (&self.pieces[p as usize], &self.pieces[q as usize]);
         let apart = |a: [i32; 2], b: [i32; 2]| a[1] <= b[0] || b[1] <= a[0];
@@ -171,7 +171,7 @@ impl Sort<'_> {
             || disjoint(&a.loops, &b.loops)
     }
 
-    /// Test 3: P is wholly on the far side of Q's plane, up to what rounding has moved.
+    /// Test 3: P is wholly on the far side of Q's plane, up to rounding.
     fn beyond(&self, p: u32, q: u32, statistics: &mut Statistics) -> bool {
         self.side(p, q, statistics).0 >= -self.unsure(p, q)
     }
@@ -189,13 +189,13 @@ impl Sort<'_> {
         behind.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)))
     }
 
-    /// Half of the window in which the painter compares.
+    /// Half of the window of depth in which the painter compares pixels.
     fn unsure(&self, p: u32, q: u32) -> f64 {
         let slack = |piece: u32| self.slopes[self.pieces[piece as usize].facet as usize].slack;
         0.5 * (slack(p) + slack(q))
     }
 
-    /// Split P or Q by the plane of the other, or, where neither passes through the other, by that of a marked piece.
+    /// Splits P or Q by the plane of the other; where neither passes through the other, by the plane of a marked piece.
     fn split_some(&mut self, p: u32, q: u32, marked: &[u32], statistics: &mut Statistics) -> bool {
         if self.split(p, q, statistics) || self.split(q, p, statistics) {
             return true;
@@ -249,7 +249,7 @@ impl Piece {
                 high[k] = high[k].max(p[k]);
             }
         }
-        // A cut may be a little beside its true place: a pixel more on each side does no harm.
+        // A cut may be slightly off: the piece is wider by a pixel on each side, which does no harm.
         let wider = if halves.is_empty() { 0 } else { STEPS };
         let whole = &screen.facets[facet as usize];
         let range = |k: usize, whole: [i32; 2]| {
@@ -273,7 +273,7 @@ impl Piece {
         Piece { facet: 0, loops: Vec::new(), halves: Vec::new(), columns: [0; 2], rows: [0; 2], near: 0.0, far: 0.0 }
     }
 
-    /// Of equally far ones the higher id is drawn first.
+    /// Sort key; of equally far pieces the one with the higher id is drawn first.
     fn key(&self, number: u32) -> (f64, u32, u32) {
         (self.far, self.facet, number)
     }
@@ -284,17 +284,17 @@ impl Piece {
     }
 }
 
-/// The line in which two planes meet, positive where `own` is farther; in columns and rows.
+/// The line in which two planes meet, in columns and rows; positive where `own` is farther.
 fn meeting(own: &Slope, its: &Slope) -> [f64; 3] {
     let (a, b) = (own.right - its.right, own.down - its.down);
-    // Around a corner of the piece, where the difference is small.
+    // Computed around a corner of the piece, where the difference is small.
     let c = own.corner;
     let there = its.beyond(&c);
     let half = STEPS as f64 / 2.0;
     [a * STEPS as f64, b * STEPS as f64, there + a * (half - c[0]) + b * (half - c[1])]
 }
 
-/// One loop where `height` is not negative (Sutherland, Hodgman).
+/// Clips one loop to where `height` is not negative (Sutherland, Hodgman).
 pub fn clip(corners: &[[f64; 3]], height: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64; 3]> {
     let mut out = Vec::with_capacity(corners.len() + 2);
     let Some(mut p) = corners.last() else { return out };
@@ -313,7 +313,7 @@ pub fn clip(corners: &[[f64; 3]], height: impl Fn(&[f64; 3]) -> f64) -> Vec<[f64
     out
 }
 
-/// Test 5: the projections share no area. In doubt they do.
+/// Test 5: the projections share no area. False where that is in doubt.
 fn disjoint(a: &[Vec<[f64; 3]>], b: &[Vec<[f64; 3]>]) -> bool {
     if separated(a, b) || separated(b, a) {
         return true;
@@ -348,7 +348,8 @@ fn separated(a: &[Vec<[f64; 3]>], b: &[Vec<[f64; 3]>]) -> bool {
     })
 }
 
-/// Whether a point is on the loops or inside, by either inside rule: what even-odd has inside, non-zero has as well.
+/// Whether a point is on the loops or inside by the even-odd or the non-zero rule: what is inside by the former is so
+/// by the latter.
 fn touches(v: &[f64; 3], loops: &[Vec<[f64; 3]>]) -> bool {
     let mut winding = 0;
     for (p, q) in edges(loops) {

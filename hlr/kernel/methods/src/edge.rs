@@ -9,13 +9,13 @@ use std::cmp::Ordering;
 pub struct Edge {
     /// First column whose centre is not left of the edge, in the current row: ceil(numerator / `over`).
     pub column: i64,
-    /// How far that is beyond the crossing, in 1 / `over` columns: 0 <= excess < over.
+    /// Distance from the crossing to that centre, in 1 / `over` columns: 0 <= excess < over.
     pub excess: i64,
-    /// Per row: dx in whole columns and the rest.
+    /// dx per row: whole columns, and the remainder.
     step: i64,
     rest: i64,
     over: i64,
-    /// Rows from here on are not covered.
+    /// The first row below the edge.
     pub end: i32,
     /// +1 down, -1 up.
     pub winding: i32,
@@ -25,7 +25,7 @@ pub struct Edge {
 }
 
 impl Edge {
-    /// The edge from p to q, standing at its first row from `row` on; None where it covers no row of the frame.
+    /// The edge from p to q, set to its first row from `row` on; None where it covers no row of the frame.
     pub fn new(p: &Point, q: &Point, facet: u32, number: u32, row: i32, height: i32) -> Option<Edge> {
         let (top, bottom, winding) = if p[1] < q[1] { (p, q, 1) } else { (q, p, -1) };
         let first = first_centre(top[1]).max(row);
@@ -35,7 +35,7 @@ impl Edge {
         }
         let [x0, y0, _] = *top;
         let (dx, dy) = (bottom[0] - x0, bottom[1] - y0);
-        // Column k is not left of the crossing where 256 k + 128 >= x0 + (y - y0) dx / dy.
+        // The centre of column k is not left of the crossing where 256 k + 128 >= x0 + (y - y0) dx / dy.
         let over = STEPS * dy;
         let numerator = (x0 - STEPS / 2) * dy + (centre(first.into()) - y0) * dx;
         let column = -(-numerator).div_euclid(over);
@@ -44,7 +44,7 @@ impl Edge {
         Some(Edge { column, excess: column * over - numerator, step, rest, over, end, winding, facet, number })
     }
 
-    /// On to the next row; whether the rest has added up to a column more than the whole step.
+    /// Goes on to the next row; returns whether the remainder added a column to the whole step.
     #[inline(always)]
     pub fn advance(&mut self) -> bool {
         self.column += self.step;
@@ -67,12 +67,12 @@ impl Edge {
         self.step as f64 + self.rest as f64 / self.over as f64
     }
 
-    /// Where it crosses the row, in pixels; for traces.
+    /// Position in pixels at which it crosses the row; for traces.
     pub fn crossing(&self) -> f64 {
         self.column as f64 - self.excess as f64 / self.over as f64 + 0.5
     }
 
-    /// Order by where they cross the row, exactly.
+    /// Exact order of edges by where they cross the row.
     pub fn compare(&self, other: &Edge) -> Ordering {
         self.column.cmp(&other.column).then_with(|| (other.excess * self.over).cmp(&(self.excess * other.over)))
     }
@@ -85,7 +85,7 @@ impl AsRef<Edge> for Edge {
     }
 }
 
-/// Sort edges by column; they nearly are. Returns the number of swaps.
+/// Sorts edges by column; they are nearly sorted already. Returns the number of swaps.
 #[inline]
 pub fn insertion_sort<E: AsRef<Edge>>(edges: &mut [E]) -> u64 {
     let mut swaps = 0;

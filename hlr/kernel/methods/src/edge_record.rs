@@ -12,24 +12,24 @@
 //!    -----\-o-            o  the first centre right of the edge
 //! ```
 //!
-//! Steps are rounded to 2^-11 of a step of depth, so after 8192 rows with two steps each depth is off by four: less
-//! than half of `NEAR_TIE`. Nearer depths are compared exactly, from the planes: rounding decides nothing. (Whole
-//! numbers over C, which need no rounding, were tried: 128 bits wide they cost a tenth to a third of a method's time.)
-//! Where a depth in between might not fit, none is kept.
+//! Steps are rounded to 2^-11 of a step of depth, so after 8192 rows with two steps each a depth is off by up to four:
+//! less than half of `NEAR_TIE`. Depths nearer than that are compared exactly, from the planes, so rounding decides
+//! nothing. (Whole numbers over C need no rounding, but at 128 bits they take a tenth to a third more of a method's
+//! time.) Where an intermediate depth might overflow, no depth is kept.
 //!
-//! Colour has no need to be exact. It is kept where the edge crosses the row, in floating point; of two corners p and q
-//! it changes by (q - p) / (y_q - y_p). It goes from edge to edge along the row in the same way (`shading`).
+//! Colour need not be exact. It is kept where the edge crosses the row, in floating point; between two corners p and q
+//! it changes by (q - p) / (y_q - y_p) per row. Along the row it goes from edge to edge in the same way (`shading`).
 
 use super::edge::Edge;
 use super::plane::{STEPS, centre};
 use super::polygon_table::Along;
 use super::screen::{Facet, STEEP, Screen};
 
-/// What is brought along by an active edge.
+/// Values that an active edge carries.
 pub trait Carried: Copy {
-    /// At the edge's first row.
+    /// The values at the edge's first row.
     fn start(screen: &Screen, edge: &Edge, row: i64) -> Self;
-    /// On to the next row; carry: the edge has gone a column further than its whole step.
+    /// Goes on to the next row; carry: the edge has gone a column further than its whole step.
     fn advance(&mut self, carry: bool);
 }
 
@@ -51,7 +51,7 @@ impl<A: Carried, B: Carried> Carried for (A, B) {
     }
 }
 
-/// An edge with what it carries.
+/// An edge with the values that it carries.
 #[derive(Clone, Copy, Debug)]
 pub struct Active<C> {
     pub edge: Edge,
@@ -77,7 +77,7 @@ impl<C> AsRef<Edge> for Active<C> {
     }
 }
 
-/// Depth of the edge's plane at the first centre right of the edge, and its steps, in 2048ths of a step of depth.
+/// Depth of the edge's plane at the first centre right of the edge, and its increments, in 2048ths of a step of depth.
 #[derive(Clone, Copy, Debug)]
 pub struct Depth {
     z: i64,
@@ -88,7 +88,7 @@ pub struct Depth {
 
 /// Parts of a step of depth.
 const PARTS: f64 = 2048.0;
-/// z of what is not known.
+/// The z of an unknown depth.
 const UNKNOWN: i64 = i64::MIN;
 
 impl Depth {
@@ -96,7 +96,7 @@ impl Depth {
         let whole = edge.whole() as f64;
         let rows = (i64::from(edge.end) - row) as f64;
         let z = facet.depth_at(edge.column, row);
-        // All terms that any of its depths is a sum of; what is no number is not less either.
+        // A bound of every sum that one of its depths may be; NaN is not below the limit either.
         let away = (edge.column - i64::from(facet.columns[0])) as f64;
         let reach = facet.start.abs()
             + facet.right.abs() * (away.abs() + (whole.abs() + 1.0) * rows)
@@ -109,7 +109,7 @@ impl Depth {
         }
     }
 
-    /// In steps of depth, within half of `NEAR_TIE`; NaN where it is not known.
+    /// Depth in steps, within half of `NEAR_TIE`; NaN where it is unknown.
     #[inline(always)]
     pub fn get(&self) -> f64 {
         if self.z == UNKNOWN { f64::NAN } else { self.z as f64 / PARTS }
@@ -127,12 +127,12 @@ impl Carried for Depth {
     }
 }
 
-/// Values of the corners between which the edge runs, where it crosses the row: as they are with 1, which are linear on
-/// the screen; or, `CORRECT`, value / w with 1 / w, which are linear on the surface.
+/// Values of the two corners of the edge, interpolated to where it crosses the row. Without `CORRECT` the values
+/// themselves (and 1), which are linear on the screen; with it value / w and 1 / w, which are linear on the surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Colour<const CORRECT: bool> {
     pub value: [f64; 4],
-    /// Per row.
+    /// Change per row.
     pub down: [f64; 4],
 }
 
@@ -161,8 +161,8 @@ impl<const CORRECT: bool> Carried for Colour<CORRECT> {
 }
 
 impl Screen {
-    /// Depth along the row from the edge at which a facet is entered, by the edge's record; from the first column of
-    /// the frame where that is before it.
+    /// Depth along the row from the edge at which a facet is entered, taken from that edge's record; starts at the
+    /// first column of the frame where the edge lies left of it.
     #[inline(always)]
     pub fn along(&self, edge: &Edge, depth: &Depth, row: i64) -> Along {
         let facet = &self.facets[edge.facet as usize];

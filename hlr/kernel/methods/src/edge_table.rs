@@ -19,7 +19,7 @@ pub struct EdgeTable {
 }
 
 impl EdgeTable {
-    /// None where there was no time.
+    /// The table of all facets; None where time ran out.
     pub fn new(screen: &Screen, watch: &Watch) -> Option<EdgeTable> {
         EdgeTable::of(screen, |_| true, watch)
     }
@@ -54,7 +54,7 @@ impl EdgeTable {
         &self.edges[self.first[row as usize] as usize..self.first[row as usize + 1] as usize]
     }
 
-    /// The first row from `row` on in which an edge starts: a gap in y is no end.
+    /// The first row from `row` on in which an edge starts: the scan goes on after a gap in y.
     pub fn next_start(&self, row: i64) -> Option<i64> {
         let rows = self.first.len() as i64 - 1;
         (row..rows).find(|&y| self.first[y as usize] < self.first[y as usize + 1])

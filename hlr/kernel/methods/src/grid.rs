@@ -20,7 +20,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// About as many cells as facets.
+    /// A grid with about as many cells as facets.
     pub fn new(screen: &Screen, watch: &Watch) -> Option<Grid> {
         let boxes: Vec<Box3> = (0..screen.facets.len() as u32).map(|f| Box3::of(screen, f)).collect();
         let (low, high) = boxes.iter().fold((i64::MAX, i64::MIN), |(l, h), b| (l.min(b.depth[0]), h.max(b.depth[1])));
@@ -45,7 +45,7 @@ impl Grid {
                 entries += 1;
             }
         }
-        // Numbers of entries have 32 bits.
+        // Entries are numbered with 32 bits.
         let room = if entries > u32::MAX as usize { usize::MAX } else { entries * size_of::<u32>() };
         if !watch.has_room(room) {
             return None;
@@ -83,7 +83,7 @@ impl Grid {
         })
     }
 
-    /// Facets in the cells along the ray, near to far; `test` returns the depth of the nearest hit so far.
+    /// Visits facets in the cells along the ray, near to far; `test` returns the depth of the nearest hit so far.
     pub fn along(
         &self,
         column: i32,
@@ -96,7 +96,7 @@ impl Grid {
         for z in 0..self.cells[2] {
             let begins = self.low + z as f64 * self.size[2];
             statistics.box_tests += 1;
-            // Some steps of depth to spare: the border of a cell is rounded.
+            // With a margin of some steps of depth: the border of a cell is rounded.
             if begins - NEAR_TIE > nearest {
                 return;
             }

@@ -2,7 +2,7 @@
 //!
 //! Each is its textbook form made exact: coordinates are rounded once, to a 256th of a pixel and to 2^48 steps of
 //! depth; after that coverage and depth at a pixel's centre are integer predicates. So all methods give the same
-//! picture, pixel by pixel, and differ in what they cost (`statistics`).
+//! picture, pixel by pixel, and differ only in cost (`statistics`).
 //!
 //! Shared by all:
 //! 1. `scene`       polygons as they come: loops of points, an id, an inside rule

@@ -5,13 +5,13 @@ use crate::memory::held;
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-/// What a piece of work may take.
+/// The most time and memory that a call may take.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     pub seconds: f64,
-    /// Seconds are those that the thread works, not those that pass.
+    /// Seconds are processor time of the thread, not elapsed time.
     pub worked: bool,
-    /// Bytes that the thread may hold beyond those that it holds at the beginning.
+    /// Bytes that the thread may hold beyond those that it held at the beginning.
     pub bytes: f64,
 }
 
@@ -19,7 +19,7 @@ impl Limits {
     pub const NONE: Limits = Limits { seconds: f64::INFINITY, worked: false, bytes: f64::INFINITY };
 }
 
-/// Why work was given up.
+/// Why work was stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
     Stopped,
@@ -27,7 +27,7 @@ pub enum Why {
     Memory,
 }
 
-/// Begins when it is made, on the thread that works.
+/// A watch over one call: it starts when it is made, on the working thread.
 pub struct Watch<'a> {
     stopped: &'a (dyn Fn() -> bool + Sync),
     limits: Limits,
@@ -38,7 +38,7 @@ pub struct Watch<'a> {
     why: Cell<Option<Why>>,
 }
 
-/// Looks at the clock are this many polls apart: a poll costs a few instructions, the clock many.
+/// Polls between two looks at the clock: a poll costs a few instructions, the clock many.
 const PATIENCE: u32 = 64;
 
 fn later(seconds: f64) -> Option<Instant> {
@@ -69,7 +69,7 @@ impl<'a> Watch<'a> {
         self.look()
     }
 
-    /// Whether so many bytes more are within the limit; where not, it is time to stop.
+    /// Whether this many more bytes are within the limit; if not, it is time to stop.
     pub fn has_room(&self, bytes: usize) -> bool {
         if (held() - self.held) as f64 + bytes as f64 > self.limits.bytes {
             self.give_up(Why::Memory);
@@ -106,7 +106,7 @@ impl<'a> Watch<'a> {
         true
     }
 
-    /// At the deadline: the thread may have waited for others, and have time left.
+    /// Called at the deadline: the thread may have waited for others and still have processor time left.
     fn is_late(&self) -> bool {
         let left = self.limits.seconds - self.stopwatch.seconds();
         if !self.limits.worked || left <= 0.0 {

@@ -15,18 +15,18 @@ thread_local! {
     static HELD: Cell<isize> = const { Cell::new(0) };
 }
 
-/// Bytes that this thread has allocated and not freed. Less than nothing, where it frees what others allocated.
+/// Bytes that this thread has allocated and not freed; negative where it frees what other threads allocated.
 pub fn held() -> isize {
     HELD.with(Cell::get)
 }
 
 #[inline(always)]
 fn count(bytes: isize) {
-    // A thread at its end has no count any more, and needs none.
+    // A thread that is ending has no count any more, and needs none.
     let _ = HELD.try_with(|held| held.set(held.get().wrapping_add(bytes)));
 }
 
-// SAFETY: every call goes to the system's allocator as it came; counting neither allocates nor unwinds.
+// SAFETY: every call is passed on to the system's allocator unchanged; counting neither allocates nor unwinds.
 unsafe impl GlobalAlloc for Counted {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);

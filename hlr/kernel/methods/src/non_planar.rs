@@ -1,18 +1,18 @@
 //! Non-planar polygons of the model: each is triangulated first, and its triangles keep its id.
 //!
-//! What rounding alone bends is left to `screen`, which looks at the rounded corners.
+//! Polygons that only rounding bends are left to `screen`, which checks the rounded corners.
 
 use super::limits::Watch;
 use super::plane::Point;
 use super::scene::Scene;
 use super::triangulate::triangulate;
 
-/// Share of a polygon's size: what lies nearer to its plane is planar.
+/// Share of a polygon's size: corners nearer to its plane than this are in it.
 const FLAT: f64 = 1e-7;
-/// Steps across a polygon, for its triangulation.
+/// Steps of the grid across a polygon, for its triangulation.
 const GRID: f64 = (1 << 21) as f64;
 
-/// The arrays of a scene of planar polygons, and the polygon of the given scene that each is of.
+/// The arrays of a scene of planar polygons, and per polygon the one of the given scene that it comes from.
 pub struct Planar {
     pub corners: Vec<i32>,
     pub loops: Vec<i32>,
@@ -21,7 +21,7 @@ pub struct Planar {
     pub owner: Vec<u32>,
 }
 
-/// The first None where there was no time, the second where all polygons are planar, as triangles are.
+/// Returns None where time ran out, Some(None) where all polygons are planar, as triangles are.
 pub fn planar(scene: &Scene, watch: &Watch) -> Option<Option<Planar>> {
     let mut warped = Vec::new();
     for p in 0..scene.len() {
@@ -61,7 +61,7 @@ impl Planar {
     }
 }
 
-/// A plane in the model: a point of it, and its normal of length 1.
+/// A plane in the model: one of its points, and its unit normal.
 #[derive(Clone, Copy, Debug)]
 pub struct Flat {
     pub base: [f64; 3],
@@ -89,16 +89,16 @@ fn dot(u: &[f64; 3], v: &[f64; 3]) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
-/// The plane of a polygon through those three of its corners that span the largest triangle, as far as changing one at
-/// a time finds it: the same rule as on the screen (`plane::widest`). Its normal is on the side of Newell's sum, from
-/// where the loops run counter-clockwise. None where all corners lie on one line.
+/// The plane of a polygon through the three of its corners that span the largest triangle, found by changing one corner
+/// at a time: the same rule as on the screen (`plane::widest`). Its normal is on the side of Newell's sum, from which
+/// the loops run counter-clockwise. None where all corners lie on one line.
 pub fn plane_of(scene: &Scene, polygon: usize) -> Option<Flat> {
     let size = size_of_polygon(scene, polygon);
     if !(size > 0.0 && size.is_finite()) {
         return None;
     }
     let base = scene.points[*scene.loops_of(polygon).flatten().next()? as usize];
-    // Of size 1, so that neither squares nor their squares leave the range of floating point.
+    // Scaled to size 1, so that neither squares nor their squares overflow or underflow.
     let at = |i: i32| difference(&base, &scene.points[i as usize]).map(|c| c / size);
     let corners: Vec<[f64; 3]> = scene.loops_of(polygon).flatten().map(|&i| at(i)).collect();
     let normal = |t: &[usize; 3]| {

@@ -1,5 +1,5 @@
 //! An equal-count partition: the picture and the depth are halved again and again so that both halves hold as many
-//! facets. Where a uniform grid has empty and crowded cells, these are alike.
+//! facets. A uniform grid has empty and crowded cells; these all hold about the same number.
 //!
 //! After J. Bentley's k-d tree (1975); a facet is in every leaf that it reaches into.
 
@@ -16,7 +16,7 @@ pub struct Partition {
 
 enum Node {
     Leaf(std::ops::Range<u32>),
-    /// Below `at` the child that follows, else `right`.
+    /// Below `at` the child that follows, otherwise `right`.
     Inner {
         axis: usize,
         at: i64,
@@ -67,8 +67,8 @@ impl Partition {
         self.build(above, depth + 1, watch)
     }
 
-    /// The side of the picture along which a cut at the median leaves the fewest facets; along depth, which every ray
-    /// goes through, only where neither helps.
+    /// The side along which a cut at the median leaves the fewest facets: one of the picture, or depth, which every ray
+    /// crosses, only where neither helps.
     fn best(&self, here: &[u32]) -> Option<(usize, i64)> {
         let mut found: Option<(usize, usize, i64)> = None;
         for axis in 0..3 {
@@ -89,7 +89,7 @@ impl Partition {
         found.map(|(_, axis, at)| (axis, at))
     }
 
-    /// Facets in the leaves along the ray, near to far; `test` returns the depth of the nearest hit so far.
+    /// Visits facets in the leaves along the ray, near to far; `test` returns the depth of the nearest hit so far.
     pub fn along(
         &self,
         column: i32,
@@ -98,7 +98,7 @@ impl Partition {
         mut test: impl FnMut(u32, &mut Statistics) -> f64,
     ) {
         let mut nearest = f64::INFINITY;
-        // Nodes, and the depth before which nothing is in them.
+        // Nodes, and the least depth of anything in them.
         let (mut stack, mut top) = ([(0u32, f64::NEG_INFINITY); DEEPEST + 8], 1);
         while top > 0 {
             top -= 1;

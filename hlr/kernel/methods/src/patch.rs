@@ -8,10 +8,10 @@
 //!     d2       d2 + d3       ...            d2 += d3
 //! ```
 //!
-//! In two dimensions f is a sum of differences times binomials, d_ij C(u, i) C(v, j), u columns and v rows from the
-//! patch's first pixel: forward differences at every pixel follow from sixteen numbers. These are rounded once, to so
-//! many bits that no depth is off by more than a quarter of a step; everything after that is whole numbers. So every
-//! method sees the same depth at a pixel, however it came there, and compares it exactly with that of a plane or of
+//! In two dimensions f is a sum of differences times binomials, d_ij C(u, i) C(v, j), at u columns and v rows from the
+//! patch's first pixel: sixteen numbers give the forward differences at every pixel. They are rounded once, to so many
+//! bits that no depth is off by more than a quarter of a step; everything after that is in whole numbers. So every
+//! method gets the same depth at a pixel, whatever its path there, and compares it exactly with that of a plane or of
 //! another patch.
 
 use super::depth_grid::DepthGrid;
@@ -40,24 +40,25 @@ fn binomials(n: i64) -> [i128; 4] {
     [1, n, n * (n - 1) / 2, n * (n - 1) * (n - 2) / 6]
 }
 
-/// Of powers of x about the origin: those of x - base.
+/// Turns coefficients of powers of x into those of powers of x - base.
 fn shifted([a, b, c, d]: [f64; 4], base: f64) -> [f64; 4] {
     [a + base * (b + base * (c + base * d)), b + base * (2.0 * c + 3.0 * base * d), c + 3.0 * base * d, d]
 }
 
-/// Of powers: forward differences at nought. u^2 = C(u, 1) + 2 C(u, 2), u^3 = C(u, 1) + 6 C(u, 2) + 6 C(u, 3).
+/// Turns coefficients of powers into forward differences at 0: u^2 = C(u, 1) + 2 C(u, 2), u^3 = C(u, 1) + 6 C(u, 2) + 6
+/// C(u, 3).
 fn differences([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     [a, b + c + d, 2.0 * c + 6.0 * d, 6.0 * d]
 }
 
-/// In one direction and then in the other.
+/// Applies one change to the rows of a table and the other to its columns.
 fn both(table: [[f64; 4]; 4], change: [&dyn Fn([f64; 4]) -> [f64; 4]; 2]) -> [[f64; 4]; 4] {
     let transposed = |t: [[f64; 4]; 4]| -> [[f64; 4]; 4] { std::array::from_fn(|i| std::array::from_fn(|k| t[k][i])) };
     transposed(transposed(table.map(change[1])).map(change[0]))
 }
 
 impl Patch {
-    /// Over columns and rows, end exclusive; `sign` of depth.
+    /// The patch over columns and rows, end exclusive; `sign`: direction of depth, +1 or -1.
     pub fn new(curve: &Cubic, sign: f64, columns: [i32; 2], rows: [i32; 2], depths: &DepthGrid) -> Patch {
         let base = [f64::from(columns[0]) + 0.5 - curve.origin[0], f64::from(rows[0]) + 0.5 - curve.origin[1]];
         let local = both(curve.coefficients, [&|c| shifted(c, base[0]), &|c| shifted(c, base[1])]);
@@ -68,7 +69,8 @@ impl Patch {
         let sum = |term: &dyn Fn(usize, usize) -> f64| {
             (0..16).map(|k| term(k / 4, k % 4) * across[k / 4] * down[k % 4]).sum::<f64>()
         };
-        // Rounding each difference by half a unit must not add up to more than a quarter of a step; all must fit.
+        // The rounding of all differences, half a unit each, must not add up to more than a quarter of a step; all must
+        // fit.
         let wanted = (2.0 * sum(&|_, _| 1.0)).log2().ceil();
         let room = 124.0 - sum(&|i, j| steps[i][j].abs()).max(1.0).log2().ceil();
         let bits = wanted.min(room).clamp(0.0, 100.0) as u32;
@@ -84,7 +86,7 @@ impl Patch {
         std::array::from_fn(|k| (k..4).map(|i| here[i] * across[i - k]).sum())
     }
 
-    /// Depth at a pixel's centre, over 2^bits.
+    /// Depth at a pixel's centre, in 2^-bits of a step.
     pub fn numerator(&self, column: i64, row: i64) -> i128 {
         self.at_pixel(column, row)[0]
     }
@@ -117,7 +119,7 @@ impl Walk {
         }
     }
 
-    /// The depth here, and on to the next pixel.
+    /// Returns the depth here, and goes on to the next pixel.
     #[inline(always)]
     pub fn step(&mut self) -> f64 {
         let depth = self.get();
@@ -166,7 +168,7 @@ mod tests {
 
     #[test]
     fn no_depth_is_off_by_more_than_a_step() {
-        // A wave over 4000 pixels, of a depth of one.
+        // A cubic over 4000 pixels, about one unit deep.
         let third = |s: f64| [0.1, 0.7 * s, -0.9 * s * s, 0.3 * s * s * s];
         let (p, q) = (third(1.0 / 4000.0), third(1.0 / 3000.0));
         let coefficients = std::array::from_fn(|i| std::array::from_fn(|j| p[i] * q[j]));

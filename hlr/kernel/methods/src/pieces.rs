@@ -1,14 +1,14 @@
 //! Pieces of polygons for the painters (depth sort and BSP tree), and how they are painted.
 //!
-//! A piece is its polygon and the half-planes of the image that cuts have left of it. Which side of a cut a pixel lies
-//! on is one evaluation of one line, for both pieces: whatever it yields, the pixel goes to exactly one of them, and no
-//! gap opens. Depth and id remain the polygon's own.
+//! A piece is its polygon and the half-planes of the image that remain after cuts. The side of a cut on which a pixel
+//! lies comes from one evaluation of one line for both pieces: whatever the result, the pixel belongs to exactly one of
+//! them, and no gap opens. Depth and id remain those of the polygon.
 //!
-//! A painter trusts his order and compares no depths. But the order comes from planes before rounding, or from corners
-//! in floating point; where two depths are closer than rounding may have moved them (`Facet::slack`) the pixel is
-//! settled by the exact comparison, and counted. That is also where ties are: the lowest id wins. An order from before
-//! rounding (that of the BSP tree) is not trusted at the borders either: there rounding may have laid two polygons over
-//! one another that were side by side.
+//! A painter trusts its order and compares no depths. But the order comes from planes before rounding, or from corners
+//! in floating point. Where two depths are closer than rounding may have moved them (`Facet::slack`), the exact
+//! comparison decides the pixel, which is counted. Ties are decided there too: the lowest id wins. An order from before
+//! rounding (that of the BSP tree) is not trusted at borders either: rounding may have made two polygons overlap that
+//! were side by side.
 
 use super::canvas::Canvas;
 use super::coverage::{Scratch, runs};
@@ -18,7 +18,7 @@ use super::screen::{Facet, NONE, Screen};
 use super::statistics::Statistics;
 use std::cmp::Ordering;
 
-/// Half of an image: pixels (column, row) where line[0] column + line[1] row + line[2] >= 0, or those where not.
+/// Half of an image: pixels (column, row) where line[0] column + line[1] row + line[2] >= 0, or all others.
 #[derive(Clone, Copy, Debug)]
 pub struct Half {
     pub line: [f64; 3],
@@ -37,7 +37,7 @@ impl Half {
         (a * column as f64 + b * row as f64 + c).abs() <= BORDER / STEPS as f64 * a.hypot(b)
     }
 
-    /// What is left of the columns [from, to) in a row. The line is monotonic along it, rounding included.
+    /// The part of the columns [from, to) of a row within the half. The line is monotonic along it, rounding included.
     pub fn trim(&self, row: i64, from: i64, to: i64) -> (i64, i64) {
         let base = self.line[1] * row as f64 + self.line[2];
         match (self.holds(from, base), self.holds(to - 1, base)) {
@@ -55,18 +55,18 @@ impl Half {
     }
 }
 
-/// Paints pieces over what is there.
+/// Paints pieces over those painted before.
 pub struct Painter<'a> {
     pub screen: &'a Screen,
     pub canvas: &'a mut Canvas,
-    /// Per facet: its place in the order is in doubt; empty where that is so for none.
+    /// Per facet: its place in the order is in doubt; empty where none is.
     pub wary: &'a [bool],
-    /// The order is from before rounding.
+    /// Whether the order comes from before rounding.
     unrounded: bool,
     scratch: Scratch,
 }
 
-/// 256ths of a pixel: how near to a border rounding may have changed what covers what.
+/// 256ths of a pixel: distance from a border within which rounding may have changed which polygon covers which.
 const BORDER: f64 = 2.0;
 
 impl<'a> Painter<'a> {
@@ -74,7 +74,7 @@ impl<'a> Painter<'a> {
         Painter { screen, canvas, wary, unrounded, scratch: Scratch::default() }
     }
 
-    /// A facet, or what the halves leave of it.
+    /// Paints a facet, or the part of it within the halves.
     pub fn paint(&mut self, number: u32, halves: &[Half], watch: &Watch, statistics: &mut Statistics) -> Option<()> {
         let Painter { screen, canvas, wary, unrounded, scratch } = self;
         let facet = &screen.facets[number as usize];

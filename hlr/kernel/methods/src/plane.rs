@@ -1,10 +1,10 @@
 //! The plane of a polygon in integers, and depths compared without error.
 //!
-//! Through three of its corners: those that span the largest triangle in the image (`widest`). Then no corner lies
-//! farther from a line through two of them than the third, so that what rounding has moved one of the three by moves
-//! the plane at any other corner by no more than the three together. A sum over all corners (Newell's) has no such
-//! bound: it vanishes, but for rounding, where a loop crosses itself so that its lobes cancel. It serves for the side
-//! that the polygon turns to the viewer, which is all it is good for there.
+//! The plane goes through three of its corners: those that span the largest triangle in the image (`widest`). Then no
+//! corner is farther from a line through two of them than the third, so the error of the plane at any other corner is
+//! at most the sum of the rounding errors of the three. A sum over all corners (Newell's) has no such bound: where a
+//! loop crosses itself so that its lobes cancel, it is nothing but rounding. It only decides which side the polygon
+//! turns to the viewer.
 //!
 //! Bounds: |x|, |y| <= 2^22, |z| < 2^49. Then |A|, |B| < 2^74, |C| < 2^48 and |A x + B y + D| < 2^98, however often a
 //! polygon winds; two depths are compared by products of 256 bits.
@@ -12,12 +12,12 @@
 use hlr_exact::wide::cmp_products;
 use std::cmp::Ordering;
 
-/// Right, down, away from the viewer; in 256ths of a pixel and in steps of depth.
+/// x right, y down, z away from the viewer; in 256ths of a pixel and in steps of depth.
 pub type Point = [i64; 3];
 
 /// Steps per pixel.
 pub const STEPS: i64 = 256;
-/// |x| and |y| of any point.
+/// Limit of |x| and |y| of any point, in 256ths of a pixel.
 pub const LIMIT: f64 = (1i64 << 22) as f64;
 /// Steps from the nearest to the farthest depth.
 pub const DEPTH_LIMIT: f64 = (1i64 << 48) as f64;
@@ -43,8 +43,8 @@ pub fn turn(p: &Point, q: &Point, r: &Point) -> i64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
 
-/// Which three corners span the largest triangle in the image, as far as changing one of them at a time finds it; None
-/// where all lie on one line.
+/// The three corners that span the largest triangle in the image, found by changing one of them at a time; None where
+/// all lie on one line.
 pub fn widest(corners: &[Point]) -> Option<[usize; 3]> {
     let first = corners.first()?;
     if let [p, q, r] = corners {
@@ -55,7 +55,7 @@ pub fn widest(corners: &[Point]) -> Option<[usize; 3]> {
     let area = |t: &[usize; 3]| turn(&corners[t[0]], &corners[t[1]], &corners[t[2]]).abs();
     let mut best = [0, far, 0];
     let (mut largest, mut idle) = (0, 0);
-    // Each change makes it larger: in practice two or three rounds.
+    // Each change makes the triangle larger: in practice two or three rounds.
     for k in (0..3).rev().cycle().take(3 * 16) {
         let changed = |i: usize| {
             let mut t = best;
@@ -103,7 +103,7 @@ impl Plane {
         if self.c < 0 { Plane { a: -self.a, b: -self.b, c: -self.c, d: -self.d } } else { self }
     }
 
-    /// Depth at (x, y) as a fraction: numerator over `c`.
+    /// Depth at (x, y) as a fraction: numerator; the denominator is `c`.
     #[inline(always)]
     pub fn depth(&self, x: i64, y: i64) -> i128 {
         -self.across(x, y)
@@ -120,7 +120,7 @@ impl Plane {
     }
 }
 
-/// The first pixel whose centre is not before x.
+/// The first pixel whose centre is at x or beyond.
 pub fn first_centre(x: i64) -> i32 {
     ((x - STEPS / 2).div_euclid(STEPS) + i64::from((x - STEPS / 2).rem_euclid(STEPS) != 0)) as i32
 }
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn lobes_that_cancel_have_a_plane() {
-        // A bow tie, of no area in sum.
+        // A bow tie, whose signed area is zero.
         let p = plane(&[[0, 0, 0], [400, 400, 8], [400, 0, 4], [0, 400, 4]]).facing();
         assert_eq!(p.at(&[200, 200, 4]), 0);
         assert!(widest(&[[0, 0, 0], [4, 4, 1], [8, 8, 7]]).is_none());

@@ -1,10 +1,10 @@
 //! The polygon table: for each polygon its plane (`Facet`), and whether the scan is inside it.
 //!
-//! Crossing an edge toggles a flag under the even-odd rule; the non-zero rule needs a counter. With it a polygon may be
-//! entered several times in one row.
+//! Crossing an edge toggles a flag under the even-odd rule; the non-zero rule needs a counter. With a flag a polygon
+//! may be entered several times in one row.
 //!
-//! Depth is noted where a polygon is entered, from the record of the edge, beside those of the other polygons that are
-//! in: what is compared lies together in memory. Along the row it changes by -A / C a pixel.
+//! Depth is noted where a polygon is entered, from the record of the edge, beside the depths of the other polygons
+//! entered: values that are compared lie together in memory. Along the row it changes by -A / C per pixel.
 
 use super::scene::Rule;
 
@@ -13,11 +13,11 @@ const OUT: u32 = u32::MAX;
 pub struct PolygonTable {
     rule: Rule,
     winding: Vec<i32>,
-    /// Where each polygon stands in `inside`.
+    /// Index of each polygon in `inside`.
     place: Vec<u32>,
-    /// The polygons that the scan is in, in no order.
+    /// The polygons that contain the current position of the scan, in no order.
     pub inside: Vec<u32>,
-    /// Their depths, where they are asked for.
+    /// Their depths, where these are needed.
     depths: Vec<Along>,
 }
 
@@ -39,7 +39,7 @@ impl Along {
     }
 }
 
-/// What crossing an edge meant.
+/// Effect of crossing an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Toggle {
     Entered,
@@ -63,13 +63,13 @@ impl PolygonTable {
         self.cross_at(facet, winding, || Along::UNKNOWN)
     }
 
-    /// Depth of the polygon in the place k of `inside`.
+    /// Depth of the polygon at index k of `inside`.
     #[inline(always)]
     pub fn depth(&self, k: usize, column: i64) -> f64 {
         self.depths[k].at(column)
     }
 
-    /// `along` is asked where the polygon is entered.
+    /// `along` is called where the polygon is entered.
     #[inline]
     pub fn cross_at(&mut self, facet: u32, winding: i32, along: impl FnOnce() -> Along) -> Toggle {
         let f = facet as usize;

@@ -12,13 +12,13 @@ use super::statistics::Statistics;
 use super::triangulate::triangulate;
 use std::ops::Range;
 
-/// A corner this many steps off the plane of a polygon is on it.
+/// Steps of depth: a corner no farther than this from the plane of a polygon is on it.
 const LEVEL: i128 = 4;
-/// Share of the depths that a facet's plane reaches: how far off a plane a corner may be that was cut out by it, cut
-/// after cut.
+/// Share of the range of depths of a facet's plane: how far from a plane a corner may lie after repeated cuts by
+/// planes.
 const CUT: f64 = 1.0 / (1u64 << 32) as f64;
 
-/// What becomes of polygons whose corners rounding has moved out of their plane.
+/// What is done with polygons whose corners rounding has moved out of their plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bent {
     /// Triangles, which are exact: for pictures.
@@ -27,7 +27,7 @@ pub enum Bent {
     Whole,
 }
 
-/// The scene before the camera, or None if there was no time.
+/// The scene as seen by the camera; None where time ran out.
 pub fn screen(
     scene: &Scene,
     camera: &Camera,
@@ -102,7 +102,7 @@ pub fn screen(
 }
 
 fn outcode(p: &[f64; 4], walls: &[Wall]) -> u8 {
-    // What is not a number is inside nothing.
+    // A corner that is NaN is outside of every wall.
     walls.iter().enumerate().fold(0, |code, (k, wall)| if wall.height(p) >= 0.0 { code } else { code | 1 << k })
 }
 
@@ -131,7 +131,7 @@ fn corner(scene: &Scene, projected: &[[f64; 4]], i: i32) -> Corner {
     Corner { at: projected[i as usize], value }
 }
 
-/// The loops of one polygon within the walls that it crosses; those that come out empty are left out.
+/// The loops of one polygon after clipping by the walls that it crosses; empty ones are left out.
 fn clipped(
     scene: &Scene,
     polygon: usize,
@@ -179,13 +179,13 @@ impl Flat {
     }
 }
 
-/// Rounded in the image; depth follows (`DepthGrid::lay`).
+/// Rounds x and y of a corner; depth follows (`DepthGrid::lay`).
 fn snap(p: &[f64; 3]) -> Point {
     let at = |v: f64| (v * STEPS as f64).round_ties_even().clamp(-LIMIT, LIMIT) as i64;
     [at(p[0]), at(p[1]), 0]
 }
 
-/// A polygon before the camera, not yet rounded.
+/// A polygon in camera coordinates, not yet rounded.
 struct Given<'a> {
     id: u32,
     loops: &'a [Range<u32>],
@@ -220,7 +220,7 @@ impl Screen {
         }
     }
 
-    /// One polygon, in as many facets as it takes.
+    /// Adds one polygon, as one facet or more.
     fn add(
         &mut self,
         given: &Given,
@@ -274,7 +274,7 @@ impl Screen {
     }
 
     /// How far the rounded plane may lie from the true one within the polygon, in steps of depth: measured at its
-    /// corners, as they were before they were rounded; and what floating point is off by before that and after.
+    /// unrounded corners, plus the floating-point error before and after that.
     fn slack(&self, given: &Given, plane: &Plane, base: &Point, reach: f64, noise: &Noise) -> f64 {
         let c = plane.c as f64;
         let (right, down) = (-(plane.a as f64) / c, -(plane.b as f64) / c);
@@ -288,18 +288,18 @@ impl Screen {
             let blurred = self.depths.steps(of_depth) + of_image * STEPS as f64 * (right.abs() + down.abs());
             worst = worst.max((self.depths.number(z) - there).abs() + blurred);
         }
-        // Twice, for the planes of two facets of one polygon that is not quite planar; without a slope nothing is
-        // trusted.
+        // Doubled, for the planes of two facets of one polygon that is not quite planar; where the slope is unknown, no
+        // depth is trusted.
         let slack = 2.0 * worst + NEAR_TIE + reach * CUT;
         if slack.is_finite() { slack } else { f64::INFINITY }
     }
 
-    /// A facet of loops of `points`; its plane with C > 0.
+    /// Adds a facet of loops of `points`; its plane has C > 0.
     fn push(&mut self, given: &Given, loops: &[Range<u32>], plane: Plane, noise: &Noise) {
         let (mut low, mut high) = ([i64::MAX; 3], [i64::MIN; 3]);
         for l in loops {
             for p in &self.points[l.start as usize..l.end as usize] {
-                // The plane's own depth at its corners, which is that of the corners unless the polygon is warped.
+                // The plane's depth at its corners: that of the corners, unless the polygon is warped.
                 let n = plane.depth(p[0], p[1]);
                 let c = i128::from(plane.c);
                 let z = [n.div_euclid(c), -(-n).div_euclid(c)].map(|z| z.clamp(-FAR, FAR) as i64);
@@ -313,7 +313,7 @@ impl Screen {
         }
         let columns = [first_centre(low[0]).max(0), first_centre(high[0]).min(self.width as i32)];
         let rows = [first_centre(low[1]).max(0), first_centre(high[1]).min(self.height as i32)];
-        // Between the centres there is nothing to see. A triangle without a column may still matter to nobody.
+        // A facet between pixel centres is invisible.
         if columns[0] >= columns[1] || rows[0] >= rows[1] {
             return;
         }
@@ -325,7 +325,7 @@ impl Screen {
         let reach =
             start.abs() + right.abs() * f64::from(columns[1] - columns[0]) + down.abs() * f64::from(rows[1] - rows[0]);
         let base = self.points[loops[0].start as usize];
-        // On the plane, should the corner not be.
+        // The plane's depth there, in case the corner is off the plane.
         let z = plane.depth(base[0], base[1]).div_euclid(plane.c.into()).clamp(-FAR, FAR) as i64;
         self.facets.push(Facet {
             id: given.id,

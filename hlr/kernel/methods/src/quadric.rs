@@ -1,4 +1,4 @@
-//! Depth of curved patches along a row by forward differences: of z^2, and without a square root.
+//! Depth of curved patches along a row by forward differences: of z^2, without computing a square root.
 //!
 //! For a sphere of radius r about the origin z^2 = r^2 - x^2 - y^2, and the step from x to x + 1 changes it by -(2 x +
 //! 1): two additions. Any quadric (sphere, cylinder, cone) is, along a row,
@@ -13,7 +13,7 @@
 /// a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0.
 pub type Quadric = [i64; 10];
 
-/// s and the residual, from pixel to pixel.
+/// s and the residual at a pixel, followed from pixel to pixel.
 pub struct Root {
     value: i128,
     first: i128,
@@ -62,7 +62,7 @@ impl Root {
         }
     }
 
-    /// Where a row enters the patch: by bisection, once.
+    /// Finds s by bisection, once, where a row enters the patch.
     fn restart(&mut self) {
         if self.value < 0 {
             return;
@@ -88,8 +88,8 @@ pub fn discriminant(q: &Quadric, x: i64, y: i64) -> (i128, i128) {
     (linear * linear - 4 * c * rest, linear)
 }
 
-/// Floors of the nearer depths of a quadric with c > 0 in the row y at x0, x0 + 1, ...; None where it is missed. And
-/// how many corrections that took.
+/// Floors of the nearer depths of a quadric with c > 0 in row y at x0, x0 + 1, ..., None where it is missed; and the
+/// number of corrections.
 pub fn row(q: &Quadric, x0: i64, y: i64, count: usize) -> (Vec<Option<i64>>, u64) {
     let at = |x: i64| discriminant(q, x, y).0;
     let mut root = Root::new([at(x0), at(x0 + 1), at(x0 + 2)]);

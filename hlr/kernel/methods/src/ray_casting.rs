@@ -5,7 +5,7 @@
 //! On the ray t = 0 is the eye and t = 1 the image plane; t < 0 is behind the eye, which the near cut has removed.
 //! After the projective map t grows with depth, so the nearest hit is the one of least depth.
 //!
-//! What spares tests can be switched, to show what each saves: nothing but one box per polygon (`Flat`), a hierarchy of
+//! Several ways to spare tests can be chosen, to show what each saves: only a box per polygon (`Flat`), a hierarchy of
 //! boxes, a uniform grid, or a partition with equally many polygons in each part.
 
 use super::boxes::{Box3, Hierarchy};
@@ -83,7 +83,7 @@ fn cast(
 ) -> Option<u32> {
     let (mut best, mut depth) = (NONE, f64::INFINITY);
     let (c, r) = (i64::from(column), i64::from(row));
-    // The depth beyond which nothing matters: some steps more than that of the hit, for floating point's sake.
+    // The depth beyond which nothing matters: that of the hit, plus some steps for floating-point error.
     let mut test = |f: u32, statistics: &mut Statistics| -> f64 {
         statistics.polygon_tests += 1;
         let facet = &screen.facets[f as usize];

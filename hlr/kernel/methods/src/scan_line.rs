@@ -18,9 +18,9 @@
 //!                   m
 //! ```
 //!
-//! With a curved patch (`patch`) nothing is linear: where one is in, with others, each pixel is asked.
+//! With a curved patch (`patch`) depth is not linear: where one is in together with others, each pixel is compared.
 //!
-//! Polygons that do not pass through one another allow for less (`Coherence`).
+//! Where polygons do not pass through one another, fewer comparisons are enough (`Coherence`).
 
 use super::active_edges::ActiveEdges;
 use super::canvas::Canvas;
@@ -40,7 +40,7 @@ pub enum Coherence {
     BothEnds,
     /// In each span, all polygons that are in.
     Naive,
-    /// The same, but nothing where an obscured polygon has been left.
+    /// The same, but no comparison where an obscured polygon has been left.
     Leaving,
     /// Only the visible polygon and the one that is entered; all only where the visible one has been left.
     Visible,
@@ -71,7 +71,7 @@ struct Scan<'a> {
     polygons: &'a mut PolygonTable,
     coherence: Coherence,
     row: i64,
-    /// What is seen in the span before, or NONE.
+    /// The polygon visible in the span before, or NONE.
     visible: u32,
 }
 
@@ -112,7 +112,7 @@ impl Scan<'_> {
                     continue;
                 }
                 (_, Coherence::Naive) => self.visible = self.nearest(from, statistics),
-                // Nothing new, and the obscuring polygon is still in: nothing to compare.
+                // No polygon was entered, and the visible one is still in: nothing to compare.
                 (_, Coherence::Leaving) if self.visible == known && known != NONE => {}
                 (_, Coherence::Leaving) => self.visible = self.nearest(from, statistics),
                 (_, Coherence::Visible) => {
@@ -124,12 +124,12 @@ impl Scan<'_> {
             statistics.spans += 1;
             self.canvas.write(self.row, from, to, self.visible, statistics);
         }
-        // In a row that ends with all polygons left nothing stays behind for the next.
+        // A row starts with no visible polygon.
         self.visible = NONE;
         Some(())
     }
 
-    /// What an edge at `column` changes of what is known to be visible.
+    /// Updates what is known to be visible for an edge at `column`.
     fn crossed(&mut self, toggle: Toggle, facet: u32, column: i64, statistics: &mut Statistics) {
         match (self.coherence, toggle) {
             (Coherence::Leaving, Toggle::Entered) => self.visible = NONE,
@@ -148,14 +148,14 @@ impl Scan<'_> {
         }
     }
 
-    /// The nearest of the polygons that are in: by the depths of the edge records where they are certain.
+    /// The nearest of the polygons that are in: by the depths of the edge records where these are certain.
     fn nearest(&self, column: i64, statistics: &mut Statistics) -> u32 {
         let inside = &self.polygons.inside;
         let (mut best, mut depth) = (inside[0], self.polygons.depth(0, column));
         for (k, &f) in inside.iter().enumerate().skip(1) {
             statistics.comparisons += 1;
             let z = self.polygons.depth(k, column);
-            // Of a steep polygon it is no number: then neither is certain.
+            // The depth of a steep polygon is NaN: then neither is certain.
             let (nearer, farther) = (depth - z > NEAR_TIE, z - depth > NEAR_TIE);
             let mut exactly = || self.screen.compare_exactly(f, best, column, self.row, statistics) == Ordering::Less;
             if nearer || (!farther && exactly()) {
@@ -171,8 +171,8 @@ impl Scan<'_> {
         !self.screen.patches.is_empty() && self.polygons.inside.iter().any(|&f| facets[f as usize].patch != NONE)
     }
 
-    /// The span [from, to) with a patch in it, which may change places with others any number of times: pixel by pixel,
-    /// each depth by steps.
+    /// Fills the span [from, to) with a patch in it pixel by pixel, since a patch may pass through others any number of
+    /// times. Each depth follows from the one before.
     fn curved(&mut self, from: i64, to: i64, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
         let (screen, row) = (self.screen, self.row);
         let inside = &self.polygons.inside;
@@ -212,7 +212,7 @@ impl Scan<'_> {
         Some(())
     }
 
-    /// The span [from, to), split where polygons cross.
+    /// Fills the span [from, to), split where polygons cross.
     fn span(&mut self, from: i64, to: i64, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
         let left = self.nearest(from, statistics);
         let right = if to - from == 1 { left } else { self.nearest(to - 1, statistics) };

@@ -1,6 +1,6 @@
-//! The scan-line z-buffer: one row of depths, and of the polygons only what crosses that row.
+//! The scan-line z-buffer: it holds one row of depths and only the polygons that cross that row.
 //!
-//! Two equivalent ways, the same effort and the same picture:
+//! Two equivalent variants, with the same effort and the same picture:
 //! - `PerPolygon`: an active list of polygons, each with its own active edges; crossings are paired polygon by polygon
 //! - `Merged`: one list of all active edges by x, each with the number of its polygon. A pair is complete when the
 //!   polygon's flag goes out again: with a concave polygon a and a second one b
@@ -55,7 +55,7 @@ impl Row<'_> {
         Row { screen, depths: vec![f64::INFINITY; width], owners: vec![NONE; width] }
     }
 
-    /// The pixels from where a polygon is entered, with its depth there, to where it is left.
+    /// Fills the pixels from where a polygon is entered, with its depth there, to where it is left.
     fn fill(&mut self, number: u32, row: i64, along: Along, to: i64, canvas: &mut Canvas, statistics: &mut Statistics) {
         let (from, to) = (along.column, to.min(self.screen.width));
         if from >= to {
@@ -70,7 +70,7 @@ impl Row<'_> {
         }
     }
 
-    /// `depth` is asked for each column, from left to right.
+    /// `depth` is called for each column, from left to right.
     #[inline(always)]
     fn span(
         &mut self,
@@ -120,7 +120,7 @@ impl Row<'_> {
 }
 
 fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
-    // Polygons by first row, the next to start at the end of the list.
+    // Polygons sorted by first row; the next one to start is at the end.
     let mut waiting: Vec<u32> = (0..screen.facets.len() as u32).collect();
     waiting.sort_unstable_by_key(|&f| std::cmp::Reverse((screen.facets[f as usize].rows[0], f)));
     let mut active: Vec<ActivePolygon> = Vec::new();
@@ -156,7 +156,7 @@ fn per_polygon(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: 
         let edges: usize = active.iter().map(|a| bytes_of(&a.edges) + bytes_of(&a.waiting)).sum();
         statistics.holds(buffer.bytes() + bytes_of(&waiting) + bytes_of(&active) + edges + canvas.bytes());
     }
-    // Those that reach the last row end there.
+    // Edges that reach the last row end there.
     statistics.edge_ends += active.iter().map(|a| a.edges.len() as u64).sum::<u64>();
     Some(())
 }
@@ -187,7 +187,7 @@ impl ActivePolygon {
     }
 }
 
-/// `paired` is told every pair of crossings, in the order in which they become complete.
+/// `paired` gets every pair of crossings, in the order in which pairs are completed.
 pub fn merged(
     screen: &Screen,
     canvas: &mut Canvas,

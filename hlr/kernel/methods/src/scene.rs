@@ -1,6 +1,6 @@
 //! The input scene: polygons as loops of points in one set of arrays, and the camera.
 
-/// What is inside where loops overlap or cross themselves.
+/// Which points are inside where loops overlap or cross themselves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// Crossing a loop toggles inside and outside.
@@ -35,7 +35,7 @@ pub struct Scene<'a> {
     pub corners: &'a [i32],
     pub loops: &'a [i32],
     pub polygons: &'a [i32],
-    /// Per polygon: of a closed, consistently oriented solid, so that it may be left out where it is turned away.
+    /// Per polygon: it belongs to a closed, consistently oriented solid, so it may be left out where it faces away.
     pub cull: &'a [bool],
     /// Per point: a colour or normal to interpolate; may be empty.
     pub values: &'a [[f64; 3]],
@@ -77,7 +77,7 @@ pub struct Camera {
     /// Depths of the front and the back plane; infinite where there is none.
     pub front: f64,
     pub back: f64,
-    /// What has a smaller w is not before the eye: the near cut of a perspective view. -inf in parallel views.
+    /// A point with a smaller w is not in front of the eye: the near cut of a perspective view. -inf in parallel views.
     pub near: f64,
     /// Image space clips by all six planes before hiding; object space hides first, and clips in two dimensions.
     pub image_space: bool,

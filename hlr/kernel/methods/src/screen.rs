@@ -12,25 +12,25 @@ use std::ops::Range;
 /// No facet: the background.
 pub const NONE: u32 = u32::MAX;
 
-/// No depth is told as farther than that: of polygons so nearly edge-on that their planes lead nowhere.
+/// Largest depth in steps that is reported: planes of polygons that are nearly edge-on lead farther.
 pub const FAR: i128 = 1 << 52;
 
-/// Two depths closer than this many steps are compared in integers. Floating point is wrong by less: below `STEEP`
+/// Two depths closer than this many steps are compared in integers. The floating-point error is less: below `STEEP`
 /// steps each of its six operations is off by at most a quarter of a step.
 pub const NEAR_TIE: f64 = 16.0;
 /// Facets so steep that floating point might be off by more have no depth in floating point.
 pub const STEEP: f64 = (1u64 << 51) as f64;
-/// What a sum in floating point is off by, of its terms.
+/// Floating-point error of a sum, as a share of its terms.
 const ROUNDING: f64 = 1.0 / (1u64 << 48) as f64;
 
 /// A planar polygon on the screen.
 #[derive(Clone, Debug)]
 pub struct Facet {
-    /// The polygon it is of.
+    /// The polygon that the facet belongs to.
     pub id: u32,
     /// Its loops: range into `Screen::loops`.
     pub loops: Range<u32>,
-    /// With C > 0.
+    /// Its plane, with C > 0.
     pub plane: Plane,
     /// Pixels whose centres may lie inside: columns and rows, end exclusive, within the frame.
     pub columns: [i32; 2],
@@ -41,7 +41,8 @@ pub struct Facet {
     pub start: f64,
     pub right: f64,
     pub down: f64,
-    /// How far rounding may have moved the plane in depth: the window in which a painter's order is not trusted.
+    /// Steps of depth by which rounding may have moved the plane: nearer depths are compared, whatever the painter's
+    /// order.
     pub slack: f64,
     /// Number of its patch where it is curved; NONE where it is flat. A patch has no plane of its own.
     pub patch: u32,
@@ -58,7 +59,7 @@ impl Facet {
         Facet { id: 0, loops: 0..0, plane, columns, rows, depth: [0, 0], start, right, down, slack: 0.0, patch: NONE }
     }
 
-    /// Depth at a pixel's centre within `NEAR_TIE` / 2, or NaN; nothing of the kind beyond `columns` and `rows`.
+    /// Depth at a pixel's centre within `NEAR_TIE` / 2, or NaN. Not valid beyond `columns` and `rows`.
     #[inline(always)]
     pub fn depth_at(&self, column: i64, row: i64) -> f64 {
         self.start
@@ -67,7 +68,7 @@ impl Facet {
     }
 }
 
-/// Facets in the order of their polygons: of two at the same depth the lower number wins.
+/// Facets in the order of their polygons: of two at the same depth the one with the lower number is in front.
 pub struct Screen {
     pub width: i64,
     pub height: i64,
@@ -89,8 +90,7 @@ impl Screen {
             .map(|l| &self.points[l.start as usize..l.end as usize])
     }
 
-    /// The corners, as indices into `points`, between which an edge of a facet runs; edges are numbered loop after
-    /// loop.
+    /// The corners, as indices into `points`, at the ends of an edge of a facet; edges are numbered loop after loop.
     pub fn ends(&self, facet: u32, edge: u32) -> (usize, usize) {
         let facet = &self.facets[facet as usize];
         let mut number = edge;
@@ -105,7 +105,8 @@ impl Screen {
         unreachable!("a facet has no edge {edge}")
     }
 
-    /// Nearer first; at equal depth the lower facet. Exact, whatever floating point makes of it.
+    /// Order by depth, nearer first; at equal depth the lower facet. Exact: integers decide where floating point
+    /// cannot.
     #[inline(always)]
     pub fn compare(&self, f: u32, g: u32, column: i64, row: i64, statistics: &mut Statistics) -> Ordering {
         let (a, b) = (&self.facets[f as usize], &self.facets[g as usize]);
@@ -145,7 +146,7 @@ impl Screen {
         }
     }
 
-    /// The same at any pixel of the frame, where the facets need not be: floating point decides where it can.
+    /// The same for the planes at any pixel of the frame, also beyond the facets: floating point decides where it can.
     pub fn compare_planes(&self, f: u32, g: u32, column: i64, row: i64) -> Ordering {
         let (a, b) = (&self.facets[f as usize], &self.facets[g as usize]);
         let terms = |f: &Facet| {
@@ -164,8 +165,8 @@ impl Screen {
         a.plane.compare(&b.plane, centre(column), centre(row)).then(f.cmp(&g))
     }
 
-    /// The first column after `from`, where `first` is in front, at which `then` is; i64::MAX where that is not before
-    /// the end of the row.
+    /// The first column after `from` at which `then` is in front of `first`, which is in front at `from`; i64::MAX
+    /// where there is none in the row.
     pub fn takes_over(&self, first: u32, then: u32, from: i64, row: i64) -> i64 {
         let (p, q) = (&self.facets[first as usize], &self.facets[then as usize]);
         if !p.plane.falls_behind(&q.plane) {
@@ -173,7 +174,7 @@ impl Screen {
         }
         let leads = |column: i64| self.compare_planes(then, first, column, row) == Ordering::Less;
         let (mut low, mut high) = (from, self.width);
-        // Floating point's guess, and the column before it; what is left is halved.
+        // The floating-point guess and the column before it are tried first; bisection does the rest.
         let guess = from as f64 + (q.depth_at(from, row) - p.depth_at(from, row)) / (p.right - q.right);
         let guess = if guess.is_finite() { (guess.ceil() as i64).clamp(from + 1, self.width) } else { from + 1 };
         for column in [guess, guess - 1, guess + 1] {
@@ -191,7 +192,7 @@ impl Screen {
     /// Depth of a facet at a pixel's centre, in the units of the camera.
     pub fn true_depth(&self, f: u32, column: i64, row: i64) -> f64 {
         let (n, c) = self.fraction(&self.facets[f as usize], column, row);
-        // Whole steps and the rest apart: exact for whole numbers, correct to the last bits else.
+        // Whole steps and the remainder separately: exact for whole numbers, otherwise correct to the last bits.
         let (whole, rest) = (n.div_euclid(c), n.rem_euclid(c));
         self.depths.depth(whole as f64 + rest as f64 / c as f64)
     }

@@ -1,10 +1,10 @@
 //! Interpolates values along spans: colours (Gouraud 1971) or normals (Phong 1975), first along the edges, then along
 //! the row.
 //!
-//! The textbook interpolates on the screen, where equal steps are not equal steps on the surface: in perspective the
-//! far half of a polygon gets too little. Value / w and 1 / w are linear on the screen, so their quotient is right
-//! (Blinn 1992). Either way what is linear takes one addition a row along an edge (`edge_record`), and one a pixel
-//! between two edges.
+//! The textbook interpolates on the screen, where equal steps are not equal steps on the surface, so in perspective the
+//! far half of a polygon gets too small a share. Value / w and 1 / w are linear on the screen, so their quotient is
+//! right (Blinn 1992). Either way a linear quantity takes one addition per row along an edge (`edge_record`), and one
+//! per pixel between two edges.
 //!
 //! ```text
 //!        1 +                row y: left = between 1 and 3, right = between 1 and 2, then from left to right
@@ -21,7 +21,7 @@ use super::limits::Watch;
 use super::screen::{NONE, Screen};
 use super::statistics::Statistics;
 
-/// Per pixel of `frame`, the value at its centre; NaN for the background. None where there was no time.
+/// Per pixel of `frame`, the value at its centre; NaN for the background. None where time ran out.
 pub fn shade(screen: &Screen, frame: &[u32], correct: bool, watch: &Watch) -> Option<Vec<[f64; 3]>> {
     if correct { rows::<true>(screen, frame, watch) } else { rows::<false>(screen, frame, watch) }
 }
@@ -58,7 +58,7 @@ fn rows<const CORRECT: bool>(screen: &Screen, frame: &[u32], watch: &Watch) -> O
     Some(out)
 }
 
-/// The pixels of a row between two neighbouring edges of a polygon, where it is seen.
+/// Shades the pixels of a row between two neighbouring edges of a polygon, where it is visible.
 fn between<const CORRECT: bool>(
     left: &Active<Colour<CORRECT>>,
     right: &Active<Colour<CORRECT>>,

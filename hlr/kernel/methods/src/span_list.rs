@@ -1,7 +1,7 @@
 //! The active span list: the spans of a row in the order of depth. No depth buffer, and nothing is compared twice.
 //!
 //! The scan-line idea one dimension lower: in a row each polygon is a segment in (x, z). Along x there are three kinds
-//! of events; the first in the list is seen.
+//! of events; the first span in the list is visible.
 //!
 //! ```text
 //!    z |   b-------.--------b         start   the span takes its place in the order
@@ -72,7 +72,7 @@ impl Spans<'_> {
             if watch.over() {
                 return None;
             }
-            // The next event: an edge, or a crossing before it.
+            // The next event: this edge, or a crossing before it.
             let edge = within(&edges[k]);
             let crossing = self.crossings.peek().map_or(i64::MAX, |c| c.0.0);
             let column = edge.min(crossing);
@@ -81,7 +81,7 @@ impl Spans<'_> {
             started.clear();
             while k < edges.len() && within(&edges[k]) == column {
                 let f = edges[k].edge.facet;
-                // Left and entered in one column: it stays.
+                // A polygon left and entered in one column keeps its place.
                 match polygons.cross(f, edges[k].edge.winding) {
                     Toggle::Entered => started.push(f),
                     Toggle::Left if started.last() == Some(&f) => {
@@ -94,7 +94,7 @@ impl Spans<'_> {
                 k += 1;
             }
             self.cross(column, watch, statistics)?;
-            // Beyond the frame there is no order to keep.
+            // Beyond the frame the order does not matter.
             for &f in started.iter().filter(|_| column < self.screen.width) {
                 self.start(f, column, statistics);
             }
@@ -102,7 +102,7 @@ impl Spans<'_> {
         Some(())
     }
 
-    /// The nearest span is seen in [from, to).
+    /// Writes the nearest span to [from, to).
     fn show(&self, from: i64, to: i64, canvas: &mut Canvas, statistics: &mut Statistics) {
         let (from, to) = (from.max(0), to.min(self.screen.width));
         if let (Some(&f), true) = (self.order.first(), from < to) {
@@ -132,17 +132,18 @@ impl Spans<'_> {
         }
     }
 
-    /// Enter the crossing of the spans at places `at` and `at` + 1, if they have one from `column` on.
+    /// Schedules the crossing of the spans at places `at` and `at` + 1, if they have one from `column` on.
     fn meet(&mut self, at: usize, column: i64) {
         let (Some(&f), Some(&g)) = (self.order.get(at), self.order.get(at + 1)) else { return };
-        // Asked one column before: after an end, or another crossing in this column, they may have to change at once.
+        // Searched from one column before: after an end, or another crossing in this column, they may have to change at
+        // once.
         let there = self.screen.takes_over(f, g, column - 1, self.row);
         if there < self.screen.width {
             self.crossings.push(Reverse((there, f, g)));
         }
     }
 
-    /// All crossings at `column`.
+    /// Carries out all crossings at `column`.
     fn cross(&mut self, column: i64, watch: &Watch, statistics: &mut Statistics) -> Option<()> {
         while let Some(Reverse((_, f, g))) = self.crossings.peek().copied().filter(|c| c.0.0 <= column) {
             if watch.over() {

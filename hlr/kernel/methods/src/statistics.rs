@@ -2,7 +2,8 @@
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
-    /// Polygons given; of those: turned away and left out, cut by the view volume, triangulated, edge-on or empty.
+    /// Polygons given; of those, the number culled as facing away, cut by the view volume, triangulated, edge-on or
+    /// empty.
     pub polygons: u64,
     pub culled: u64,
     pub clipped: u64,
@@ -12,17 +13,17 @@ pub struct Statistics {
     pub facets: u64,
     /// Two depths compared at one pixel (or a polygon compared with a plane, in methods that have no pixels).
     pub comparisons: u64,
-    /// Of those, decided in integers because floating point could not.
+    /// Of those, comparisons decided in integers because floating point could not.
     pub exact: u64,
-    /// Runs of pixels of one polygon in one row that were looked at, and pixels written, some more than once.
+    /// Runs of pixels of one polygon in one row that were examined; pixels written, repeated writes included.
     pub spans: u64,
     pub written: u64,
     /// Polygons or spans cut in two.
     pub splits: u64,
-    /// Areas or tree nodes visited, and how deep.
+    /// Areas or tree nodes visited, and the greatest depth.
     pub recursion: u64,
     pub deepest: u64,
-    /// Areas whose sorted list was not read to its end, and the polygons passed over by that.
+    /// Areas whose sorted list was not read to its end; polygons that this skipped.
     pub early_stops: u64,
     pub passed_over: u64,
     /// Rays cast; boxes and polygons tested against them.
@@ -31,13 +32,13 @@ pub struct Statistics {
     pub polygon_tests: u64,
     /// Changes of order: swaps in the active edge list, crossings in the active span list, reorderings in depth sort.
     pub swaps: u64,
-    /// Events of the active lists: edges that begin and end, row after row; in the active span list spans besides,
-    /// column after column. The third kind, crossings, are the `swaps`.
+    /// Events of the active lists: edges that start and end, row by row; in the active span list also spans, column by
+    /// column. The third kind, crossings, are the `swaps`.
     pub edge_starts: u64,
     pub edge_ends: u64,
     pub span_starts: u64,
     pub span_ends: u64,
-    /// Pixels where a painter's order left a near tie to the exact comparison.
+    /// Pixels at which a painter left a near tie to the exact comparison.
     pub settled: u64,
     /// Bytes of the method's own tables and buffers at their largest, the frame of ids included.
     pub memory: u64,
@@ -46,7 +47,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Note what is held at this moment.
+    /// Updates the largest memory with the bytes held at this moment.
     pub fn holds(&mut self, bytes: usize) {
         self.memory = self.memory.max(bytes as u64);
     }

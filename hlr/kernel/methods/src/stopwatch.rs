@@ -1,6 +1,6 @@
 //! Measures the processor time of this thread, so that a method's cost does not depend on other load.
 //!
-//! Linux tells it, in nanoseconds; elsewhere it is the time that has passed.
+//! Linux reports it in nanoseconds; elsewhere elapsed time is used.
 
 use std::time::Instant;
 
@@ -22,8 +22,8 @@ impl Stopwatch {
     }
 }
 
-/// Nanoseconds on the processor: the first number of the scheduler's statistics, which it brings up to date when asked
-/// to let others go first.
+/// Processor time in nanoseconds: the first number of the scheduler's statistics. A call to yield makes the scheduler
+/// update them.
 fn worked() -> Option<u64> {
     std::thread::yield_now();
     std::fs::read_to_string("/proc/thread-self/schedstat").ok()?.split(' ').next()?.parse().ok()

@@ -1,9 +1,9 @@
 //! Triangulates polygons that are not planar.
 //!
-//! Ear clipping (Meisters 1975), holes joined to the outline by bridges first (Eberly), all in integers on the image.
-//! Edges are kept, and the triangles' outlines add up to the polygon's: so the pixels of the triangles together are
-//! those of the polygon. A loop that crosses itself has no such triangulation without new corners, which are on no
-//! grid: `None`, and the polygon keeps its outline, in one plane.
+//! Ear clipping (Meisters 1975); holes are first joined to the outline by bridges (Eberly). All of it is in integers in
+//! the image. Edges are kept, so the triangles together own exactly the pixels of the polygon. A loop that crosses
+//! itself has no such triangulation without new corners, which would be off the grid: the result is `None`, and the
+//! polygon keeps its outline, in one plane.
 
 use super::limits::Watch;
 use super::plane::{Point, turn};
@@ -11,7 +11,7 @@ use super::scene::Rule;
 use std::ops::Range;
 
 /// Triangles as indices into the corners of all loops, one after another; None where loops cross, or touch so that no
-/// ear is left, or where there was no time.
+/// ear is left, or where time ran out.
 pub fn triangulate(points: &[Point], loops: &[Range<usize>], rule: Rule, watch: &Watch) -> Option<Vec<[usize; 3]>> {
     if crosses(points, loops, watch) {
         return None;
@@ -52,7 +52,7 @@ pub fn triangulate(points: &[Point], loops: &[Range<usize>], rule: Rule, watch: 
     (whole == parts.abs()).then_some(triangles)
 }
 
-/// Whether two edges that are no neighbours meet, or there is no time to find out.
+/// Whether two edges that are not neighbours meet, or time ran out.
 fn crosses(points: &[Point], loops: &[Range<usize>], watch: &Watch) -> bool {
     let edges: Vec<(usize, usize)> =
         loops.iter().flat_map(|l| l.clone().map(move |i| (i, if i + 1 == l.end { l.start } else { i + 1 }))).collect();
@@ -75,7 +75,7 @@ fn crosses(points: &[Point], loops: &[Range<usize>], watch: &Watch) -> bool {
     false
 }
 
-/// Join a hole to the ring by the shortest bridge that crosses neither.
+/// Joins a hole to the ring by the shortest bridge that crosses neither.
 fn bridge(points: &[Point], ring: &mut Vec<usize>, hole: &[usize], watch: &Watch) -> Option<()> {
     let start = (0..hole.len()).max_by_key(|&k| (points[hole[k]][0], points[hole[k]][1]))?;
     let from = &points[hole[start]];
@@ -94,7 +94,7 @@ fn bridge(points: &[Point], ring: &mut Vec<usize>, hole: &[usize], watch: &Watch
             let (o3, o4) = (turn(p, q, from).signum(), turn(p, q, to).signum());
             !(o1 * o2 < 0 && o3 * o4 < 0)
         };
-        // Within the corner at the ring, so that the bridge runs inside.
+        // The bridge must start inside the angle at the ring's corner, so that it runs inside the polygon.
         let (before, after) = (&points[ring[(k + n - 1) % n]], &points[ring[(k + 1) % n]]);
         let within = if turn(before, to, after) >= 0 {
             turn(before, to, from) >= 0 && turn(to, after, from) >= 0
@@ -118,12 +118,12 @@ fn ears(points: &[Point], mut ring: Vec<usize>, watch: &Watch) -> Option<Vec<[us
     let mut out = Vec::with_capacity(ring.len());
     while ring.len() > 2 {
         let n = ring.len();
-        // Corner by corner, each against all others.
+        // Tests corner by corner, each against all others.
         let ear = (0..n).find(|&k| {
             let [a, b, c] = [ring[(k + n - 1) % n], ring[k], ring[(k + 1) % n]];
             let [p, q, r] = [&points[a], &points[b], &points[c]];
             let side = turn(p, q, r);
-            // A corner on a straight line, or a spike, goes without a triangle.
+            // A corner on a straight line, or a spike, is removed without a triangle.
             side == 0
                 || (side > 0
                     && !watch.over()
@@ -156,7 +156,7 @@ mod tests {
         let points: Vec<Point> =
             [[0, 0], [9, 0], [9, 9], [0, 9], [3, 3], [6, 3], [6, 6], [3, 6]].map(|[x, y]| [x, y, 0]).to_vec();
         for (rule, found) in [(Rule::EvenOdd, true), (Rule::NonZero, false)] {
-            // Run the same way as the outline, the inner loop is a hole under the even-odd rule only.
+            // An inner loop that runs the same way as the outline is a hole under the even-odd rule only.
             let t = triangles(&points, &[0..4, 4..8], rule);
             assert_eq!(t.is_some(), found);
             let mut turned = points.clone();

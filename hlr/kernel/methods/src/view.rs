@@ -3,13 +3,13 @@
 use super::non_planar::Flat;
 use super::scene::Camera;
 
-/// How planes of the model look on the screen.
+/// Maps planes of the model to the screen.
 pub struct View {
     inverse: [[f64; 4]; 4],
 }
 
 impl View {
-    /// Of planes measured from an origin. None where the camera's matrix has no inverse.
+    /// For planes measured from an origin. None where the camera's matrix has no inverse.
     pub fn new(origin: &[f64; 3], camera: &Camera) -> Option<View> {
         let [x, y, z] = *origin;
         let moved = camera.matrix.map(|[a, b, c, d]| [a, b, c, a * x + b * y + c * z + d]);
@@ -29,7 +29,7 @@ impl View {
     }
 }
 
-/// By Gauss and Jordan, with pivots.
+/// The inverse by Gauss-Jordan elimination, with pivots.
 fn inverse(m: &[[f64; 4]; 4]) -> Option<[[f64; 4]; 4]> {
     let mut a: [[f64; 8]; 4] =
         std::array::from_fn(|i| std::array::from_fn(|k| if k < 4 { m[i][k] } else { f64::from(u8::from(k - 4 == i)) }));

@@ -1,8 +1,8 @@
-//! Area subdivision: what is too complicated for an area is decided in its quarters.
+//! Area subdivision: an area that is too complicated is decided in its quarters.
 //!
 //! J. Warnock, "A hidden surface algorithm for computer generated halftone pictures", 1969.
 //!
-//! To an area of the screen a polygon is
+//! Relative to an area of the screen a polygon is
 //!
 //! ```text
 //!    surrounding      intersecting      contained       disjoint
@@ -13,10 +13,10 @@
 //!    +---------+      +----+            +-----+         +-----+
 //! ```
 //!
-//! Done where (a) all are disjoint, (b) one remains, intersecting or contained, (c) one remains, surrounding, (d) a
-//! surrounding one is nearer than all others everywhere in the area. Else each quarter inherits the list, without what
-//! is disjoint, and without what a surrounding polygon hides; a single pixel is decided at its centre. Polygons that
-//! pass through one another subdivide by themselves.
+//! An area is done where (a) all are disjoint, (b) one remains, intersecting or contained, (c) one remains,
+//! surrounding, (d) a surrounding one is nearer than all others everywhere in the area. Otherwise each quarter inherits
+//! the list without disjoint polygons and without those that a surrounding polygon hides; a single pixel is decided at
+//! its centre. Polygons that pass through one another need no special case.
 //!
 //! The list is sorted by nearest depth, once, and so is every list that is inherited. It need not be read to its end:
 //!
@@ -64,7 +64,7 @@ pub fn render(screen: &Screen, canvas: &mut Canvas, watch: &Watch, statistics: &
 struct Subdivision<'a> {
     screen: &'a Screen,
     canvas: &'a mut Canvas,
-    /// The lists of the area at work and of all that enclose it, one behind the other.
+    /// The lists of the current area and of all areas that enclose it, one after another.
     list: Vec<(u32, Relation)>,
     scratch: Scratch,
 }
@@ -81,7 +81,7 @@ impl Subdivision<'_> {
         statistics.at_depth(depth);
         let start = self.list.len();
         let mut passed = 0;
-        // How far the surrounding polygons leave anything to be seen.
+        // The depth beyond which the surrounding polygons hide everything.
         let mut limit = i64::MAX;
         for k in inherited.clone() {
             if watch.over() {
@@ -121,8 +121,8 @@ impl Subdivision<'_> {
         Some(())
     }
 
-    /// The farthest depth of a polygon's plane in an area, rounded up: at one of the corners, for the plane falls one
-    /// way along rows and one way along columns.
+    /// The farthest depth of a polygon's plane in an area, rounded up. It is at one of the corners, because a plane is
+    /// monotonic along rows and along columns.
     fn farthest(&self, f: u32, area: Area) -> i64 {
         let plane = &self.screen.facets[f as usize].plane;
         let corner = |falls: bool, [low, high]: [i32; 2]| centre(i64::from(if falls { low } else { high - 1 }));
@@ -130,8 +130,8 @@ impl Subdivision<'_> {
         -(-z).div_euclid(plane.c.into()).clamp(-FAR, FAR) as i64
     }
 
-    /// Cases (a) to (d), and the single pixel; and the polygon that is seen in all of the area or in part of it.
-    /// `behind`: there were polygons that the list was not read for.
+    /// Cases (a) to (d), and the single pixel; and the polygon that is visible in all of the area or in part of it.
+    /// `behind`: the list was not read to its end.
     fn decide(
         &mut self,
         area: Area,
@@ -142,7 +142,7 @@ impl Subdivision<'_> {
     ) -> Option<(Ending, u32)> {
         let before = self.list.len();
         if let Some(front) = self.front(area, start, statistics) {
-            // What the front polygon hides everywhere in the area is of no interest any more.
+            // Polygons that the front one hides everywhere in the area are dropped.
             let mut kept = start;
             for k in start..self.list.len() {
                 if watch.over() {
@@ -219,7 +219,7 @@ impl Subdivision<'_> {
     }
 }
 
-/// What a facet is to an area of pixel centres; touching counts as intersecting.
+/// The relation of a facet to an area of pixel centres; touching counts as intersecting.
 pub fn relation(
     screen: &Screen,
     number: u32,
@@ -234,7 +234,7 @@ pub fn relation(
         return Relation::Disjoint;
     }
     let within = |a: [i32; 2], b: [i32; 2]| b[0] <= a[0] && a[1] <= b[1];
-    // A box as large as the area may be that of a polygon which covers all of its centres: that one surrounds.
+    // A box as large as the area may belong to a polygon that covers all of its centres: that one surrounds.
     if within(facet.columns, columns) && within(facet.rows, rows) && (facet.columns, facet.rows) != (columns, rows) {
         return Relation::Contained;
     }
@@ -250,7 +250,7 @@ pub fn relation(
             p = q;
         }
     }
-    // No edge passes through the area: its first pixel speaks for all.
+    // No edge passes through the area: its first pixel decides for all.
     if owns(screen, facet, columns[0].into(), rows[0].into()) { Relation::Surrounding } else { Relation::Disjoint }
 }
 

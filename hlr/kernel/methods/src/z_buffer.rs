@@ -2,8 +2,8 @@
 //!
 //! E. Catmull, "A subdivision algorithm for computer display of curved surfaces", 1974.
 //!
-//! 1. all depths start beyond the back plane, at +inf: started on it, with a strict <, polygons lying on it would be
-//!    lost
+//! 1. all depths start beyond the back plane, at +inf: with a start on the plane and a strict <, polygons in that plane
+//!    would be lost
 //! 2. for each polygon, for each pixel it owns: where it is nearer, write its depth and number
 //!
 //! Depth goes from pixel to pixel by -A/C, from row to row by -B/C. The literature's other convention, larger is
@@ -49,7 +49,7 @@ pub fn render(
                 let mut walk = patch.walk(from, row);
                 buffer.span(number, row, from..to, |_| sign * walk.step(), statistics);
             } else {
-                // As adding `right` pixel by pixel; but no sum is waited for.
+                // The same as adding `right` pixel by pixel, but no sum has to wait for the one before.
                 let z = sign * facet.depth_at(from, row);
                 buffer.span(number, row, from..to, |column| z + right * (column - from) as f64, statistics);
             }
@@ -71,7 +71,7 @@ struct Buffer<'a> {
 }
 
 impl Buffer<'_> {
-    /// The pixels of a row that a facet owns; `depth` is asked for each, from left to right.
+    /// Writes the pixels of a row that a facet owns; `depth` is called for each, from left to right.
     #[inline(always)]
     fn span(
         &mut self,
@@ -98,7 +98,7 @@ impl Buffer<'_> {
             if won {
                 depths[at] = z;
             } else {
-                // What has been won so far in this row is written in one go.
+                // The run of pixels won so far in this row is written at once.
                 if start < column {
                     canvas.write(row, start, column, number, statistics);
                 }

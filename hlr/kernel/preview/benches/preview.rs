@@ -28,7 +28,7 @@ struct Mesh {
     normals: Vec<[f32; 3]>,
 }
 
-/// A prism of so many sides about z, smooth where it is round, turned somehow.
+/// A prism with this many sides along z, smooth where it is round, then rotated at random.
 fn prism(mesh: &mut Mesh, sides: usize, radius: f64, length: f64, centre: [f64; 3], random: &mut Random) {
     let (a, b) = (random.next() * 6.3, random.next() * 6.3);
     let turned = |p: [f64; 3]| {

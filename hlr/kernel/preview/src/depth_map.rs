@@ -15,7 +15,7 @@ pub struct MapSample {
     pub triangle: u32,
 }
 
-/// Row by row. Glass counts as solid. None when stopped.
+/// Depths row by row. Transparent faces count as opaque. None when stopped.
 pub fn depth_map(
     model: &Model,
     lens: &Lens,

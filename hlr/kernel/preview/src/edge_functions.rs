@@ -11,7 +11,7 @@ use super::sampling::Sampling;
 use super::slope::{Slope, nearer, window};
 use super::tile::Tile;
 
-/// Beyond this an edge function keeps its sign all over the tile.
+/// Beyond this value an edge function keeps its sign all over the tile.
 pub const FAR: i64 = 1_000_000_000;
 
 /// Rows and columns until the pattern of samples repeats.
@@ -59,10 +59,10 @@ impl Edge {
     }
 }
 
-/// The span of each row: columns that a face may own, widened by what the shear moves samples, and by what rounding
-/// may. The edge functions decide; this saves looking where they cannot all be positive. In 2^-20 of a column.
+/// The span of each row: the columns that a face may own, widened by the shear of the samples and by rounding, in 2^-20
+/// of a column. The edge functions decide; the span only skips columns where they cannot all be positive.
 struct Spans {
-    /// A bound by each edge, as start and slope: those of left edges, and those of right ones.
+    /// A bound from each edge, as start and slope: first of left edges, then of right ones.
     left: [[i64; 2]; 3],
     right: [[i64; 2]; 3],
 }
@@ -88,7 +88,7 @@ impl Spans {
         }
     }
 
-    /// Chunks of lanes, within the face's own.
+    /// The chunks of lanes that the face reaches.
     #[inline(always)]
     fn row(&self, row: usize, chunks: [usize; 2]) -> [usize; 2] {
         const CHUNK: u32 = FINE + LANES.trailing_zeros();
@@ -128,7 +128,7 @@ impl Ready {
         Ready { edges, spans, slope: Slope::new(face, first, sampling), rows, chunks }
     }
 
-    /// Of eight samples a mask of those that are not owned, and the depths.
+    /// For eight samples: a mask of those that are not owned, and the depths.
     #[inline(always)]
     fn lanes(&self, row: usize, chunk: usize, sampling: &Sampling) -> ([i32; LANES], [f32; LANES]) {
         let [a, b, c] = &self.edges;
@@ -156,7 +156,7 @@ pub fn fill(tile: &mut Tile, face: &Face, first: [i32; 2], sampling: &Sampling) 
     }
 }
 
-/// Call `found` with column, row and depth of each sample that the face owns.
+/// Calls `found` with column, row and depth of each sample that the face owns.
 pub fn each(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
     let ready = Ready::new(face, first, sampling);
     for row in ready.rows[0]..ready.rows[1] {

@@ -16,7 +16,7 @@ pub struct Face {
 impl Face {
     pub const NONE: Face = Face { x: [0; 3], y: [0; 3], depth: [0.0; 3], triangle: 0, reach: [[0; 2]; 2] };
 
-    /// `size`: of the picture, in pixels.
+    /// `size`: width and height of the picture, in pixels.
     #[inline(always)]
     pub fn new(
         x: [i32; 3],
@@ -45,7 +45,7 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// Not on the grid: behind the near plane, or too far outside.
+    /// A vertex that is not on the grid: behind the near plane, or too far outside.
     pub const OFF: Vertex = Vertex { x: i32::MIN, y: 0, depth: 0.0 };
 
     pub fn is_off(&self) -> bool {

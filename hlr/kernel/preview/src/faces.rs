@@ -12,12 +12,12 @@ use super::sampling::Sampling;
 use super::workspace::Workspace;
 use hlr_brep::geometry::vector::Vector;
 
-/// Triangles that are sorted as one, by their nearest corner. Few, so that what lies in front is drawn first; many
-/// enough that sorting them costs nothing.
+/// Triangles that are sorted together, by their nearest corner: few enough that what lies in front is drawn first, and
+/// many enough that sorting costs nothing.
 const CHUNK: usize = 256;
 
-/// All faces that own a sample of the picture, into `space.chunks`, roughly from near to far: what is seen does not
-/// depend on their order, but what is hidden is found out sooner. False when stopped.
+/// Puts all faces that own a sample of the picture into `space.chunks`, roughly from near to far. Their order does not
+/// change the picture; near faces first let hidden ones be skipped sooner. False when stopped.
 pub fn faces(
     model: &Model,
     lens: &Lens,
@@ -31,7 +31,7 @@ pub fn faces(
     let project = |p: &Vector| {
         let [x, y, depth, z] = projector.project(p);
         let (x, y) = (x * f64::from(GRID), y * f64::from(GRID));
-        // Half a picture beyond the border; what is no number is not within it either.
+        // Half a picture beyond the border is allowed; NaN fails the test.
         let within = (x - 0.5 * wide).abs() <= wide && (y - 0.5 * high).abs() <= high && z >= near;
         if within { Vertex { x: nearest(x), y: nearest(y), depth: depth.max(0.0) as f32 } } else { Vertex::OFF }
     };
@@ -60,7 +60,7 @@ pub fn faces(
 
 #[inline(always)]
 fn nearest(v: f64) -> i32 {
-    // Rounded to even, without a call: 2^52 leaves no room for a fraction.
+    // Adding this rounds to the nearest integer, ties to even, without a call: at 2^52 a double has no fraction bits.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     ((v + ROUND) - ROUND) as i32
 }
@@ -69,7 +69,7 @@ fn nearest(v: f64) -> i32 {
 #[inline(always)]
 fn add(a: Vertex, b: Vertex, c: Vertex, t: usize, cull: bool, lens: &Lens, sampling: &Sampling, out: &mut Vec<Face>) {
     let area = i64::from(b.x - a.x) * i64::from(c.y - a.y) - i64::from(b.y - a.y) * i64::from(c.x - a.x);
-    // With y down, what is counter-clockwise has a negative area.
+    // With y down, counter-clockwise triangles have a negative area.
     if area == 0 || (area > 0 && cull) {
         return;
     }

@@ -5,19 +5,19 @@ use hlr_brep::geometry::vector::{Vector, dot, sub};
 
 #[derive(Clone, Debug)]
 pub struct Lens {
-    /// Unit vectors of the picture in the model.
+    /// Unit vectors of the picture's axes, in the model.
     pub right: Vector,
     pub up: Vector,
     pub ahead: Vector,
-    /// The eye; of a parallel view any point.
+    /// The eye; in a parallel view any point.
     pub origin: Vector,
     /// Pixels per model unit, in the image plane.
     pub scale: f64,
     /// The origin in the picture, in pixels from the upper left corner.
     pub centre: [f64; 2],
-    /// From the eye to the image plane; None for parallel views.
+    /// Distance from the eye to the image plane, in model units; None for parallel views.
     pub distance: Option<f64>,
-    /// Least and greatest distance ahead of all that is in view; both positive in perspective.
+    /// Least and greatest distance ahead of all that is in view, in model units; both positive in perspective.
     pub range: [f64; 2],
     /// Width and height in pixels.
     pub size: [usize; 2],
@@ -40,7 +40,7 @@ impl Lens {
         }
     }
 
-    /// Where a point in view coordinates, before the eye, is seen, in pixels.
+    /// Pixel position of a point in view coordinates that lies before the eye.
     #[inline(always)]
     pub fn place(&self, v: &Vector) -> [f64; 2] {
         let w = self.distance.map_or(1.0, |d| d / v[2]);
@@ -54,7 +54,7 @@ impl Lens {
         if self.distance.is_none() { (z - a) / (b - a) } else { (1.0 - a / z) / (1.0 - a / b) }
     }
 
-    /// All of the above in one, made ready for many points.
+    /// All of the above in one, prepared for many points.
     pub fn projector(&self) -> Projector {
         let row = |axis: &Vector, scale: f64| {
             [axis[0] * scale, axis[1] * scale, axis[2] * scale, -dot(axis, &self.origin) * scale]
@@ -76,7 +76,7 @@ impl Lens {
         if self.distance.is_none() { a + depth * (b - a) } else { a / (1.0 - depth * (1.0 - a / b)) }
     }
 
-    /// Nearer than this nothing is seen.
+    /// Distance ahead of the near plane: nothing nearer is visible.
     pub fn near(&self) -> f64 {
         if self.distance.is_none() { f64::NEG_INFINITY } else { self.range[0] }
     }

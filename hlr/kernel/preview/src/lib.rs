@@ -17,8 +17,8 @@
 //! `shadow` and `occlusion` look depths up in maps that the same steps 1 to 5 made before; `stroke` draws lines on top;
 //! `normals` evaluates the true surfaces.
 //!
-//! Every tile is computed by one thread, from faces in the order of the model: the bytes do not depend on how many
-//! threads there are.
+//! Every tile is computed by one thread, from faces in the order of the model: the bytes do not depend on the number of
+//! threads.
 
 pub mod depth_map;
 pub mod edge_functions;
@@ -49,20 +49,20 @@ pub mod tiles;
 pub mod transparent;
 pub mod workspace;
 
-/// What is to be shown, borrowed. Colours are linear light, premultiplied by nothing; alpha below one is transparent.
+/// A model to be shown, borrowed. Colours are linear light, not premultiplied; alpha below one is transparent.
 pub struct Model<'a> {
     pub points: &'a [[f64; 3]],
     /// Counter-clockwise seen from outside.
     pub triangles: &'a [[i32; 3]],
-    /// Per corner its normal in `normals`; -1 where the triangle's own is meant.
+    /// Per corner its normal in `normals`; -1 for the triangle's own.
     pub corner: &'a [[i32; 3]],
     pub normals: &'a [[f32; 3]],
     /// Per corner its colour in `colours`.
     pub paint: &'a [[i32; 3]],
     pub colours: &'a [[f32; 4]],
-    /// Triangles that are not seen from behind.
+    /// Per triangle: it is not visible from behind.
     pub cull: &'a [bool],
-    /// Triangles some of whose corners are transparent.
+    /// Per triangle: some of its corners are transparent.
     pub transparent: &'a [bool],
 }
 

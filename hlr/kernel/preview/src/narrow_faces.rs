@@ -16,7 +16,7 @@ use super::grid::{GRID, LANES, TILE_HEIGHT, TILE_WIDTH};
 use super::sampling::Sampling;
 use super::slope::nearer;
 
-/// How many rows of lanes side by side hold the face; 0: it is too large.
+/// Number of vectors of lanes that hold the face's columns; 0: the face is too large.
 #[inline(always)]
 pub fn lanes(face: &Face) -> usize {
     let [columns, rows] = face.reach.map(|r| r[1].wrapping_sub(r[0]));
@@ -28,7 +28,7 @@ pub fn lanes(face: &Face) -> usize {
     if columns <= LANES as i32 { 1 } else { 2 }
 }
 
-/// `rows`: of the tile, that the face reaches.
+/// `rows`: the rows of the tile that the face reaches.
 #[inline(always)]
 pub fn fill<const N: usize>(
     samples: &mut [[f64; TILE_WIDTH]; TILE_HEIGHT],
@@ -43,7 +43,7 @@ pub fn fill<const N: usize>(
     let y = (first[1].wrapping_add(rows[0] as i32) << SHIFT).wrapping_add(HALF);
     let along = [0, 1, 2].map(|k: usize| x.wrapping_sub(face.x[k]));
     let down = [0, 1, 2].map(|k: usize| y.wrapping_sub(face.y[k]));
-    // Distances are below 2^15 across and 2^16 down, growths below 2^14: nothing here leaves 32 bits.
+    // Distances are below 2^15 across and 2^16 down, growths below 2^14: 32 bits hold all values.
     let edge = |k: usize, n: usize| {
         let (a, b) = (face.y[k].wrapping_sub(face.y[n]), face.x[n].wrapping_sub(face.x[k]));
         let value = a.wrapping_mul(along[k]).wrapping_add(b.wrapping_mul(down[k]));

@@ -1,14 +1,15 @@
 //! Clips a triangle by the view volume before it is projected.
 //!
 //! I. E. Sutherland, G. W. Hodgman, "Reentrant polygon clipping", CACM 17, 1974: one plane after another, each keeping
-//! the side where its height is not negative. Only what crosses the near plane must be cut, and what would leave the
-//! range of the integer grid; the rest is cut by the picture's border for nothing.
+//! the side where its height is not negative. Only triangles that cross the near plane or leave the range of the
+//! integer grid must be cut; the raster cuts the rest at the picture's border at no cost.
 //!
 //! ```text
 //!      inside   a ---- x   b outside        x = a + t (b - a), t = h(a) / (h(a) - h(b))
 //! ```
 //!
-//! Always from the inner to the outer point: two triangles with one edge cut it in the same bits.
+//! A new point is always computed from the inner to the outer point: two triangles with a common edge get the same
+//! bits.
 
 use super::lens::Lens;
 use hlr_brep::geometry::vector::{Vector, along, sub};
@@ -16,7 +17,7 @@ use hlr_brep::geometry::vector::{Vector, along, sub};
 /// How far beyond the border, in widths and heights of the picture, faces may reach uncut.
 const BEYOND: f64 = 0.25;
 
-/// The part of a triangle, in view coordinates, that may be seen; a convex polygon, empty where there is none.
+/// The part of a triangle, in view coordinates, that may be visible: a convex polygon, empty where there is none.
 pub fn cut(corners: &[Vector; 3], lens: &Lens) -> Vec<Vector> {
     let mut polygon = corners.to_vec();
     let near = lens.near();

@@ -10,20 +10,20 @@ pub struct OnSurfaces<'a> {
     pub points: &'a [[f64; 3]],
     pub triangles: &'a [[i32; 3]],
     pub face: &'a [i32],
-    /// Per corner its place in `uv`, which belongs to one face only; -1 for none.
+    /// Per corner its index in `uv`, an entry of one face only; -1 for none.
     pub corner: &'a [[i32; 3]],
     pub uv: &'a [[f64; 2]],
-    /// Per face its surface, and the rows of the matrix into the model.
+    /// Per face its surface, and the matrix of its placement in the model, by rows.
     pub surface: &'a [i32],
     pub place: &'a [[f64; 12]],
     pub surfaces: &'a [Option<Surface>],
 }
 
-/// Per place in `uv` the unit normal on the outer side; nought where the surface has none.
+/// Per entry of `uv`: the unit normal on the outer side; zero where the surface has none.
 ///
 /// The triangles of a face decide by majority, weighted by area, which side is the outer one.
 pub fn normals(on: &OnSurfaces) -> Vec<[f32; 3]> {
-    // Where a node is singular, its normal is that of a place beside it, toward the middle of a triangle.
+    // Where a surface is singular, the normal is taken beside it, toward the middle of a triangle.
     let mut owner = vec![(u32::MAX, [0.0; 2]); on.uv.len()];
     for (t, corner) in on.corner.iter().enumerate() {
         if corner[0] < 0 || on.surface[on.face[t] as usize] < 0 {
@@ -65,7 +65,7 @@ fn normal(on: &OnSurfaces, face: usize, uv: [f64; 2], beside: [f64; 2]) -> Vecto
     let Some(n) = surface.and_then(|s| s.normal_toward(uv, beside)) else { return [0.0; 3] };
     let m = &on.place[face];
     let column = |k: usize| [m[k], m[4 + k], m[8 + k]];
-    // A normal is turned by the cofactors of the matrix.
+    // A normal transforms by the cofactors of the matrix.
     let (x, y, z) = (column(0), column(1), column(2));
     let (a, b, c) = (cross(&y, &z), cross(&z, &x), cross(&x, &y));
     unit(&[0, 1, 2].map(|k| a[k] * n[0] + b[k] * n[1] + c[k] * n[2])).unwrap_or([0.0; 3])

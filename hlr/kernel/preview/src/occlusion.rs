@@ -1,15 +1,15 @@
 //! Ambient occlusion in screen space: the share of the hemisphere above a point that nearby surfaces block.
 //!
 //! M. McGuire, B. Osman, M. Bukowski, P. Hennessy, "The Alchemy screen-space ambient obscurance algorithm", High
-//! Performance Graphics 2011: samples on a spiral around the pixel; each point v away along which something rises above
-//! the tangent plane reduces the light by
+//! Performance Graphics 2011: samples on a spiral around the pixel. A point at offset v that rises above the tangent
+//! plane reduces the light by
 //!
 //! ```text
 //!     max(0, v . n - bias) / (v . v + epsilon)
 //! ```
 //!
-//! The spiral is turned by one of sixteen angles, by the pixel's place in a square of 4 x 4; the mean over that square,
-//! of what lies about as deep, takes the pattern away. Nothing is drawn at random.
+//! The spiral is turned by one of sixteen angles, chosen by the pixel's position in a square of 4 x 4. The mean over
+//! that square, of pixels of about the same depth, removes the pattern. Nothing is random.
 
 use rayon::prelude::*;
 
@@ -21,7 +21,7 @@ use hlr_brep::geometry::vector::{Vector, along, dot, sub};
 
 const SAMPLES: usize = 20;
 const TURNS: f64 = 7.0;
-/// Share of the radius: what rises less counts as flat.
+/// Share of the radius: a rise below this counts as flat.
 const BIAS: f64 = 0.02;
 const STRENGTH: f64 = 1.1;
 
@@ -29,7 +29,7 @@ pub struct Occlusion {
     size: [usize; 2],
     /// Depth and openness, 1 for nothing above.
     map: Vec<[f32; 2]>,
-    /// Depths this near belong to one surface.
+    /// Depths that differ by less belong to one surface.
     alike: f32,
 }
 
@@ -86,7 +86,8 @@ impl Occlusion {
         (!stopped()).then_some(Occlusion { size: lens.size, map, alike })
     }
 
-    /// Openness at a place, in pixels, of a surface of this depth: that of the pixel around with the nearest depth.
+    /// Openness at a place, in pixels, of a surface of this depth: that of the surrounding pixel with the nearest
+    /// depth.
     pub fn open(&self, place: [f64; 2], depth: f32) -> f32 {
         let at = |k: usize, by: i64| (place[k].floor() as i64 + by).clamp(0, self.size[k] as i64 - 1) as usize;
         let mut best = (f32::INFINITY, 1.0);
@@ -133,10 +134,10 @@ fn openness(lens: &Lens, map: &[MapSample], [i, j]: [usize; 2], surface: &Surfac
     (1.0 - STRENGTH * sum * reach / SAMPLES as f64).clamp(0.0, 1.0) as f32
 }
 
-/// Sixteen turns of the spiral, neighbours far apart.
+/// The turn of the spiral in each pixel of the square, sixteenths of a full turn; neighbours differ much.
 const TURN: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
-/// The point of the model seen at a place, in pixels, at this depth.
+/// The model point visible at a place, in pixels, at this depth.
 fn point_at(lens: &Lens, place: [f64; 2], depth: f64) -> Vector {
     let ahead = lens.ahead_at(depth);
     let w = lens.distance.map_or(1.0, |d| ahead / d) / lens.scale;

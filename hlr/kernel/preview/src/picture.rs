@@ -11,7 +11,7 @@ use super::tiles::{Filled, each_tile};
 use super::transparent::{Layer, layers, over};
 use super::workspace::Workspace;
 
-/// RGBA, row by row, into `out`. `background`: linear light, premultiplied. False when stopped.
+/// Writes RGBA, row by row, into `out`. `background`: linear light, premultiplied. False when stopped.
 pub fn picture(
     scene: &Scene,
     sampling: &Sampling,
@@ -72,7 +72,7 @@ impl Painter<'_> {
         }
     }
 
-    /// A row with one opaque sample a pixel: from triangle to triangle.
+    /// A row with one opaque sample per pixel: run by run of one triangle.
     fn runs(&mut self, filled: &Filled, j: usize, row: &mut [[u8; 4]]) {
         let mut column = 0;
         while let Some((from, to, triangle)) = filled.tile.run(j, column) {
@@ -99,7 +99,7 @@ impl Painter<'_> {
         self.kept.get(triangle, || scene.ready(triangle, place))
     }
 
-    /// The mean of a pixel's samples, the first of which is given within the tile; None for nothing but background.
+    /// The mean of a pixel's samples; `[i, j]` is the first, within the tile. None where all are background.
     fn mean(&mut self, filled: &Filled, layers: &[Layer], [i, j]: [usize; 2]) -> Option<[f32; 4]> {
         let side = self.sampling.side;
         let mut known = Known::default();
@@ -135,11 +135,11 @@ fn opaque(c: [f32; 4]) -> [f32; 4] {
 }
 
 fn premultiplied(c: [f32; 4]) -> [f32; 4] {
-    // Highlights lie on the transparent face, but here they fade with it: close enough, and never brighter than white.
+    // Highlights on a transparent face fade with it here: close enough, and never brighter than white.
     [c[0] * c[3], c[1] * c[3], c[2] * c[3], c[3]]
 }
 
-/// Colours of the triangles of one pixel: each is shaded where it is first met.
+/// Colours of the triangles of one pixel: each is shaded the first time it is met.
 #[derive(Default)]
 struct Known {
     entries: [(u32, [f32; 4]); 4],

@@ -1,8 +1,8 @@
 //! The farthest depth of each block of a tile: a face whose nearest depth is beyond it is hidden there.
 //!
-//! N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", SIGGRAPH 1993, with the two lowest levels of
-//! their pyramid only: a tile is small. A block is looked at anew only when it is asked for after something was drawn
-//! into it.
+//! N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", SIGGRAPH 1993, with only the two lowest levels of
+//! their pyramid: a tile is small. A block is updated only when its depth is asked for after something was drawn into
+//! it.
 //!
 //! ```text
 //!   +---+---+---+--       8 x 8 samples a block: a row of it is what the raster takes at once
@@ -19,9 +19,9 @@ const _: () = assert!(ACROSS <= 8);
 
 pub struct Pyramid {
     farthest: [[f32; ACROSS]; DOWN],
-    /// Blocks that were drawn into since: a bit for each column of blocks.
+    /// Blocks drawn into since their depth was last computed: a bit for each column of blocks.
     stale: [u8; DOWN],
-    /// Blocks that were drawn into at all.
+    /// Blocks drawn into at all.
     drawn: [u8; DOWN],
 }
 
@@ -34,8 +34,7 @@ impl Pyramid {
         *self = Pyramid::EMPTY;
     }
 
-    /// Whether nothing beyond `nearest` can be seen in these rows and chunks of lanes. `seen`: depths, as `Tile` has
-    /// them.
+    /// Whether all beyond `nearest` is hidden in these rows and chunks of lanes. `samples`: those of the `Tile`.
     #[inline(always)]
     pub fn hides(
         &mut self,
@@ -58,7 +57,7 @@ impl Pyramid {
         true
     }
 
-    /// Something is drawn there.
+    /// Marks a block as drawn into.
     #[inline(always)]
     pub fn touch(&mut self, rows: [usize; 2], chunks: [usize; 2]) {
         let columns = ((1u32 << chunks[1]) - (1u32 << chunks[0].min(chunks[1]))) as u8;
@@ -68,7 +67,7 @@ impl Pyramid {
         }
     }
 
-    /// The chunks of lanes of a row into which something may have been drawn: a bit each.
+    /// The chunks of lanes of a row into which something may have been drawn, one bit each.
     #[inline(always)]
     pub fn drawn(&self, row: usize) -> u8 {
         self.drawn[row / ROWS]

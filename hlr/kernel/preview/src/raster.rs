@@ -58,7 +58,7 @@ fn fill_any(tile: &mut Tile, faces: &[&Face], first: [i32; 2], sampling: &Sampli
     }
 }
 
-/// Call `found` with column, row and depth of each sample of the tile that the face owns.
+/// Calls `found` with column, row and depth of each sample of the tile that the face owns.
 pub fn owned(face: &Face, first: [i32; 2], sampling: &Sampling, mut found: impl FnMut(usize, usize, f32)) {
     if sampling.side > 1 {
         return edge_functions::each(face, first, sampling, found);
@@ -89,7 +89,7 @@ mod tests {
         (area != 0).then(|| Face::new(at(0), at(1), [0.5; 3], triangle, sampling, [usize::MAX; 2]))
     }
 
-    /// The rule in rational terms: inside, or on a left or top edge.
+    /// The ownership rule in rational numbers: inside, or on a left or top edge.
     fn owns(f: &Face, x: i64, y: i64) -> bool {
         (0..3).all(|k| {
             let n = (k + 1) % 3;
@@ -156,7 +156,7 @@ mod tests {
         }
     }
 
-    /// What lies behind is left out sooner or later, by the order of the faces, but never what is seen.
+    /// The order of faces decides how much of what is hidden is skipped, but never skips what is visible.
     #[test]
     fn the_order_of_faces_does_not_matter() {
         let mut state = 11;

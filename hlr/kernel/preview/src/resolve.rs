@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-/// Steps of linear light that are told apart: fine enough that each of the 256 values is met.
+/// Number of steps of linear light in the table: fine enough that each of the 256 sRGB values is reached.
 const STEPS: usize = 1 << 13;
 
 pub struct Encoder {

@@ -21,7 +21,7 @@ use super::tile::Tile;
 pub struct Quotient {
     value: i64,
     rest: i64,
-    /// Of what is added per row.
+    /// Increment of the value per row.
     value_by_row: i64,
     rest_by_row: i64,
     divisor: i64,

@@ -27,7 +27,7 @@ impl Sampling {
         (height * self.side).div_ceil(TILE_HEIGHT)
     }
 
-    /// First sample and the one after the last, along one axis, that a face may own; `size` in pixels.
+    /// First sample, and one after the last, that a face may own along one axis; `size` in pixels.
     #[inline(always)]
     pub fn reach(&self, corners: &[i32; 3], size: usize) -> [i32; 2] {
         let low = corners[0].min(corners[1]).min(corners[2]);
@@ -39,7 +39,7 @@ impl Sampling {
         [first.max(0), end.min(most)]
     }
 
-    /// A sample's place in pixels.
+    /// Position of a sample in pixels.
     #[inline(always)]
     pub fn place(&self, i: usize, j: usize) -> [f64; 2] {
         let step = 1i64 << self.shift;

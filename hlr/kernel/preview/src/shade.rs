@@ -13,9 +13,9 @@ use hlr_brep::geometry::vector::{add, dot, sub, unit};
 pub struct Light {
     /// Unit vector from the model toward the light, in the model.
     pub toward: [f64; 3],
-    /// Share that a surface reflects whichever way it faces.
+    /// Share of light that a surface reflects whichever way it faces.
     pub ambient: f32,
-    /// Share that it reflects in addition where it faces the light.
+    /// Share of light that it reflects in addition where it faces the light.
     pub diffuse: f32,
     /// Strength of highlights; 0 for none.
     pub specular: f32,
@@ -32,23 +32,23 @@ pub struct Scene<'a> {
     pub occlusion: Option<Occlusion>,
 }
 
-/// A triangle prepared for shading: all that is constant over it.
+/// A triangle prepared for shading: all values that are constant over it.
 #[derive(Clone, Debug)]
 pub enum Ready {
-    /// One normal, one colour: one light.
+    /// One normal and one colour: a constant result.
     Flat([f32; 4]),
     Round(Round),
     Any(Box<Any>),
 }
 
-/// One colour, and a normal that turns. But for its length the interpolated normal is an affine function of the place:
-/// the factor by which barycentric coordinates are off cancels.
+/// One colour, and a normal that changes over the triangle. Up to its length the interpolated normal is an affine
+/// function of position: the common factor of the barycentric coordinates cancels.
 #[derive(Clone, Debug)]
 pub struct Round {
     colour: [f32; 4],
-    /// The place to which `at` belongs.
+    /// The position to which `at` belongs, in pixels.
     origin: [f64; 2],
-    /// x, y, z of the normal and its product with the light: there, and how they grow by x and by y.
+    /// x, y, z of the normal and its product with the light: at the origin, and their growth per pixel in x and in y.
     at: [f32; 4],
     by_x: [f32; 4],
     by_y: [f32; 4],
@@ -60,12 +60,12 @@ pub struct Any {
     colours: [[f32; 4]; 3],
 }
 
-/// Pixels: a triangle lower than this is not interpolated affinely. A sample may lie a grid step outside of it, which
-/// is nothing for larger ones.
+/// Pixels: a triangle lower than this is not interpolated affinely. A sample may lie a grid step outside of the
+/// triangle; for larger triangles that does not matter.
 const LOW: f64 = 1.0 / 16.0;
 
 impl Scene<'_> {
-    /// `place`: some place where the triangle is seen, in pixels.
+    /// `place`: a position where the triangle is visible, in pixels.
     pub fn ready(&self, triangle: u32, place: [f64; 2]) -> Ready {
         let paint = self.model.paint[triangle as usize];
         let colours = paint.map(|i| self.model.colours[i as usize]);
@@ -93,7 +93,7 @@ impl Scene<'_> {
         }
     }
 
-    /// In a parallel view: the normal as an affine function of the place, from its values at the corners. None for a
+    /// For a parallel view: the normal as an affine function of position, from its values at the corners. None for a
     /// triangle too low for that.
     #[inline(always)]
     fn round(&self, triangle: u32, n: &[[f32; 3]; 3], origin: [f64; 2], colour: [f32; 4]) -> Option<Round> {
@@ -106,13 +106,13 @@ impl Scene<'_> {
         let [x1, y1] = [corners[1][0] - x0, corners[1][1] - y0];
         let [x2, y2] = [corners[2][0] - x0, corners[2][1] - y0];
         let turn = x1 * y2 - x2 * y1;
-        // The height over the longest side is the lowest.
+        // The height over the longest side is the least height.
         let square = |x: f64, y: f64| x * x + y * y;
         let longest = square(x1, y1).max(square(x2, y2)).max(square(x2 - x1, y2 - y1));
         if turn * turn <= longest * (LOW * LOW) {
             return None;
         }
-        // With y down, what is counter-clockwise to the viewer turns negatively.
+        // With y down, a triangle that is counter-clockwise to the viewer has a negative area.
         let side = if turn < 0.0 { 1.0 } else { -1.0 };
         let light = n.map(|n| self.facing(n));
         let values = |k: usize| [0, 1, 2].map(|i: usize| side * f64::from(if k < 3 { n[i][k] } else { light[i] }));
@@ -127,7 +127,7 @@ impl Scene<'_> {
         Some(Round { colour, origin, at, by_x, by_y })
     }
 
-    /// Linear light and opacity of what is seen at a place, in pixels.
+    /// Linear light and opacity at a position where the triangle is visible, in pixels.
     #[inline(always)]
     pub fn shade(&self, ready: &Ready, place: [f64; 2]) -> [f32; 4] {
         match ready {
@@ -140,7 +140,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Pixels side by side, the first of which has its centre at `place`.
+    /// Shades adjacent pixels, the first of which has its centre at `place`.
     #[inline(always)]
     pub fn shade_run(&self, ready: &Ready, place: [f64; 2], row: &mut [[u8; 4]], encoder: &Encoder) {
         if let Ready::Flat(colour) = ready {
@@ -173,7 +173,7 @@ impl Scene<'_> {
         self.effects(&any.surface, w, n, colour)
     }
 
-    /// What takes the point itself.
+    /// Shading that needs the point itself (shadows, occlusion, highlights).
     #[inline(never)]
     fn effects(&self, surface: &Surface, w: [f32; 3], n: [f32; 3], colour: [f32; 4]) -> [f32; 4] {
         let point = surface.point(w);
@@ -212,7 +212,7 @@ impl Scene<'_> {
         [colour[0] * light, colour[1] * light, colour[2] * light, colour[3]]
     }
 
-    /// How much a surface gives back.
+    /// The share of light that a surface reflects.
     #[inline(always)]
     fn share(&self, facing: f32, sun: f32) -> f32 {
         let facing = if facing > 0.0 { facing } else { 0.0 };

@@ -2,11 +2,11 @@
 
 use super::shade::Ready;
 
-/// Places: twice as many as triangles are kept, so that one is found after a step or two.
+/// Slots of the table: twice as many as triangles are kept, so that one is found after a step or two.
 const PLACES: usize = 8192;
 
 pub struct ShadingCache {
-    /// Turn, triangle, and index into `ready`; of an earlier turn it is empty.
+    /// Turn, triangle, and index into `ready`; an entry of an earlier turn is empty.
     places: Vec<(u32, u32, u32)>,
     ready: Vec<Ready>,
     turn: u32,
@@ -17,7 +17,7 @@ impl ShadingCache {
         ShadingCache { places: vec![(0, 0, 0); PLACES], ready: Vec::new(), turn: 1 }
     }
 
-    /// Another tile.
+    /// Forgets all entries, for the next tile.
     pub fn forget(&mut self) {
         self.ready.clear();
         self.turn = self.turn.wrapping_add(1);

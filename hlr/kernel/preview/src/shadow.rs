@@ -1,11 +1,11 @@
 //! Shadows: a depth map from the light, looked up for each visible point.
 //!
-//! L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978, with the edges softened after W. T. Reeves,
-//! D. H. Salesin, R. L. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: not depths are averaged
-//! but the answers of neighbouring texels.
+//! L. Williams, "Casting curved shadows on curved surfaces", SIGGRAPH 1978. Edges are softened after W. T. Reeves, D.
+//! H. Salesin, R. L. Cook, "Rendering antialiased shadows with depth maps", SIGGRAPH 1987: the results of the depth
+//! comparisons of neighbouring texels are averaged, not their depths.
 //!
-//! Glass takes the share of the light that its opacity says. A texel holds where its first layer lies and where its
-//! last: between them a point has the first one before it, beyond them all.
+//! A transparent face takes a share of the light equal to its opacity. A texel stores the depths of its first and its
+//! last transparent layer: a point between them is behind the first one only, a point beyond them behind all.
 
 use super::depth_map::depth_map;
 use super::faces::faces;
@@ -18,18 +18,18 @@ use super::workspace::Workspace;
 use super::{Model, NOTHING};
 use hlr_brep::geometry::vector::{Vector, along, dot};
 
-/// In texels: how far along its normal a point is moved before it is looked up, so that no surface shades itself.
+/// Texels: how far a point is moved along its normal before it is looked up, so that no surface shadows itself.
 const LIFT: f64 = 3.0;
-/// Texels along a side of the square over which answers are averaged: about two pixels of the picture.
+/// Side in texels of the square over which comparisons are averaged: about two pixels of the picture.
 const WIDE: usize = 5;
 
-/// The transparent layers that the light passes through in a texel, before it meets what is opaque.
+/// The transparent layers in a texel that the light passes before it meets an opaque face.
 #[derive(Clone, Copy)]
 struct Glass {
     /// Depth of the first layer, and of the last; 2 for none.
     first: f32,
     last: f32,
-    /// What of the light is left behind the first, and behind all.
+    /// Share of the light left behind the first layer, and behind all.
     left: f32,
     rest: f32,
 }
@@ -50,16 +50,16 @@ impl Glass {
 
 pub struct Shadow {
     lens: Lens,
-    /// Of what is opaque.
+    /// Depth of the nearest opaque face, per texel.
     depth: Vec<f32>,
-    /// Empty where all is opaque.
+    /// Transparent layers per texel; empty where all faces are opaque.
     transparent: Vec<Glass>,
-    /// Of a texel, in the model.
+    /// Size of a texel in model units.
     texel: f64,
 }
 
 impl Shadow {
-    /// `lens`: parallel, as the light looks. None when stopped.
+    /// `lens`: a parallel view in the direction of the light. None when stopped.
     pub fn new(
         model: &Model,
         lens: Lens,
@@ -108,14 +108,14 @@ impl Shadow {
         done.then_some(Shadow { lens, depth, transparent, texel })
     }
 
-    /// How much of the light reaches a point, 0 to 1; n is its unit normal on the viewer's side.
+    /// Share of the light that reaches a point, 0 to 1; n is its unit normal on the viewer's side.
     pub fn share(&self, point: &Vector, n: [f32; 3]) -> f32 {
         let n = n.map(f64::from);
         let facing = -dot(&n, &self.lens.ahead);
         if facing <= 0.0 {
-            return 1.0; // turned away: dark already
+            return 1.0; // turned away from the light: dark already
         }
-        // The steeper the light falls, the farther depths of neighbouring texels lie apart.
+        // The more grazing the light, the more the depths of neighbouring texels differ.
         let slope = (1.0 - facing * facing).max(0.0).sqrt() / facing.max(0.1);
         let lifted = along(point, &n, LIFT * self.texel * (0.5 + slope.min(2.0)));
         let v = self.lens.view(&lifted);
@@ -140,7 +140,7 @@ impl Shadow {
         lit / (WIDE * WIDE) as f32
     }
 
-    /// What of the light comes down to a depth in a texel.
+    /// Share of the light that reaches a depth in a texel.
     fn at(&self, i: i64, j: i64, depth: f32) -> f32 {
         let [width, height] = self.lens.size.map(|c| c as i64);
         if !(0..width).contains(&i) || !(0..height).contains(&j) {

@@ -4,7 +4,7 @@ use super::face::Face;
 use super::grid::{LANES, TILE_HEIGHT, TILE_WIDTH};
 use super::sampling::Sampling;
 
-/// Depth over a tile: affine, and never beyond the face's own.
+/// Depth over a tile: an affine function, clamped to the face's own range.
 pub struct Slope {
     start: f64,
     dx: f64,
@@ -41,7 +41,7 @@ impl Slope {
         }
     }
 
-    /// At eight columns of a row; the first is a multiple of four, or samples are not sheared.
+    /// Depth at eight columns of a row; the first is a multiple of four, or samples are not sheared.
     #[inline(always)]
     pub fn lanes(&self, row: usize, column: usize, sampling: &Sampling) -> [f32; LANES] {
         let shear = f64::from(sampling.shear[row & 3]) / 64.0;
@@ -70,11 +70,11 @@ pub fn window(face: &Face, first: [i32; 2]) -> ([usize; 2], [usize; 2]) {
     ([within(rows[0], first[1], TILE_HEIGHT), within(rows[1], first[1], TILE_HEIGHT)], chunks)
 }
 
-/// Where nothing is masked as outside, and z is less than the depth, the triangle takes its place.
+/// Where a sample is not masked as outside and z is less than its depth, the triangle takes its place.
 #[inline(always)]
 pub fn nearer(outside: &[i32; LANES], z: &[f32; LANES], triangle: u32, samples: &mut [f64; LANES]) {
     for l in 0..LANES {
-        // What is outside is farther than anything, and still a number.
+        // A masked depth becomes larger than any other, and stays a number.
         let z = z[l].to_bits() | (outside[l] as u32 & 0x7000_0000);
         let here = f64::from_bits(u64::from(z) << 32 | u64::from(triangle));
         samples[l] = if here < samples[l] { here } else { samples[l] };

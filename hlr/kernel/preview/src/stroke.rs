@@ -22,7 +22,7 @@ pub struct Piece {
 
 const BAND: usize = 32;
 
-/// Draw pieces of one colour (straight sRGB and opacity) over an RGBA picture. False when stopped.
+/// Draws pieces of one colour (straight sRGB and opacity) over an RGBA picture. False when stopped.
 pub fn stroke(
     picture: &mut [[u8; 4]],
     width: usize,
@@ -72,7 +72,7 @@ fn paint(p: &Piece, top: usize, width: usize, cover: &mut [f32]) {
     let square = along[0] * along[0] + along[1] * along[1];
     for j in rows[0]..rows[1] {
         let y = (top + j) as f64 + 0.5;
-        // The part of the piece that comes near this row tells the columns.
+        // Only the part of the piece near this row decides the columns.
         let columns = near_row(p, along, y, reach, width);
         for i in columns[0]..columns[1] {
             let q = [i as f64 + 0.5 - p.from[0], y - p.from[1]];
@@ -96,7 +96,7 @@ fn near_row(p: &Piece, along: [f64; 2], y: f64, reach: f64, width: usize) -> [us
     span(x[0].min(x[1]) - reach, x[0].max(x[1]) + reach, width)
 }
 
-/// As every program blends lines: on the numbers of the picture, not in linear light, which would make them thin.
+/// Blends sRGB values, not linear light, as other programs draw lines: in linear light they would look thin.
 fn blended(under: [u8; 4], colour: [u8; 4], share: f32) -> [u8; 4] {
     let a = share * f32::from(colour[3]) / 255.0;
     let below = f32::from(under[3]) / 255.0;

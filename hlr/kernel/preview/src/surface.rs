@@ -11,11 +11,11 @@ use hlr_brep::geometry::vector::{Vector, cross, dot, sub, unit};
 
 #[derive(Clone, Debug)]
 pub struct Surface {
-    /// Barycentric coordinates, but for a common factor, as functions of (x, y, 1) in pixels from the lens's centre.
+    /// Barycentric coordinates, up to a common factor, as functions of (x, y, 1) in pixels from the lens's centre.
     pub rows: [Vector; 3],
     corners: [Vector; 3],
     pub normals: [[f32; 3]; 3],
-    /// Seen from outside.
+    /// Whether the triangle is seen from outside.
     pub front: bool,
 }
 
@@ -36,18 +36,18 @@ impl Surface {
         let corners = model.triangles[triangle as usize].map(|i| model.points[i as usize]);
         let h = corners.map(|p| lens.homogeneous(&lens.view(&p)));
         let rows = [cross(&h[1], &h[2]), cross(&h[2], &h[0]), cross(&h[0], &h[1])];
-        // With y down, what is counter-clockwise to the viewer has a negative determinant.
+        // With y down, a triangle that is counter-clockwise to the viewer has a negative determinant.
         let turn = dot(&h[0], &rows[0]);
-        // Of size one, where that can be, so that single precision holds their products.
+        // Scaled to about one where possible, so that single precision holds their products.
         let share = if turn == 0.0 { 1.0 } else { 1.0 / turn };
         let normals = normals(model, triangle);
         Surface { rows: rows.map(|r| r.map(|c| c * share)), corners, normals, front: turn < 0.0 }
     }
 
-    /// The barycentric coordinates but for a common factor.
+    /// The barycentric coordinates up to a common factor.
     #[inline(always)]
     fn shares(&self, place: [f64; 2]) -> [f64; 3] {
-        // Not negative but for rounding: a sample is owned by the snapped triangle.
+        // Clamped at zero: the snapped triangle owns the sample, so only rounding makes one negative.
         let at = |r: &Vector| {
             let v = r[0] * place[0] + r[1] * place[1] + r[2];
             if v > 0.0 { v } else { 0.0 }
@@ -55,7 +55,7 @@ impl Surface {
         [at(&self.rows[0]), at(&self.rows[1]), at(&self.rows[2])]
     }
 
-    /// Barycentric coordinates of what is seen at a place, in pixels from the lens's centre.
+    /// Barycentric coordinates of the visible point at a position, in pixels from the lens's centre.
     #[inline(always)]
     pub fn weights(&self, place: [f64; 2]) -> [f32; 3] {
         let [a, b, c] = self.shares(place);

@@ -4,12 +4,13 @@ use super::NOTHING;
 use super::grid::{LANES, TILE_HEIGHT, TILE_WIDTH};
 use super::pyramid::Pyramid;
 
-/// Depth 2, farther than all, and no triangle.
+/// Depth 2, farther than all others, and no triangle.
 const EMPTY: f64 = f64::from_bits((2f32.to_bits() as u64) << 32 | NOTHING as u64);
 
-/// Depth and owner of the samples of one tile: the bits of a depth, which is not negative, above the number of a
-/// triangle. So the nearer of two is the smaller number, and of equal depths that of the first triangle. It is kept as
-/// the double of those bits, which compares alike, because processors have an instruction for the lesser of doubles.
+/// Depth and triangle of the samples of one tile: the bits of the depth, which is not negative, above the triangle's
+/// number. So the nearer of two samples is the smaller number, and at equal depths the first triangle wins. The number
+/// is stored as the double of those bits, which compares alike, because processors have an instruction for the lesser
+/// of two doubles.
 pub struct Tile {
     pub(super) samples: [[f64; TILE_WIDTH]; TILE_HEIGHT],
     pub(super) pyramid: Pyramid,
@@ -48,7 +49,7 @@ impl Tile {
         None
     }
 
-    /// What is seen along a row.
+    /// The samples of a row.
     #[inline(always)]
     pub fn row(&mut self, row: usize) -> &mut [f64; TILE_WIDTH] {
         &mut self.samples[row]
@@ -59,7 +60,7 @@ impl Tile {
         f32::from_bits((self.samples[j][i].to_bits() >> 32) as u32)
     }
 
-    /// NOTHING for none.
+    /// The triangle at a sample; NOTHING for none.
     #[inline(always)]
     pub fn triangle(&self, i: usize, j: usize) -> u32 {
         self.samples[j][i].to_bits() as u32

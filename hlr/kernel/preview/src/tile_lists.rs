@@ -3,7 +3,7 @@
 use super::face::{Chunk, Face};
 use super::grid::{TILE_HEIGHT, TILE_WIDTH};
 
-/// Which of some chunks' faces reach into which tile, in their order: a counting sort by tile.
+/// The faces of some chunks that reach into each tile, in their order: a counting sort by tile.
 #[derive(Default)]
 pub struct List {
     starts: Vec<u32>,
@@ -12,14 +12,14 @@ pub struct List {
 }
 
 impl List {
-    /// `tiles`: how many, across and down.
+    /// `tiles`: number of tiles, across and down.
     pub fn refill(&mut self, chunks: &[Chunk], [across, down]: [usize; 2], transparent: &[bool]) {
         let reached = |face: &Face| {
             let [columns, rows] = face.reach;
             let of = |[first, end]: [i32; 2], side: usize| first as usize / side..(end as usize - 1) / side + 1;
             (of(columns, TILE_WIDTH), of(rows, TILE_HEIGHT))
         };
-        // One ahead while filling: starts[t + 1] runs from the start of t to its end.
+        // Shifted by one while filling: starts[t + 1] moves from the start of tile t to its end.
         let starts = &mut self.starts;
         starts.clear();
         starts.resize(across * down + 2, 0);

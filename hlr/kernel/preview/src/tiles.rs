@@ -14,21 +14,21 @@ use super::tile::Tile;
 use super::tile_lists::List;
 use super::workspace::Workspace;
 
-/// Lists that are made side by side: enough for any machine's cores, few enough that a tile finds its faces at once.
+/// Lists that are made in parallel: enough for any machine's cores, few enough that a tile finds its faces quickly.
 const LISTS: usize = 32;
 
 /// A tile whose z-buffer is filled with the opaque faces.
 pub struct Filled<'a> {
     pub tile: &'a Tile,
-    /// Of the first sample: column and row.
+    /// Column and row of the first sample.
     pub first: [usize; 2],
     /// Transparent faces, in the order of the model.
     pub transparent: &'a [&'a Face],
 }
 
-/// Fill all tiles that `space.chunks` reach of a picture of `size`; `show` writes a tile into the rows of its strip,
-/// which are `size[0]` wide and hold `nothing`, and may keep what it likes in a `scratch` of its thread. `transparent`
-/// tells the transparent triangles. False when stopped.
+/// Fills all tiles of a picture of `size` that `space.chunks` reach. `show` writes a tile into the rows of its strip,
+/// which are `size[0]` wide and filled with `nothing`, and may keep data in a `scratch` of its thread. `transparent`:
+/// per triangle. False when stopped.
 #[allow(clippy::too_many_arguments)] // what is drawn, where to, and how
 pub fn each_tile<P: Copy + Send + Sync, S>(
     space: &mut Workspace,
@@ -54,7 +54,8 @@ pub fn each_tile<P: Copy + Send + Sync, S>(
             if stopped() {
                 return;
             }
-            // By the thread that goes on with them: the pages of a new picture are had when they are first written.
+            // Filled by the thread that goes on with the rows: the system assigns the pages of a new picture at the
+            // first write.
             out.fill(nothing);
             for column in 0..tiles[0] {
                 solid.clear();

@@ -17,11 +17,10 @@ pub struct Layer {
     pub triangle: u32,
 }
 
-/// Share of the depth's range: a transparent face this near to an opaque one is not told apart from it, by whatever
-/// rounding.
+/// Share of the range of depth: a transparent face this near to an opaque one counts as coincident with it.
 const APART: f32 = 2e-6;
 
-/// All layers of a tile, by sample; of a sample the farthest first. At equal depths the first triangle lies in front.
+/// All layers of a tile, sorted by sample, then farthest first. At equal depths the first triangle lies in front.
 pub fn layers(tile: &Tile, faces: &[&Face], first: [usize; 2], sampling: &Sampling, out: &mut Vec<Layer>) {
     out.clear();
     for face in faces {
@@ -34,11 +33,11 @@ pub fn layers(tile: &Tile, faces: &[&Face], first: [usize; 2], sampling: &Sampli
     out.sort_unstable_by(|a, b| {
         a.sample.cmp(&b.sample).then(b.depth.total_cmp(&a.depth)).then(b.triangle.cmp(&a.triangle))
     });
-    // A triangle that was cut may own a sample once only.
+    // A triangle that was cut may own a sample only once.
     out.dedup_by(|a, b| a.sample == b.sample && a.triangle == b.triangle);
 }
 
-/// `over` in front of `under`; colours premultiplied by their opacity.
+/// Blends `over` in front of `under`; colours premultiplied by their opacity.
 #[inline(always)]
 pub fn over(over: [f32; 4], under: [f32; 4]) -> [f32; 4] {
     let through = 1.0 - over[3];

@@ -1,4 +1,4 @@
-//! Memory that one picture needs and the next one reuses: a turning model is drawn many times, and allocating costs as
+//! Memory that one picture needs and the next one reuses: an animation draws many pictures, and allocating costs as
 //! much as filling.
 
 use super::face::{Chunk, Vertex};

@@ -12,7 +12,7 @@ pub fn rows<'a, T: numpy::Element, const N: usize>(
 ) -> PyResult<&'a [[T; N]]> {
     let wrong = || PyValueError::new_err(format!("{name} must be a C-contiguous (n, {N}) array"));
     let slice = array.as_slice().map_err(|_| wrong())?;
-    // An array in Fortran's order is contiguous as well, but its slice runs down the columns.
+    // An array in Fortran order is contiguous as well, but its slice runs down the columns.
     if array.as_array().shape()[1] != N || !array.is_c_contiguous() {
         return Err(wrong());
     }
@@ -32,7 +32,7 @@ pub fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
 }
 
 pub fn expect_below(name: &str, values: impl Iterator<Item = i32> + Clone, limit: usize) -> PyResult<()> {
-    // Without a sign negative ones are the largest: one number tells of all, without a branch for each.
+    // As unsigned numbers negative ones are the largest: one maximum checks them all, without a branch for each.
     let largest = values.clone().fold(0u32, |most, v| most.max(v as u32));
     if (largest as usize) < limit {
         return Ok(());

@@ -10,7 +10,7 @@ use hlr_mesh::boxes::placed;
 /// Corners (p, 8, 3) and the box (2, 3) around them.
 type PlacedBoxes<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>);
 
-/// The corners of boxes (r, 2, 3), of each part that of its root, moved by the part's matrix (p, 4, 4), and the box
+/// The corners of boxes (r, 2, 3): for each part the box of its root, moved by the part's matrix (p, 4, 4). And the box
 /// around them all. A box whose lower corner lies beyond the upper one is void: its corners are 0, and do not count.
 #[pyfunction]
 pub fn placed_boxes<'py>(

@@ -35,7 +35,7 @@ impl BrepModel {
     #[pyo3(signature = (dump, chosen = None, threads = 0))]
     fn new(py: Python<'_>, dump: &[u8], chosen: Option<Vec<u32>>, threads: usize) -> PyResult<BrepModel> {
         caught(py, || {
-            // A kilobyte takes some ten microseconds.
+            // A kilobyte takes about ten microseconds.
             let read = run(py, threads, dump.len() / 64, |_| Model::read(dump, chosen.as_deref()))?;
             let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
             Ok(BrepModel(Arc::new(model)))
@@ -48,7 +48,7 @@ impl BrepModel {
         self.0.faces.len()
     }
 
-    /// Faces of each part, each as often as it is placed there.
+    /// Faces of each part; a face that is placed several times counts each time.
     #[getter]
     fn faces_of_parts(&self) -> Vec<usize> {
         self.0.parts.iter().map(|part| part.faces.len()).collect()
@@ -61,7 +61,7 @@ impl BrepModel {
         all.into_pyarray(py)
     }
 
-    /// kind, offsets, data of the surfaces of faces.
+    /// Surfaces of faces as packed records: kind, offsets, data.
     fn surface_records<'py>(&self, py: Python<'py>, numbers: PyReadonlyArray1<'py, i32>) -> PyResult<Records<'py>> {
         let numbers = flat(&numbers, "numbers")?;
         expect_below("numbers", numbers.iter().copied(), self.0.faces.len())?;
@@ -75,7 +75,7 @@ impl BrepModel {
         Ok((kind.into_pyarray(py), offsets.into_pyarray(py), data.into_pyarray(py)))
     }
 
-    /// Faces on tori whose tube reaches beyond their axis, with major and minor radius.
+    /// Faces on tori whose tube reaches beyond their axis: number, major and minor radius.
     fn spindles(&self) -> Vec<(i32, f64, f64)> {
         let radii = |(i, face): (i32, &Face)| match face.surface {
             Some(Surface::Torus(_, major, minor)) if minor > major => Some((i, major, minor)),
@@ -84,8 +84,8 @@ impl BrepModel {
         (0..).zip(&self.0.faces).filter_map(radii).collect()
     }
 
-    /// kind, range, offsets, values of the curves of edges, given as parts and numbers in their edge maps, in the
-    /// frames of their parts.
+    /// Curves of edges as packed records: kind, range, offsets, values. Edges are given as parts and numbers in their
+    /// edge maps; curves are in the frames of their parts.
     fn edge_curves<'py>(
         &self,
         py: Python<'py>,
@@ -113,7 +113,7 @@ impl BrepModel {
         Ok((kind.into_pyarray(py), range, offsets.into_pyarray(py), values.into_pyarray(py)))
     }
 
-    /// `progress`: called with the share of faces that are done.
+    /// Meshes all faces. `progress`: called with the share of faces that are done.
     #[pyo3(signature = (deflection, angle, progress = None, threads = 0))]
     fn mesh(
         &self,
@@ -134,7 +134,7 @@ impl BrepModel {
         };
         let work =
             |stopped: &(dyn Fn() -> bool + Sync)| tessellate(model, deflection, angle, &Watch { stopped, done: &done });
-        // A face is worth many points; one that bends both ways may have any number inside.
+        // A face costs as much as many points; one that bends both ways may have any number inside.
         let bent = |face: &Face| face.surface.as_ref().is_some_and(bends_both_ways);
         let size = 100 * model.faces.len() + if model.faces.iter().any(bent) { FEW } else { 0 };
         let meshed = run_telling(py, threads, size, tell, work)?;
@@ -166,9 +166,9 @@ impl BrepMesh {
         count.enumerate().filter(|&(_, loops)| loops > 0).collect()
     }
 
-    /// Give a face the triangles of another mesher: points (n, 3) in the face's frame, uv (n, 2), triangles (m, 3)
+    /// Gives a face the triangles of another mesher: points (n, 3) in the face's frame, uv (n, 2), triangles (m, 3)
     /// counterclockwise in (u, v), and for each edge in each wire its nodes and their parameters, in the edge's sense.
-    /// Whether they fit the face.
+    /// Returns whether they fit the face.
     fn replace(
         &self,
         face: usize,
@@ -196,7 +196,7 @@ impl BrepMesh {
         Ok(found.map(|found| meshed.faces[face] = found).is_some())
     }
 
-    /// planar: (faces,) as `BrepModel.planar` tells them.
+    /// The meshes of all parts; planar: (faces,) as `BrepModel.planar` returns it.
     #[pyo3(signature = (planar, threads = 0))]
     fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>, threads: usize) -> PyResult<PartTables> {
         let planar = flat(&planar, "planar")?;

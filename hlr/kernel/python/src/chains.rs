@@ -35,7 +35,7 @@ pub fn chain<'py>(
     Ok((c.offsets.into_pyarray(py), c.order.into_pyarray(py), c.reversed.into_pyarray(py)))
 }
 
-/// Walks over mesh edges, of which some become lines.
+/// Walks over mesh edges, some of which become lines.
 #[pyclass(frozen)]
 pub struct Walks {
     offsets: Vec<i32>,
@@ -102,11 +102,11 @@ impl Walks {
 }
 
 impl Walks {
-    /// Those whose class is drawn.
+    /// The chains whose class is drawn.
     fn chosen(&self, drawn: &[bool]) -> Found {
         let mut out = Found::new();
         for (about, w) in self.about.iter().zip(self.offsets.windows(2)) {
-            // Chains of a kind that was not asked for may still hold contours: those are drawn as outlines instead.
+            // Chains of a class that is not drawn may still hold contours: those are drawn as outlines instead.
             if drawn[about.kind.0 as usize] {
                 let run = w[0] as usize..w[1] as usize;
                 out.push(&self.edges[run.clone()], &self.reversed[run], *about);

@@ -47,7 +47,7 @@ fn search(
     Some((grid, found))
 }
 
-/// Every two triangles that cross, however little.
+/// Every pair of triangles that cross, however little.
 #[pyfunction]
 pub fn clashes<'py>(
     py: Python<'py>,
@@ -81,15 +81,15 @@ pub fn clashes<'py>(
     Ok(out)
 }
 
-/// Intersection lines of a scene: ends (n, 3), segments (m, 2) of them, groups (m, 2) of each; of every group whether
-/// it passes through itself; and how many pairs of triangles were looked at.
+/// Intersection lines of a scene: points (n, 3), segments (m, 2) between them, the two groups (m, 2) of each segment;
+/// for every group whether it passes through itself; and the number of triangle pairs examined.
 pub type Crossings<'py> = (Rows<'py, f64>, Rows<'py, i32>, Rows<'py, i32>, Flat<'py, bool>, u64);
 
 fn widest(low: &[f64; 3], high: &[f64; 3]) -> f64 {
     (0..3).map(|k| high[k] - low[k]).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// touch: of every group of the scene, model units.
+/// touch: contact tolerance of every group of the scene, in model units.
 pub fn crossings<'py>(
     py: Python<'py>,
     (tables, facts, scene): (&Tables, &Facts, &Scene),
@@ -131,7 +131,7 @@ pub fn crossings<'py>(
     ))
 }
 
-/// Whether each box (low, high) comes near another one: never no where it does, rarely yes where it does not.
+/// Whether each box (low, high) comes near another one. Always true where it does; rarely true where it does not.
 #[pyfunction]
 pub fn boxes_meet<'py>(
     py: Python<'py>,
@@ -147,7 +147,7 @@ pub fn boxes_meet<'py>(
         return Err(PyValueError::new_err("boxes hold coordinates that are not finite"));
     };
     let grid = grid.uniform();
-    // A step more on each side than what was rounded.
+    // One step wider on each side, to cover the rounding.
     let boxes: Vec<Aabb> = used
         .iter()
         .map(|&i| Aabb { low: grid.snap(&low[i]).map(|c| c - 1), high: grid.snap(&high[i]).map(|c| c + 1) })

@@ -11,8 +11,8 @@ use super::threads::run;
 use hlr_preview::fill::areas;
 use hlr_preview::shade::Scene;
 
-/// What `ShadedModel.picture` shows, as areas in the order of painting; `label` (t,): triangles with one number belong
-/// to one face; `fine`: pixels that a band of light is wide at least.
+/// Areas of what `ShadedModel.picture` shows, in the order of painting; `label` (t,): equal for triangles of one face;
+/// `fine`: least width of a band of light in pixels.
 ///
 /// points (n, 2) pixels, y down; loops (l + 1,) into points; areas (a + 1,) into loops; colours (a, 4) sRGB and
 /// opacity; triangle (a,): one of the face; gradient (a,): -1 for none; lines (g, 4): from x, y to x, y; stops (g + 1,)

@@ -1,7 +1,7 @@
 //! Turns every panic of the kernel into a Python error: `hlr.common.faults.guarded` wraps all that the kernel exports.
 //!
-//! The end of the module's registration wraps every function and every method of every class, so that no binding can be
-//! forgotten. Constructors cannot be replaced from outside; they call `caught`.
+//! At the end of the module's registration every function and every method of every class is wrapped, so that no
+//! binding can be forgotten. Constructors cannot be replaced from outside; they call `caught`.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
@@ -16,7 +16,7 @@ fn fault() -> std::sync::MutexGuard<'static, Option<String>> {
     FAULT.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
 }
 
-/// The text of the last panic, once; None if there was none.
+/// The text of the first panic since the last call; None if there was none.
 #[pyfunction]
 pub fn take_fault() -> Option<String> {
     fault().take()
@@ -30,7 +30,7 @@ pub fn provoke_fault(py: Python<'_>, on_worker: bool) -> PyResult<usize> {
     if on_worker { super::threads::run(py, 1, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
 }
 
-/// For constructors: a panic as the exception that `hlr.common.faults` makes of one.
+/// For constructors: turns a panic into the exception that `hlr.common.faults` makes of it.
 pub fn caught<T>(py: Python<'_>, work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(done) => done,

@@ -79,6 +79,6 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(measure::blocked, m)?)?;
     m.add_function(wrap_pyfunction!(guard::take_fault, m)?)?;
     m.add_function(wrap_pyfunction!(guard::provoke_fault, m)?)?;
-    // Last: what is registered after it is not guarded.
+    // Last: anything registered after this is not guarded.
     guard::guard(m)
 }

@@ -34,7 +34,7 @@ impl Camera {
         Camera(PaperCamera { direction, right, up, eye, scale })
     }
 
-    /// (n, 3) to the right, up, and away from the viewer, in model units.
+    /// Image coordinates (n, 3) of points: to the right, up, and away from the viewer, in model units.
     fn image<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         table(py, rows(&points, "points")?.iter().map(|p| self.0.image(p)).collect())
     }
@@ -44,7 +44,7 @@ impl Camera {
 type Pieces<'py> =
     (PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, u8>);
 
-/// What lines may be off by, and what is too short to be drawn.
+/// How far lines may be off, and which lines are too short to be drawn.
 #[pyclass(frozen)]
 pub struct LineTolerances {
     cut: Tolerances,
@@ -77,7 +77,7 @@ impl LineTolerances {
     }
 }
 
-/// Lines on paper, chained, merged and thinned out, on their way to their curves.
+/// Lines on paper, chained, merged and thinned out, before curves are fitted to them.
 #[pyclass(frozen)]
 pub struct Cut {
     chains: Arc<Walks>,
@@ -85,7 +85,7 @@ pub struct Cut {
     camera: PaperCamera,
     fit: Fit,
     hidden: bool,
-    /// Of each line.
+    /// Per line: its chain.
     chain: Vec<i32>,
     drawn: usize,
     found: Mutex<Option<Found>>,
@@ -149,18 +149,18 @@ impl Cut {
         })
     }
 
-    /// How many lines will be drawn.
+    /// Number of lines that will be drawn.
     fn __len__(&self) -> usize {
         self.drawn
     }
 
-    /// (lines,) the chain of each line, also of those that are there only for others to end on.
+    /// (lines,) the chain of each line, also of lines that are not drawn but on which others end.
     #[getter]
     fn chain<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
         self.chain.clone().into_pyarray(py)
     }
 
-    /// The lines on their curves, and their lower left corner; once.
+    /// The lines with their curves, and their lower left corner. Can be called only once.
     #[allow(clippy::too_many_arguments)] // one argument per array: the stub names them
     fn finished(
         &self,
@@ -206,7 +206,7 @@ fn matrices<'a>(places: &'a PyReadonlyArray3<'_, f64>) -> PyResult<&'a [[[f64; 4
     Ok(places.as_slice().map_err(|_| wrong())?.as_chunks::<4>().0.as_chunks::<3>().0)
 }
 
-/// Pieces, and where those of each edge begin.
+/// The pieces, and the index at which those of each edge begin.
 fn pieces_of(pieces: &Pieces, edges: usize) -> PyResult<(Vec<Piece>, Vec<u32>)> {
     let (edge, start, end, state) =
         (flat(&pieces.0, "edge")?, flat(&pieces.1, "t0")?, flat(&pieces.2, "t1")?, flat(&pieces.3, "state")?);

@@ -14,8 +14,8 @@ use hlr_mesh::needles::needles as low_ones;
 
 type Cleaned<'py> = (Rows<'py, f64>, Rows<'py, i32>, Option<Flat<'py, u32>>, (usize, usize, usize));
 
-/// Points joined where they are equal, triangles without impossible ones, which of them were kept, and how many were
-/// left out: not finite, out of range, degenerate.
+/// Points, equal ones joined; triangles without invalid ones; which triangles were kept; and how many were left out as
+/// not finite, out of range, or degenerate.
 #[pyfunction]
 pub fn clean_mesh<'py>(
     py: Python<'py>,
@@ -34,8 +34,8 @@ pub fn clean_mesh<'py>(
 
 type Turned<'py> = (Flat<'py, u32>, Rows<'py, i32>, Flat<'py, u32>, Rows<'py, u32>);
 
-/// Edge flips that remove needles: which triangles changed, their corners, whose face each has now, and where each
-/// corner stood. None: there are none.
+/// Edge flips that remove needles: which triangles changed, their corners, the triangle whose face each has now, and
+/// where each corner was before. None where there are no needles.
 #[pyfunction]
 pub fn without_needles<'py>(
     py: Python<'py>,
@@ -53,7 +53,7 @@ pub fn without_needles<'py>(
     Ok(Some((triangle, table(py, found.corners)?, like, table(py, found.stood)?)))
 }
 
-/// Which triangles are lower than `least` of their part, or have no area; and the numbers of their longest sides.
+/// Which triangles are lower than their part's `least`, or have no area; and the numbers of their longest sides.
 #[pyfunction]
 pub fn needles<'py>(
     py: Python<'py>,
@@ -73,8 +73,8 @@ pub fn needles<'py>(
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }
 
-/// Kinds of the edges of parts without B-rep, 255 for all others; and which of those are nearly creases. Cosines of
-/// folds: sharp, near.
+/// Classes of the edges of parts without B-rep, 255 for all others; and which of those are nearly creases. sharp, near:
+/// cosines of folds.
 #[pyfunction]
 pub fn edge_kinds<'py>(
     py: Python<'py>,

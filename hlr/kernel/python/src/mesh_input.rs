@@ -7,7 +7,7 @@ use super::arrays::{check_incidence, expect_below, expect_len, flat, rows};
 use super::guard::caught;
 use hlr_visibility::scan::scene::Group;
 
-/// Triangles and edges, and which triangles are at which edge. The arrays stay those of the caller.
+/// Triangles and edges, and the triangles at each edge. The arrays remain the caller's.
 #[pyclass(frozen)]
 pub struct Mesh {
     points: Py<PyArray2<f64>>,
@@ -17,7 +17,7 @@ pub struct Mesh {
     incident: Py<PyArray1<i32>>,
 }
 
-/// A mesh while its arrays are read.
+/// Borrows of a mesh's arrays while they are read.
 pub struct Reading<'py> {
     points: PyReadonlyArray2<'py, f64>,
     triangles: PyReadonlyArray2<'py, i32>,
@@ -26,7 +26,7 @@ pub struct Reading<'py> {
     incident: PyReadonlyArray1<'py, i32>,
 }
 
-/// The same as slices.
+/// The same arrays as slices.
 pub struct Slices<'a> {
     pub points: &'a [[f64; 3]],
     pub triangles: &'a [[i32; 3]],
@@ -82,7 +82,7 @@ impl Reading<'_> {
     }
 }
 
-/// Which group each triangle and each edge is of, and what may be assumed of each group.
+/// The group of each triangle and of each edge, and what may be assumed of each group.
 #[pyclass(frozen)]
 pub struct Groups {
     triangle: Py<PyArray1<i32>>,
@@ -124,7 +124,7 @@ impl Groups {
 }
 
 impl Groups {
-    /// Of triangles, and of edges.
+    /// Groups of triangles, and of edges.
     pub fn reading<'py>(&self, py: Python<'py>) -> PyResult<(PyReadonlyArray1<'py, i32>, PyReadonlyArray1<'py, i32>)> {
         Ok((self.triangle.bind(py).try_readonly()?, self.edge.bind(py).try_readonly()?))
     }

@@ -13,8 +13,8 @@ const ROOM: usize = 4;
 
 type Read<'py> = (Rows<'py, f64>, Vec<(String, Rows<'py, i32>)>, Option<Rows<'py, u8>>, Option<Rows<'py, u8>>);
 
-/// Points, pieces (name, triangles), and colours of points or of triangles. EOFError: it ends too early; ValueError: it
-/// is broken; both say how.
+/// Points, pieces (name, triangles), and colours of points or of triangles. Raises EOFError where the file ends too
+/// early and ValueError where it is broken; both say how.
 #[pyfunction]
 pub fn read_mesh<'py>(py: Python<'py>, data: &Bound<'py, PyBytes>, kind: &str) -> PyResult<Read<'py>> {
     let reader: fn(&[u8], Stop) -> Result<MeshFile, Fault> = match kind {
@@ -25,7 +25,7 @@ pub fn read_mesh<'py>(py: Python<'py>, data: &Bound<'py, PyBytes>, kind: &str) -
         _ => return Err(PyValueError::new_err(format!("there is no reader of {kind}"))),
     };
     let bytes = data.as_bytes();
-    // A text takes up to so many times its length as numbers; where there is no room, Rust could only abort.
+    // Numbers take up to ROOM times as many bytes as their text. Without that memory Rust could only abort.
     if Vec::<u8>::new().try_reserve_exact(bytes.len().saturating_mul(ROOM)).is_err() {
         return Err(PyMemoryError::new_err("too little memory"));
     }

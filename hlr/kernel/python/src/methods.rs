@@ -60,10 +60,10 @@ pub fn method_of(name: &str, variant: &str) -> PyResult<Method> {
     })
 }
 
-/// Seconds, whether of the thread's work alone, and bytes.
+/// Seconds, whether these are processor time of the thread, and bytes.
 pub type LimitsTuple = (f64, bool, f64);
 
-/// Work on one thread within limits: TimeoutError or MemoryError where they were too narrow.
+/// Runs work on one thread within limits: TimeoutError or MemoryError where they were exceeded.
 pub fn within<T: Send>(
     py: Python<'_>,
     (seconds, worked, bytes): LimitsTuple,
@@ -87,7 +87,7 @@ impl Method {
         if matches!(self, Method::ZBuffer(_)) { size_of::<f64>() } else { 0 }
     }
 
-    /// Fill the frame; `tree` keeps that of the scene.
+    /// Fills the frame; `tree` caches the scene's BSP tree.
     #[allow(clippy::too_many_arguments)] // everything that some method needs
     pub fn fill(
         self,
@@ -114,7 +114,7 @@ impl Method {
     }
 }
 
-/// The tree that is there, or a new one; its making is the setup.
+/// The tree that was kept, or a new one, which counts as setup.
 pub fn with_tree<T>(
     scene: &Scene,
     tree: &Mutex<Option<Tree>>,

@@ -28,7 +28,7 @@ pub fn sorted_list(on: &Screen, watch: &Watch, statistics: &mut Statistics) -> O
     Some(listed.collect())
 }
 
-/// The fragments of the tree, each clipped by the view volume, flat.
+/// The fragments of the tree, each clipped by the view volume, in the plane of the picture.
 pub fn tree_list(tree: &Tree, camera: &Camera, watch: &Watch) -> Option<Listed> {
     let view = View::new(&tree.origin, camera)?;
     let walls = walls(camera, 1e6);
@@ -91,7 +91,7 @@ pub fn counted<'py>(py: Python<'py>, s: &Statistics, prepared: f64, seconds: f64
     Ok(out)
 }
 
-/// Floors of a quadric's nearer depths in a row, i64::MIN where it is missed, and the corrections that took.
+/// Floors of a quadric's nearer depths in a row, i64::MIN where it is missed; and the number of corrections.
 #[pyfunction]
 pub fn quadric_row<'py>(
     py: Python<'py>,

@@ -16,7 +16,7 @@ use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::{Scene, scene};
 use hlr_mesh::tables::{Placed, Tables, TooMany};
 
-/// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items waking
+/// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items starting
 /// other threads costs more than the work.
 const CHEAP: usize = 64;
 
@@ -145,7 +145,7 @@ arrays! { PartTables {
         self.0.len()
     }
 
-    /// These parts, each where it stands.
+    /// These parts, each at its placement.
     fn placed(
         &self,
         py: Python<'_>,
@@ -172,12 +172,12 @@ arrays! { PartTables {
         self.0.within(largest)
     }
 
-    /// Whether a part that is not joined may hold two points in one place: yes where it does.
+    /// Whether a part whose points are not joined may hold two points in one place; always true where it does.
     fn places_repeated(&self, py: Python<'_>) -> PyResult<bool> {
         run(py, 0, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
     }
 
-    /// Edges, and what can be said of the mesh before any part or edge has a meaning.
+    /// Edges, and the properties of the mesh that need no part or class of edge.
     fn facts(&self, py: Python<'_>) -> PyResult<MeshFacts> {
         let tables = &self.0;
         let facts = run(py, 0, tables.triangles.len() / CHEAP, |_| Facts::of(&tables.points, &tables.triangles))?;
@@ -194,7 +194,7 @@ fn to_matrices(array: &PyReadonlyArray3<'_, f64>, name: &str, count: usize) -> P
     Ok(flat.as_chunks::<4>().0.as_chunks::<3>().0.to_vec())
 }
 
-/// Starts of parts among `count` items.
+/// Starts of the parts, checked: ascending, up to `count` items.
 fn starts(array: &PyReadonlyArray1<'_, i32>, name: &str, parts: usize, count: usize) -> PyResult<Vec<i32>> {
     let start = slice(array, name)?;
     expect_len(name, start.len(), parts + 1)?;
@@ -298,7 +298,7 @@ arrays! { MeshScene {
         MeshFacts { tables: self.tables.clone(), facts: self.facts.clone() }
     }
 
-    /// (t,) which triangles were turned; None: none was.
+    /// (t,) which triangles were turned; None where none was.
     #[getter]
     fn turned<'py>(slf: &Bound<'py, Self>) -> Option<Flat<'py, bool>> {
         slf.get().scene.turned.as_ref()?;
@@ -310,7 +310,7 @@ arrays! { MeshScene {
         crossings(py, (&self.tables, &self.facts, &self.scene), slice(&touch, "touch")?, deflection)
     }
 
-    /// Per part its counts.
+    /// Per part: its counts, as `Report` lists them.
     #[getter]
     fn reports(&self) -> Vec<[i64; 8]> {
         self.scene.reports.clone()

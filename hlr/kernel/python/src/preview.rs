@@ -25,7 +25,7 @@ use hlr_preview::stroke::{Piece, stroke};
 use hlr_preview::workspace::Workspace;
 use hlr_preview::{Model, NOTHING};
 
-/// A view of the model as a picture in pixels: what `hlr_preview::lens::Lens` says of each field, distance 0 for
+/// A view of the model as a picture in pixels. The fields are those of `hlr_preview::lens::Lens`; distance is 0 for
 /// parallel views.
 #[pyclass(frozen, name = "Lens")]
 pub struct PictureLens(pub Lens);
@@ -120,7 +120,7 @@ pub struct ShadedModel {
 }
 
 impl ShadedModel {
-    /// Work in the memory of the last picture, or in fresh memory while another thread is at it.
+    /// Works in the memory of the last picture, or in fresh memory while another thread is using that.
     pub fn with_space<T>(&self, work: impl FnOnce(&mut Workspace) -> T) -> T {
         match self.space.try_lock() {
             Ok(mut space) => work(&mut space),
@@ -185,7 +185,7 @@ impl ShadedModel {
         })
     }
 
-    /// (h, w, 4) uint8; `out`: a picture of that shape to draw over instead of a new one.
+    /// The picture (h, w, 4), uint8; `out`: a picture of that shape to draw into instead of a new one.
     #[pyo3(signature = (lens, light, background, antialias, shadow = None, occlusion = 0.0, threads = 0, out = None))]
     #[allow(clippy::too_many_arguments)] // one argument per effect: the stub names them
     fn picture<'py>(
@@ -232,8 +232,8 @@ impl ShadedModel {
         Ok(out)
     }
 
-    /// What is seen at the centres of pixels: distance ahead (h, w) float64, infinite for nothing; triangle (h, w)
-    /// int32, -1 for none. Transparent triangles count as opaque.
+    /// The depth map at the centres of pixels: distance ahead (h, w) float64 in model units, infinite where there is
+    /// nothing; triangle (h, w) int32, -1 for none. Transparent triangles count as opaque.
     #[pyo3(signature = (lens, threads = 0))]
     #[allow(clippy::type_complexity)]
     fn maps<'py>(
@@ -257,7 +257,7 @@ impl ShadedModel {
     }
 }
 
-/// Straight pieces (n, 4), x0 y0 x1 y1 in pixels, over an (h, w, 4) picture, in place.
+/// Draws straight pieces (n, 4), x0 y0 x1 y1 in pixels, over an (h, w, 4) picture, in place.
 #[pyfunction]
 #[pyo3(signature = (picture, pieces, width, colour, threads = 0))]
 pub fn stroke_picture(
@@ -283,8 +283,7 @@ pub fn stroke_picture(
     if done { Ok(()) } else { Err(stopped_error()) }
 }
 
-/// Unit normals (k, 3) float32 of the true surfaces at the places uv (k, 2), on the outer side; nought where there is
-/// none.
+/// Unit normals (k, 3) float32 of the true surfaces at uv (k, 2), on the outer side; zero where there is none.
 #[pyfunction]
 #[pyo3(signature = (mesh, on, threads = 0))]
 pub fn surface_normals<'py>(

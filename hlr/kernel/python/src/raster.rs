@@ -26,13 +26,13 @@ use hlr_methods::statistics::Statistics;
 use hlr_methods::stopwatch::Stopwatch;
 use hlr_methods::{scan_line_z_buffer, shading};
 
-/// Of an active edge: polygon, edge; x and dx, z and dz, values and their steps, where it crosses the row.
+/// An active edge where it crosses the row: polygon, edge; x and dx, z and dz, values and their steps.
 type Record = (i32, u32, [f64; 2], [f64; 2], Option<[[f64; 3]; 2]>);
-/// Active edges. Spans: from, to, polygons that are in.
+/// Active edges of a row, and its spans: from, to, polygons that are in.
 type RowParts = (Vec<Record>, Vec<(i64, i64, Vec<i32>)>);
 /// The same for Python.
 type Row<'py> = (Bound<'py, PyList>, Bound<'py, PyList>);
-/// Of a curved patch: its polygon, coefficients, origin, least and greatest depth.
+/// A curved patch: its polygon, coefficients, origin, least and greatest depth.
 type PatchTuple = (u32, [[f64; 4]; 4], [f64; 2], [f64; 2]);
 /// Polygons in the plane, the node behind and the one in front.
 type TreeNode = (Vec<i32>, Option<u32>, Option<u32>);
@@ -47,7 +47,7 @@ pub struct RasterScene {
     values: Vec<[f64; 3]>,
     rule: Rule,
     patches: Vec<(u32, Cubic)>,
-    /// The polygon as given, of each planar one; empty where they are the same.
+    /// Per planar polygon: the given polygon that it comes from; empty where they are the same.
     owner: Vec<u32>,
     tree: Mutex<Option<Tree>>,
 }
@@ -63,7 +63,7 @@ struct Picture {
     seconds: f64,
 }
 
-/// Where neither time nor memory was short: the caller interrupted, which `run` has told already.
+/// The error of unfinished work within its limits: the caller interrupted, and `run` has raised that already.
 fn unfinished() -> PyErr {
     pyo3::exceptions::PyRuntimeError::new_err("the kernel stopped unexpectedly")
 }
@@ -86,7 +86,7 @@ impl RasterScene {
         if self.owner.is_empty() { polygon as i32 } else { self.owner[polygon as usize] as i32 }
     }
 
-    /// None where the limits were too narrow.
+    /// The picture; None where a limit was exceeded.
     fn picture(&self, camera: &Camera, method: Method, shaded: &str, traced: bool, watch: &Watch) -> Option<Picture> {
         let mut statistics = Statistics::default();
         let each = size_of::<(u32, i32, f64)>() + if shaded.is_empty() { 0 } else { size_of::<[f64; 3]>() };
@@ -110,7 +110,7 @@ impl RasterScene {
             NONE => f64::INFINITY,
             _ => on.true_depth(f, (k % canvas.width) as i64, (k / canvas.width) as i64),
         };
-        // There is none where nobody asked for it.
+        // Empty unless a trace was requested.
         let mut trace: Vec<Write> = canvas.trace.take().into_iter().flatten().collect();
         trace.iter_mut().for_each(|w| w.facet = id(w.facet) as u32);
         let mut visits = std::mem::take(&mut canvas.visits);
@@ -224,7 +224,7 @@ impl RasterScene {
             if let Some(Some(p)) = within(py, limits, |watch| planar(&scene.scene(), watch))? {
                 (scene.corners, scene.loops, scene.polygons) = (p.corners, p.loops, p.polygons);
                 (scene.cull, scene.owner) = (p.cull, p.owner);
-                // An outline is planar, and stays in one piece.
+                // The outline of a patch is planar, and stays in one piece.
                 for (polygon, _) in &mut scene.patches {
                     *polygon = scene.owner.partition_point(|owner| owner < polygon) as u32;
                 }
@@ -356,7 +356,7 @@ impl RasterScene {
         Ok(drawn.ok_or_else(unfinished)?.into_iter().map(|(p, behind, front)| (ids(p), behind, front)).collect())
     }
 
-    /// The scene with some of its points moved. The tree goes with it: the polygons at those points are let in again.
+    /// The scene with some of its points moved. Its tree is kept: the polygons at those points are inserted again.
     fn moved(&self, py: Python<'_>, points: PyReadonlyArray2<'_, f64>, limits: LimitsTuple) -> PyResult<RasterScene> {
         let points = rows::<f64, 3>(&points, "points")?;
         expect_len("points", points.len(), self.points.len())?;

@@ -17,7 +17,8 @@ use hlr_linework::silhouette::{FaceRecord, Model};
 
 const TURN: [f64; 2] = [0.0, std::f64::consts::TAU];
 
-/// The curves on true surfaces that are seen edge-on, and borders of faces that nearly are.
+/// Outlines: the curves on true surfaces along which they are seen edge-on. And borders of faces that are nearly
+/// edge-on.
 #[pyfunction]
 #[pyo3(signature = (mesh, on, smooth, source, camera, chord, threads = 0))]
 #[allow(clippy::too_many_arguments)] // two arrays, and what they are about

@@ -1,6 +1,6 @@
 //! Runs Rust code without the interpreter lock on a given number of threads, and stops it on Ctrl-C.
 //!
-//! Starting threads takes a fifth of a millisecond, more than many calls on small models: thread pools are kept, and
+//! Starting threads takes 0.2 milliseconds, more than many calls on small models take. So thread pools are kept, and
 //! work of about a millisecond runs on the calling thread.
 
 use std::cell::OnceCell;
@@ -14,10 +14,10 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-/// Triangles, points or what else a call goes through: so many take about a millisecond at most.
+/// Number of items (triangles, points) up to which a call takes about a millisecond at most.
 pub const FEW: usize = 1000;
 
-/// By number of threads, of the process with this number: a fork has none of its parent's threads.
+/// Pools by number of threads, and the process that they belong to: a fork has none of its parent's threads.
 static POOLS: Mutex<(u32, BTreeMap<usize, Arc<ThreadPool>>)> = Mutex::new((0, BTreeMap::new()));
 
 thread_local! {
@@ -25,9 +25,9 @@ thread_local! {
     static HERE: OnceCell<ThreadPool> = const { OnceCell::new() };
 }
 
-/// `work` is called on a pool of `threads` (0: all cores) and polls the function it is given; KeyboardInterrupt and
-/// other signals' exceptions stop it within milliseconds. Where it goes through a `size` of FEW at most it is called
-/// here, and only asked afterwards.
+/// Calls `work` on a pool of `threads` (0: all cores). `work` polls the function it is given: KeyboardInterrupt and
+/// other exceptions of signal handlers stop it within milliseconds. Work on a `size` of FEW items at most runs on the
+/// calling thread, and signals are checked afterwards.
 pub fn run<T: Send>(
     py: Python<'_>,
     threads: usize,
@@ -37,7 +37,7 @@ pub fn run<T: Send>(
     run_telling(py, threads, size, |_| Ok(()), work)
 }
 
-/// The same; what waits calls `tell` every few milliseconds, and stops the work where that fails.
+/// The same; while waiting it calls `tell` every few milliseconds, and stops the work where that fails.
 pub fn run_telling<T: Send>(
     py: Python<'_>,
     threads: usize,
@@ -73,7 +73,7 @@ fn pool(threads: usize) -> Result<Arc<ThreadPool>, rayon::ThreadPoolBuildError> 
     let mut kept = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if kept.0 != process {
-        // The threads of the parent's pools cannot be waited for here.
+        // The threads of the parent's pools do not exist in a fork and cannot be waited for.
         std::mem::forget(std::mem::take(&mut kept.1));
         kept.0 = process;
     }

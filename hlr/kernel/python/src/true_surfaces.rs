@@ -31,7 +31,7 @@ impl Surfaces {
         })
     }
 
-    /// (n, 3, 3): point, du and dv of surfaces `which` at (u, v); NaN where a record makes no surface.
+    /// Point, du and dv (n, 3, 3) of the surfaces `which` at (u, v); NaN where a record makes no surface.
     fn points<'py>(
         &self,
         py: Python<'py>,
@@ -53,14 +53,14 @@ impl Surfaces {
     }
 }
 
-/// Triangles on surfaces. The arrays of triangles stay those of the caller.
+/// Triangles on surfaces. The arrays of triangles remain the caller's.
 #[pyclass(frozen)]
 pub struct TrueSurfaces {
     triangle_face: Py<PyArray1<i32>>,
     corner: Py<PyArray2<i32>>,
     uv: Py<PyArray2<f64>>,
     surfaces: Py<Surfaces>,
-    /// Of each face.
+    /// Per face: the number of its surface, the placement, whether the normal points inward, whether the face is curved.
     pub number: Vec<i32>,
     pub place: Vec<[f64; 12]>,
     pub inward: Vec<bool>,
@@ -109,14 +109,14 @@ impl TrueSurfaces {
     }
 }
 
-/// While the arrays are read.
+/// Borrows of the arrays while they are read.
 pub struct Reading<'py> {
     triangle_face: PyReadonlyArray1<'py, i32>,
     corner: PyReadonlyArray2<'py, i32>,
     uv: PyReadonlyArray2<'py, f64>,
 }
 
-/// Faces of triangles, their corners, and places of corners.
+/// Face of each triangle, its corners as indices of places, and the (u, v) of these places.
 pub type Slices<'a> = (&'a [i32], &'a [[i32; 3]], &'a [[f64; 2]]);
 
 impl Reading<'_> {

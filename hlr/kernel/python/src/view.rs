@@ -18,7 +18,7 @@ pub fn flat<'py, C: Holder, T: numpy::Element>(
     data: impl for<'a> Fn(&'a C) -> &'a [T],
 ) -> Flat<'py, T> {
     let view = ArrayView1::from(data(owner.get()));
-    // SAFETY: the array holds the owner, whose data stay as they are as long as it lives.
+    // SAFETY: the array holds the owner, whose data stay unchanged as long as it lives.
     let array = unsafe { PyArray1::borrow_from_array(&view, owner.clone().into_any()) };
     sealed(array.readwrite().make_nonwriteable());
     array
@@ -52,10 +52,11 @@ pub fn matrices<'py, C: Holder>(
     array
 }
 
-/// The loan ends; the array stays read-only.
+/// Ends the borrow; the array stays read-only.
 fn sealed<T: numpy::Element, D: numpy::ndarray::Dimension>(_: numpy::PyReadonlyArray<'_, T, D>) {}
 
-/// Getters of arrays that lie in a class: name, how it is shown, and where it is. Then the other methods of the class.
+/// Getters of arrays that a class holds: name, how the array is shown, and where it is. The other methods of the class
+/// follow.
 macro_rules! arrays {
     ($class:ident { $($name:ident: $show:ident $kind:ty = $get:expr;)* } $($methods:tt)*) => {
         impl $crate::view::Holder for $class {}

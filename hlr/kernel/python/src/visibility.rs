@@ -14,7 +14,7 @@ use hlr_visibility::scan::own_faces::{OwnFaces as Own, Owned};
 use hlr_visibility::scan::scene::{Numbers, Refusal, Scene, solve};
 use hlr_visibility::scan::sweep::{Counters, Seconds, Steps};
 
-/// Edges, or stretches of them, whose own faces are seen nearly edge-on.
+/// Edges, or parts of them, whose own faces are seen nearly edge-on.
 #[pyclass(frozen)]
 pub struct OwnFaces(Owned);
 

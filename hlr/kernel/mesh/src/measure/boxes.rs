@@ -1,6 +1,7 @@
 //! A hierarchy of boxes in N dimensions: median split along the longest side.
 
-/// What a ray's end at a box may be off by, so that none is missed: T. Ize, "Robust BVH ray traversal", 2013.
+/// Factor that covers the rounding of a ray's end at a box, so that no box is missed: T. Ize, "Robust BVH ray
+/// traversal", 2013.
 const ROUNDED: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 /// Lower and upper corner.
@@ -23,17 +24,17 @@ impl<const N: usize> Bounds<N> {
         out
     }
 
-    /// Square of the distance of a point; 0 inside.
+    /// Squared distance of a point from the box; 0 inside.
     pub fn distance2(&self, p: &[f64; N]) -> f64 {
         (0..N).map(|k| (self.0[k] - p[k]).max(p[k] - self.1[k]).max(0.0)).map(|d| d * d).sum()
     }
 
-    /// Whether origin + t * way is inside for a t of 0..1; inverse: 1 / way.
+    /// Whether origin + t * way is inside the box for some t in 0..1; inverse: 1 / way.
     pub fn is_hit(&self, origin: &[f64; N], inverse: &[f64; N]) -> bool {
         let (mut near, mut far) = (0.0f64, 1.0f64);
         for k in 0..N {
             if inverse[k].is_infinite() {
-                // Parallel to these sides: 0 * inf would be no number.
+                // The ray is parallel to these sides: 0 * inf would be NaN.
                 if origin[k] < self.0[k] || origin[k] > self.1[k] {
                     return false;
                 }
@@ -90,10 +91,11 @@ impl<const N: usize> Tree<N> {
         self.split(boxes, first + half, end);
     }
 
-    /// Items of all leaves whose boxes, and those above them, `enter` accepts; the child that it ranks lower comes
-    /// first. `enter` gives None for a box that is left out; `visit` is told items and says whether it has seen enough.
+    /// Visits the items of all leaves whose boxes, and those above them, `enter` accepts. `enter` returns a rank, or
+    /// None to skip a box; the child of lower rank comes first. `visit` gets one item and returns whether it has seen
+    /// enough.
     pub fn walk(&self, mut enter: impl FnMut(&Bounds<N>, bool) -> Option<f64>, mut visit: impl FnMut(u32) -> bool) {
-        // As deep as the number of items has bits.
+        // The tree is at most as deep as the number of items has bits.
         let mut stack = [0u32; 64];
         let mut top = usize::from(!self.nodes.is_empty());
         while top > 0 {

@@ -13,7 +13,8 @@ pub struct Caster<'a> {
     tree: Tree<3>,
 }
 
-/// Beyond a triangle's sides, in its own coordinates: rays between two triangles that share an edge meet one of them.
+/// Tolerance beyond a triangle's sides, in barycentric coordinates: a ray between two triangles that share an edge
+/// meets one of them.
 const BESIDE: f64 = 1e-12;
 
 fn minus(a: &Vec3, b: &Vec3) -> Vec3 {
@@ -34,7 +35,7 @@ impl<'a> Caster<'a> {
         Caster { points, triangles, tree: Tree::new(&boxes) }
     }
 
-    /// Whether a triangle meets origin + t * way for a t of 0..1.
+    /// Whether a triangle meets origin + t * way for some t in 0..1.
     pub fn is_blocked(&self, origin: &Vec3, way: &Vec3) -> bool {
         let inverse = way.map(|c| 1.0 / c);
         let mut hit = false;

@@ -38,10 +38,10 @@ pub enum Paint {
     Triangles(Vec<[u8; 4]>),
 }
 
-/// Why a file cannot be read: the end of a sentence.
+/// Why a file cannot be read, worded as the end of a sentence.
 #[derive(Debug, PartialEq)]
 pub enum Fault {
-    /// It ends too early: "its header announces ...".
+    /// The file ends too early: "its header announces ...".
     Cut(String),
     /// What is wrong, and where: "line 7 has 2 coordinates instead of 3".
     Broken(String),
@@ -51,13 +51,13 @@ pub enum Fault {
 /// More points than this have no 32-bit numbers.
 pub const MOST_POINTS: usize = i32::MAX as usize;
 
-/// Asked now and then while reading.
+/// Returns whether to stop; called now and then while reading.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// Lines or rows between two questions.
+/// Lines or rows between two calls of `Stop`.
 const PATIENCE: usize = 1 << 14;
 
-/// Every so many steps, whether to go on.
+/// Asks at regular steps whether to stop.
 pub fn polled(step: usize, stop: Stop) -> Result<(), Fault> {
     if step.is_multiple_of(PATIENCE) && stop() { Err(Fault::Stopped) } else { Ok(()) }
 }

@@ -6,7 +6,7 @@ use super::polygon::Faces;
 use super::text::{Lines, coordinates, first_word, number, plain, shown, whole, words};
 use super::{Fault, MOST_POINTS, MeshFile, Paint, Piece, Stop, polled};
 
-/// The names under which faces stand: from face `first` on, until the next.
+/// The name of all faces from face `first` on, until the next run.
 struct Run {
     first: usize,
     object: usize,
@@ -43,7 +43,7 @@ pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
                     let corner = word.split(|&b| b == b'/').next().unwrap_or_default();
                     let index = match whole(corner) {
                         Some(k @ 1..) => k - 1,
-                        // Counted back from the vertex read last.
+                        // A negative number counts back from the vertex read last.
                         Some(k @ ..=-1) if points.len() as i64 + k >= 0 => points.len() as i64 + k,
                         Some(k) => return Err(broken(missing(k, points.len()))),
                         None => return Err(broken(format!("has {} for a vertex", shown(corner)))),
@@ -73,7 +73,7 @@ pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
     Ok(MeshFile { points, pieces, paint })
 }
 
-/// By objects, else by groups: but groups that share vertices are regions of one surface, and no parts.
+/// Divides faces by objects, else by groups. Groups that share vertices are regions of one surface, and no parts.
 fn pieces(triangles: Vec<[i32; 3]>, face: Option<&[u32]>, runs: &[Run], names: Names, points: usize) -> Vec<Piece> {
     let face_of = |t: usize| face.map_or(t, |face| face[t] as usize);
     let run_of: Vec<u32> = {

@@ -7,7 +7,7 @@ use super::{Fault, MeshFile, Piece, Stop, counted, polled};
 pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
     let mut lines = Lines::new(data);
     let head = lines.next_row().unwrap_or_default();
-    // The counts may stand behind the format's name.
+    // The counts may follow the format's name on its line.
     let behind = words(head).nth(1).is_some();
     let counts = if behind { head } else { lines.next_row().unwrap_or_default() };
     let mut row = words(counts).skip(usize::from(behind));
@@ -19,7 +19,7 @@ pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
             shown(counts)
         )));
     };
-    // A row takes two bytes at least, so a number of rows that has no room is told before anything is read.
+    // A row takes at least two bytes, so a number of rows that cannot fit is refused before anything is read.
     let rows = vertices.saturating_add(faces);
     let have = |done: usize| {
         Fault::Cut(format!("its header announces {} of numbers, the file has {done}", counted(rows, "row")))

@@ -8,7 +8,7 @@ use super::{Fault, MOST_POINTS, MeshFile, Paint, Piece, Stop, counted, polled};
 struct Property {
     name: Vec<u8>,
     value: Type,
-    /// Of lists: the type of their length.
+    /// For a list: the type of its length.
     length: Option<Type>,
 }
 
@@ -28,7 +28,7 @@ impl Element {
         found.iter().all(Option::is_some).then(|| found.map(|at| at.unwrap_or_default()))
     }
 
-    /// Where red, green and blue stand, and the opacity if there is one.
+    /// Columns of red, green and blue, and of the opacity if there is one.
     fn paint(&self) -> Option<([usize; 3], Option<usize>)> {
         Some((self.places([b"red", b"green", b"blue"])?, self.place(&[b"alpha"])))
     }
@@ -65,7 +65,7 @@ pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
         let corners = if is_face { element.place(&[b"vertex_indices", b"vertex_index"]) } else { None };
         let corners = corners.or_else(|| element.properties.iter().position(|p| is_face && p.length.is_some()));
         let paint = if is_vertex || is_face { element.paint() } else { None };
-        // Rows of nothing take no time.
+        // Rows without properties take no bytes: none are read.
         let count = if element.properties.is_empty() && !text { 0 } else { element.count };
         for _ in 0..count {
             polled(done, stop)?;
@@ -96,7 +96,7 @@ pub fn read(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
     Ok(found)
 }
 
-/// Bytes that the rows of an element take at least: of a text, a digit and a blank per number.
+/// Least number of bytes of one row of an element; text has a digit and a blank per number.
 fn least(element: &Element, text: bool) -> usize {
     let size = |p: &Property| if text { 2 } else { p.length.unwrap_or(p.value).size() };
     element.count.saturating_mul(element.properties.iter().map(size).sum())
@@ -148,18 +148,18 @@ fn header(data: &[u8]) -> Result<(Body<'_>, Vec<Element>), Fault> {
     broken("its header does not end".into())
 }
 
-/// How far reading has come: rows done, of all.
+/// Progress of reading: rows done, of all.
 #[derive(Clone, Copy)]
 struct Progress(usize, usize);
 
 impl Progress {
-    /// The next row is not there.
+    /// The error for a row that is missing.
     fn missing(self) -> Fault {
         let Progress(done, all) = self;
         Fault::Cut(format!("its header announces {} of numbers, the file has {done}", counted(all, "row")))
     }
 
-    /// The next row ends too early, and the file with it.
+    /// The error for a row in which the file ends.
     fn unfinished(self) -> Fault {
         if self.is_last() { Fault::Cut("its last row is not whole".into()) } else { self.missing() }
     }
@@ -227,7 +227,7 @@ fn filled(
             continue;
         };
         row.push(0.0);
-        // However many are announced: each takes bytes, and these end.
+        // The announced length needs no check: each item takes bytes, and the file ends.
         for _ in 0..take(length)? as usize {
             let value = take(property.value)?;
             if wanted == Some(k) {

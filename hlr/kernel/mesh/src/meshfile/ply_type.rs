@@ -48,12 +48,12 @@ impl Type {
         }
     }
 
-    /// A number of a text, as exact as its type says.
+    /// Rounds a number read from text to this type.
     pub fn rounded(self, value: f64) -> f64 {
         if self == Type::Float(4) { f64::from(value as f32) } else { value }
     }
 
-    /// A share of 255, as colours are.
+    /// Scales a colour to 0..255.
     pub fn shade(self, value: f64) -> u8 {
         let shade = match self {
             Type::Float(4) => f64::from(value as f32 * 255.0),

@@ -60,7 +60,7 @@ impl Faces {
     }
 }
 
-/// The triangles of one face, turned as it is.
+/// Adds the triangles of one face, oriented as the face is.
 fn divided(points: &[[f64; 3]], face: &[i32], out: &mut Vec<[i32; 3]>) {
     let fan = |out: &mut Vec<[i32; 3]>| out.extend((2..face.len()).map(|k| [face[0], face[k - 1], face[k]]));
     if face.len() == 3 || face.len() > MOST_CORNERS {
@@ -84,7 +84,7 @@ fn divided(points: &[[f64; 3]], face: &[i32], out: &mut Vec<[i32; 3]>) {
                 })
         });
         let Some(ear) = ear else {
-            // It crosses or touches itself: no triangles are right.
+            // The face crosses or touches itself: no triangulation is right.
             out.truncate(before);
             return fan(out);
         };
@@ -94,8 +94,8 @@ fn divided(points: &[[f64; 3]], face: &[i32], out: &mut Vec<[i32; 3]>) {
     out.push([ring[0], ring[1], ring[2]].map(|i| face[i]));
 }
 
-/// The corners seen along the face's normal, so that it runs counter-clockwise; None where one does not exist or no
-/// area is left.
+/// Projects the corners along the face's normal, so that it runs counter-clockwise; None where a corner does not exist
+/// or the face has no area.
 fn flattened(points: &[[f64; 3]], face: &[i32]) -> Option<Vec<[f64; 2]>> {
     let at: Option<Vec<[f64; 3]>> = face.iter().map(|&v| points.get(usize::try_from(v).ok()?).copied()).collect();
     let at = at?;

@@ -7,7 +7,7 @@ use super::{Fault, MOST_POINTS, MeshFile, Piece, Stop, polled};
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-/// How many triangles a binary file announces, if it has room for them; a file may end with more than that.
+/// Number of triangles that a binary file announces, if it has room for them; more bytes may follow.
 fn announced(data: &[u8]) -> Option<usize> {
     let count = u32::from_le_bytes(data.get(80..HEADER)?.try_into().ok()?) as usize;
     (data.len() - HEADER >= count.checked_mul(RECORD)?).then_some(count).filter(|&count| count > 0)
@@ -36,7 +36,7 @@ fn binary(records: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
     Ok(MeshFile { points, pieces: vec![piece], ..MeshFile::default() })
 }
 
-/// Each `solid` is a piece; words that are none of the format's are passed over with their line.
+/// Reads text. Each `solid` is a piece; a word that the format does not know is skipped with its line.
 fn text(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
     let mut points: Vec<[f64; 3]> = Vec::new();
     let mut solids: Vec<(String, Faces)> = Vec::new();
@@ -53,7 +53,7 @@ fn text(data: &[u8], stop: Stop) -> Result<MeshFile, Fault> {
             if is("vertex") {
                 corners.push(points.len() as i64);
                 points.push(coordinates(words(rest)).map_err(|e| broken(&e))?);
-                // What follows on the same line, where all of a facet stands there.
+                // Goes on with the rest of the line: a whole facet may stand on one line.
                 (0..3).for_each(|_| line = first_word(line).1);
             } else if is("endloop") || is("endfacet") {
                 let solid =

@@ -25,7 +25,7 @@ impl<'a> Lines<'a> {
         Some(line)
     }
 
-    /// The same, lines that end with a backslash joined with those after them.
+    /// The next line; a line that ends with a backslash is joined with the one after it.
     pub fn next_joined(&mut self) -> Option<Cow<'a, [u8]>> {
         let line = self.next_line()?;
         if line.last() != Some(&b'\\') {
@@ -81,13 +81,13 @@ pub fn plain(name: &[u8]) -> String {
     text.chars().filter(|c| !c.is_control()).collect()
 }
 
-/// A word as a sentence shows it.
+/// A word as an error message shows it.
 pub fn shown(word: &[u8]) -> String {
     let text: String = String::from_utf8_lossy(word).chars().filter(|c| !c.is_control()).take(20).collect();
     format!("\"{text}\"")
 }
 
-/// Three coordinates at the front of a row; what is wrong with them otherwise.
+/// The three coordinates at the front of a row, or what is wrong with them.
 pub fn coordinates<'a>(mut row: impl Iterator<Item = &'a [u8]>) -> Result<[f64; 3], String> {
     let mut point = [0.0; 3];
     for (k, value) in point.iter_mut().enumerate() {

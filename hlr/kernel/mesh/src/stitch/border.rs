@@ -39,7 +39,7 @@ pub fn along(p: &Vec3, a: &Vec3, b: &Vec3) -> (f64, f64) {
     (t, distance2(p, &[a[0] + t * way[0], a[1] + t * way[1], a[2] + t * way[2]]))
 }
 
-/// The order of places, whatever their numbers are.
+/// Order of points by their coordinates, not by their numbers.
 pub fn before(p: &Vec3, q: &Vec3) -> std::cmp::Ordering {
     p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(p[2].total_cmp(&q[2]))
 }

@@ -26,7 +26,8 @@ pub struct Stitched {
     pub seams: usize,
 }
 
-/// Join borders that run together within `reach`. No corner moves farther than that, and none that is no border's.
+/// Joins borders that run together within `reach` (model units). No corner moves farther than that, and only corners of
+/// borders move.
 pub fn stitch(points: &[Vec3], triangles: &[[i32; 3]], reach: f64) -> Stitched {
     let borders = borders(triangles, points.len());
     let near = near::Near::find(points, triangles, &borders, reach);

@@ -6,9 +6,9 @@ use super::border::{Border, Vec3, along, before, distance2};
 use crate::measure::boxes::{Bounds, Tree};
 
 pub struct Near {
-    /// Per point: its node: the corner of a border that stands for all corners there.
+    /// Per corner of a border: its node, the corner that stands for all corners there.
     pub node: HashMap<u32, u32>,
-    /// Per border the nodes on it, in its direction, with its own ends' first and last.
+    /// Per border: the nodes on it, in its direction, from its own first to its own last.
     pub chains: Vec<Vec<u32>>,
 }
 
@@ -61,7 +61,7 @@ fn nodes(
             }
         }
     }
-    // By distance, then by place: what the corners' numbers are must not matter.
+    // Sorted by distance, then by position: the numbering of the corners must not matter.
     pairs.sort_unstable_by(|(d, [p, q]), (e, [r, s])| {
         d.total_cmp(e).then(before(place(*p), place(*r))).then(before(place(*q), place(*s)))
     });
@@ -103,7 +103,7 @@ fn short_sides(points: &[Vec3], triangles: &[[i32; 3]], pairs: &[(f64, [u32; 2])
     sides.filter(|s| s.iter().all(|v| candidates.contains(v)) && short(s)).map(|[a, b]| [a.min(b), a.max(b)]).collect()
 }
 
-/// Per border its nodes in order. A node of one of its own triangle's corners is none on it.
+/// Per border: its nodes in order. A node at one of its own triangle's corners does not count.
 fn chains(
     points: &[Vec3],
     triangles: &[[i32; 3]],

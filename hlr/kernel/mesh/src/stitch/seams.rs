@@ -7,9 +7,9 @@ use super::near::Near;
 
 pub struct Seams {
     pub count: usize,
-    /// Of a corner that moves the node that it becomes.
+    /// Per corner that moves: the node that it becomes.
     pub moved: HashMap<u32, u32>,
-    /// Per border the nodes that are put into it, in its direction.
+    /// Per border: the nodes that are inserted into it, in its direction.
     pub inserted: Vec<Vec<u32>>,
 }
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::border::Border;
 use super::seams::Seams;
 
-/// All triangles, and which one of those given each is a piece of. Neither loses its way round.
+/// Returns all triangles, and for each the given triangle that it is a piece of. Orientations are kept.
 pub fn split(triangles: &[[i32; 3]], borders: &[Border], seams: &Seams) -> (Vec<[i32; 3]>, Vec<i32>) {
     let to = |v: i32| seams.moved.get(&(v as u32)).map_or(v, |&n| n as i32);
     // Per triangle with a longer side: for each of its three sides what lies on it, in the triangle's direction.
@@ -29,7 +29,7 @@ pub fn split(triangles: &[[i32; 3]], borders: &[Border], seams: &Seams) -> (Vec<
     (out, origin)
 }
 
-/// Halved at the middle corner of the side that has most, until no side has any.
+/// Cuts a triangle at the middle corner of the side that has most additional corners, until no side has any.
 fn cut([a, b, c]: [i32; 3], [ab, bc, ca]: [&[i32]; 3], out: &mut Vec<[i32; 3]>) {
     if ab.len() < bc.len().max(ca.len()) {
         return cut([b, c, a], [bc, ca, ab], out);

@@ -1,8 +1,8 @@
 //! Joins chains to closed loops: the areas to be painted, in the order of painting.
 //!
-//! Large faces come first, and transparent ones that have nothing behind them last. Bands of light lie on one another:
-//! the darkest is the whole face, and each that follows is what is at least as light. So between bands nothing shines
-//! through.
+//! Large faces come first, transparent ones with nothing behind them last. Bands of equal light lie on one another: the
+//! darkest covers the whole face, and each that follows covers what is at least as light. So nothing shines through
+//! between bands.
 
 use super::chains::Chain;
 use super::samples::Grid;
@@ -48,7 +48,7 @@ pub fn collect(grid: &Grid, tones: &Tones, cells: &[u32], chains: &[Chain], bord
     let mut out = Areas { loops: vec![], starts: vec![0], colours: vec![], gradients: vec![], triangle: vec![] };
     for f in order {
         for cell in first[f]..first[f + 1] {
-            // Bands of transparent lie side by side: on one another they would be denser.
+            // Bands of a transparent face lie side by side: on top of one another they would be denser.
             let inside = |c: u32| {
                 let c = c as usize;
                 if clear(f) { c == cell } else { c >= cell && c < first[f + 1] }
@@ -71,7 +71,8 @@ pub fn collect(grid: &Grid, tones: &Tones, cells: &[u32], chains: &[Chain], bord
     out
 }
 
-/// Chains put together at their nodes, each with the area to its left; `own`: whether that is against its own way.
+/// Joins chains at their nodes into loops, each with the area to its left; `own`: chains, and whether each runs
+/// backward.
 fn closed(own: &[(u32, bool)], chains: &[Chain], borders: &[Vec<Point>]) -> Vec<Vec<Point>> {
     let way = |&(k, back): &(u32, bool)| {
         let mut border = borders[k as usize].clone();

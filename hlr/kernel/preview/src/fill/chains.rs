@@ -12,9 +12,9 @@
 pub type Crack = [[i32; 2]; 2];
 
 pub struct Chain {
-    /// What lies to its left, going along, and to its right.
+    /// The areas to its left and to its right, in its direction.
     pub cells: [u32; 2],
-    /// The nodes at its ends, as numbers of the grid's corners; None where it is closed and meets none.
+    /// The nodes at its ends, as numbers of the grid's corners; None for a closed chain without nodes.
     pub ends: Option<[u32; 2]>,
     pub cracks: Vec<Crack>,
 }
@@ -34,7 +34,7 @@ impl Map<'_> {
         if inside { self.cells[y as usize * self.width + x as usize] } else { 0 }
     }
 
-    /// The crack that leads from a corner of pixels in a direction; None where both sides are of one area.
+    /// The crack that leads from a corner of pixels in a direction; None where both sides belong to one area.
     fn crack(&self, [x, y]: [i32; 2], way: usize) -> Option<Crack> {
         let crack = match way {
             0 => [[x, y - 1], [x, y]],
@@ -54,10 +54,10 @@ impl Map<'_> {
     }
 }
 
-/// `cells`: row by row; around them lies nothing, 0.
+/// `cells`: areas row by row; outside of the map lies area 0, nothing.
 pub fn chains(cells: &[u32], [width, height]: [usize; 2]) -> Vec<Chain> {
     let map = Map { cells, width, height };
-    // Cracks that were walked: to the right of a corner, and down from it.
+    // Cracks already walked: to the right of a corner, and down from it.
     let mut walked = vec![0u8; (width + 1) * (height + 1)];
     let mut out = Vec::new();
     for only_nodes in [true, false] {
@@ -96,14 +96,14 @@ fn walk(map: &Map, walked: &mut [u8], from: [i32; 2], way: usize, open: bool) ->
     let mut cracks = vec![first];
     let mut came = way;
     while at != from && (!open || map.ways(at) == 2) {
-        // The one way on that does not lead back.
+        // The only way to go on that does not lead back.
         let (way, crack) = (0..4).filter(|&w| w != (came + 2) % 4).find_map(|w| map.crack(at, w).map(|c| (w, c)))?;
         cracks.push(crack);
         (_, at) = mark(at, way);
         came = way;
     }
     let ends = open.then(|| [map.number(from) as u32, map.number(at) as u32]);
-    // A crack names first what lies above or to the left.
+    // A crack names first the pixel above it or to its left.
     let [a, b] = first.map(|pixel| map.cell(pixel));
     Some(Chain { cells: if way == 0 || way == 3 { [a, b] } else { [b, a] }, ends, cracks })
 }

@@ -1,35 +1,37 @@
-//! Shading of cones: equal along straight lines that meet in one point, so a function of the angle about that point.
+//! Shading of cones: it is constant along straight lines that meet in one point, so it is a function of the angle about
+//! that point.
 //!
-//! Where the light does not change, a line runs to that place: (place - point) . slope = 0, with the slope of the light
-//! at the point. The least squares of that say roughly where it is, a search over the spread within slices exactly.
+//! A line of equal light runs through that point: (centre - p) . slope = 0, where slope is the gradient of the light at
+//! p. Least squares over these equations find the centre roughly; a search for the least spread within slices refines
+//! it.
 
 use super::samples::Grid;
 
-/// Of 255: how far a fan may be off, on the whole, and nearly everywhere. The facets of a cone's mesh are.
+/// Of 255: the greatest error of a fan, on the whole and nearly everywhere. The facets of a cone's mesh cause as much.
 const OFF: [f32; 2] = [1.5, 5.0];
-/// Points that places are tried on.
+/// Number of points on which centres are tried.
 const TRIED: usize = 1500;
-/// Slices around the place.
+/// Number of slices around the centre.
 const SLICES: usize = 128;
-/// Of what a slice holds in the mean: fewer points tell nothing.
+/// Share of a slice's mean number of points: slices with fewer are ignored.
 const FEW: f64 = 0.1;
-/// Share of the extent: what lies nearer to the place is not asked.
+/// Share of the extent: points nearer to the centre are ignored.
 const CLOSE: f64 = 0.1;
-/// Points to either side from which a slope is taken.
+/// Number of points to either side from which a slope is taken.
 const REACH: usize = 5;
 
 pub struct Fan {
     centre: [f64; 2],
-    /// Where angles begin to be counted: in the widest gap without points.
+    /// The angle at which counting begins, in the middle of the widest gap without points.
     cut: f64,
-    /// Angles from the cut on, ascending, and how light it is there.
+    /// Angles from the cut on, ascending, and the tone there.
     pub known: Vec<(f64, f32)>,
 }
 
 type Tone = ([f64; 2], f32);
 
 impl Fan {
-    /// The fan of a face's points; None where their light is none.
+    /// The fan of a face's points; None where their light does not form one.
     pub fn find(grid: &Grid, points: &[u32], face: u32) -> Option<Fan> {
         let step = (points.len() / TRIED).max(1) | 1;
         let tried: Vec<u32> = points.iter().step_by(step).copied().collect();
@@ -52,7 +54,7 @@ impl Fan {
                 None => step *= 0.5,
             }
         }
-        // Beside the place itself the light is what the facets there say, and not the surface.
+        // Close to the centre the light shows the facets of the mesh, not the surface.
         let far = |p: &[f64; 2]| (p[0] - centre[0]).hypot(p[1] - centre[1]) > CLOSE * extent;
         let points: Vec<Tone> = points.into_iter().filter(|(p, _)| far(p)).collect();
         let (cut, slices) = slices(&points, centre);
@@ -68,7 +70,7 @@ impl Fan {
         (square.sqrt() <= OFF[0] && off[off.len() * 99 / 100] <= OFF[1]).then_some(fan)
     }
 
-    /// How light it is at a place in the picture.
+    /// The tone at a place in the picture.
     pub fn tone(&self, at: [f64; 2]) -> f32 {
         let angle = from(self.cut, angle(at, self.centre));
         let k = self.known.partition_point(|m| m.0 < angle).clamp(1, self.known.len().max(2) - 1);
@@ -117,7 +119,7 @@ fn angle(at: [f64; 2], centre: [f64; 2]) -> f64 {
     (at[1] - centre[1]).atan2(at[0] - centre[0])
 }
 
-/// From one angle on to another, 0 to a full turn.
+/// The turn from one angle to another, 0 to a full turn.
 fn from(cut: f64, angle: f64) -> f64 {
     (angle - cut).rem_euclid(std::f64::consts::TAU)
 }
@@ -148,7 +150,7 @@ fn slices(points: &[Tone], centre: [f64; 2]) -> (f64, Vec<Slice>) {
     (cut, out)
 }
 
-/// The sum of squares by which points differ from the line through their slice.
+/// The sum of squared differences between points and the fitted line of their slice.
 fn spread(points: &[Tone], centre: [f64; 2]) -> f64 {
     let of = |&(u, t, n, uu, ut, tt): &Slice| {
         if n < 1.0 {

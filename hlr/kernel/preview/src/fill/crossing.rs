@@ -33,7 +33,7 @@ impl Crossing<'_> {
         ([p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])], share.is_some())
     }
 
-    /// From p to q, 0 to 1; None where it is not known better than by the grid.
+    /// Share of the way from p to q, 0 to 1; None where it is known no better than by the grid.
     fn share(&self, crack: &Crack, p: [f64; 2], q: [f64; 2]) -> Option<f64> {
         let [width, height] = self.grid.size.map(|s| s as i32);
         let mut at = [0usize; 2];
@@ -62,7 +62,7 @@ impl Crossing<'_> {
             (None, Some(t)) if pair[0] == NOTHING => Some(t),
             (Some(ends), Some(begins)) => {
                 if ends <= begins + 1e-9 {
-                    // Something may lie between that is too narrow to be seen.
+                    // Between them may lie something too narrow to be visible.
                     return (begins - ends < 0.2).then_some(0.5 * (ends + begins));
                 }
                 let (a, b) = (a?, b?);
@@ -82,7 +82,7 @@ impl Crossing<'_> {
         }
     }
 
-    /// The triangles that make the difference.
+    /// The two triangles between which the border lies.
     fn pair(&self, [a, b]: [&Sample; 2]) -> Option<[u32; 2]> {
         let label = |t: u32| if t == NOTHING { -1 } else { self.label[t as usize] };
         [[a.front, b.front], [a.solid, b.solid]].into_iter().find(|[one, two]| label(*one) != label(*two))
@@ -109,7 +109,7 @@ fn turn(a: &[f64; 3], b: &[f64; 3], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-/// Where the way from p, which is on the triangle, to q leaves it; 1 where it does not.
+/// The share of the way from p, which is on the triangle, to q at which it leaves the triangle; 1 where it does not.
 fn leaves(t: &Corners, p: [f64; 2], q: [f64; 2]) -> f64 {
     let side = turn(&t[0], &t[1], [t[2][0], t[2][1]]).signum();
     let mut out = 1.0f64;
@@ -117,14 +117,14 @@ fn leaves(t: &Corners, p: [f64; 2], q: [f64; 2]) -> f64 {
         let (a, b) = (&t[k], &t[(k + 1) % 3]);
         let (here, there) = (side * turn(a, b, p), side * turn(a, b, q));
         if there < 0.0 {
-            // p may lie outside by what the grid of the raster rounds.
+            // p may lie outside by the rounding of the raster's grid.
             out = out.min(if here > 0.0 { here / (here - there) } else { 0.0 });
         }
     }
     out
 }
 
-/// On the triangle's plane.
+/// Depth of the triangle's plane at p.
 fn depth(t: &Corners, p: [f64; 2]) -> f64 {
     let area = turn(&t[0], &t[1], [t[2][0], t[2][1]]);
     let w = [turn(&t[1], &t[2], p) / area, turn(&t[2], &t[0], p) / area];

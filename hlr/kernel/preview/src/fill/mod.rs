@@ -11,9 +11,9 @@
 //! 7. `areas`     chains become closed loops again
 //! ```
 //!
-//! The grid decides what is found; where it runs is found on the triangles. Time and memory are bounded by the number
-//! of points of the grid, whatever the model is like: faces that pass through one another, or overlap in a ring, need
-//! no order. Two neighbours share their border: there is neither a gap nor an overlap between them.
+//! The grid decides which areas are found; the triangles decide where their borders run. Time and memory are bounded by
+//! the number of points of the grid, whatever the model: faces that pass through one another, or overlap in a cycle,
+//! need no order. Neighbours share their border, without gap or overlap.
 
 pub mod areas;
 pub mod chains;
@@ -29,13 +29,13 @@ use crate::workspace::Workspace;
 
 pub use areas::Areas;
 
-/// Points of the grid: a face that is seen at fewer side by side goes to its neighbour.
+/// A face that is visible at fewer adjacent points of the grid than this goes to its neighbour.
 const SPECK: usize = 6;
-/// The same of bands of light within a face.
+/// The same limit for bands of light within a face.
 const BAND_SPECK: usize = 24;
 
-/// All areas of a picture, in the order of painting. `label` tells triangles that belong to one face; `fine`: points of
-/// the grid that a band of light is wide at least. None when stopped.
+/// All areas of a picture, in the order of painting. `label`: per triangle, equal for triangles of one face; `fine`:
+/// least width of a band of light, in points of the grid. None when stopped.
 pub fn areas(
     scene: &Scene,
     label: &[i32],

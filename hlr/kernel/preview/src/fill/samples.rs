@@ -13,17 +13,17 @@ use crate::tiles::{Filled, each_tile};
 use crate::transparent::{Layer, layers, over};
 use crate::workspace::Workspace;
 
-/// What is seen at a point.
+/// What is visible at a point.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
-    /// A number for the faces above one another: 0 for nothing.
+    /// A number for the stack of faces above one another: 0 for nothing.
     pub stack: u64,
     /// The nearest triangle, and the nearest opaque one; NOTHING for none.
     pub front: u32,
     pub solid: u32,
-    /// How light it looks, 0 to 255.
+    /// Lightness, 0 to 255.
     pub tone: f32,
-    /// sRGB and opacity.
+    /// sRGB and opacity, 0 to 255.
     pub colour: [u8; 4],
 }
 
@@ -32,9 +32,9 @@ const NONE: Sample = Sample { stack: 0, front: NOTHING, solid: NOTHING, tone: 0.
 pub struct Grid {
     pub size: [usize; 2],
     pub samples: Vec<Sample>,
-    /// Row by row the number of what is seen, from 0, nothing, on.
+    /// Row by row: the number of the stack that is visible, from 0 for nothing.
     pub faces: Vec<u32>,
-    /// Per number: the triangle by which it was first met.
+    /// Per number: the triangle where it was first met.
     pub first: Vec<u32>,
 }
 
@@ -136,7 +136,8 @@ impl Looker<'_> {
         scene.shade(ready, place)
     }
 
-    /// Of a triangle's face; where its corners have different colours, a part of it where these are alike.
+    /// The number of a triangle's face; where its corners have different colours, of the part of the face with this
+    /// colour.
     fn number(&self, triangle: u32, colour: [f32; 4]) -> u64 {
         let paint = self.scene.model.paint[triangle as usize];
         let own = self.label[triangle as usize] as u64 + 1;
@@ -148,7 +149,8 @@ impl Looker<'_> {
     }
 }
 
-/// Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014: a number that is like no other.
+/// Hash of a stack and one more face: Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA
+/// 2014.
 fn mixed(stack: u64, number: u64) -> u64 {
     let mut z = stack.wrapping_mul(3).wrapping_add(number).wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -1,7 +1,7 @@
 //! Merges pieces of a map that are too small to be visible into a neighbour.
 
-/// `map`: row by row, 0 for nothing. Pieces of fewer than `least` places that hang together side by side become part of
-/// the largest piece beside them, of those that are most `alike`; of nothing only where there is nothing else.
+/// `map`: row by row, 0 for nothing. A connected piece of fewer than `least` places goes to the largest of its most
+/// `alike` neighbours; to nothing only where there is no other neighbour.
 pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: impl Fn(u32, u32) -> u32) {
     let piece = pieces(map, width, height);
     let count = piece.iter().max().map_or(0, |&m| m as usize + 1);
@@ -41,7 +41,7 @@ pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: 
     for pairs in of {
         let own = root(&mut owner, pairs[0][0]);
         if size[own as usize] >= least {
-            continue; // has grown
+            continue; // this piece has grown
         }
         let mut best: Option<((u32, bool, usize), u32)> = None;
         for &[_, beside] in pairs {
@@ -52,7 +52,7 @@ pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: 
                 best = Some((rank, beside));
             }
         }
-        // What stands alone before nothing stays, however small.
+        // A piece that has only nothing around it stays, however small.
         if let Some((rank, beside)) = best
             && rank.1
         {
@@ -65,7 +65,7 @@ pub fn merge(map: &mut [u32], [width, height]: [usize; 2], least: usize, alike: 
     }
 }
 
-/// Row by row the number of the piece: places side by side, across or down, of one value.
+/// Row by row the number of the piece: adjacent places of one value, across or down, are one piece.
 fn pieces(map: &[u32], width: usize, height: usize) -> Vec<u32> {
     let mut out = vec![0u32; map.len()];
     let mut owner: Vec<u32> = Vec::new();
@@ -88,7 +88,7 @@ fn pieces(map: &[u32], width: usize, height: usize) -> Vec<u32> {
             };
         }
     }
-    // Numbers without holes between them.
+    // Numbers pieces consecutively.
     let mut number = vec![u32::MAX; owner.len()];
     let mut next = 0;
     for p in &mut out {

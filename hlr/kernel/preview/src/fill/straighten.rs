@@ -1,9 +1,9 @@
 //! Simplifies each border to straight runs; its corners are the points where these meet.
 //!
-//! D. H. Douglas, T. K. Peucker, "Algorithms for the reduction of the number of points required to represent a
-//! digitized line", Cartographica 10, 1973, says which points belong to one run. The line of a run is the one that fits
-//! its points best; a corner is where two of them meet, and a node where those of all borders do that end there. So a
-//! corner that lies between the points of the grid is found as exactly as the runs are.
+//! The algorithm of D. H. Douglas, T. K. Peucker, "Algorithms for the reduction of the number of points required to
+//! represent a digitized line", Cartographica 10, 1973, finds which points belong to one run. The line of a run is
+//! fitted to its points by least squares. A corner is where two of these lines meet; a node is where the lines of all
+//! borders that end there meet. So corners between the points of the grid are as exact as the runs.
 
 use std::collections::BTreeMap;
 
@@ -12,9 +12,10 @@ use rayon::prelude::*;
 use super::chains::Chain;
 use super::crossing::Crossing;
 
-/// Pixels: how far a border may be off its points, where these are exact, and where they are the grid's.
+/// Pixels: the greatest distance of a border from its points, where these are exact, and where they are only the
+/// grid's.
 const OFF: [f64; 2] = [0.3, 1.0];
-/// Pixels: how far a corner may lie from where the points say.
+/// Pixels: the greatest distance of a corner from its points.
 const NEAR: f64 = 1.6;
 /// Sine of the least angle at which two lines meet.
 const ANGLE: f64 = 0.05;
@@ -25,11 +26,11 @@ type Point = [f64; 2];
 struct Line {
     at: Point,
     way: Point,
-    /// Points are exact, and on it.
+    /// Whether its points are exact and lie on it.
     exact: bool,
 }
 
-/// A border between two corners of the grid, or around.
+/// A border between two corners of the grid, or a closed one.
 struct Runs {
     points: Vec<Point>,
     /// First and last point of each run.
@@ -37,7 +38,7 @@ struct Runs {
     lines: Vec<Line>,
 }
 
-/// Per chain: its corners; an open one from node to node. None when stopped.
+/// Corners per chain; those of an open one run from node to node. None when stopped.
 pub fn borders(
     chains: &[Chain],
     at: &Crossing,
@@ -71,12 +72,12 @@ pub fn borders(
 
 fn runs(chain: &Chain, at: &Crossing) -> Runs {
     let found: Vec<(Point, bool)> = chain.cracks.iter().map(|c| at.find(c)).collect();
-    // Near a corner a third face may lie between two points: what is not known there is not needed.
+    // Near a corner a third face may lie between two points: points without an exact place are left out there.
     let known = found.iter().filter(|f| f.1).count();
     let exact = known > 2 && known + 2.max(found.len() / 10) >= found.len();
     let mut points: Vec<Point> = found.into_iter().filter(|f| f.1 || !exact).map(|f| f.0).collect();
     if chain.ends.is_none() {
-        // Begin at what lies farthest out: a corner, if there is one.
+        // Begins at the point farthest out: a corner, if there is one.
         let n = points.len() as f64;
         let middle = points.iter().fold([0.0; 2], |s, p| [s[0] + p[0] / n, s[1] + p[1] / n]);
         let far = (0..points.len()).max_by(|&a, &b| apart(points[a], middle).total_cmp(&apart(points[b], middle)));
@@ -107,7 +108,7 @@ fn runs_of(points: &[Point], exact: bool) -> Runs {
         if ranges.is_empty() {
             ranges.push([0, 0]);
         }
-        // A step from one run to the next around a corner is no run.
+        // A single step around a corner, from one run to the next, is not a run.
         let short = |r: &[usize; 2]| r[1] - r[0] <= 1 || apart(points[r[0]], points[r[1]]) < 1.5;
         let inner = ranges.len().saturating_sub(1);
         let kept: Vec<bool> = (0..ranges.len())
@@ -123,7 +124,7 @@ fn runs_of(points: &[Point], exact: bool) -> Runs {
     Runs { points: Vec::new(), ranges, lines }
 }
 
-/// The line that fits points best.
+/// The line that fits the points best.
 fn fitted(points: &[Point], exact: bool) -> Line {
     // The ends of a run may already lie around the corner.
     let inner = if points.len() > 4 { &points[1..points.len() - 1] } else { points };
@@ -140,7 +141,7 @@ fn fitted(points: &[Point], exact: bool) -> Line {
     Line { at, way: [angle.cos(), angle.sin()], exact: exact && inner.len() > 2 }
 }
 
-/// Where one run ends and another begins.
+/// The corner between two runs.
 fn corner(runs: &Runs, one: usize, two: usize) -> Point {
     let (end, start) = (runs.points[runs.ranges[one][1]], runs.points[runs.ranges[two][0]]);
     let between = [0.5 * (end[0] + start[0]), 0.5 * (end[1] + start[1])];
@@ -155,11 +156,11 @@ fn corner(runs: &Runs, one: usize, two: usize) -> Point {
     if apart(found, between) <= NEAR { found } else { between }
 }
 
-/// The place nearest to all lines that end at a node, near where the grid has it.
+/// The place nearest to all lines that end at a node, near the node's place on the grid.
 fn meeting(node: u32, lines: &[Line], size: [usize; 2]) -> Point {
     let wide = size[0] as u32 + 1;
     let corner = [f64::from(node % wide), f64::from(node / wide)];
-    // A pull toward the grid's own place decides along lines that all run one way.
+    // A weak pull toward the node's place on the grid decides where all lines are parallel.
     let (mut xx, mut xy, mut yy, mut x, mut y) = (1e-6, 0.0, 1e-6, 0.0, 0.0);
     for line in lines {
         let weight = if line.exact { 1.0 } else { 1e-3 };
@@ -173,7 +174,7 @@ fn meeting(node: u32, lines: &[Line], size: [usize; 2]) -> Point {
     }
     let over = 1.0 / (xx * yy - xy * xy);
     let found = [corner[0] + (x * yy - y * xy) * over, corner[1] + (y * xx - x * xy) * over];
-    // At the border of the picture nothing is beyond it.
+    // A node on the border of the picture stays on it.
     let found = [found[0].clamp(0.0, size[0] as f64), found[1].clamp(0.0, size[1] as f64)];
     if apart(found, corner) <= NEAR { found } else { corner }
 }
@@ -182,7 +183,7 @@ fn apart(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// How far p lies from the way between a and b.
+/// Distance of p from the segment a to b.
 fn beside(a: Point, b: Point, p: Point) -> f64 {
     let (w, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let square = w[0] * w[0] + w[1] * w[1];

@@ -1,29 +1,30 @@
 //! The paint of each face: one colour, a gradient along a straight line, or bands of equal light.
 //!
-//! A cylinder or a swept face in a parallel view is equally light along its straight lines: its light is a function of
-//! one coordinate of the picture. Which one is looked for among all directions: the one along which points that lie
-//! equally far differ least.
+//! A cylinder or a swept face in a parallel view is equally light along its straight lines, so its light is a function
+//! of one coordinate of the picture. The direction of that coordinate is found by a search: along it, points at equal
+//! positions differ least.
 
 use rayon::prelude::*;
 
 use super::conical::{Fan, place};
 use super::samples::{Grid, Sample};
 
-/// Of 255: what differs by less has one colour.
+/// Of 255: tones that differ by less are painted in one colour.
 const EVEN: f32 = 1.5;
 /// Of 255: steps between bands.
 const STEP: f32 = 3.0;
 const MOST_BANDS: f32 = 64.0;
-/// The same of fans, whose borders are straight and cost next to nothing: as fine as screens are.
+/// Of 255: steps between bands of a fan. They are as fine as a screen shows, because straight borders cost next to
+/// nothing.
 const FAN_STEP: f32 = 1.0;
 const MOST_IN_FAN: f32 = 256.0;
-/// Bands of a fan to either side that say how light one is.
+/// Bands of a fan to either side that smooth the colour of one.
 const BESIDE: usize = 4;
-/// Points that directions are tried on.
+/// Number of points on which directions are tried.
 const TRIED: usize = 1500;
-/// Slices across a gradient.
+/// Number of slices across a gradient.
 const SLICES: usize = 64;
-/// Of 255: how far a gradient may be off, on the whole, and nearly everywhere.
+/// Of 255: the greatest error of a gradient, on the whole and nearly everywhere.
 const OFF: [f32; 2] = [0.8, 2.5];
 
 /// A gradient along a line: places in pixels, colours in sRGB at shares of the way.
@@ -38,13 +39,13 @@ pub struct Gradient {
 enum Paint {
     Even,
     Gradient(Gradient),
-    /// Where each band but the first begins.
+    /// Tones at which the bands begin, without the first.
     Bands(Vec<f32>),
 }
 
-/// Cells are bands of faces, faces one after another; 0 is nothing.
+/// Cells: the bands of all faces, face after face; 0 is nothing.
 pub struct Tones {
-    /// Per cell: its face, and its place among the bands.
+    /// Per cell: its face, and its number among that face's bands.
     pub face: Vec<u32>,
     pub band: Vec<u32>,
     pub colour: Vec<[u8; 4]>,
@@ -53,7 +54,7 @@ pub struct Tones {
 }
 
 impl Tones {
-    /// How alike two cells are: 0 of two faces, else the more, the nearer their bands are.
+    /// How alike two cells are: 0 for cells of two faces, else the more, the nearer their bands are.
     pub fn alike(&self, a: usize, b: usize) -> u32 {
         if self.face[a] == self.face[b] { u32::MAX - self.band[a].abs_diff(self.band[b]) } else { 0 }
     }
@@ -65,12 +66,12 @@ impl Tones {
     }
 }
 
-/// `faces`: of each point. `fine`: points that a band is wide at least.
-/// The light of a fan becomes what it is by angle, so that its bands have straight borders.
+/// `faces`: face of each point; `fine`: least width of a band, in points. The tone of each point of a fan is replaced
+/// by that of its angle, so that bands of the fan have straight borders.
 pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
     let count = grid.first.len();
     let mut starts = vec![0usize; count + 1];
-    // What a speck has left to its neighbour has another face's colour.
+    // A point that a speck has left to its neighbour has another face's colour: it does not count.
     let own = |p: usize| grid.faces[p] == faces[p];
     for (p, &f) in faces.iter().enumerate() {
         starts[f as usize + 1] += usize::from(own(p));
@@ -128,8 +129,8 @@ pub fn tones(grid: &mut Grid, faces: &[u32], fine: f64) -> Tones {
     out
 }
 
-/// Sums of colours and numbers of points by band, each as the line through the bands beside it says: bands of a fan are
-/// so narrow that the facets under them would show.
+/// Sums of colours and numbers of points by band, each smoothed by a line through the neighbouring bands: bands of a
+/// fan are so narrow that facets would show.
 fn smoothed(sums: &[([f64; 4], f64)]) -> Vec<([f64; 4], f64)> {
     let at = |b: usize| {
         let beside = b.saturating_sub(BESIDE)..(b + BESIDE + 1).min(sums.len());
@@ -147,7 +148,7 @@ fn smoothed(sums: &[([f64; 4], f64)]) -> Vec<([f64; 4], f64)> {
     (0..sums.len()).map(at).collect()
 }
 
-/// Per point: its cell.
+/// The cell of each point.
 pub fn cells(grid: &Grid, faces: &[u32], tones: &Tones) -> Vec<u32> {
     let mut first = vec![0usize; grid.first.len() + 1];
     for &f in &tones.face {
@@ -187,7 +188,7 @@ fn paint(grid: &Grid, points: &[u32], face: usize, fine: f64) -> (Paint, Option<
     (Paint::Bands((1..count).map(|k| low + (high - low) * k as f32 / count as f32).collect()), fan)
 }
 
-/// Some of a face's points: place from their middle, tone, colour.
+/// Some points of a face: position relative to their middle, tone, colour.
 struct Tried {
     middle: [f64; 2],
     points: Vec<([f64; 2], f32, [u8; 4])>,
@@ -218,7 +219,7 @@ fn gradient(grid: &Grid, points: &[u32]) -> Option<Gradient> {
         }
     }
     let (slices, _) = slices(&tried, best.1);
-    // How far points are off what the gradient says there.
+    // Differences between the points and the gradient.
     let known: Vec<(f64, f32, [f64; 4])> = slices.means();
     let mut off: Vec<f32> = tried.points.iter().map(|(at, tone, _)| (slices.at(&known, at) - tone).abs()).collect();
     off.sort_unstable_by(f32::total_cmp);
@@ -242,7 +243,7 @@ fn chosen(grid: &Grid, points: &[u32]) -> Tried {
     let count = points.len() as f64;
     let sum = points.iter().fold([0.0; 2], |s, &p| [s[0] + place(p)[0], s[1] + place(p)[1]]);
     let middle = sum.map(|s| s / count);
-    // A step that has no divisor in common with rows of points: else they would all lie in a few columns.
+    // An odd step: with a divisor in common with the rows, points would all lie in a few columns.
     let step = (points.len() / TRIED).max(1) | 1;
     let one = |&p: &u32| {
         let s = &grid.samples[p as usize];
@@ -257,7 +258,7 @@ struct Slices {
     sums: Vec<([f64; 7], f64)>,
 }
 
-/// The slices across a direction, and the sum of squares by which points differ from the line through their slice.
+/// The slices across a direction, and the sum of squared differences between points and the fitted line of their slice.
 fn slices(tried: &Tried, angle: f64) -> (Slices, f64) {
     let (sin, cos) = angle.sin_cos();
     let at = |p: &[f64; 2]| p[0] * cos + p[1] * sin;
@@ -291,13 +292,13 @@ fn slices(tried: &Tried, angle: f64) -> (Slices, f64) {
 }
 
 impl Slices {
-    /// Where each slice that has points lies in the mean, its tone and colour.
+    /// For each slice with points: mean position, tone and colour.
     fn means(&self) -> Vec<(f64, f32, [f64; 4])> {
         let filled = self.sums.iter().filter(|(_, n)| *n > 0.0);
         filled.map(|(s, n)| (s[0] / n, (s[1] / n) as f32, [3, 4, 5, 6].map(|k: usize| s[k] / n))).collect()
     }
 
-    /// The tone that the means tell at a place.
+    /// The tone at a place, interpolated between the means.
     fn at(&self, known: &[(f64, f32, [f64; 4])], place: &[f64; 2]) -> f32 {
         let u = place[0] * self.way[0] + place[1] * self.way[1];
         let k = known.partition_point(|m| m.0 < u).clamp(1, known.len().max(2) - 1);
@@ -309,7 +310,7 @@ impl Slices {
     }
 }
 
-/// The stops that are needed: no colour between them is off by a step of the picture.
+/// The fewest stops with which no colour between them is off by a step of the picture.
 fn few(known: &[(f64, f32, [f64; 4])]) -> Vec<usize> {
     let mut kept = vec![0, known.len() - 1];
     let mut open = vec![(0, known.len() - 1)];
