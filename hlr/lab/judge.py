@@ -1,12 +1,12 @@
-"""What every judge of drawings looks like.
+"""The interface of the judges, which measure how far a drawing is from the truth.
 
-A judge is made once, from what it takes for the truth, and is then asked drawing by drawing. It draws nothing that it
-judges, and a verdict depends on no other drawing.
+A judge is made once, from its reference, and then judges drawing by drawing. It makes none of the drawings it judges,
+and a verdict does not depend on other drawings.
 
-study.judge.LineJudge        holds polylines of any program against the lines of the finest drawing
-measure.classes.ModelJudge   holds our drawings against OpenCASCADE's curves and surfaces, rays, and a finer drawing
+study.judge.LineJudge        compares polylines of any program with the lines of the finest drawing
+measure.classes.ModelJudge   compares our drawings with OpenCASCADE's curves and surfaces, rays, and a finer drawing
 
-The referee of `tests/peers` is a third, which shares no code with hlr on purpose.
+The referee of `tests/peers` is a third judge. It shares no code with hlr, on purpose.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Found_co = TypeVar("Found_co", covariant=True)
 
 @runtime_checkable
 class Judge(Protocol[Drawn_contra, Found_co]):
-    """Says how far drawings are from one truth."""
+    """Measures how far drawings are from one reference."""
 
     def judge(self, drawn: Drawn_contra, /) -> Found_co:
-        """What is wrong with one drawing; lengths in millimetres on paper."""
+        """The errors of one drawing; lengths in millimetres on paper."""

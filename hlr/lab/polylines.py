@@ -18,9 +18,9 @@ from hlr.tables.line_classes import LINE_CLASSES, names
 
 @dataclass(frozen=True, slots=True)
 class Polylines:
-    """Polylines in millimetres on paper, measured from where the model's origin is projected to.
+    """k polylines in millimetres on paper, measured from the projection of the model's origin.
 
-    points (n, 2); offsets (k + 1,) into them; visible (k,) bool; kind (k,) uint8: numbers of line classes
+    points (n, 2); offsets (k + 1,) into points; visible (k,) bool; kind (k,) uint8: numbers of line classes
     """
 
     points: Floats
@@ -29,7 +29,7 @@ class Polylines:
     kind: npt.NDArray[np.uint8]
 
     def segments(self, chosen: npt.NDArray[np.bool_] | None = None) -> Floats:
-        """(m, 4) the straight pieces of all lines, or of those whose number (k,) is chosen."""
+        """(m, 4) the straight pieces of all lines, or of those lines that the mask (k,) chooses."""
         owner = self.owner()
         same = owner[1:] == owner[:-1]
         if chosen is not None:
@@ -37,22 +37,22 @@ class Polylines:
         return np.concatenate([self.points[:-1][same], self.points[1:][same]], axis=1)
 
     def owner(self) -> Index:
-        """(n,) the line of each point."""
+        """(n,) the number of the line to which each point belongs."""
         return np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
 
     def save(self, path: Path) -> None:
-        """As a NumPy archive."""
+        """Write a NumPy archive."""
         np.savez(path, points=self.points, offsets=self.offsets, visible=self.visible, kind=self.kind)
 
 
 def load(path: Path) -> Polylines:
-    """What `save` wrote."""
+    """Read the archive that `save` wrote."""
     with np.load(path) as arrays:
         return Polylines(arrays["points"], arrays["offsets"], arrays["visible"], arrays["kind"])
 
 
 def gathered(lines: Sequence[tuple[str, bool, Floats]]) -> Polylines:
-    """From (kind, visible, points (m, 2)) of each line."""
+    """Make Polylines from (kind, visible, points (m, 2)) of each line."""
     counts = [len(points) for _, _, points in lines]
     return Polylines(
         np.concatenate([points for _, _, points in lines]) if lines else np.empty((0, 2)),
@@ -63,7 +63,7 @@ def gathered(lines: Sequence[tuple[str, bool, Floats]]) -> Polylines:
 
 
 def polylines_of(drawing: Drawing, chord: float) -> Polylines:
-    """The lines of a drawing; curves become chords that are off them by at most `chord` millimetres."""
+    """The lines of a drawing; curves become chords with a chord error of at most `chord` millimetres."""
     origin = np.asarray(drawing.origin)
     lines = []
     for line in drawing.lines:
@@ -73,7 +73,7 @@ def polylines_of(drawing: Drawing, chord: float) -> Polylines:
 
 
 def drawing_of(lines: Polylines, source: str, view: DrawnView, scale: float, accuracy: float) -> Drawing:
-    """Polylines as a drawing, so that the same writer says how many bytes they need."""
+    """Polylines as a drawing, so that the sizes of all programs' files come from the same writer."""
     low = lines.points.min(axis=0) if len(lines.points) else np.zeros(2)
     flat, classes = lines.points - low, names()
     drawn = tuple(

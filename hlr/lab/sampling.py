@@ -1,6 +1,6 @@
 """Points along lines: the one sampler of the lab, the benches and the tests.
 
-A segment is a row (x0, y0, x1, y1), millimetres on paper. What is between two samples is at most `step` long:
+A segment is a row (x0, y0, x1, y1), millimetres on paper. Neighbouring samples are at most `step` millimetres apart:
 
 ::
 
@@ -27,9 +27,9 @@ MOST_CHORDS = 20_000
 
 @dataclass(frozen=True, slots=True)
 class Samples:
-    """Points (n, 2) along segments: which segment (n,) each lies on, and at which share (n,) of it, 0 to 1.
+    """Points (n, 2) along segments, the segment (n,) on which each lies, and its parameter (n,) there, 0 to 1.
 
-    length, pieces (m,)   of each segment: millimetres, and how many pieces it was cut into
+    length, pieces (m,)   each segment's length in millimetres, and the number of pieces into which it was cut
     """
 
     points: Floats
@@ -40,26 +40,26 @@ class Samples:
 
 
 def with_ends(segments: Floats, step: float) -> Samples:
-    """The ends of every segment (m, 4), and points between them."""
+    """Sample every segment (m, 4) at its ends and between them, at most `step` apart."""
     length, pieces = _cut(segments, step)
     segment, number = numbered(pieces + 1)
     return _samples(segments, segment, number / pieces[segment], length, pieces)
 
 
 def middles(segments: Floats, step: float) -> Samples:
-    """The middles of the pieces of every segment (m, 4)."""
+    """Cut every segment (m, 4) into equal pieces of at most `step`, and sample the middle of each piece."""
     length, pieces = _cut(segments, step)
     segment, number = numbered(pieces)
     return _samples(segments, segment, (number + 0.5) / pieces[segment], length, pieces)
 
 
 def line_middles(segments: Floats, line: Index, step: float) -> tuple[Floats, Index]:
-    """(n, 2) the middles of pieces of whole lines, which go over bends, and the line (n,) of each.
+    """Cut whole lines into equal pieces that may span corners: their middles (n, 2), and the line (n,) of each.
 
-    line: (m,) of each segment (m, 4), ascending.
+    line: (m,) the line of each segment (m, 4), ascending.
     """
     length = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
-    # Running length over all lines: each line's own begins at its start.
+    # The running length goes on over all lines; a line's own length counts from its start.
     ends = np.cumsum(length)
     last = np.flatnonzero(np.append(line[1:] != line[:-1], True)) if len(line) else np.zeros(0, np.int64)
     total = np.diff(np.append(0.0, ends[last]))
@@ -74,7 +74,7 @@ def line_middles(segments: Floats, line: Index, step: float) -> tuple[Floats, In
 
 
 def polyline(points: Floats, step: float) -> Floats:
-    """(m, d) the points (n, d) of a polyline and others between them, neighbours at most `step` apart."""
+    """(m, d) a polyline's points (n, d), with points added so that neighbours are at most `step` apart."""
     way = np.diff(points, axis=0)
     pieces = np.maximum(np.ceil(np.linalg.norm(way, axis=1) / step), 1.0).astype(np.int64)
     segment, number = numbered(pieces)
@@ -83,15 +83,15 @@ def polyline(points: Floats, step: float) -> Floats:
 
 
 def numbered(count: Index) -> tuple[Index, Index]:
-    """`count` (m,) samples of each of m things, one after another: whose each is (n,), and its number (n,) there."""
+    """For `count` (m,) samples of each of m items in a row: the item (n,) of each sample, and its number (n,) in it."""
     whose = np.repeat(np.arange(len(count)), count)
     return whose, np.arange(len(whose)) - np.repeat(np.cumsum(count) - count, count)
 
 
 def chords(curve: Curve, most_off: float) -> Floats:
-    """(n, 2) points along a curve whose chords are at most `most_off` millimetres off it.
+    """(n, 2) points along a curve, such that the chords between them are at most `most_off` millimetres off it.
 
-    Chords of n pieces are off by |second difference| / 8 n^2.
+    The chord error of n pieces is |second difference| / 8 n^2.
     """
     if isinstance(curve, Arc):
         start, end = curve.angles
@@ -113,7 +113,7 @@ def evenly(curve: Curve, count: int) -> Floats:
 
 
 def bezier_pieces(curve: Curve) -> int:
-    """Bezier curves in a chain; of an arc 1."""
+    """The number of Bezier curves in a chain; 1 for an arc."""
     return 1 if isinstance(curve, Arc) else (len(curve.points) - 1) // curve.degree
 
 

@@ -1,4 +1,4 @@
-"""B-rep shapes that no modeller makes, but that files have: put together piece by piece with OpenCASCADE."""
+"""Faulty B-rep shapes that modellers do not make but files contain, built piece by piece with OpenCASCADE."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def plate_with_sliver():
 
 
 def shifted_cylinder(*moved):
-    """Of diameter 6, height 10; of its side, the named curves in (u, v) are moved by a period."""
+    """A cylinder of diameter 6 and height 10; the named (u, v) curves of its side face are shifted by a period."""
     from OCP.BRep import BRep_Builder, BRep_Tool
     from OCP.BRepAdaptor import BRepAdaptor_Curve2d
     from OCP.gp import gp_Vec2d
@@ -68,7 +68,7 @@ def shifted_cylinder(*moved):
 
 
 def scrawled_cylinder():
-    """A cylinder of diameter 6 and height 10, of which the curve of one rim in (u, v) is a scrawl; its side, a face."""
+    """A cylinder of diameter 6 and height 10 whose (u, v) curve of one rim is a scrawl; and its side face."""
     from OCP.BRep import BRep_Builder
     from OCP.Geom2d import Geom2d_BezierCurve
     from OCP.Geom2dConvert import Geom2dConvert
@@ -91,7 +91,7 @@ def scrawled_cylinder():
 
 
 def height(x, y):
-    """The height of `terrain` over a place."""
+    """The height of `terrain` at (x, y)."""
     return 6 * np.sin(x / 7) * np.cos(y / 9) + 0.05 * x
 
 

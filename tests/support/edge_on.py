@@ -1,13 +1,13 @@
 """Faces seen nearly edge-on: which parts of their edges and outlines are visible, and where a drawing lacks lines.
 
-A point of an edge or of a true outline is seen where, moved off its line in the picture by between a fifth of the
-accuracy and the whole of it, to the one side or to the other, nothing is in front of it. So what hides it has to come
-in front of it by more than that: a face that only runs away from it along the sight never does. Every such point has
-to have visible ink within one and a half accuracies. The other way round, a point of a visible line is wrong where it
-and a whole ring around it, wider than the accuracy, are hidden.
+A point of an edge or of a true outline counts as visible if nothing is in front of it after it was moved in the image,
+square to its line, by between a fifth of the accuracy and the whole accuracy, to either side. So a face that only leads
+away from the line along the line of sight does not hide it. Every visible point must have visible ink within one and a
+half accuracies. Conversely, a point of a visible line is wrong if it and a whole ring around it, wider than the
+accuracy, are hidden.
 
-The surfaces are sampled by OpenCASCADE's own evaluation, far finer than any drawing is, on a grid of their parameters:
-so their borders have to be those of their parameters.
+The surfaces are sampled by OpenCASCADE's own evaluation on a grid of their parameters, far finer than any drawing. So
+faces must be bounded by lines of constant parameter.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class Faults:
 
 
 class Truth:
-    """A shape sampled finely; whatever the view."""
+    """A finely sampled shape, which can judge drawings of any view."""
 
     def __init__(self, shape: Any, grid: int = GRID) -> None:
         self.faces = sheets.faces(shape, grid)
@@ -93,14 +93,14 @@ class Truth:
         return np.asarray(self.scene.run(origins, ways) >= 0)
 
     def outlines(self, direction: Floats) -> Iterator[Curve]:
-        """Where the faces' normals are square to the view, off their borders."""
+        """The curves on which the faces' normals are at a right angle to the view, borders excepted."""
         for i, face in enumerate(self.faces, 1):
             points, tangents = face.outline(direction)
             if len(points):
                 yield Curve(f"outline of face {i}", points, tangents, False)
 
     def judge(self, drawn: hlr.Drawing) -> Faults:
-        """What is missing of one drawing, and what is wrong in it."""
+        """Find what one drawing lacks, and what is wrong in it."""
         view = drawn.view
         assert view.projection == "orthographic"
         right, up, toward = (np.array(v) for v in (view.right, view.up, view.direction))
@@ -137,7 +137,7 @@ class Truth:
 
 
 def is_point(curve: Curve, toward: Floats, step: float) -> bool:
-    """Seen end-on it need not be drawn."""
+    """Whether a curve is seen end-on, its image smaller than two steps: it need not be drawn."""
     flat = curve.points - np.outer(curve.points @ toward, toward)
     return bool(np.linalg.norm(flat.max(axis=0) - flat.min(axis=0)) < 2 * step)
 
@@ -156,7 +156,7 @@ def visible(truth: Truth, curve: Curve, toward: Floats, step: float) -> npt.NDAr
 
 
 def gaps(image: Floats, bare: npt.NDArray[np.bool_], ordered: bool) -> Iterator[tuple[float, Floats]]:
-    """Runs of bare points: length and middle."""
+    """Runs of points without ink: length in mm and middle, on paper."""
     at = np.flatnonzero(bare)
     if not len(at):
         return

@@ -1,9 +1,9 @@
-"""What a hard case is held against: ink on paper, expected from first principles or kept as a picture.
+"""The expected ink of a hard case, computed from first principles or kept as a picture.
 
-Ink is what a drawing puts on paper: straight pieces, visible and hidden apart, before the drawing was moved to its
-origin. Two inks are compared by points sampled along each: every point of one has ink of the same visibility of the
-other within a tolerance, and the other way round. So it does not matter how lines are cut or chained, only where they
-are; `doubled` tells whether one is there twice, which distances alone cannot see.
+Ink is what a drawing puts on paper: straight pieces, visible and hidden ones separate, before the drawing is moved to
+its origin. Two inks are compared by points sampled along each: every point of one must have ink of the other, of the
+same visibility, within a tolerance, and the other way round. So only the place of lines matters, not how they are cut
+or chained. Distances do not show that a line is drawn twice; `doubled` does.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def ink_length(ink: Floats) -> float:
 
 
 def ink(drawing: Drawing, without: Sequence[str] = ()) -> Ink:
-    """What the drawing puts on paper; kinds in `without` are left out."""
+    """The ink of a drawing; line classes in `without` are left out."""
     chosen = [line for line in drawing.lines if line.kind not in without]
     return Ink(
         pieces(placed(drawing, line) for line in chosen if line.visible),
@@ -70,7 +70,7 @@ def ink(drawing: Drawing, without: Sequence[str] = ()) -> Ink:
 
 
 def on_paper(drawing: Drawing, points: npt.ArrayLike) -> Floats:
-    """Where points of the model (n, 3) fall, like the exchange format says it, but before the move to the origin."""
+    """Project points of the model (n, 3) as the exchange format says, but without the move to the drawing's origin."""
     view, p = drawing.view, np.asarray(points, dtype=np.float64).reshape(-1, 3)
     factor = np.full(len(p), drawing.unit * drawing.scale)
     if view.eye is not None:
@@ -80,7 +80,7 @@ def on_paper(drawing: Drawing, points: npt.ArrayLike) -> Floats:
 
 
 def lines_of_sight(drawing: Drawing, points: npt.ArrayLike) -> Floats:
-    """(n, 3) paper and depth, growing away from the viewer, in which straight lines and planes stay straight."""
+    """(n, 3) place on paper and projective depth, which grows away from the viewer; lines and planes stay straight."""
     view, p = drawing.view, np.asarray(points, dtype=np.float64).reshape(-1, 3)
     ahead = -(p - (view.eye or (0.0, 0.0, 0.0))) @ np.asarray(view.direction)
     factor = drawing.unit * drawing.scale
@@ -147,7 +147,7 @@ def differences(
     ends: float = 0.0,
     judged: Ink | None = None,
 ) -> list[str]:
-    """Where two inks differ, in words; empty where they agree.
+    """Descriptions of the places where two inks differ; empty if they agree.
 
     tolerance and step (between samples; four tolerances) in millimetres on paper. What is expected hidden but lies
     within UNDER tolerances of visible ink may be missing. ends: so much further may expected ink be from the drawn one,

@@ -1,6 +1,6 @@
-"""Stand-ins for the pipeline: they answer by the source's name, so the command line is tested without any model.
+"""Stand-ins for the pipeline: the source's name decides what they do, so the command line is tested without a model.
 
-`python -m support.fake_pipeline` is the command line with those stand-ins in place of the pipeline.
+`python -m support.fake_pipeline` runs the command line with these stand-ins in place of the pipeline.
 """
 
 import os
@@ -98,7 +98,7 @@ def info(source, *, crease=30.0, annotations=False, progress=None):
 
 
 def _crash(stem, progress):
-    """In code of ours; after the work; or after some progress."""
+    """Crash as the name asks: in our own code, after the work, or after some progress."""
     import atexit
     import ctypes
 
@@ -112,7 +112,7 @@ def _crash(stem, progress):
 
 
 def _hold_the_interpreter(seconds):
-    """What OpenCASCADE does: stay in C without releasing the interpreter, deaf to Python's signal handling."""
+    """Stay in C without releasing the interpreter, as OpenCASCADE does: Python cannot handle signals meanwhile."""
     import ctypes
 
     ctypes.PyDLL(None).usleep(int(seconds * 1e6))

@@ -1,6 +1,6 @@
-"""What lies on paper, whichever lines it is made of: samples of lines, and which of them lie beside others.
+"""Ink on paper, as samples of lines, however the lines are cut; and which samples lie beside other ink.
 
-Two drawings of one model need not have the same lines; what they put on paper can be compared all the same.
+Two drawings of one model may consist of different lines. Their ink can be compared all the same.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Stroke = tuple[bool, Floats]
 class Ink:
     """Samples of lines.
 
-    points (n, 2) on paper; length (n,) that each stands for, millimetres; visible (n,) bool; line (n,) its number
+    points (n, 2) on paper; length (n,): millimetres that each represents; visible (n,) bool; line (n,): its line
     """
 
     points: Floats
@@ -38,9 +38,9 @@ class Ink:
 
     @cached_property
     def trees(self) -> dict[bool, Any]:
-        """By visibility a search tree of the points; None where there is no such ink."""
+        """A search tree of the points for each visibility; None if there is no such ink."""
         chosen = {visible: self.points[self.visible == visible] for visible in (True, False)}
-        # Samples come in rows along lines: splitting in the middle is as good as at the median, and much faster.
+        # Samples are evenly spaced along lines, so splitting in the middle is as good as at the median, and faster.
         return {
             visible: cKDTree(points, compact_nodes=False, balanced_tree=False) if len(points) else None
             for visible, points in chosen.items()
@@ -52,7 +52,7 @@ class Ink:
 
 
 def strokes(drawing: Drawing) -> list[Stroke]:
-    """Lines on paper about a fixed origin: a drawing's own is its lower left corner, which moves with the model."""
+    """Lines on paper with a fixed origin; the drawing's own is its lower left corner, which moves with the model."""
     return [(line.visible, line.points + np.asarray(drawing.origin)) for line in drawing.lines]
 
 
@@ -70,7 +70,7 @@ def ink(lines: Iterable[Stroke], step: float, *, ends: bool = False) -> Ink:
     segments = np.concatenate([np.zeros((0, 4)), *pieces])
     line = np.repeat(np.arange(len(every)), [len(piece) for piece in pieces])
     found = (with_ends if ends else middles)(segments, step)
-    # Each sample of a piece stands for as much of it.
+    # All samples of a piece represent equal lengths.
     length = (found.length / (found.pieces + ends))[found.segment]
     visible = np.array([seen for seen, _ in every], bool)
     return Ink(found.points, length, visible[line[found.segment]], line[found.segment])
@@ -81,7 +81,7 @@ def beside(points: Floats, others: Ink, visible: bool, radius: float) -> Bools:
     tree = others.trees[visible]
     if tree is None or not len(points):
         return np.zeros(len(points), bool)
-    # Two points in one square of that diagonal are near enough: that settles nearly all, at a tenth of the cost.
+    # Two points in one square with this diagonal are near enough. This test settles nearly all at a tenth of the cost.
     found = np.isin(_squares(points, radius), _squares(others.points[others.visible == visible], radius))
     rest = np.flatnonzero(~found)
     distance, _ = tree.query(points[rest], distance_upper_bound=radius)

@@ -1,4 +1,4 @@
-"""What holds of every scene, cut or not: tables that refer to one another do so rightly."""
+"""Checks that hold for every scene, clipped or not: the tables that refer to one another are consistent."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hlr.tables.line_classes import INTERIOR, EdgeClass
 
 
 def check(scene: Scene, *, gaps: bool = False) -> None:
-    """Raises AssertionError with the first table that contradicts another one; gaps: chains may have some."""
+    """Raises AssertionError with the first table that contradicts another one; gaps: chains may have gaps."""
     n, t, e = len(scene.points), len(scene.triangles), len(scene.edges)
     groups, parts = len(scene.groups.closed), len(scene.parts)
     assert np.isfinite(scene.points).all(), "points are finite"
@@ -49,7 +49,7 @@ def _edges(scene: Scene, n: int, t: int) -> None:
     assert len(np.unique(edges, axis=0)) == len(edges), "every edge is there once"
     assert scene.offsets[0] == 0 and (np.diff(scene.offsets) >= 0).all(), "offsets ascend"
     assert scene.offsets[-1] == len(scene.incident) == 3 * t, "every side of every triangle belongs to one edge"
-    # From the triangles alone: which edge has which triangles.
+    # The triangles of each edge, computed from the triangles alone.
     sides = np.sort(scene.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     owner = np.repeat(np.arange(t), 3)
     expected = sorted(zip(*sides.T.tolist(), owner.tolist(), strict=True))

@@ -1,4 +1,4 @@
-"""Tables in Markdown that read well as text too."""
+"""Markdown tables that are also readable as plain text."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 
 def markdown(headings: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table of cells, each column as wide as its widest cell."""
+    """A Markdown table; each column is as wide as its widest cell."""
     table = [list(headings), *map(list, rows)]
     widths = [max(len(line[column]) for line in table) for column in range(len(headings))]
     lines = [

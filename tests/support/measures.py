@@ -1,4 +1,4 @@
-"""What drawings are compared by: straight pieces as sets, distances, and lines that lie on one another."""
+"""Measures for comparing drawings: straight pieces as sets, distances, and lengths of lines drawn twice."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ def counts(drawing: Drawing) -> Counter[tuple[str, bool]]:
 
 
 def length(line: Line) -> float:
-    """On paper, millimetres."""
+    """The length of a line on paper, millimetres."""
     return float(np.sqrt((np.diff(line.points, axis=0) ** 2).sum(axis=1)).sum())
 
 
 def placed(drawing: Drawing, line: Line) -> np.ndarray:
-    """(n, 2) on paper before the drawing was moved to its origin."""
+    """(n, 2) points of a line on paper, millimetres, before the drawing was moved to its origin."""
     return line.points + np.asarray(drawing.origin)
 
 
 def straight(drawing: Drawing, visible: bool | None = None) -> dict[tuple, int]:
-    """Every straight piece as ((x0, y0), (x1, y1), visible), and how often it is there; for drawings of lines only."""
+    """Every straight piece as ((x0, y0), (x1, y1), visible), and its count; only for drawings without curves."""
     found: Counter[tuple] = Counter()
     for line in drawing.lines:
         if visible is None or line.visible == visible:
@@ -68,7 +68,7 @@ def apart(one: np.ndarray, other: np.ndarray, step: float = 0.5) -> float:
 
 
 def drawn_twice(drawing: Drawing, width: float | None = None) -> float:
-    """Millimetres of paper along which a line lies on another one, or on itself."""
+    """Millimetres on paper along which a line lies on another one, or on itself."""
     width = 0.2 * drawing.accuracy.used if width is None else width
     pieces = segments(drawing)
     pieces = pieces[np.hypot(*(pieces[:, 1] - pieces[:, 0]).T) > 4 * width]

@@ -1,4 +1,4 @@
-"""Meshes made of arrays: (points, triangles), numbered as written, so that a test can name an edge by its corners."""
+"""Meshes as arrays (points, triangles). Points keep the order given, so a test can name an edge by its corners."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ BOX_EDGES = [(i, i | bit) for bit in (1, 2, 4) for i in range(8) if not i & bit]
 
 
 def split(quads: npt.ArrayLike) -> Ints:
-    """(n, 4) corners in order -> (2 n, 3)."""
+    """Split quadrangles (n, 4), corners in order, into triangles (2 n, 3)."""
     q = np.asarray(quads, np.int32)
     return np.stack([q[:, [0, 1, 2]], q[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
 
 
 def box(low: Vector, high: Vector) -> Mesh:
-    """Closed, outward; corner 4 x + 2 y + z, each 0 for low and 1 for high; its edges are BOX_EDGES."""
+    """A closed box with normals outward; corner 4 x + 2 y + z, each 0 for low and 1 for high; edges BOX_EDGES."""
     ends = np.array([low, high], float)
     points = [[ends[x][0], ends[y][1], ends[z][2]] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     return np.array(points), split(BOX_QUADS)
@@ -59,7 +59,7 @@ def merged(*meshes: Mesh) -> Mesh:
 
 
 def as_parts(*meshes: Mesh) -> Any:
-    """The same as parts of a scene."""
+    """The meshes as parts of a scene."""
     import trimesh
 
     from support.models import parts
@@ -68,7 +68,7 @@ def as_parts(*meshes: Mesh) -> Any:
 
 
 def turned_over(mesh: Mesh) -> Mesh:
-    """Inside out."""
+    """The mesh inside out."""
     return mesh[0], np.ascontiguousarray(mesh[1][:, ::-1])
 
 
@@ -78,14 +78,14 @@ def moved(mesh: Mesh, by: Callable[[Floats], Floats]) -> Mesh:
 
 
 def rotation(axis: Vector, angle: float) -> Floats:
-    """(3, 3), radians, by Rodrigues' formula; points as rows: p @ rotation.T."""
+    """The (3, 3) rotation by an angle in radians, by Rodrigues' formula; for points as rows: p @ rotation.T."""
     x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
     k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return np.asarray(np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k)
 
 
 def cells(number: npt.NDArray[np.integer]) -> Ints:
-    """Triangles between points numbered in rows and columns (n, m); a number may come again where a surface closes."""
+    """Triangles between points numbered in rows and columns (n, m); where a surface closes, numbers occur twice."""
     corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
     return split(np.stack(corners, axis=-1).reshape(-1, 4))
 
@@ -102,14 +102,14 @@ def grid(points: Floats, *, around: bool = False, along: bool = False) -> Mesh:
 
 
 def torus(major: float, minor: float, n: int, m: int) -> Mesh:
-    """About z."""
+    """A torus about z."""
     u, v = np.meshgrid(np.arange(n) * (2 * np.pi / n), np.arange(m) * (2 * np.pi / m), indexing="ij")
     r = major + minor * np.cos(v)
     return grid(np.stack([r * np.cos(u), r * np.sin(u), minor * np.sin(v)], axis=-1), around=True, along=True)
 
 
 def sphere(radius: float, n: int, m: int, top: float = np.pi / 2) -> Mesh:
-    """About z, from the south pole up to the latitude `top`: open above where that is less than a right angle."""
+    """A sphere about z, from the south pole up to the latitude `top` (radians); open above if that is below pi / 2."""
     latitude = np.linspace(-np.pi / 2, top, m + 1)[1 : None if top < np.pi / 2 else -1]
     u, v = np.meshgrid(np.arange(n) * (2 * np.pi / n), latitude, indexing="xy")
     p = radius * np.stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)], axis=-1)
@@ -124,13 +124,13 @@ def sphere(radius: float, n: int, m: int, top: float = np.pi / 2) -> Mesh:
 
 
 def circle(radius: float, n: int = 720, start: float = 0.0, end: float = 2 * np.pi) -> Floats:
-    """(n + 1, 2) points, counter-clockwise."""
+    """(n + 1, 2) points of a circle, or of the arc from `start` to `end` (radians), counter-clockwise."""
     t = np.linspace(start, end, n + 1)
     return radius * np.stack([np.cos(t), np.sin(t)], axis=1)
 
 
 def sharp_edges(mesh: Mesh, crease: float = 30.0) -> list[tuple[int, int]]:
-    """Edges of one triangle, of more than two, or folded by more than `crease` degrees; for points without twins."""
+    """Edges of one triangle, of more than two, or folded by more than `crease` degrees; no two points may coincide."""
     points, triangles = mesh
     p, q, r = (points[triangles[:, k]] for k in range(3))
     normal = np.cross(q - p, r - p)

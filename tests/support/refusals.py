@@ -1,7 +1,7 @@
-"""Whatever is asked, the answer is a drawing or an HlrError in one sentence: the check of all tests that ask oddly.
+"""Checks that every request, however odd, ends in a drawing or in an HlrError of one sentence.
 
-Of what is plainly in order or plainly wrong, `verdict` and `is_a_model` know the answer without asking the program.
-Between the two they do not judge.
+For requests that are clearly right or clearly wrong, `verdict` and `is_a_model` give the expected answer without
+running the program. For those in between they give None.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import hlr
 
 
 def drawn_or_refused(source: Any, view: Any = "iso", *, longest: int = 300, **options: Any) -> bool:
-    """True where it was drawn, False where refused in `longest` characters at most; another error escapes."""
+    """True if it was drawn, False if it was refused in at most `longest` characters; other errors are raised."""
     try:
         drawing = hlr.draw(source, view, **options)
     except hlr.HlrError as error:
@@ -37,7 +37,7 @@ NAMES = ("front", "back", "left", "right", "top", "bottom", "iso")
 
 
 def checked(source: Any, view: Any = "iso", *, right: bool | None = None, longest: int = 300, **options: Any) -> bool:
-    """`drawn_or_refused`, and the answer is the right one, if `right` knows it."""
+    """`drawn_or_refused`, with a check that the answer is `right`, unless that is None."""
     drawn = drawn_or_refused(source, view, longest=longest, **options)
     assert right in (None, drawn), f"{'drawn' if drawn else 'refused'}: {view!r}, {options!r}"
     return drawn
@@ -73,7 +73,7 @@ def _vector(value: Any, length: int = 3) -> bool:
 
 
 def _between(low: float, high: float, least: float, most: float, none: bool) -> Any:
-    """In order from low to high; wrong at and below `least`, above `most`, and where it is no number."""
+    """A check of a number: right from low to high; wrong at or below `least`, above `most`, or if it is no number."""
 
     def judge(value: Any) -> bool | None:
         if value is None:

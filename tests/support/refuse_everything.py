@@ -1,4 +1,4 @@
-"""A pytest plugin: every entry refuses. Tests that still pass with it do not notice whether anything is drawn."""
+"""A pytest plugin that makes every entry point refuse. Tests that still pass do not check that anything is drawn."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sheets and wings to be seen nearly edge-on, their faces and edges sampled finely by OpenCASCADE's own evaluation."""
+"""Sheets and wings for nearly edge-on views, with faces and edges sampled finely by OpenCASCADE's own evaluation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Grid:
-    """A face whose borders are those of its parameters: points and unit normals (m, n, 3)."""
+    """A face bounded by lines of constant parameter: points and unit normals (m, n, 3)."""
 
     points: Floats
     normals: Floats
@@ -54,7 +54,7 @@ class Grid:
 
 
 def faces(shape: Any, cells: int) -> list[Grid]:
-    """All faces, which have to be bounded by their parameters, on a grid."""
+    """All faces on a grid; each must be bounded by lines of constant parameter."""
     from OCP.BRepAdaptor import BRepAdaptor_Surface
     from OCP.TopAbs import TopAbs_FACE, TopAbs_REVERSED
     from OCP.TopExp import TopExp_Explorer
@@ -120,7 +120,7 @@ def wrapped(shape: Any) -> Any:
 
 
 def views(grids: Sequence[Grid], sines: Sequence[float]) -> Iterator[tuple[str, Vector]]:
-    """Directions that make an angle of these sines with the tangent plane in places of each face, along and across."""
+    """Directions at angles of these sines to the tangent plane at points of each face, along and across."""
     for number, grid in enumerate(grids, 1):
         m, n = (k - 1 for k in grid.points.shape[:2])
         for place in ((0.5, 0.5), (0.0, 0.5), (0.5, 0.0), (1.0, 1.0)):

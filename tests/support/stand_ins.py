@@ -1,4 +1,4 @@
-"""Drawings of sources that are no file and no object: stand-ins with the methods of one."""
+"""Draws stand-ins for a source: test objects with the methods of an opened source."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -10,6 +10,6 @@ from hlr.pipeline.draw import draw_views
 
 
 def draw_source(source: Any, view: str | Sequence[float], options: Options) -> Drawing:
-    """`hlr.draw_views` of something that has the methods of an opened source: all stages but reading."""
+    """Draw an object that has the methods of an opened source: `hlr.draw_views` without reading."""
     with mock.patch.object(session, "open_selected", lambda thing, _: thing):
         return draw_views(source, [view], options)[0]

@@ -1,4 +1,4 @@
-"""OpenCASCADE's own curves of a source's edges, and how far drawn ones are from them."""
+"""OpenCASCADE's own curves of a source's edges, and the distance of drawn lines from them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ DENSE = 600
 
 
 def true_curves(source: Any) -> dict[tuple[str, int], Any]:
-    """A function from a part's name and an edge's index to (n, 3) points of OpenCASCADE's curve; None: it has none."""
+    """A function from a part's name and an edge's index to (n, 3) points of OpenCASCADE's curve of the edge."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve
     from OCP.GeomAbs import GeomAbs_CurveType
     from OCP.TopAbs import TopAbs_ShapeEnum
@@ -49,7 +49,7 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
 
 
 def on_paper(drawing: Drawing, points: np.ndarray) -> np.ndarray:
-    """As the exchange format describes it."""
+    """Project points of the model (n, 3) to paper (n, 2), as the exchange format describes it."""
     view, origin = drawing.view, np.array(drawing.origin)
     axes = np.array([view.right, view.up]).T
     factor = drawing.unit * drawing.scale
@@ -62,7 +62,7 @@ def on_paper(drawing: Drawing, points: np.ndarray) -> np.ndarray:
 
 
 def samples(line: Line, count: int = DENSE // 10) -> np.ndarray:
-    """Points along what is drawn."""
+    """(n, 2) points along a line as drawn."""
     if line.curve is None:
         t = np.linspace(0.0, 1.0, max(2, count // len(line.points)))[:, None]
         return np.concatenate([a + (b - a) * t for a, b in zip(line.points, line.points[1:], strict=False)])
@@ -79,7 +79,7 @@ def distance(points: np.ndarray, path: np.ndarray) -> float:
 
 
 def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], str]:
-    """Largest distance of curves and of polylines, in accuracies; how many lines of each form; which was the worst."""
+    """Largest distance of curves and of polylines, in accuracies; numbers of lines by form; the worst line."""
     accuracy = drawing.accuracy.used
     worst = {"curve": 0.0, "polyline": 0.0}
     forms: Counter[str] = Counter()
@@ -105,7 +105,7 @@ def measured(drawing: Drawing, true: Any) -> tuple[float, float, Counter[str], s
 
 
 def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, int], float]]:
-    """Both functions for an opened B-rep source; its own numbering of parts and edges, OpenCASCADE's curves."""
+    """Two functions of part name and edge number, for an opened B-rep: its curve's points, and its tolerance."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp
@@ -125,7 +125,7 @@ def file_curves(source: Any) -> tuple[Callable[[str, int], Any], Callable[[str, 
         part = parts[name]
         own = TopoDS.Edge_s(edges[part.prototype][edge])
         ends = [end for end in (TopExp.FirstVertex_s(own), TopExp.LastVertex_s(own)) if not end.IsNull()]
-        # A curve need not end at its vertices, and there neighbours meet: lines go to the vertex.
+        # A curve need not end exactly at its vertices, but lines do, because neighbouring edges meet there.
         stated = max(BRep_Tool.Tolerance_s(own), *map(BRep_Tool.Tolerance_s, ends), 0.0)
         return abs(float(np.linalg.det(part.transform[:3, :3]))) ** (1 / 3) * stated
 

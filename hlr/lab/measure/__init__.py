@@ -4,8 +4,8 @@
 >>> reached = measured("part.step", drawing)
 >>> reached.worst, reached.kept(0.05)
 
-Measuring stands above the pipeline and judges by what the pipeline does not use: OpenCASCADE's own curves and surfaces,
-rays, and a finer drawing. `README.md` beside this file says how each class is measured and what was found.
+A drawing is measured against references that the pipeline does not use: OpenCASCADE's own curves and surfaces, rays,
+and a finer drawing. `README.md` beside this file says how each class is measured and what was found.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""All classes of error of one drawing."""
+"""Measures all classes of error of one drawing."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ def measured(
     samples: int = SAMPLES,
     finer: Drawing | None = None,
 ) -> Reached:
-    """How far a drawing is from the truth.
+    """Measure how far a drawing is from the truth.
 
-    source: what it was drawn from: a path or an object, better a source that is open already.
-    samples: how many points are judged by rays, and how many points of outlines are put on their surfaces.
-    finer: the same request at a finer accuracy, where there is one; else it is drawn (`MEASURED_FINENESS`).
+    source: what it was drawn from: a path, an object, or a source that is already open, which saves time.
+    samples: how many points are judged by rays, and how many points of outlines are moved onto their surfaces.
+    finer: a drawing of the same request at a finer accuracy; None: it is drawn here (`MEASURED_FINENESS`).
 
-    Raises OptionError where the drawing does not know what was asked for, SourceError where the source cannot be read.
+    Raises OptionError if the drawing does not hold its request, SourceError if the source cannot be read.
     """
     return ModelJudge(source, threads=threads, samples=samples, finer=finer).judge(drawing)
 
 
 class ModelJudge:
-    """Holds drawings of one model against the model itself; arguments as of `measured`."""
+    """Compares drawings of one model with the model itself; arguments as in `measured`."""
 
     def __init__(self, source: Any, *, threads: int = 0, samples: int = SAMPLES, finer: Drawing | None = None) -> None:
         self._source, self._threads, self._samples, self._finer = source, threads, samples, finer

@@ -1,8 +1,8 @@
 """Distance of written curves from the true curves of the model's edges, projected.
 
-The curve of an edge is taken from its record, which is checked against OpenCASCADE's own evaluation: their difference
-is added. The nearest point is found by Newton's method on paper, from the nearest chord of a dense polyline; a wrong
-start makes the distance larger, never smaller.
+The curve of an edge is taken from its record. The record is checked against OpenCASCADE's own evaluation, and the
+difference of the two is added to the distance. The nearest point is found by Newton's method on paper, from the nearest
+chord of a dense polyline. A wrong start makes the distance larger, never smaller.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ ITERATIONS = 12
 
 
 class TrueEdges:
-    """True curves of some edges, ready to be measured against.
+    """The true curves of k edges, to measure distances to.
 
-    known (k,) bool: there is a curve in space
+    known (k,) bool: the edge has a curve in space
     """
 
     def __init__(self, opened: Any, drawing: Drawing, edges: Sequence[Edge], paper: Paper) -> None:
@@ -68,7 +68,7 @@ class TrueEdges:
                     flat = paper(evaluate_curves(curve, np.zeros(len(places), np.int32), places)[:, 0])
                 ends = np.stack([places[:-1], places[1:]], axis=1)
             segments = np.concatenate([flat[:-1], flat[1:]], axis=1)
-            # What lies behind the eye has no place on paper.
+            # Points behind the eye have no image on paper.
             good = np.isfinite(segments).all(axis=1)
             chords.append(segments[good])
             spans.append(ends[good])
@@ -79,7 +79,7 @@ class TrueEdges:
         self._spans: Floats = np.concatenate(spans) if spans else np.zeros((0, 2))
 
     def distance(self, points: Floats, which: Ints, threads: int) -> tuple[Floats, Floats]:
-        """(n,) distance of points (n, 2) on paper to the curve of edge which (n,), and the parameter (n,) there."""
+        """(n,) distance of points (n, 2) on paper to the curves of edges `which` (n,), mm; and the parameter (n,)."""
         near, chord = _kernel.nearest(
             np.ascontiguousarray(points),
             np.ascontiguousarray(which, np.int32),
@@ -99,7 +99,7 @@ class TrueEdges:
         return best + self._off[which], t
 
     def _newton(self, points: Floats, which: Ints, start: Floats) -> tuple[Floats, Floats]:
-        """Least distances and where they are."""
+        """The least distances (n,) that Newton's method finds, and their parameters (n,)."""
         low, high = self._curves.range[which].T
         low, high = np.minimum(low, high), np.maximum(low, high)
         t, best, at = start, np.full(len(points), np.inf), start
@@ -124,15 +124,17 @@ def _places(record: Record) -> Floats:
 
 
 def _finer(flat: Floats, close: float) -> int:
-    """How many times more points (n, 2) keep their chords this close to the curve: where it crosses itself on paper, a
-    search that begins on a chord farther off than the other branch would end there."""
+    """By what factor to increase the number of points (n, 2), so that their chords are within `close` of the curve.
+
+    Where a curve crosses itself on paper, a search that starts on a coarser chord could end on the other branch.
+    """
     bulge = np.hypot(*(flat[:-2] - 2.0 * flat[1:-1] + flat[2:]).T) / 8.0
     worst = float(bulge[np.isfinite(bulge)].max(initial=0.0))
     return int(min(np.ceil(np.sqrt(worst / close)), MOST_FINER))
 
 
 def _evaluated(shape: Any, transform: Floats, record: Record) -> Floats:
-    """OpenCASCADE's points along an edge: few to check a record, many where there is none. It may have none itself."""
+    """OpenCASCADE's points along an edge: few to check a record, many without one; none if it has no curve."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve
 
     try:
@@ -146,7 +148,7 @@ def _evaluated(shape: Any, transform: Floats, record: Record) -> Floats:
 
 
 def edge_errors(true: TrueEdges, drawing: Drawing, drawn: Sequence[Written], threads: int) -> tuple[Floats, list[str]]:
-    """(n,) the largest distance of each line of an edge, in each of the written forms; and names for them."""
+    """(n,) the largest distance, mm on paper, of each line of an edge in each written form, and the lines' names."""
     values: list[Floats] = []
     names: list[str] = []
     number = np.array(
@@ -156,7 +158,7 @@ def edge_errors(true: TrueEdges, drawing: Drawing, drawn: Sequence[Written], thr
         mine = np.flatnonzero(number[form.line] >= 0)
         line = form.line[mine]
         off, _ = true.distance(form.points[mine], number[line], threads)
-        # Of an edge without a curve in space, and behind the eye, there is nothing to measure against.
+        # Edges without a curve in space, and points behind the eye, cannot be measured.
         mine, line, off = mine[np.isfinite(off)], line[np.isfinite(off)], off[np.isfinite(off)]
         first = np.flatnonzero(np.append(True, line[1:] != line[:-1])[: len(line)])
         values.append(np.maximum.reduceat(off, first) if len(off) else off)

@@ -13,7 +13,7 @@ from hlr.lab.sampling import Index
 
 
 def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:
-    """Length of the shortest figure. Lines hang together where their ends meet or one ends on another."""
+    """Length of the shortest figure, mm on paper. Lines are connected where their ends meet or one ends on another."""
     accuracy = drawing.accuracy.used
     if not drawing.lines:
         return Errors(None, why="the drawing has none")
@@ -22,7 +22,7 @@ def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:
     length = np.bincount(line, weights=size, minlength=len(drawing.lines))
     figure = _joined(drawing)
     total = np.bincount(figure, weights=length)[figure]
-    # What the file rounds to a point is not drawn.
+    # A line that the file rounds to a point is not drawn.
     small = np.flatnonzero((total < accuracy) & (length > 0.0))
     alone = np.array([i for i in small.tolist() if _is_alone(i, figure, drawing, segments, line, accuracy, threads)])
     longer = total[(total >= accuracy) & (length > 0.0)]
@@ -33,7 +33,7 @@ def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:
 
 
 def _joined(drawing: Drawing) -> Ints:
-    """(lines,) the figure of each line: lines of one visibility whose ends coincide."""
+    """(lines,) the number of each line's figure; lines of one visibility whose ends coincide form a figure."""
     number: dict[tuple[bool, float, float], int] = {}
     ends = np.array(
         [

@@ -1,7 +1,7 @@
 """Visibility changes and lost lines: against the same view drawn at a finer accuracy.
 
 Lines are matched edge by edge (outlines face by face, lines of meshes part by part and class by class). Where the two
-drawings disagree about what is visible, a change is displaced by as much as the stretch is long:
+drawings disagree about visibility, a change of visibility is displaced by the length of that stretch:
 
 ::
 
@@ -9,8 +9,9 @@ drawings disagree about what is visible, a change is displaced by as much as the
         finer   visible -------------|- - - - - - - - - -  hidden
                                      <--->  displaced
 
-Of stretches longer than the accuracy, that part counts which rays contradict (see `rays`). The rest is ill-conditioned:
-there, less than the accuracy across the line, or less than the depth of a contact, decides what is seen.
+Of a stretch longer than the accuracy, only the part that rays contradict counts (see `rays`). The rest is
+ill-conditioned: a shift across the line of less than the accuracy, or a depth of less than the contact tolerance,
+decides whether it is visible.
 """
 
 from __future__ import annotations
@@ -42,9 +43,9 @@ MOST_SAMPLES = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class Finer:
-    """The finer drawing on the paper of the one that is measured.
+    """The finer drawing, brought to the scale and origin of the drawing that is measured.
 
-    drawing   as it was drawn; segments (n, 4), their lines (n,), and points along it
+    drawing   the finer drawing as it was made; segments (n, 4), the line (n,) of each, and points along the lines
     """
 
     drawing: Drawing
@@ -54,7 +55,7 @@ class Finer:
 
 
 def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | str:
-    """The same request at a finer accuracy, or the reason why there is none."""
+    """Draw the same request at a finer accuracy; returns the reason if that is impossible."""
     request = drawing.request
     assert request is not None
     from hlr.pipeline.draw import draw_views
@@ -69,7 +70,7 @@ def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | s
 
 
 def on_the_same_paper(finer: Drawing, drawing: Drawing) -> Finer:
-    """Fitted into the same size, the two may differ a little in scale, and in their corner."""
+    """Scale and shift the finer drawing to the other's paper; fitted to a sheet, the two differ a little in both."""
     drawn = written(finer)
     shift = np.array(finer.origin)
     points = (drawn.points + shift) * (drawing.scale / finer.scale) - np.array(drawing.origin)
@@ -78,7 +79,7 @@ def on_the_same_paper(finer: Drawing, drawing: Drawing) -> Finer:
 
 
 def _key(line: Line) -> tuple[int, str, int]:
-    """What lines of both drawings are matched by."""
+    """The key by which lines of both drawings are matched."""
     if line.edge is not None:
         return line.part, "edge", line.edge
     if line.face is not None:
@@ -87,7 +88,7 @@ def _key(line: Line) -> tuple[int, str, int]:
 
 
 class Comparison:
-    """A drawing beside a finer one."""
+    """Compares a drawing with a finer one."""
 
     def __init__(self, drawing: Drawing, drawn: Written, finer: Finer, threads: int) -> None:
         self._drawing, self._drawn, self._finer, self._threads = drawing, drawn, finer, threads
@@ -98,7 +99,7 @@ class Comparison:
         self._theirs = self._keys(finer.drawing)
 
     def _keys(self, drawing: Drawing) -> Ints:
-        """(lines,) even where visible, odd where hidden."""
+        """(lines,) the number of each line's key, doubled; plus one if the line is hidden."""
         return np.array([2 * self._number[_key(x)] + (not x.visible) for x in drawing.lines], np.int32)
 
     def _step(self, drawn: Written) -> float:
@@ -117,7 +118,7 @@ class Comparison:
         )[0]
 
     def changes(self, caster: Caster) -> tuple[Errors, Errors, float | None]:
-        """Displaced changes; those that are ill-conditioned; the longest stretch over which that is so."""
+        """Displaced changes, ill-conditioned stretches, and the longest ill-conditioned part of one; all in mm."""
         accuracy, step = self._accuracy, self._step(self._drawn)
         points, line = self._drawn.middles(step)
         key = self._own[line]
@@ -140,7 +141,7 @@ class Comparison:
         return errors(np.array(found)), grazing, bound if doubtful else None
 
     def _ends(self) -> Floats:
-        """Ends of lines, as far as the finer drawing has such an end of the same edge within the accuracy."""
+        """(n,) distances, mm, of line ends to ends of the same edge in the finer drawing, if within the accuracy."""
         mine, key = _ends_of(self._drawing, self._own)
         theirs, their_key = _ends_of(self._finer.drawing, self._theirs)
         shift = np.array(self._finer.drawing.origin)
@@ -150,11 +151,12 @@ class Comparison:
         return found[np.isfinite(found)]
 
     def lost(self, under: float) -> Errors:
-        """Stretches of the finer drawing's lines that are not drawn.
+        """Stretches of the finer drawing's lines that this drawing lacks.
 
-        Intersection lines are left out: where parts touch or clash is a matter of depth.
+        Intersection lines are left out: the contact tolerance decides whether they are drawn, and it depends on the
+        accuracy.
 
-        under: a hidden line this close to a visible one lies under its ink, as far as the accuracy tells
+        under: a hidden line within this distance (mm) of a visible one counts as lying under its ink
         """
         accuracy, step = self._accuracy, self._step(self._finer.drawn)
         points, line = self._finer.drawn.middles(step)
@@ -190,7 +192,7 @@ class Comparison:
 
 
 def _between(points: Floats) -> Floats:
-    """The points (n, 2) of a stretch, and others between them."""
+    """The points (n, 2) of a stretch, with more points between them."""
     t = np.arange(0, (len(points) - 1) * BETWEEN + 1) / BETWEEN
     return np.stack([np.interp(t, np.arange(len(points)), points[:, k]) for k in (0, 1)], axis=1)
 

@@ -1,6 +1,6 @@
-"""Distance of written intersection lines to where finer tessellations of their two surfaces cross.
+"""Distance of written intersection lines to the lines in which finer tessellations of the two surfaces cross.
 
-All crossings count, however shallow: whether parts that touch clash is a matter of depth, and says nothing of where.
+All crossings count, however shallow. The contact tolerance decides whether a crossing is drawn, not where it lies.
 """
 
 from __future__ import annotations

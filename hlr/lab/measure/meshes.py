@@ -1,4 +1,4 @@
-"""Distance of written lines of meshes to the mesh's own edges: creases, borders, and edges where it folds."""
+"""Distance of written lines of meshes to the mesh's own edges: creases, boundaries and contours."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ from hlr.tables.line_classes import INTERIOR
 
 
 def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, threads: int) -> tuple[Floats, list[str]]:
-    """(n,) the largest distance of each line of a mesh without B-rep, but for intersections; and names for them."""
+    """(n,) the largest distance, mm on paper, of each line of a mesh without B-rep, and the lines' names.
+
+    Intersection lines are left out.
+    """
     assert drawing.request is not None
     deflection = drawing.accuracy.deflection
     options = Options(crease=drawing.request.options.crease)
@@ -33,7 +36,7 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, thr
     sight = paper.sight(corner[:, 0])
     ahead = (normal * sight).sum(axis=1) / np.linalg.norm(sight, axis=1)
     side = np.linalg.norm(corner - np.roll(corner, 1, axis=1), axis=2).max(axis=1)
-    # Twice the area of its image over a side: its height. Where that is next to none, rounding says how it is turned.
+    # A triangle whose image has next to no height (twice the area over a side) is edge-on: rounding decides its facing.
     edge_on = np.abs(ahead) <= MEASURED_EDGE_ON * deflection * side
     first, count = scene.offsets[:-1], np.diff(scene.offsets)
     faced = np.flatnonzero(count > 0)

@@ -1,4 +1,4 @@
-"""Records of edges' curves, read from OpenCASCADE: the lab compares the kernel's records with them."""
+"""Records of edges' curves, read through OpenCASCADE. The lab compares the kernel's records with them."""
 
 from __future__ import annotations
 
@@ -124,9 +124,9 @@ def spline_record(
 def _unrolled(
     degree: int, flat: Floats, begin: int, poles: Floats, period: float, first: float, last: float
 ) -> tuple[Floats, Floats]:
-    """Flat knots and poles of a periodic B-spline, repeated as far as first..last goes.
+    """Flat knots and poles of a periodic B-spline, repeated to cover the parameters first..last.
 
-    begin: how often the first knot stands there. One period is `flat` without the last knot's copies.
+    begin: the multiplicity of the first knot. One period is `flat` without the copies of the last knot.
     """
     count = len(poles)
     ring = flat[:count]
@@ -134,7 +134,7 @@ def _unrolled(
     high = int(np.ceil((last - ring[0]) / period)) + 1
     turns = np.arange(low, high + 1)
     long = (ring[None, :] + turns[:, None] * period).ravel()
-    # The span after the last copy of the first knot is that of poles 0..degree.
+    # The span after the last copy of the first knot depends on the poles 0..degree.
     shift = degree + 1 - begin
     many = len(long) - degree - 1
     index = np.arange(many) + shift

@@ -1,12 +1,12 @@
-"""Distance of written outlines from where the true surface is seen edge-on, by OpenCASCADE's evaluation.
+"""Distance of written outlines from the silhouette of the true surface, by OpenCASCADE's evaluation.
 
-A point q of a written outline is put on the surface of its face, and moved there until
+A point q of a written outline is projected onto the surface of its face. The surface point is then moved until
 
     g(u, v) = N . V = 0          the surface is seen edge-on
-    h(u, v) = (p - q) . t = 0    its place p on paper is beside q, square to the line's direction t
+    h(u, v) = (p - q) . t = 0    its image p on paper is beside q, at a right angle to the line's direction t
 
-by Newton's method, in the least step that would do. |p - q| is then the error: never less than the distance to the true
-outline. Where a fold lies on an edge of the face, that edge is the true outline.
+by Newton's method, with the shortest step that solves the linear system. |p - q| is then the error: never less than the
+distance to the true outline. Where the face folds along one of its edges, that edge is the true outline.
 
 ::
 
@@ -42,7 +42,7 @@ SETTLED = 1e-13
 def outline_errors(
     opened: Any, drawing: Drawing, drawn: Written, paper: Paper, samples: int, threads: int
 ) -> tuple[Floats, list[str]]:
-    """(n,) error of points of written outlines, at most about `samples` of them, and names for them."""
+    """(n,) error, mm on paper, of points of written outlines, about `samples` at most; and the names of their lines."""
     wanted = np.array([x.kind == "outline" and x.face is not None for x in drawing.lines], bool)
     mine = np.flatnonzero(wanted[drawn.line])
     mine = mine[:: max(1, len(mine) // max(samples, 1))]
@@ -69,7 +69,7 @@ def outline_errors(
 
 
 def _directions(drawn: Written, which: Index) -> Floats:
-    """(n, 2) unit vectors along the lines at some of their points."""
+    """(n, 2) unit vectors along the lines at the points `which` (n,)."""
     last = len(drawn.points) - 1
     after = np.minimum(which + 1, last)
     before = np.maximum(which - 1, 0)
@@ -81,7 +81,7 @@ def _directions(drawn: Written, which: Index) -> Floats:
 
 
 class _Face:
-    """One face's surface, where its part stands."""
+    """One face's surface, with the placement of its part."""
 
     def __init__(self, face: Any, transform: Floats, paper: Paper, accuracy: float) -> None:
         from OCP.BRep import BRep_Tool
@@ -97,19 +97,19 @@ class _Face:
         self._accuracy = accuracy
 
     def errors(self, near: Floats, q: Floats, way: Floats) -> Floats:
-        """(n,) distance on paper between q (n, 2) and edge-on places beside them; infinity where none is found."""
+        """(n,) distance, mm, on paper from q (n, 2) to the edge-on points beside them; infinity where none is found."""
         from OCP.gp import gp_Pnt
 
         start = [self._find.ValueOfUV(gp_Pnt(*p), 1e-9) for p in ((near - self._shift) @ self._back.T).tolist()]
         at = np.array([(p.X(), p.Y()) for p in start])
-        # First toward the place beside q; where the outline runs along the sight, at a cusp, to any place nearby.
+        # Search beside q first. At a cusp, where the outline runs along the line of sight, search in all directions.
         best = self._search(at, q, way, True)
         again = np.flatnonzero(best > self._enough)
         best[again] = np.minimum(best[again], self._search(at[again], q[again], way[again], False))
         return best
 
     def _search(self, start: Floats, q: Floats, way: Floats, beside: bool) -> Floats:
-        """The least errors at edge-on places that Newton's method comes by; steps that lead astray are halved."""
+        """(n,) the least errors at edge-on points that Newton's method reaches; steps that make it worse are halved."""
         n = len(q)
         best, least, going = np.full(n, np.inf), np.full(n, np.inf), np.arange(n)
         at, step = start.copy(), np.zeros((n, 2))
@@ -138,7 +138,7 @@ class _Face:
                 new = _least(rows, value, beside)
                 moved = np.sqrt(dot(su * new[:, :1] + sv * new[:, 1:], su * new[:, :1] + sv * new[:, 1:]))
                 new *= np.minimum(1.0, self._most / moved)[:, None]
-            # Back by half of the last step, or on by a new one.
+            # Go back by half of the last step, or make a new step.
             step[going] = np.where(astray[:, None], 0.5 * step[going], new)
             move = np.where(astray[:, None], step[going], -step[going])
             least[going] = np.where(astray, least[going], wrong)
@@ -148,7 +148,7 @@ class _Face:
         return best
 
     def _jets(self, at: Floats) -> Floats:
-        """(n, 6, 3) points and derivatives du, dv, duu, dvv, duv in the model; NaN where there are none."""
+        """(n, 6, 3) points and derivatives du, dv, duu, dvv, duv in the model; NaN where they do not exist."""
         from OCP.gp import gp_Pnt, gp_Vec
 
         p, d = gp_Pnt(), [gp_Vec() for _ in range(5)]
@@ -163,18 +163,18 @@ class _Face:
 
 
 def dot(a: Floats, b: Floats) -> Floats:
-    """Row by row."""
+    """Dot product row by row."""
     return np.asarray((a * b).sum(axis=1))
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """Row by row."""
+    """Cross product row by row."""
     x, y = a.T, b.T
     return np.stack([x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]], axis=1)
 
 
 def _least(rows: Floats, values: Floats, both: bool) -> Floats:
-    """(n, 2) the x with rows (n, 2, 2) . x = values (n, 2), or the shortest for the first row alone."""
+    """(n, 2) the solutions x of rows (n, 2, 2) . x = values (n, 2); or the shortest x that solves the first row."""
     a, b, c, d = rows[:, 0, 0], rows[:, 0, 1], rows[:, 1, 0], rows[:, 1, 1]
     g, h = values.T
     if not both:
@@ -183,7 +183,7 @@ def _least(rows: Floats, values: Floats, both: bool) -> Floats:
 
 
 def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Index, threads: int) -> Floats:
-    """(n,) distance to the nearest edge of each outline's face."""
+    """(n,) distance of q (n, 2), mm on paper, to the nearest edge of the outline's face."""
     edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
     for number in np.unique(line).tolist():
         of = drawing.lines[number]

@@ -12,7 +12,7 @@ from hlr.drawing.drawing import Drawing
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """Paper of one drawing. rows (3, 4): (x, y, z, 1) in the model to (x w, y w, w); origin (2,).
+    """The projection of one drawing. rows (3, 4): from (x, y, z, 1) in the model to (x w, y w, w); origin (2,) in mm.
 
     toward (3,): unit vector toward the viewer; eye (3,) or None; per_model: millimetres on paper per model unit, in
     perspective at the distance of the target
@@ -39,14 +39,14 @@ class Paper:
         return cls(rows, np.array(drawing.origin), toward, eye, factor)
 
     def __call__(self, points: Floats) -> Floats:
-        """(n, 3) -> (n, 2)."""
+        """Project points (n, 3) of the model to points (n, 2) on paper, in mm."""
         found = points @ self.rows[:, :3].T + self.rows[:, 3]
         with np.errstate(all="ignore"):
             return np.asarray(found[:, :2] / found[:, 2:] - self.origin)
 
     def derived(self, jet: Floats) -> Floats:
-        """(n, 3, 3) point, first and second derivative in the model -> (n, 3, 2) on paper."""
-        # Not by BLAS: its threads cost more than so few numbers.
+        """Project point, first and second derivative (n, 3, 3) of curves in the model to (n, 3, 2) on paper."""
+        # Not by BLAS: for so few numbers, starting its threads costs more than the product.
         x = np.einsum("nkj,ij->nki", jet, self.rows[:, :3])
         x[:, 0] += self.rows[:, 3]
         with np.errstate(all="ignore"):
@@ -57,13 +57,13 @@ class Paper:
         return np.stack([p - self.origin, d, dd], axis=1)
 
     def sight(self, points: Floats) -> Floats:
-        """(n, 3) from each point toward the viewer: to the eye, or of unit length in a parallel view."""
+        """(n, 3) vectors from points (n, 3) to the eye; in a parallel view, unit vectors toward the viewer."""
         return np.broadcast_to(self.toward, points.shape) if self.eye is None else self.eye - points
 
     def magnified(self, points: Floats) -> Floats:
-        """(n,) millimetres on paper per model unit across the sight, there."""
+        """(n,) millimetres on paper per model unit at points (n, 3), across the line of sight."""
         if self.eye is None:
             return np.full(len(points), self.per_model)
-        # The rows of x and y have the factor and the distance in them.
+        # The rows of x and y contain the factor from model to paper and the distance already.
         size = float(np.linalg.norm(self.rows[0, :3]))
         return np.asarray(size / np.maximum(points @ self.rows[2, :3] + self.rows[2, 3], 1e-300))

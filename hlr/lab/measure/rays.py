@@ -1,9 +1,10 @@
 """Visibility of drawn lines, judged by rays against a finer tessellation.
 
-A sample of a drawn line has nine rays toward the viewer: its own, and eight on a ring as wide as the accuracy. It is
-wrong only where they agree: drawn visible and all are blocked, or drawn hidden and none is. Where they do not agree,
-less than the accuracy decides, and either answer is right. Rays start nearer to the viewer than the sample by the depth
-within which two surfaces count as touching: what covers a line by less than that may hide it or not.
+From each sample of a drawn line nine rays go toward the viewer: one from the sample, eight from a ring around it with
+the accuracy as its radius. The sample is wrong only if all nine agree: it is drawn visible and all are blocked, or
+drawn hidden and none is. If they disagree, a shift of less than the accuracy decides, and either answer is right. Rays
+start nearer to the viewer than the sample by the contact tolerance: a surface that covers a line by less than that may
+hide it or not.
 
 ::
 
@@ -37,7 +38,7 @@ DISAGREE, BLOCKED, FREE = 0, 1, 2
 
 @dataclass(frozen=True, slots=True)
 class Caster:
-    """All triangles of a model, the part (t,) of each, and how wide and deep nine rays of one drawing are."""
+    """All triangles of a model, the part (t,) of each, and the nine rays' radius and starting depth for one drawing."""
 
     points: Floats
     triangles: Ints
@@ -51,13 +52,13 @@ class Caster:
 
     @classmethod
     def of(cls, opened: Any, drawing: Drawing, paper: Paper, deflection: float) -> Caster:
-        """From a mesh of its own, as fine as `deflection` (model units)."""
+        """Mesh the model anew with `deflection` (model units) and make a Caster of that mesh."""
         parts = opened.mesh(deflection, ANGLE).parts
         first = np.cumsum([0, *(len(p.points) for p in parts[:-1])])
         view, points = drawing.view, np.concatenate([p.points for p in parts])
         depth = drawing.accuracy.contact
         if not all(p.brep for p in parts):
-            # What a mesh was made with it does not tell.
+            # A mesh does not say with which deflection it was made, so its contact tolerance follows from its size.
             depth = max(depth, MESH_CONTACT * float(np.linalg.norm(np.ptp(points, axis=0))))
         return cls(
             points=points,
@@ -72,7 +73,7 @@ class Caster:
         )
 
     def verdict(self, points: Floats, threads: int) -> npt.NDArray[np.int8]:
-        """(n,) what nine rays say of points (n, 3) of the model."""
+        """(n,) what the nine rays say of points (n, 3) of the model: BLOCKED, FREE or undecided."""
         angle = np.arange(RING) * (2.0 * np.pi / RING)
         ring = np.concatenate(
             [np.zeros((1, 3)), np.outer(np.cos(angle), self.right) + np.outer(np.sin(angle), self.up)]
@@ -83,11 +84,11 @@ class Caster:
         return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
 
     def touched(self, points: Floats, threads: int) -> npt.NDArray[np.bool_]:
-        """(n,) whether anything covers points (n, 3), be it no deeper than a contact."""
+        """(n,) whether anything covers points (n, 3), even by less than the contact tolerance."""
         return self._blocked(points, points[:, None, :], MEASURED_CONTACT * self.depth, threads)[:, 0]
 
     def _blocked(self, points: Floats, starts: Floats, depth: float, threads: int) -> npt.NDArray[np.bool_]:
-        """(n, k) whether rays from starts (n, k, 3), so much nearer to the viewer, meet anything."""
+        """(n, k) whether rays from starts (n, k, 3), moved toward the viewer by `depth`, meet anything."""
         sight = self.paper.sight(points)
         unit = sight / np.linalg.norm(sight, axis=1)[:, None]
         starts = starts + (unit * depth)[:, None, :]
@@ -95,7 +96,7 @@ class Caster:
             reach = np.ptp(self.points, axis=0).sum() * 2.0
             ways = np.broadcast_to(unit[:, None, :] * reach, starts.shape)
         else:
-            # To the near plane: what is beyond it is not drawn.
+            # Rays end at the near plane: nothing between it and the eye is drawn.
             ways = self.paper.eye - starts
             ahead = np.abs(ways @ self.paper.toward)
             ways = ways * np.clip(1.0 - self.nearest / np.maximum(ahead, 1e-300), 0.0, 1.0)[:, :, None]
@@ -110,7 +111,7 @@ class Caster:
 
 
 def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threads: int) -> Labels:
-    """The share and the longest stretch of lines that rays contradict."""
+    """The share of line samples that rays contradict, and the longest stretch of them in mm on paper."""
     accuracy = drawing.accuracy.used
     segments, _ = drawn.steps()
     length = float(np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]).sum())
@@ -121,7 +122,7 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
     wrong = contradicted(drawing, drawn, points, line, caster, threads)
     if not wrong.any():
         return Labels(0.0, 0.0, length)
-    # How long each stretch is: its line's samples all lie close together now.
+    # The length of each stretch, from samples that now lie close together along its whole line.
     bad = np.unique(line[wrong])
     near = Written(drawn.points[np.isin(drawn.line, bad)], drawn.line[np.isin(drawn.line, bad)])
     dense = max(MEASURED_SAMPLE * accuracy, step / 64.0)
@@ -141,15 +142,15 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
 def contradicted(
     drawing: Drawing, drawn: Written, points: Floats, line: Index, caster: Caster, threads: int
 ) -> npt.NDArray[np.bool_]:
-    """(n,) whether nine rays agree that points (n, 2) of lines are not what they are drawn as.
+    """(n,) whether nine rays agree that points (n, 2) of lines are drawn with the wrong visibility.
 
-    A hidden line under the ink of a visible one, drawn as `drawn` says, is not seen, and never wrong.
+    A hidden line under the ink of a visible line of `drawn` cannot be seen, and is never wrong.
     """
     at = in_model(drawing, points, line, threads)
     said = caster.verdict(at, threads)
     visible = np.array([x.visible for x in drawing.lines], bool)[line]
     wrong = np.asarray(np.where(visible, said == BLOCKED, said == FREE))
-    # What is covered by less than a contact may be drawn either way.
+    # A line covered by less than the contact tolerance may be drawn either way.
     doubtful = np.flatnonzero(wrong & ~visible)
     wrong[doubtful] &= ~caster.touched(at[doubtful], threads)
     hidden = np.flatnonzero(wrong & ~visible)
@@ -165,7 +166,7 @@ def contradicted(
 
 
 def longest_run(points: Floats, line: Index, chosen: npt.NDArray[np.bool_], step: float) -> tuple[int | None, float]:
-    """Where the longest stretch of chosen points is, and its length; points of a line are about a step apart."""
+    """Index of the first point of the longest stretch of chosen points, and its length; `step` is their distance."""
     starts, lengths = runs(points, line, chosen, step)
     if len(starts) == 0:
         return None, 0.0
@@ -174,7 +175,7 @@ def longest_run(points: Floats, line: Index, chosen: npt.NDArray[np.bool_], step
 
 
 def runs(points: Floats, line: Index, chosen: npt.NDArray[np.bool_], step: float) -> tuple[Index, Floats]:
-    """The first point of each stretch of chosen points (n, 2) of one line, and the stretch's length."""
+    """Stretches of neighbouring chosen points on one line: index of the first point of each, and its length."""
     which = np.flatnonzero(chosen)
     if len(which) == 0:
         return np.zeros(0, np.int64), np.zeros(0)
@@ -195,7 +196,7 @@ def _picked(drawn: Written, step: float, wrong: npt.NDArray[np.bool_]) -> tuple[
 def _within(
     points: Floats, line: Index, seeds: Floats, seed_line: Index, most: float, threads: int
 ) -> npt.NDArray[np.bool_]:
-    """(n,) whether a seed on the same line is no farther away than `most`."""
+    """(n,) whether there is a seed on the same line within the distance `most`."""
     dots = np.concatenate([seeds, seeds], axis=1)
     own, theirs = line.astype(np.int32), seed_line.astype(np.int32)
     far, _ = _kernel.nearest(np.ascontiguousarray(points), own, np.ascontiguousarray(dots), theirs, most, threads)

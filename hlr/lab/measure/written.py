@@ -1,4 +1,4 @@
-"""Points along every line as a written file has them, after its numbers have been rounded."""
+"""Points along every line as a file writer rounds them."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ DEGREE = {LINE: 1, QUADRATIC: 2, CUBIC: 3}
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """Points (n, 2) along all lines, millimetres on paper as in `Drawing`; those of one line follow one another.
+    """Points (n, 2) along all lines, millimetres on paper as in `Drawing`, in order along each line.
 
-    line (n,): index into Drawing.lines, ascending
+    line (n,): the line of each point, as index into Drawing.lines, ascending
     """
 
     points: Floats
@@ -39,12 +39,12 @@ class Written:
         return np.concatenate([self.points[:-1], self.points[1:]], axis=1)[same], self.line[:-1][same]
 
     def middles(self, step: float) -> tuple[Floats, Index]:
-        """(n, 2) points along the lines, in the middle of pieces at most `step` long, and the line of each."""
+        """(n, 2) the middles of equal pieces of the lines, at most `step` long, and the line of each."""
         return line_middles(*self.steps(), step)
 
 
 def written(drawing: Drawing, *, cubic: bool = False) -> Written:
-    """What SVG holds of a drawing, or, with `cubic`, PDF.
+    """The points of a drawing as SVG holds them, or, with `cubic`, as PDF does.
 
     Raises WriteError where a point is not finite.
     """
@@ -56,7 +56,7 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
     at = np.asarray(rows.points * 10.0**-places, np.float64)
     owner = np.repeat(np.arange(len(rows.counts)), rows.counts)
     first = np.cumsum(rows.counts) - rows.counts
-    # A full circle has no start: its row is its centre.
+    # A full circle has no starting point; its row holds its centre.
     first = first[rows.op[first] != WHOLE]
     points, row = [at[first]], [first]
     for op, fewest in FEWEST.items():
@@ -70,7 +70,7 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
             control = np.stack([at[which - k] for k in range(DEGREE[op], -1, -1)])
             second = control[:-2] - 2.0 * control[1:-1] + control[2:]
             bend = np.hypot(second[..., 0], second[..., 1]).max(axis=0, initial=0.0) * DEGREE[op] * (DEGREE[op] - 1)
-        # A chord over 1 / n of a curve is off by at most a eighth of its second derivative over n squared.
+        # The chord error of n pieces is at most |second derivative| / 8 n^2.
         pieces = np.maximum(np.ceil(np.sqrt(bend / (8.0 * MEASURED_CHORD * accuracy))), fewest).astype(np.int64)
         which_of, number = numbered(pieces + (op == WHOLE))
         t = (number + (op != WHOLE)) / pieces[which_of]
@@ -82,7 +82,7 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
 
 
 def in_model(drawing: Drawing, points: Floats, line: Index, threads: int) -> Floats:
-    """(n, 3) where points (n, 2) of lines (n,) are in the model, as far as the lines' own points tell."""
+    """(n, 3) points in the model of points (n, 2) of lines (n,), interpolated between the lines' own points."""
     if len(points) == 0:
         return np.zeros((0, 3))
     chords, ends, owner = [], [], []
@@ -113,7 +113,10 @@ def _bezier(control: Floats, t: Floats) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class _Shapes:
-    """Arcs as SVG 2, appendix B.2.4, says they are drawn. centre, radii (n, 2); begin, turn, cos, sin (n,)."""
+    """Arcs as SVG 2, appendix B.2.4, defines them.
+
+    centre, radii (n, 2); begin, turn (n,): radians; cos, sin (n,): of the rotation of the axes
+    """
 
     centre: Floats
     radii: Floats
@@ -124,7 +127,7 @@ class _Shapes:
 
     @classmethod
     def of(cls, rows: Rows, which: Index, at: Floats, unit: float, *, whole: bool) -> _Shapes:
-        """Those of some rows whose points are at (.., 2)."""
+        """The arcs of the rows `which` (n,); at: the points (m, 2) of all rows."""
         shape = rows.shapes[rows.arc[which]]
         radii = np.asarray(shape[:, :2] * (unit * 10.0**-EXTRA), np.float64)
         angle = np.radians(shape[:, 2] * 10.0**-ROTATION)
@@ -137,7 +140,7 @@ class _Shapes:
         half = 0.5 * (a - b)
         x, y = cos * half[:, 0] + sin * half[:, 1], cos * half[:, 1] - sin * half[:, 0]
         reach = (x / radii[:, 0]) ** 2 + (y / radii[:, 1]) ** 2
-        # Radii too small for their ends are stretched.
+        # Radii too small to reach both ends are enlarged.
         radii = radii * np.sqrt(np.maximum(reach, 1.0))[:, None]
         rx, ry = radii.T
         with np.errstate(divide="ignore"):
@@ -152,7 +155,7 @@ class _Shapes:
         return cls(centre, radii, begin, turn, cos, sin)
 
     def at(self, which: Index, t: Floats) -> Floats:
-        """(n, 2) points of arcs (n,) at shares (n,) of their way."""
+        """(n, 2) points of the arcs `which` (n,) at parameters t (n,), 0 to 1."""
         angle = self.begin[which] + self.turn[which] * t
         u, v = np.cos(angle) * self.radii[which, 0], np.sin(angle) * self.radii[which, 1]
         cos, sin = self.cos[which], self.sin[which]

@@ -1,8 +1,9 @@
 """The classic visible-surface methods side by side: one scene, one camera, the same picture, different costs.
 
-Two of them are z-buffers: of a whole frame, and of one row at a time. They are apart from the preview's, which is made
-for speed (tiles, single precision): here depths are exact, so that all methods agree at every pixel, and every step is
-counted. The depth pyramid of the visibility pass is no picture at all: it only says what may be passed over.
+Two of them are z-buffers: one of a whole frame, one of a row at a time. They share no code with the z-buffer of the
+preview, which is made for speed (tiles, single precision). Here depths are exact, so that all methods agree at every
+pixel, and every step is counted. The depth pyramid of the visibility pass is not among the methods: it makes no
+picture, and only tells which edges need no test.
 
 >>> from hlr.lab.methods import SCREEN, render
 >>> near, far = [(0, 0, 1), (4, 0, 1), (4, 4, 1)], [(0, 0, 2), (4, 0, 2), (4, 4, 2), (0, 4, 2)]

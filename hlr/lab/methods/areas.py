@@ -21,13 +21,13 @@ quartered  none of these: its quarters follow
 
 @dataclass(frozen=True, slots=True)
 class Area:
-    """An area of pixels as it was looked at.
+    """An area of pixels that Warnock's subdivision examined.
 
     columns, rows  end exclusive
-    level          how many times the screen was quartered to come to it
-    polygons       how many were not disjoint from it, of those read
+    level          how many times the screen was quartered to reach it
+    polygons       how many of the polygons read are not disjoint from it
     passed_over    how many at the end of the sorted list were not read: a surrounding polygon is in front of them all
-    ending         one of ENDINGS
+    ending         how it was decided: one of ENDINGS
     id             the polygon seen in it, or in part of it; -1: none, or it was quartered
     """
 
@@ -41,7 +41,7 @@ class Area:
 
 
 def areas_of(found: Ints) -> tuple[Area, ...]:
-    """From the kernel's (n, 9) numbers."""
+    """Make areas from the kernel's (n, 9) integers."""
     return tuple(
         Area((x0, x1), (y0, y1), level, polygons, passed, ENDINGS[ending], seen)
         for x0, x1, y0, y1, level, polygons, passed, ending, seen in found.tolist()
@@ -49,7 +49,7 @@ def areas_of(found: Ints) -> tuple[Area, ...]:
 
 
 def areas_table(areas: Sequence[Area]) -> str:
-    """As Markdown, one row for each area, indented by its level."""
+    """The areas as a Markdown table, one row each, indented by level."""
     lines = ["| columns | rows | polygons | passed over | ending | seen |", "| --- | --- | ---: | ---: | --- | ---: |"]
     for a in areas:
         columns, rows = (f"{low}-{high - 1}" for low, high in (a.columns, a.rows))

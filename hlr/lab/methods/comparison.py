@@ -1,4 +1,4 @@
-"""The visible-surface methods side by side: on scenes of so many polygons, and on a model."""
+"""Times the visible-surface methods on scenes of given numbers of polygons, and on a model."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
 ) -> list[Timing]:
     """Time every method on every scene.
 
-    source  a model as well, meshed at a two-thousandth of its size; None: none
-    counts  polygons of the scenes; None: COUNTS without a source, nothing but the model with one
-    crossing  polygons of those scenes in which they pass through one another
-    limit   seconds of the processor for each method and scene
-    methods names of the only ones to time: a method, or "method, variant" with any of its variants
+    source  a model to time as well, meshed with a deflection of a two-thousandth of its size; None: no model
+    counts  numbers of polygons of the scenes; None: COUNTS without a source, and only the model with one
+    crossing  numbers of polygons of the scenes in which polygons pass through one another
+    limit   seconds of processor time for each method and scene
+    methods names of the methods to time: "method", or "method, variant"; None: all
 
     only, hide, var, annotations  which parts of the source, as of a drawing (`hlr.Options`)
 

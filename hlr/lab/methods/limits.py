@@ -22,14 +22,14 @@ KernelLimits = tuple[float, bool, float]
 
 
 class NotFinishedError(HlrError):
-    """A method that did not come to an end within its limits."""
+    """A method did not finish within its limits."""
 
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """Of one call, from the moment it is made.
+    """Limits of one call; time counts from the moment this object is made.
 
-    seconds, bytes: math.inf for no limit; worked: seconds count what the method's own thread works, not what passes
+    seconds, bytes: math.inf for no limit; worked: count processor time of the method's own thread, not clock time
     """
 
     seconds: float
@@ -38,13 +38,13 @@ class Limits:
     started: float = field(default_factory=time.monotonic)
 
     def kernel(self) -> KernelLimits:
-        """What is left."""
+        """The limits for a call of the kernel now: what is left of the time."""
         passed = 0.0 if self.worked else time.monotonic() - self.started
         return (max(0.0, self.seconds - passed), self.worked, self.bytes)
 
     @contextlib.contextmanager
     def over(self, what: str) -> Iterator[None]:
-        """Around calls of the kernel: raises NotFinishedError with `what` did not finish."""
+        """Context around calls of the kernel; raises NotFinishedError, which says that `what` did not finish."""
         try:
             yield
         except TimeoutError:
@@ -60,7 +60,7 @@ class Limits:
 
 
 def limits(time_limit: float | None = None, memory_limit: float | None = None, worked: bool = False) -> Limits:
-    """Limits in seconds and bytes; None: TIME_LIMIT and MEMORY_LIMIT. Raises OptionError where one leaves nothing."""
+    """Limits in seconds and bytes; None: TIME_LIMIT and MEMORY_LIMIT. Raises OptionError for a limit not above zero."""
     for name, value, unit in (("time", time_limit, "seconds"), ("memory", memory_limit, "bytes")):
         if value is not None and not value > 0.0:
             raise OptionError(f"a {name} limit of {value!r} {unit} leaves none: give a positive number")
@@ -69,7 +69,7 @@ def limits(time_limit: float | None = None, memory_limit: float | None = None, w
 
 
 def _available() -> float:
-    """Bytes that this process may still take, as far as the system tells."""
+    """Bytes of memory that this process may still allocate, as far as the system tells."""
     found = math.inf
     with contextlib.suppress(OSError, ValueError, IndexError):
         for line in Path("/proc/meminfo").read_text("ascii").splitlines():

@@ -1,4 +1,4 @@
-"""Memory of a frame, computed before it is drawn. What a scene adds is in `Statistics.memory` afterwards."""
+"""Memory of a frame, computed before drawing. After it, `Statistics.memory` counts the scene's share as well."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ ROW_METHODS = ("scan-line z-buffer",)
 
 
 def frame_memory(width: int, height: int, colour: int = 4, depth: int = 4, doubled: bool = False) -> int:
-    """Bytes of a frame with so many bytes of colour and of depth a pixel; doubled: one is shown, one is drawn."""
+    """Bytes of a frame. colour, depth: bytes per pixel; doubled: double buffering, one frame shown and one drawn."""
     return width * height * (colour + depth) * (2 if doubled else 1)
 
 
 def method_memory(method: str, size: tuple[int, int]) -> int:
-    """Bytes that a method of ours holds for any scene while it works: its frame of ids, and its depths.
+    """Bytes that a method holds while it works, whatever the scene: its frame of ids, and its depths.
 
-    Edges, lists, pieces and trees come on top: they grow with the scene and not with the picture (but for
-    the heads of an edge table, 4 bytes a row). Raises OptionError for what is no method or no size.
+    Edges, lists, pieces and trees are not included: they grow with the scene and not with the picture (except the
+    heads of an edge table, 4 bytes a row). Raises OptionError for an unknown method or a wrong size.
     """
     method, _ = checked(method, None)
     width, height = checked_size(size)
@@ -38,9 +38,9 @@ def picture_memory(size: tuple[int, int]) -> int:
 
 
 def peak_memory(method: str, size: tuple[int, int]) -> int:
-    """Bytes that a process takes for one call of `render`, the scene's own aside.
+    """Peak bytes that a process needs for one call of `render`, without the scene.
 
-    The method's depths are given back before the picture is made from its frame, so the larger of both counts.
+    The method frees its depths before the picture is made from its frame, so the larger of the two counts.
     """
     width, height = checked_size(size)
     return max(method_memory(method, size), frame_memory(width, height, ID, 0) + picture_memory(size))

@@ -21,8 +21,8 @@ PAINTERS = ("depth sort", "bsp")
 class PaintersList(ByValue):
     """Pieces of polygons, far to near.
 
-    ids (p,) int32 polygon of each piece; polygons (p + 1,), loops (l + 1,): where pieces and loops begin;
-    points (n, 2) pixels, x right, y down; splits: how many polygons were cut
+    ids (p,) int32: the polygon of each piece; polygons (p + 1,): where each piece begins in loops; loops (l + 1,):
+    where each loop begins in points; points (n, 2): pixels, x right, y down; splits: how many polygons were cut
     """
 
     ids: Ints
@@ -53,7 +53,7 @@ def painters_list(  # noqa: PLR0913 - one for each thing a user may ask
 ) -> PaintersList:
     """The polygons of a scene in the order of drawing, split where they overlap in a cycle or pass through one another.
 
-    method is "depth sort" or "bsp"; all else as in `render`. Raises OptionError, NotFinishedError.
+    method is "depth sort" or "bsp"; the other arguments are as in `render`. Raises OptionError, NotFinishedError.
     """
     if method not in PAINTERS:
         raise OptionError(f"{method!r} has no order of drawing: use {' or '.join(PAINTERS)}")

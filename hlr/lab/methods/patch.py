@@ -1,4 +1,4 @@
-"""Curved patches z = f(x, y) as they stand beside polygons (see the kernel's `methods/src/patch.rs`)."""
+"""Curved patches z = f(x, y), drawn together with polygons (see the kernel's `methods/src/patch.rs`)."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ KernelPatch = tuple[int, list[list[float]], list[float], list[float]]
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """A piece of the surface z = f(x, y) in pixels and depth, f a polynomial of at most the third degree in each.
+    """A piece of the surface z = f(x, y), x and y in pixels; f is a polynomial of degree at most three in each.
 
     coefficients  c[i][j] of (x - origin x)^i (y - origin y)^j, at most four by four
-    bounds        (x0, y0, x1, y1): the rectangle in which it is seen, unless there is an outline
-    outline       loops of (x, y) instead, within the bounds, with holes as a polygon has them
-    origin        of the polynomial; near the patch its coefficients are small and exact
+    bounds        (x0, y0, x1, y1): the rectangle that the patch covers, unless an outline is given
+    outline       loops of (x, y) within the bounds, instead of the rectangle; inner loops are holes
+    origin        (x, y) of the polynomial; choose it near the patch, so that the coefficients are small and exact
 
-    Raises OptionError for what is no patch.
+    Raises OptionError for arguments that do not make a patch.
 
     >>> bowl = Patch(((30.0, 0.0, 0.1), (0.0,), (0.1,)), (0, 0, 40, 40), origin=(20, 20))
     >>> bowl.at(20.0, 30.0).item()
@@ -94,10 +94,10 @@ class Patch:
         across: int = 1,
         down: int = 1,
     ) -> list[Patch]:
-        """Any smooth function of arrays x and y, as across x down patches of third degree side by side.
+        """Approximate a smooth function of arrays x and y by `across` x `down` bicubic patches side by side.
 
-        Each is the polynomial through sixteen values, at Chebyshev's places: exact where the function is one. Called
-        once for each patch. Raises OptionError where it yields no finite numbers.
+        Each interpolates the function at sixteen Chebyshev nodes, so a bicubic function is met exactly. The function
+        is called once for each patch. Raises OptionError where it returns numbers that are not finite.
         """
         x0, y0, x1, y1 = bounds
         xs, ys = np.linspace(x0, x1, across + 1), np.linspace(y0, y1, down + 1)
@@ -108,38 +108,38 @@ class Patch:
         ]
 
     def table(self) -> Floats:
-        """(4, 4) coefficients."""
+        """(4, 4) the coefficients, filled up with zeros."""
         table = np.zeros((TERMS, TERMS))
         for i, row in enumerate(self.coefficients):
             table[i, : len(row)] = row
         return table
 
     def at(self, x: npt.ArrayLike, y: npt.ArrayLike) -> Floats:
-        """Depths at places in pixels."""
+        """Depths at points (x, y) in pixels."""
         u, v = self.origin
         found = np.polynomial.polynomial.polyval2d(np.asarray(x, float) - u, np.asarray(y, float) - v, self.table())
         return np.asarray(found, np.float64)
 
     def loops(self) -> tuple[tuple[tuple[float, float], ...], ...]:
-        """The outline: that of the bounds where no other was given."""
+        """The outline's loops; the rectangle of the bounds if no outline was given."""
         x0, y0, x1, y1 = self.bounds
         return self.outline or (((x0, y0), (x1, y0), (x1, y1), (x0, y1)),)
 
     def range(self) -> tuple[float, float]:
-        """Depths between which it lies within its bounds, by the coefficients of Bernstein's polynomials."""
+        """Bounds of its depth: the least and the largest Bernstein coefficient over its rectangle."""
         x0, y0, x1, y1 = self.bounds
         u, v = self.origin
         control = _bernstein(x0 - u, x1 - u) @ self.table() @ _bernstein(y0 - v, y1 - v).T
         return float(control.min()), float(control.max())
 
     def kernel(self, polygon: int) -> KernelPatch:
-        """As the kernel takes it, as the polygon of that number."""
+        """The kernel's form of the patch, which stands for the polygon of this number."""
         return polygon, self.table().tolist(), list(self.origin), list(self.range())
 
 
 def _bernstein(low: float, high: float) -> Floats:
-    """(4, 4): from coefficients of powers of x to those of Bernstein's polynomials on an interval."""
-    # By blossoms: the value of x^k polarised, at 3 - i times the low end and i times the high one.
+    """(4, 4) matrix from coefficients of powers of x to Bernstein coefficients on the interval low..high."""
+    # Blossoming: coefficient i is the polar form of x^k at 3 - i times the low end and i times the high one.
     ends = [[low] * (3 - i) + [high] * i for i in range(4)]
     return np.array([[1.0, (a + b + c) / 3.0, (a * b + b * c + c * a) / 3.0, a * b * c] for a, b, c in ends])
 
@@ -163,7 +163,7 @@ def _through(function: Callable[[Floats, Floats], Any], bounds: tuple[float, flo
 
 
 def checked_patches(patches: Sequence[tuple[int, Patch]], method: str, variant: str, size: tuple[int, int]) -> None:
-    """Raises OptionError for a method that cannot draw patches, or where one reaches too far beyond the picture."""
+    """Raises OptionError if the method cannot draw patches, or if a patch reaches too far beyond the picture."""
     if not patches:
         return
     if not any(method == m and (v is None or variant in ("", v)) for m, v in METHODS):

@@ -1,4 +1,4 @@
-"""The plot of what was measured: time over the number of polygons, both logarithmic."""
+"""The plot of the measured times: seconds over the number of polygons, both logarithmic."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ MARKS = "osD^vPX*hd"
 
 
 def png(timings: Sequence[Timing], size: tuple[int, int]) -> bytes:
-    """A PNG of one line for each method: on polygons that do not cross solid, on crossing ones dashed.
+    """A PNG with one line for each method: solid for polygons that do not cross, dashed for crossing ones.
 
-    A model has larger marks at its number of polygons, and its name beside them. What was not finished has an empty
-    mark at the limit, with an arrow upward. Raises OptionError where matplotlib is not installed.
+    A model has larger marks at its number of polygons, with its name beside them. A method that did not finish has an
+    empty mark at the limit, with an arrow upward. Raises OptionError where matplotlib is not installed.
     """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -22,15 +22,15 @@ RULES = ("even-odd", "non-zero")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Polygons(ByValue):
-    """Polygons with holes, concave or crossing themselves; the id of a polygon is its number.
+    """Polygons, which may have holes, be concave or cross themselves; the id of a polygon is its number.
 
     points    (n, 3) coordinates
     corners   (c,) int32 into points
     loops     (l + 1,) int32 into corners: where each loop begins
     polygons  (p + 1,) int32 into loops: where each polygon begins
-    cull      (p,) bool: of a closed, outward-turned solid, so that it is left out where it is turned away
+    cull      (p,) bool: leave the polygon out where it faces away; for faces of closed solids with normals outward
     rule      what is inside: "even-odd" or "non-zero"
-    patches   numbers, ascending, of polygons that are the outlines of curved patches, and those
+    patches   (number, Patch), ascending: polygons that are outlines of curved patches
     """
 
     points: Floats
@@ -65,10 +65,10 @@ class Polygons(ByValue):
     def kernel(
         self, values: Floats | None = None, within: Limits | None = None, curved: bool = False
     ) -> _kernel.RasterScene:
-        """The kernel's scene; values (n, 3) per point are interpolated where that is asked for.
+        """The kernel's scene; values (n, 3), one row per point, are interpolated over the polygons.
 
-        curved: whether patches are drawn as such. Raises OptionError where they are not and there are some, for arrays
-        that do not fit together or hold what is no number; NotFinishedError.
+        curved: whether patches can be drawn. Raises OptionError if they cannot and there are some, and for arrays that
+        do not fit together or hold NaN or infinity; NotFinishedError.
         """
         if self.patches and not curved:
             raise OptionError(f"polygon {self.patches[0][0]} is a curved patch: only render draws those")
@@ -92,12 +92,12 @@ class Polygons(ByValue):
 
 
 def polygons_of(scene: Any, rule: str = "even-odd", cull: bool = False) -> Polygons:
-    """A Scene (its triangles), Polygons, or a sequence of polygons, as Polygons.
+    """Convert a Scene (its triangles), Polygons, or a sequence of polygons to Polygons.
 
-    A plain polygon is one loop, (n, 3) numbers, or a list of loops; or it is a Patch. cull: leave out what is turned
-    away; of a Scene only in those parts that are closed and turned outward.
+    An item of the sequence is a loop of points (n, 3), a list of such loops, or a Patch. cull: leave out polygons that
+    face away; of a Scene only in parts that are closed and have their normals outward.
 
-    Raises OptionError for what is none of these.
+    Raises OptionError for anything else.
     """
     if rule not in RULES:
         raise OptionError(f"no inside rule is called {rule!r}: use {' or '.join(RULES)}")
@@ -141,7 +141,7 @@ def _plain(given: Sequence[Any], rule: str, cull: bool) -> Polygons:
 
 
 def _outline(patch: Patch) -> list[Floats]:
-    """Loops of a patch, level: where they lie in depth means nothing."""
+    """Loops of a patch's outline as points (n, 3); their depth is constant and is not used."""
     level = patch.range()[0]
     return [np.array([(x, y, level) for x, y in loop]) for loop in patch.loops()]
 
@@ -165,7 +165,7 @@ def _loops(polygon: Any, number: int) -> list[Floats]:
 
 
 def checked_values(values: Any, polygons: Polygons) -> Floats | None:
-    """Colours or normals (points, 3), or None; raises OptionError for what is neither."""
+    """Colours or normals (points, 3), or None; raises OptionError for another shape."""
     wrong = OptionError(f"values need three finite numbers for each of the {len(polygons.points)} points")
     try:
         given = None if values is None else np.asarray(values, np.float64)

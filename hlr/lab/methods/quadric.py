@@ -17,10 +17,11 @@ MISSED = np.iinfo(np.int64).min
 def quadric_depths(
     coefficients: Sequence[int], columns: tuple[int, int], row: int
 ) -> tuple[npt.NDArray[np.int64], int]:
-    """Nearer depths of a quadric in a row, rounded down, without a square root; and how many corrections that took.
+    """Depth of a quadric's nearer side at the pixels of a row, rounded down; and the number of corrections needed.
 
-    coefficients a .. j, whole numbers: a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0, c > 0;
-    columns [from, to). MISSED where the row is outside. Raises OptionError where 128 bits do not hold the numbers.
+    No square root is taken. coefficients: integers a .. j of
+    a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0, c > 0; columns [from, to).
+    A pixel beside the quadric is MISSED. Raises OptionError where 128 bits do not hold the numbers.
     """
     if len(coefficients) != 10:
         raise OptionError(f"a quadric has ten coefficients, not {len(coefficients)}")

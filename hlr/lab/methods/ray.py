@@ -1,4 +1,4 @@
-"""One ray and everything it meets: t = 0 at the eye, 1 at the pixel on the image plane, negative behind the eye."""
+"""One ray and all polygons it meets. Its parameter t is 0 at the eye, 1 at the pixel, negative behind the eye."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from hlr.lab.methods.viewport import Screen, Window, viewport
 class Hit:
     """Where a ray meets a polygon.
 
-    t         eye + t (pixel - eye): below 0 it lies behind the eye, between 0 and 1 before the image plane
-    polygon   its number
-    point     model coordinates
+    t         of the point eye + t (pixel - eye): below 0 behind the eye, between 0 and 1 before the image plane
+    polygon   number of the polygon
+    point     (x, y, z) in model coordinates
     """
 
     t: float
@@ -39,8 +39,8 @@ def ray_hits(
 ) -> list[Hit]:
     """All polygons that the ray through the centre of pixel (column, row) meets, by t; those seen edge-on are left out.
 
-    The first with t > 0 is what `render` shows there, up to the rounding of a centre that lies on a border. Raises
-    OptionError for a camera without an eye: in a parallel view t has no beginning.
+    The first with t > 0 is the one that `render` shows there, unless the centre lies on a border and rounding decides.
+    Raises OptionError for a camera without an eye: in a parallel view t has no origin.
     """
     polygons = polygons_of(scene, rule)
     if isinstance(camera, Screen) or camera.eye is None or camera.distance is None:
@@ -48,7 +48,7 @@ def ray_hits(
     port = viewport(camera, polygons.points, size, window=window)
     column, row = pixel
     matrix, eye = np.array(port.matrix)[[0, 1, 3]], np.array(camera.eye)
-    # On the image plane w is the distance: three equations for the pixel's place.
+    # On the image plane w is the distance. This gives three equations for the pixel's position in the model.
     wanted = camera.distance * np.array([column + 0.5, row + 0.5, 1.0])
     away = np.linalg.solve(matrix[:, :3], wanted - matrix[:, 3]) - eye
     found = []
@@ -62,7 +62,7 @@ def ray_hits(
 def _met(polygons: Polygons, number: int, eye: Floats, away: Floats) -> float | None:
     runs = range(int(polygons.polygons[number]), int(polygons.polygons[number + 1]))
     loops = [polygons.points[polygons.corners[polygons.loops[k] : polygons.loops[k + 1]]] for k in runs]
-    # The plane by Newell's sums over all corners.
+    # The polygon's plane by Newell's method, over all corners.
     normal = sum((np.cross(loop, np.roll(loop, -1, axis=0)).sum(axis=0) for loop in loops), np.zeros(3))
     steep = float(normal @ away)
     if abs(steep) <= 1e-12 * float(np.linalg.norm(normal) * np.linalg.norm(away)):
@@ -75,7 +75,7 @@ def _met(polygons: Polygons, number: int, eye: Floats, away: Floats) -> float | 
 
 
 def _turns(loop: Floats, x: float, y: float) -> int:
-    """How often a loop winds around a place."""
+    """The winding number of a loop around the point (x, y)."""
     (ax, ay), (bx, by) = loop.T, np.roll(loop, -1, axis=0).T
     up, down = (ay <= y) & (by > y), (by <= y) & (ay > y)
     side = (bx - ax) * (y - ay) - (x - ax) * (by - ay)

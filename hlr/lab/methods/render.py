@@ -28,20 +28,20 @@ SHADING = ("textbook", "correct")
 
 @dataclass(frozen=True, slots=True)
 class Statistics:
-    """What a method did, counted alike in all of them.
+    """What a method did, counted in the same way for all methods.
 
-    polygons given; culled, clipped, triangulated, edge_on of them; facets: planar pieces that are worked on
-    comparisons of depths, and how many of them were decided in integers (exact)
-    spans: runs of pixels looked at; written: pixels, some more than once; settled: near ties in a painter's order
-    splits of polygons or spans; recursion: areas or nodes visited, deepest: how deep
-    early_stops: areas whose sorted list was not read to its end; passed_over: polygons that were spared by that
-    rays, box_tests, polygon_tests; swaps of edges, spans or polygons in an order
-    edge_starts, edge_ends: events of the active edge list, row after row; span_starts, span_ends: of the active span
-              list, column after column; their third kind, crossings, are the swaps
-    memory: bytes of the method's own tables and buffers, its frame included, at their largest
-    prepared: seconds for projecting, clipping and rounding; setup: for sorting and trees, within seconds: for all else;
-              of the thread's own work where the system tells it (Linux), else as they passed; equal statistics may
-              differ in these three
+    polygons: how many were given; culled, clipped, triangulated, edge_on: how many of them; facets: planar pieces drawn
+    comparisons of depths; exact: how many of them were decided in integers
+    spans: runs of pixels examined; written: pixels, some more than once; settled: near ties in a painter's order
+    splits of polygons or spans; recursion: areas or nodes visited; deepest: the depth of the recursion
+    early_stops: areas whose sorted list was not read to its end; passed_over: polygons not read because of that
+    rays, box_tests, polygon_tests; swaps of neighbours in a sorted list of edges, spans or polygons
+    edge_starts, edge_ends: events of the active edge list, over all rows; span_starts, span_ends: events of the active
+              span list, over all columns; the third kind of event, a crossing, is counted as a swap
+    memory: peak bytes of the method's own tables and buffers, its frame included
+    prepared: seconds for projecting, clipping and rounding; seconds: for all else; setup: the share of `seconds` for
+              sorting and trees. The three are the thread's processor time on Linux, clock time elsewhere; comparing
+              statistics ignores them
     """
 
     polygons: int
@@ -80,11 +80,11 @@ class Rendering(ByValue):
 
     ids      (height, width) int32: the nearest polygon at each pixel's centre, -1 where there is none
     depth    (height, width) float64: along the view, growing away from the viewer; inf for the background. In
-             perspective the projective depth -distance^2 / z, linear on the screen; `ahead` is z. With larger depths
-             nearer, all of opposite sign
-    values   (height, width, 3) interpolated, where that was asked for; NaN for the background
-    trace    (w, 4) int32 row, from, to, id: the writes in their order, where that was asked for
-    areas    those of Warnock's subdivision in their order, where a trace was asked for
+             perspective it is the projective depth -distance^2 / z, linear on the screen; `ahead` gives z. Where larger
+             depths are nearer, all signs are reversed
+    values   (height, width, 3) interpolated values, if values were given; NaN for the background
+    trace    (w, 4) int32 row, from, to, id: the writes in their order, if a trace was asked for
+    areas    the areas of Warnock's subdivision in their order, if a trace was asked for
     """
 
     ids: Ints
@@ -130,16 +130,16 @@ def render(  # noqa: PLR0913 - one for each thing a user may ask
     """The visible polygon and its depth at every pixel's centre.
 
     scene    a Scene (its triangles), Polygons, or a list of polygons: (n, 3) points each, or loops of them, or curved
-             patches (`Patch`), which SCREEN alone sees, without front and back planes
-    camera   of `hlr.view`, or SCREEN for polygons given in pixels
+             patches (`Patch`), which need the camera SCREEN, without front and back planes
+    camera   a camera of `hlr.view`, or SCREEN for polygons given in pixels
     size     width and height in pixels
     method   one of METHODS, variant one of its variants; all give the same picture
     rule, cull  as in `polygons_of`;  window, front, back, space  as in `viewport`
     values   (points, 3) colours or normals to interpolate; shading "correct" for perspective, or "textbook"
-    trace    note all writes in their order
+    trace    record all writes in their order
     time_limit, memory_limit  seconds and bytes; None: as in `hlr.lab.methods.limits`; math.inf: none
 
-    Raises OptionError for what cannot be asked, NotFinishedError beyond a limit.
+    Raises OptionError for options that are wrong or do not fit together, NotFinishedError beyond a limit.
     """
     method, variant = checked(method, variant)
     if shading not in SHADING:

@@ -17,7 +17,7 @@ Table = list[list[str]]
 
 
 def tables(timings: Sequence[Timing]) -> list[tuple[str, Table]]:
-    """Titles and tables: the textbook's beside today's, then time, memory, comparisons and events."""
+    """Titles and tables: relative cost in the textbook and as measured, then time, memory, comparisons and events."""
     out = [("Relative cost, depth sort at 100 polygons = 1: the textbook's estimate | today", _relative(timings))]
     shown: list[tuple[str, Callable[[Timing], str]]] = [
         ("Time", lambda t: _seconds(t.seconds)),
@@ -34,7 +34,7 @@ def tables(timings: Sequence[Timing]) -> list[tuple[str, Table]]:
 
 
 def text(timings: Sequence[Timing]) -> str:
-    """For a terminal."""
+    """All tables as text for a terminal."""
     parts = []
     for title, rows in tables(timings):
         widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
@@ -49,7 +49,7 @@ def text(timings: Sequence[Timing]) -> str:
 
 
 def markdown(timings: Sequence[Timing]) -> str:
-    """For a README."""
+    """All tables as Markdown."""
     parts = []
     for title, rows in tables(timings):
         head = "| " + " | ".join(rows[0]) + " |"
@@ -60,7 +60,7 @@ def markdown(timings: Sequence[Timing]) -> str:
 
 
 def comma_separated(timings: Sequence[Timing]) -> str:
-    """Everything that was counted, one row for each method and scene."""
+    """All figures as CSV, one row for each method and scene."""
     names = [field.name for field in fields(Statistics) if field.name not in ("seconds", "polygons")]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -81,11 +81,11 @@ def _grid(timings: Sequence[Timing], cell: Callable[[Timing], str]) -> Table:
 
 
 def _relative(timings: Sequence[Timing]) -> Table:
-    """Both tables side by side; empty without depth sort at 100 polygons."""
+    """The textbook's relative costs beside the measured ones; empty if depth sort at 100 polygons was not measured."""
     at = {(t.method, t.scene): t.seconds for t in timings}
     unit = at.get(("depth sort", scene_name(100)))
     counts = [c for c in textbook.COUNTS if any(t.scene == scene_name(c) for t in timings)]
-    # The 250 may mean 2,500: today's column of that is shown as well.
+    # The textbook's 250 may be a misprint of 2,500, so the measured column of 2,500 is shown as well.
     today = sorted({*counts, *(c for c in (2_500,) if any(t.scene == scene_name(c) for t in timings))})
     if not unit or not counts:
         return [[]]
@@ -99,12 +99,12 @@ def _relative(timings: Sequence[Timing]) -> Table:
 
 
 def scene_name(count: int, crossing: bool = False) -> str:
-    """What a scene of the testbed is called."""
+    """The name of a scene of the testbed in the tables."""
     return f"{count:,}" + (" crossing" if crossing else "")
 
 
 def model_name(name: str, count: int) -> str:
-    """What the scene of a model is called."""
+    """The name of a model's scene in the tables."""
     return f"{name}: {count:,}"
 
 

@@ -16,12 +16,12 @@ Span = tuple[int, int, list[int]]
 
 @dataclass(frozen=True, slots=True)
 class EdgeRecord:
-    """An active edge as its entry stands in a row: what it has there, and by how much that changes to the next row.
+    """An entry of the active edge list: its values in one row, and their increments from row to row.
 
     polygon, edge  edge k starts at the polygon's corner k
-    x, dx          in pixels; dx is 1 / m of its slope m
+    x, dx          in pixels; dx is 1 / m for the slope m of the edge
     z, dz          depth of the plane Ax + By + Cz + D = 0 along the edge; dz is -(A / m + B) / C
-    values, steps  interpolated from the corners, where values were given
+    values, steps  values interpolated from the corners, and their increments; only if values were given
     """
 
     polygon: int
@@ -63,9 +63,9 @@ def edge_records(
     rule: str = "even-odd",
     values: Any = None,
 ) -> list[EdgeRecord]:
-    """The same with all that an entry of the active edge list holds; values (points, 3) as for `render`.
+    """The active edge list of a row with all that an entry holds; values (points, 3) as for `render`.
 
-    Raises OptionError for values that do not fit.
+    Raises OptionError for values of another shape.
     """
     polygons, port = _prepared(scene, camera, size, rule)
     found = _row(polygons, port, row, checked_values(values, polygons))[0]
@@ -77,7 +77,7 @@ def _pair(found: list[list[float]] | None) -> tuple[tuple[float, ...] | None, tu
 
 
 def spans(scene: Any, camera: Camera | Screen, size: tuple[int, int], row: int, rule: str = "even-odd") -> list[Span]:
-    """Between neighbouring crossings of a row, (from, to, polygons that are in), columns end exclusive."""
+    """The spans between neighbouring edges of a row: (from, to, polygons that cover it), columns, end exclusive."""
     polygons, port = _prepared(scene, camera, size, rule)
     return _row(polygons, port, row)[1]
 
@@ -85,7 +85,7 @@ def spans(scene: Any, camera: Camera | Screen, size: tuple[int, int], row: int, 
 def crossing_pairs(
     scene: Any, camera: Camera | Screen, size: tuple[int, int], rule: str = "even-odd"
 ) -> list[tuple[int, int, int, int]]:
-    """(row, from, to, polygon): how the merged edge list pairs crossings, in the order in which pairs are complete."""
+    """Pairs of edges that the merged edge list forms, in order of completion: (row, from, to, polygon)."""
     polygons, port = _prepared(scene, camera, size, rule)
     within = limits()
     with within.over("pairing crossings"):

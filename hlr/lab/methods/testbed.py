@@ -1,7 +1,7 @@
-"""Scenes to measure on: so many polygons, as many layers deep whatever their number, as in the textbook's comparison.
+"""Scenes of a given number of polygons for timing, as in the textbook's comparison.
 
-The more polygons, the smaller each: what changes with the count is how much there is per pixel to sort, not how much of
-the screen is covered.
+The more polygons, the smaller each of them. So the number of layers over a pixel is the same in all scenes, and only
+the number of polygons to sort grows.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ DEEP = 1000.0
 
 
 def polygons(count: int, size: tuple[int, int], crossing: bool = False, seed: int = 1) -> Polygons:
-    """Triangles and quadrangles in pixels, strewn evenly over the picture and in depth.
+    """Triangles and quadrangles in pixels, spread evenly over the picture and in depth.
 
     Each lies in a slice of depth of its own; crossing: they are steep instead, and pass through one another.
     """
     rng = np.random.default_rng(seed)
     width, height = size
     corners = rng.integers(3, 5, count)
-    # Corners on a circle, one in each equal part of it: convex. Such a polygon has half of the circle's area, or so.
+    # The corners lie on a circle, one in each equal part of it, so the polygon is convex and has about half its area.
     radius = math.sqrt(LAYERS * width * height / (count * 0.5 * math.pi))
     owner = np.repeat(np.arange(count), corners)
     first = np.cumsum(corners) - corners

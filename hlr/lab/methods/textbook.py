@@ -1,7 +1,7 @@
 """The textbook's comparison of methods: relative cost, depth sort at 100 polygons = 1, estimated decades ago.
 
-Its counts are 100, 250 (perhaps a misprint of 2,500) and 60,000 polygons. It says that a z-buffer costs the same
-whatever the scene, which measuring refutes: every polygon has to be looked at, and so has every pixel it covers.
+Its counts are 100, 250 (perhaps a misprint of 2,500) and 60,000 polygons. It says that a z-buffer costs the same for
+every scene. Measurements refute this: every polygon has to be processed, and so has every pixel it covers.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ TRIALS: tuple[Trial, ...] = (*((m, "") for m in METHODS), ("ray casting", "grid"
 
 @dataclass(frozen=True, slots=True)
 class Scenery:
-    """A scene to measure on: its name, its number of polygons, the kernel's scene of it, made anew by `make`."""
+    """A scene to time: its name and number of polygons; `make` makes the kernel's scene anew for each run."""
 
     name: str
     count: int
@@ -36,7 +36,7 @@ class Scenery:
 class Timing:
     """One method on one scene; statistics None: not finished within the limit.
 
-    seconds: all that depends on the method and the view, projecting and clipping included; trees and sorting as well
+    seconds: processor time of one call: projecting, clipping, sorting, trees and drawing; None: not finished
     """
 
     scene: str
@@ -49,7 +49,7 @@ class Timing:
 
 
 def label(trial: Trial) -> str:
-    """ "ray casting, grid"."""
+    """The name of a trial in tables, such as "ray casting, grid"."""
     method, variant = trial
     return f"{method}, {variant}" if variant else method
 
@@ -60,7 +60,7 @@ def measure(
     trials: Sequence[Trial] = TRIALS,
     progress: Callable[[str, float], None] | None = None,
 ) -> list[Timing]:
-    """Each trial on each scene. limit: seconds that each may work, on what clock ever; Ctrl-C stops at once."""
+    """Time each trial on each scene. limit: seconds of processor time for each; Ctrl-C stops at once."""
     out: list[Timing] = []
     tell = progress or (lambda _stage, _done: None)
     for i, scenery in enumerate(sceneries):
@@ -74,7 +74,7 @@ def measure(
 def _one(scenery: Scenery, trial: Trial, limit: float) -> Timing:
     found: list[Statistics] = []
     for _ in range(REPEATS):
-        # A scene of its own: a BSP tree that is there already would be no work.
+        # Each run has a new scene: a BSP tree that exists already would cost nothing.
         within = limits(limit, worked=True)
         try:
             with within.over(label(trial)):

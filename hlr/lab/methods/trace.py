@@ -22,9 +22,10 @@ COLOURS = ("#88b7e3", "#f4b183", "#a9d18e", "#ffd966", "#c5a5d9", "#9fd5d1", "#e
 def trace_svg(
     scene: Any, camera: Camera | Screen, size: tuple[int, int], method: str = "z-buffer", **options: Any
 ) -> str:
-    """All writes of a method, numbered in their order, beside the resulting picture; options as in `render`.
+    """An SVG of all writes of a method, numbered in order, beside the resulting picture; options as in `render`.
 
-    Warnock's subdivision has its areas outlined as well, each with the letter of its ending (`hlr.lab.methods.Area`).
+    For Warnock's subdivision its areas are outlined as well, each with the letter of its ending
+    (`hlr.lab.methods.Area`).
     """
     polygons = polygons_of(scene, options.get("rule", "even-odd"), options.get("cull", False))
     found = render(polygons, camera, size, method, trace=True, **options)
@@ -70,7 +71,7 @@ def trace_svg(
 
 
 def _outlined(areas: Sequence[Area]) -> str:
-    """Areas, the larger ones with wider lines; their endings in the lower right corner."""
+    """SVG of the areas, the larger ones with wider lines, and their endings in their lower right corners."""
     deepest = max(area.level for area in areas)
     out = ['<g class="areas" fill="none" stroke="#c00">\n']
     for area in areas:

@@ -1,4 +1,4 @@
-"""The BSP tree as an object: built once, asked from any viewpoint, changed where a part moves."""
+"""The BSP tree as an object: built once, drawn from any viewpoint, updated where a part moves."""
 
 from __future__ import annotations
 
@@ -30,7 +30,10 @@ class BspTree:
         time_limit: float | None = None,
         memory_limit: float | None = None,
     ) -> None:
-        """scene, rule, cull: as in `polygons_of`; limits, of each call, as in `render`. Raises NotFinishedError."""
+        """Build the tree. scene, rule, cull as in `polygons_of`; limits of each call as in `render`.
+
+        Raises NotFinishedError.
+        """
         self._limits = (time_limit, memory_limit)
         within = limits(*self._limits)
         self.polygons: Polygons = polygons_of(scene, rule, cull)
@@ -40,13 +43,13 @@ class BspTree:
 
     @property
     def nodes(self) -> list[Node]:
-        """(polygons in the node's plane, number of the node behind it, of the node in front); the root first."""
+        """Per node, the root first: polygons in its plane, number of the node behind it, of the node in front."""
         within = limits(*self._limits)
         with within.over("the BSP tree"):
             return self._scene.tree(within.kernel())
 
     def drawn(self) -> str:
-        """The tree as text: each node's polygons, what is in front above, what is behind below."""
+        """The tree as text: each node's polygons, with its front subtree above it and its back subtree below."""
         lines: list[str] = []
         nodes = self.nodes
 
@@ -62,7 +65,7 @@ class BspTree:
         return "\n".join(lines)
 
     def order(self, camera: Camera | Screen, size: tuple[int, int] = (1024, 1024)) -> Ints:
-        """(n,) int32: the polygons in the order of drawing, far to near, once for each piece before the camera."""
+        """(n,) int32: polygons in the order of drawing, far to near; a split polygon occurs once for each piece."""
         port = viewport(camera, self.polygons.points, size)
         within = limits(*self._limits)
         with within.over("the BSP tree"):
@@ -78,9 +81,9 @@ class BspTree:
         return rendering(found, port, camera, "", False)
 
     def moved(self, points: Floats) -> BspTree:
-        """The tree after some of its (n, 3) points have moved: only the polygons there are taken out and let in again.
+        """The tree after some of its points (n, 3) have moved; only polygons at moved points are inserted anew.
 
-        This tree is used up by it, and would be built anew.
+        The new tree takes over this tree's nodes. If this one is used again, it is built anew.
         """
         points = np.ascontiguousarray(points, np.float64)
         if points.shape != self.polygons.points.shape or not np.isfinite(points).all():

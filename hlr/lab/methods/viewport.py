@@ -38,9 +38,9 @@ SCREEN = Screen()
 
 @dataclass(frozen=True, slots=True)
 class Viewport:
-    """What the kernel needs of a camera: (x, y, z, 1) -> (u, v, q, w), pixels u / w and v / w, depth q / w.
+    """What the kernel needs of a camera: a matrix (x, y, z, 1) -> (u, v, q, w); pixels u / w and v / w, depth q / w.
 
-    front, back: depths of the front and back planes, infinite where there is none; near: least w.
+    front, back: depths of the front and back planes, infinite where there is none; near: w at the near plane.
     """
 
     matrix: Matrix
@@ -51,7 +51,7 @@ class Viewport:
     image_space: bool
 
     def kernel(self) -> tuple[Matrix, tuple[int, int], tuple[float, float, float], bool]:
-        """The same as the kernel takes it."""
+        """The same as a tuple of the kernel's arguments."""
         return self.matrix, self.size, (self.front, self.back, self.near), self.image_space
 
 
@@ -81,10 +81,11 @@ def viewport(
 ) -> Viewport:
     """The viewport of a camera for points (n, 3).
 
-    window  (x0, y0, x1, y1) of the image plane, model units, y up; None: where the points are, or the frame of a camera
+    window  (x0, y0, x1, y1) of the image plane, model units, y up; None: around the points, or the frame of a camera
             whose field of view was given
-    front, back  distances along the view, from the eye in perspective; nothing before or beyond is drawn in image space
-    space   "image": clip in three dimensions, then hide; "object": hide first, clip in two dimensions
+    front, back  distances of the front and back planes along the view, in perspective from the eye; with space "image"
+            nothing before the one or beyond the other is drawn
+    space   "image": clip in three dimensions, then hide; "object": hide first, then clip in two dimensions
     """
     width, height = checked_size(size)
     if space not in ("image", "object"):
@@ -149,7 +150,7 @@ def _sum(a: Row, b: Row, factor: float) -> Row:
 
 
 def _window(camera: Camera, points: Floats, aspect: float) -> Window:
-    """Where the points are on the image plane, with a margin."""
+    """The rectangle of the image plane that holds the points, with a margin."""
     if camera.framed and camera.distance is not None and camera.fov is not None:
         half = camera.distance * math.tan(math.radians(camera.fov) * 0.5)
         return (-half * aspect, -half, half * aspect, half)

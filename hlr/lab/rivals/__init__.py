@@ -1,1 +1,1 @@
-"""Other programs that draw the same view: what the study and the benches compare with."""
+"""Other programs that draw the same view: the study and the benches compare hlr with them."""

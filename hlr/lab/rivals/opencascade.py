@@ -1,11 +1,11 @@
-"""OpenCASCADE's mesher and its two hidden-line algorithms: the only place of the project that calls them as a rival.
+"""OpenCASCADE's mesher and its two hidden-line algorithms, as rivals; only this module of the project calls them.
 
 `PolyAlgo` and `ExactAlgo` have the same three steps, so that each can be timed by itself:
 
 >>> rival = PolyAlgo(shape, direction, right)
 >>> rival.hide()                       # what is visible is decided
 >>> rival.extract()                    # the result becomes shapes
->>> rival.lines(rival.compounds())     # the shapes become points; nobody is charged with it
+>>> rival.lines(rival.compounds())     # the shapes become points; this step is not timed
 """
 
 from __future__ import annotations
@@ -54,23 +54,23 @@ class HiddenLines(ABC):
         self._algorithm = self._run(self._projector())
 
     def extract(self) -> None:
-        """Make shapes of what was found."""
+        """Make shapes of the visible and hidden edges."""
         self.result = self._extracted()
 
     def compounds(self) -> list[tuple[str, bool, Any]]:
-        """Class, visibility and edges of sharp edges and outlines; `lines` reads them."""
+        """(class, visible, compound of edges) for sharp edges and outlines; `lines` reads them."""
         return self._sharp_and_outlines()
 
     def flat_compounds(self) -> list[Any]:
-        """All of `FLAT_RESULTS`, as exporters of drawings take them; None where there is nothing."""
+        """The compounds of `FLAT_RESULTS`, as exporters of drawings take them; None for an empty one."""
         found = [getattr(self.result, name)() for name in FLAT_RESULTS]
         return [None if compound is None or compound.IsNull() else self._with_curves(compound) for compound in found]
 
     def lines(self, compounds: Sequence[tuple[str, bool, Any]], chord: float = 0.0) -> list[Line]:
         """The edges of `compounds` as points.
 
-        PolyAlgo: straight pieces (2, 2) on the plane of the view. ExactAlgo: polylines (n, 3) in space, whose chords
-        are off their curves by at most `chord` (model units).
+        PolyAlgo: straight pieces (2, 2) on the plane of the view. ExactAlgo: polylines (n, 3) in space, with a chord
+        error of at most `chord` (model units).
         """
         found = []
         for name, visible, compound in compounds:
@@ -81,7 +81,7 @@ class HiddenLines(ABC):
         return found
 
     def drawn(self, chord: float = 0.0) -> list[Line]:
-        """All three steps."""
+        """The lines, by all three steps."""
         self.hide()
         self.extract()
         return self.lines(self.compounds(), chord)
@@ -191,21 +191,21 @@ class ExactAlgo(HiddenLines):
 
 
 def mark_tangent_edges(shape: Any) -> None:
-    """Find edges along which two faces are tangent. Files do not say; without this they are drawn as sharp ones."""
+    """Mark edges along which two faces are tangent. Files do not mark them, and unmarked ones are drawn as sharp."""
     from OCP.BRepLib import BRepLib
 
     BRepLib.EncodeRegularity_s(shape)
 
 
 def mesh(shape: Any, deflection: float, angle: float) -> None:
-    """Triangulate what is not, on all cores. deflection: model units; angle: radians."""
+    """Triangulate the faces that have no triangles, on all cores. deflection: model units; angle: radians."""
     from OCP.BRepMesh import BRepMesh_IncrementalMesh
 
     BRepMesh_IncrementalMesh(shape, deflection, False, angle, True)
 
 
 def forget_mesh(shape: Any) -> None:
-    """Take the triangles off a shape: whoever comes next has to mesh it."""
+    """Remove the triangles from a shape, so that the next program has to mesh it."""
     from OCP.BRepTools import BRepTools
 
     BRepTools.Clean_s(shape)
@@ -217,8 +217,8 @@ class FaceMesh:
 
     face, triangulation, location   OpenCASCADE's own
     nodes      (n, 3) in the face's own frame
-    triangles  (m, 3) indices of nodes, turned as the face is
-    placement  (3, 4) from the face's own frame to where it stands
+    triangles  (m, 3) indices of nodes, oriented as the face
+    placement  (3, 4) from the face's own frame to the model
     """
 
     face: Any
@@ -230,12 +230,12 @@ class FaceMesh:
 
     @property
     def points(self) -> Floats:
-        """(n, 3) the nodes where the face stands."""
+        """(n, 3) the nodes in the model."""
         return np.asarray(self.nodes @ self.placement[:, :3].T + self.placement[:, 3])
 
 
 def face_meshes(shape: Any) -> Iterator[FaceMesh]:
-    """What each face of a shape carries, in the shape's order; faces without triangles are passed over."""
+    """The triangles of each face of a shape, in the shape's order; faces without triangles are left out."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_Orientation, TopAbs_ShapeEnum
     from OCP.TopLoc import TopLoc_Location
@@ -256,7 +256,7 @@ def face_meshes(shape: Any) -> Iterator[FaceMesh]:
 
 
 def triangle_count(shape: Any) -> int:
-    """Of all faces, as often as they stand in the shape."""
+    """The number of triangles of all faces; a face that occurs twice counts twice."""
     from OCP.BRep import BRep_Tool
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopLoc import TopLoc_Location
@@ -268,7 +268,7 @@ def triangle_count(shape: Any) -> int:
 
 
 def edges(compound: Any) -> Iterator[Any]:
-    """The edges of a compound, each as often as it stands there; of None none."""
+    """The edges of a compound, each as often as it occurs; no edges for None."""
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopoDS import TopoDS
 
@@ -278,7 +278,7 @@ def edges(compound: Any) -> Iterator[Any]:
 
 
 def subshapes(shape: Any, kind: Any, outside: Any = None) -> Iterator[Any]:
-    """Sub-shapes of a kind in the shape's order, each as often as it stands there; `outside`: none of that kind's."""
+    """Sub-shapes of a kind in the shape's order, each as often as it occurs, except those within the kind `outside`."""
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
 

@@ -1,7 +1,7 @@
-"""What accuracy costs, beside OpenCASCADE, a z-buffer, and predicates that round.
+"""Measures what accuracy costs, compared with OpenCASCADE, a z-buffer, and predicates in floating point.
 
-Each point is measured in a process of its own (`child`), all draw the same view at the same scale, and all are judged
-by the same true lines (`judge`).
+Each point is measured in a process of its own (`child`). All programs draw the same view at the same scale, and all
+drawings are compared with the same true lines (`judge`).
 
 >>> from hlr.lab.study import Scope, study
 >>> found = study("part.step", scope=Scope(accuracies=(0.5, 0.05), rivals=False))

@@ -12,7 +12,7 @@ DEAR = 2.0
 
 
 def advice(points: Sequence[Point]) -> str:
-    """In words, from our own points; empty where there are fewer than two."""
+    """The advice, from the points of hlr; empty if there are fewer than two."""
     ours = sorted((p for p in points if p.who == HLR and p.failure is None and p.processor > 0.0), key=_setting)
     if len(ours) < 2:
         return ""

@@ -1,6 +1,6 @@
-"""What exact predicates cost and what they save: the kernel's visibility pass with integers, f64 and f32.
+"""The cost and benefit of exact predicates: the kernel's visibility pass with integers, f64 and f32.
 
-All three see the same snapped points, so the pieces of the exact pass are the truth for the others, up to nothing.
+All three are given the same snapped points, so the exact pass is the truth for the other two, with no tolerance.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ REPEATS = 5
 class Rounding:
     """One kind of arithmetic on one scene.
 
-    seconds, processor   of the visibility pass, medians
-    edges                mesh edges that were decided
-    failed               edges whose count from both ends did not agree, so that they were decided polygon by polygon
-    contradictions       edges where even that could not be: an inconsistent state, drawn hidden for want of an answer
-    wrong, longest       millimetres on paper whose state is not the exact one: all, and the longest piece of an edge
+    seconds, processor   clock and processor seconds of the visibility pass, medians
+    edges                mesh edges whose visibility was decided
+    failed               edges whose invisibility counts from both ends disagree; they are decided polygon by polygon
+    contradictions       failed edges that contradict themselves even then; they are drawn hidden
+    wrong, longest       millimetres on paper with the wrong visibility: in all, and on the worst edge
     wrong_edges          mesh edges with such pieces
     """
 
@@ -53,7 +53,7 @@ def compared(image: Image, plan: Plan, projected: Floats, per_model: float, accu
     truth: Segments | None = None
     clocks: dict[str, list[tuple[float, float]]] = {kind: [] for kind in KINDS}
     found: dict[str, Segments] = {}
-    for _ in range(REPEATS):  # in turns: what else the machine does hits all kinds alike
+    for _ in range(REPEATS):  # in turns, so that other load on the machine affects all kinds alike
         for kind in KINDS:
             wall, cpu = time.perf_counter(), time.process_time()
             found[kind] = solve(image, plan, projected, 0, kind)
@@ -88,7 +88,7 @@ SAME = 1e-9
 
 
 def _wrong(truth: Segments, other: Segments, length: Floats) -> Floats:
-    """(e,) millimetres of each edge that are hidden in one answer and not in the other."""
+    """(e,) millimetres of each edge that are hidden in one result and visible in the other."""
     edge, at, a, b = _merged(truth, other)
     last = np.append(edge[1:] != edge[:-1], True)
     until = np.where(last, 1.0, np.append(at[1:], 1.0))
@@ -98,12 +98,12 @@ def _wrong(truth: Segments, other: Segments, length: Floats) -> Floats:
 
 
 def _hidden(state: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """0 drawn visible, 1 hidden, NOTHING not there."""
+    """State to 0: drawn visible, 1: hidden, NOTHING: not drawn."""
     return np.where(state == NOTHING, NOTHING, state == HIDDEN).astype(np.uint8)
 
 
 def _merged(a: Segments, b: Segments) -> tuple[Ints, Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint8]]:
-    """All places where either answer begins a piece, by edge and parameter, and both states from there on."""
+    """Where a piece of either result begins: edge and parameter, sorted; and the states of both from there on."""
     edge = np.concatenate([a.edge, b.edge])
     at = np.concatenate([a.t0, b.t0])
     source = np.repeat(np.array([0, 1]), [len(a.edge), len(b.edge)])

@@ -1,6 +1,6 @@
-"""A measuring process: reads one job from standard input, writes its answer to the file that the arguments name.
+"""A measuring process: reads one job from standard input and writes its answer to a file.
 
-`python -m hlr.lab.study.child ANSWER`. It ends with the process that started it, and leaves memory for others.
+Usage: `python -m hlr.lab.study.child ANSWER`. It ends when the process that started it ends, and its memory is limited.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ SHARE = 0.6
 
 
 def main() -> int:
-    """Exit code 0, and an answer or a failure in a sentence in the file."""
+    """Do the job; returns exit code 0. The file holds the answer, or one sentence on the failure."""
     data = json.loads(sys.stdin.readline())
     _tie()
     _limit(data["limit"])
@@ -36,13 +36,13 @@ def main() -> int:
         answer = {"failure": f"it needs more than {SHARE:.0%} of this machine's memory"}
     with open(sys.argv[1], "w", encoding="utf-8") as file:
         json.dump(answer, file, default=float)
-    # What libraries tidy up at the end can take long, or crash.
+    # Exit at once: the clean-up of libraries can take long, or crash.
     sys.stdout.flush()
     os._exit(0)
 
 
 def _tie() -> None:
-    """End with the study, whatever ends that. (Where it is not Linux, the study's own tidying has to do.)"""
+    """Have Linux kill this process when the study ends for any reason. Elsewhere only the study itself ends it."""
     if sys.platform == "linux":
         import ctypes
 
@@ -51,7 +51,7 @@ def _tie() -> None:
 
 
 def _limit(seconds: float) -> None:
-    """Of processor time, which does not depend on who else computes, and of memory."""
+    """Limit memory, and processor time, which unlike clock time does not depend on other load on the machine."""
     with contextlib.suppress(ImportError, OSError, ValueError, AttributeError):
         import resource
 

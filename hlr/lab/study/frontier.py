@@ -8,7 +8,7 @@ from hlr.lab.study.job import Point
 
 
 def frontier(points: Sequence[Point], error: str) -> list[Point]:
-    """Points on the frontier of processor seconds against an error (a name in `Point.errors`), quickest first."""
+    """Points on the Pareto front of processor seconds and an error (a name in `Point.errors`), quickest first."""
     known = [p for p in points if p.failure is None and error in p.errors and p.processor > 0.0]
     out: list[Point] = []
     for point in sorted(known, key=lambda p: (p.processor, p.errors[error])):

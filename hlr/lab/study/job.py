@@ -1,4 +1,4 @@
-"""Records of what to measure and of what was measured: they pass between the study and its processes."""
+"""Records of jobs and of measured results, exchanged between the study and its processes."""
 
 from __future__ import annotations
 
@@ -31,17 +31,17 @@ TIMED = STAGES[1:-1]
 class Job:
     """One measurement.
 
-    work      one of `WHO`, or "look" (how large it is), "truth" (the lines that all are judged by), "judge",
+    work      one of `WHO`, or "look" (size and scale), "truth" (the lines with which all are compared), "judge",
               "arithmetic", "reached"
     source    path of the model
     view      a name, or a direction from the object toward the viewer
     setting   accuracy in millimetres, or pixels of the depth buffer
-    scale     paper : model; None: as large as fits
+    scale     paper : model; None: as large as fits into `fit`
     fit       (width, height) millimetres
-    folder    where lines are kept for the judge; name: under which
-    runs      how often a contestant draws, if that is quick
-    limit     seconds of processor time for all
-    only, hide, var, annotations   which parts, as of a drawing (`hlr.Options`)
+    folder    where lines are kept for the judge; name: their file name
+    runs      how often a contestant draws; fewer if that would take too long
+    limit     seconds of processor time for all runs together
+    only, hide, var, annotations   which parts, as for a drawing (`hlr.Options`)
     """
 
     work: str
@@ -66,7 +66,7 @@ class Job:
 
 @dataclass(slots=True)
 class Cost:
-    """What one stage took: seconds by the clock and of all processors, and the most memory in MB while it ran."""
+    """The cost of one stage: clock seconds, seconds of all processors together, and peak memory in MB."""
 
     wall: float = 0.0
     cpu: float = 0.0
@@ -77,11 +77,11 @@ class Cost:
 class Point:
     """One contestant at one setting.
 
-    accuracy  millimetres on paper that were asked for: of a depth buffer a pixel; None: there is nothing to ask for
-    failure   why there are no figures, in a sentence; None: there are
-    stages    by name, medians over `runs`
-    errors    what the judge found, by name; millimetres on paper, shares as fractions
-    reached   what `hlr.lab.measure` found, of our own drawings
+    accuracy  millimetres on paper that were asked for; for a depth buffer the size of a pixel; None: it has no setting
+    failure   one sentence on why there are no figures; None: there are figures
+    stages    cost of each stage by name, medians over `runs`
+    errors    the judge's errors by name; millimetres on paper, shares as fractions
+    reached   the errors that `hlr.lab.measure` found; only for drawings of hlr
     """
 
     who: str
@@ -96,17 +96,17 @@ class Point:
 
     @property
     def seconds(self) -> float:
-        """From the shape in memory to the lines in memory, by the clock."""
+        """Clock seconds from the shape in memory to the lines in memory."""
         return sum(self.stages[s].wall for s in TIMED if s in self.stages)
 
     @property
     def processor(self) -> float:
-        """The same of all processors together: other programs on the machine hardly disturb it."""
+        """The same in seconds of all processors together, which other programs on the machine hardly affect."""
         return sum(self.stages[s].cpu for s in TIMED if s in self.stages)
 
     @property
     def memory(self) -> float:
-        """MB at most, after reading."""
+        """Peak memory in MB after reading."""
         return max((self.stages[s].memory for s in TIMED if s in self.stages), default=0.0)
 
     def as_dict(self) -> dict[str, Any]:
@@ -120,7 +120,7 @@ def point_of(data: dict[str, Any]) -> Point:
 
 
 def label(who: str, setting: float) -> str:
-    """A contestant at a setting, for people."""
+    """The name of a contestant at a setting, for people."""
     if who == EXACT:
         return who
     return f"{who} at {setting:.0f} pixels" if who == ZBUFFER else f"{who} at {setting:g} mm"

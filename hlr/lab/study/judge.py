@@ -3,10 +3,11 @@
 ::
 
       true visible   ____________________
-      drawn visible  ___________     _________     what is missing is as wrong as what is too much: both ways
+      drawn visible  ___________     _________     missing lines count as much as false ones
 
-Where a line stops too late, its end is as far from the true visible line as the change is displaced; so one distance
-holds misplaced lines, displaced changes, lost and false lines.
+Distances are taken both ways, from drawn to true lines and back. If a visible line stops too late, its end is as far
+from the true visible line as the change of visibility is displaced. So the one distance measures misplaced lines,
+displaced changes, missing lines and false lines.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ P99 = 0.99
 
 
 class LineJudge:
-    """Holds polylines of any drawing program against true ones of the same view."""
+    """Compares polylines of any drawing program with the true ones of the same view."""
 
     def __init__(self, true: Polylines, threads: int = 0) -> None:
         self._true, self._threads = true, threads
@@ -39,14 +40,14 @@ class LineJudge:
     def judge(self, drawn: Polylines) -> dict[str, float]:
         """Errors by name; lengths in millimetres on paper.
 
-        off_mean, off_p99, off_worst   of all drawn lines from the nearest true line, visible or not
-        ink_mean, ink_p99, ink_worst   between visible lines drawn and true, both ways
-        too_much, missing                visible lines farther off than `NOTICED`: drawn, and not drawn
-        mislabelled                      of these: drawn visible on a truly hidden line, or the other way round
-        wrong                            too_much and missing, as a share of the true visible length
+        off_mean, off_p99, off_worst     distance of all drawn lines from the nearest true line, visible or hidden
+        ink_mean, ink_p99, ink_worst     distance between drawn and true visible lines, both ways
+        too_much, missing                length of drawn visible lines, and of true ones, farther off than `NOTICED`
+        mislabelled                      the part of these that is drawn visible where it is truly hidden, or vice versa
+        wrong                            too_much and missing together, as a share of the true visible length
         """
         true, threads = self._true, self._threads
-        # What nobody has to ask for; the others may be drawn and need not be.
+        # Line classes that are drawn by default are required; the others may be drawn or left out.
         required = where(lambda row: row.by_default)[true.kind]
         allowed_seen = true.segments(true.visible)
         allowed_all = true.segments()
@@ -78,7 +79,7 @@ class LineJudge:
 def _summary(name: str, distance: Floats, weight: Floats) -> dict[str, float]:
     if len(distance) == 0 or not weight.sum() > 0.0:
         return {}
-    # Where one side has no lines at all, the other is as far away as the paper is wide; nothing is farther.
+    # Without any line on one side the distance is the width of the paper, which no distance exceeds.
     distance = np.minimum(distance, FARTHEST)
     order = np.argsort(distance)
     share = np.cumsum(weight[order]) / weight.sum()
@@ -91,13 +92,13 @@ FARTHEST = 1000.0
 
 
 def _samples(lines: Polylines, chosen: npt.NDArray[np.bool_]) -> tuple[Floats, Floats]:
-    """Points (n, 2) along the chosen lines, their ends among them, and the length (n,) for which each stands."""
+    """Points (n, 2) along the chosen lines, ends included, and the length (n,) in mm that each represents."""
     pieces = lines.segments(chosen)
     if len(pieces) == 0:
         return np.empty((0, 2)), np.empty(0)
     step = max(float(np.hypot(*(pieces[:, 2:] - pieces[:, :2]).T).sum()) / SAMPLES, 1e-9)
     found = with_ends(pieces, step)
-    # By the trapezoidal rule: the ends of a segment stand for half a step.
+    # By the trapezoidal rule: each end of a segment represents half a step.
     weight = np.where((found.share == 0.0) | (found.share == 1.0), 0.5, 1.0)
     return found.points, (found.length / found.pieces)[found.segment] * weight
 

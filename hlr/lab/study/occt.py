@@ -1,4 +1,4 @@
-"""OpenCASCADE's two hidden-line algorithms as contestants: timed stage by stage, their lines as ink."""
+"""OpenCASCADE's two hidden-line algorithms as contestants: timed stage by stage, their lines as polylines."""
 
 from __future__ import annotations
 

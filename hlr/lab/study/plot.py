@@ -1,4 +1,4 @@
-"""The plots: error against time with the frontier, and where the time goes."""
+"""The plots: error over time with the Pareto front, and time by stage."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def _modules() -> tuple[Any, Any]:
 
 
 def available() -> None:
-    """Raises OptionError where matplotlib is not installed: better before an hour of measuring than after."""
+    """Raises OptionError if matplotlib is not installed. Call it before measuring, which may take an hour."""
     _modules()
 
 
@@ -51,7 +51,7 @@ def _png(figure: Any) -> bytes:
 
 
 def error_plot(points: Sequence[Point], title: str) -> bytes:
-    """A PNG: error over processor seconds, both logarithmic, for the usual distance and for the share of wrong ink."""
+    """A PNG: error over processor seconds, both logarithmic, for the 99th percentile distance and the wrong share."""
     figure = _modules()[0](figsize=(11.0, 5.0), layout="constrained")
     for axes, (name, label) in zip(figure.subplots(1, 2), PANELS, strict=True):
         panel(axes, points, name)
@@ -62,17 +62,17 @@ def error_plot(points: Sequence[Point], title: str) -> bytes:
 
 
 def legend(figure: Any) -> None:
-    """One for all panels, below them."""
+    """Draw one legend for all panels, below them."""
     handles, labels = figure.axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, fontsize=8, loc="outside lower center", ncols=5)
 
 
 def panel(axes: Any, every: Sequence[Point], name: str) -> None:
-    """Error of this name over processor seconds, with the frontier, into the axes of a figure."""
+    """Plot the error `name` over processor seconds, with the Pareto front, into the axes of a figure."""
     points = [p for p in every if p.failure is None and name in p.errors and p.processor > 0.0]
     best = frontier(points, name)
     if best:
-        # Nothing is below and to the left of the frontier; to the right of its last point nothing is truer.
+        # No point is below and to the left of the front; to the right of its last point none is more accurate.
         x = [p.processor for p in best]
         y = [max(p.errors[name], FLOOR) for p in best]
         end = max(p.processor for p in points) * 1.3
@@ -90,7 +90,7 @@ def panel(axes: Any, every: Sequence[Point], name: str) -> None:
     axes.set_yscale("log")
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    # Also where all of it is within one decade.
+    # Tick labels also where the whole range lies within one decade.
     axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -116,7 +116,7 @@ CLOSE = 0.25
 
 
 def _labelled(x: list[float], y: list[float]) -> list[int]:
-    """Points that get their number: the first, and each that is far enough from the last one that did."""
+    """Indices of the points to be labelled: the first, and each that is far enough from the last labelled one."""
     out: list[int] = []
     for k in range(len(x)):
         if not out or math.hypot(math.log10(x[k] / x[out[-1]]), math.log10(y[k] / y[out[-1]])) > CLOSE:
@@ -125,7 +125,7 @@ def _labelled(x: list[float], y: list[float]) -> list[int]:
 
 
 def stage_plot(points: Sequence[Point], title: str) -> bytes:
-    """A PNG: clock seconds by stage, stacked, our own by accuracy and the rivals beside."""
+    """A PNG: clock seconds by stage, stacked; one bar for each accuracy of hlr, and the rivals' bars beside them."""
     figure = _modules()[0](figsize=(11.0, 4.5), layout="constrained")
     shown = [who for who in WHO if any(p.who == who and p.failure is None for p in points)]
     widths = [max(sum(p.who == who and p.failure is None for p in points), 1.5) for who in shown]

@@ -1,4 +1,4 @@
-"""Runs each job in a process of its own with a time limit. A job that fails is reported in a sentence."""
+"""Runs each job in a process of its own with a time limit. A failed job is reported in one sentence."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ WAIT = 20.0
 
 
 def answer(job: Job) -> dict[str, Any]:
-    """What the job's process answered, or {"failure": sentence}.
+    """The answer of the job's process, or {"failure": sentence}.
 
-    Whatever interrupts this ends the process first.
+    If this call is interrupted, it ends the process first.
     """
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
         path = Path(folder) / "answer.json"
-        # -P: the folder that hlr was started in must not provide modules.
+        # -P: do not import modules from the folder in which hlr was started.
         command = [sys.executable, "-P", "-m", "hlr.lab.study.child", str(path)]
         child = subprocess.Popen(
             command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True

@@ -15,7 +15,7 @@ from hlr.lab.study.table import CLASSES, worst
 
 
 def markdown(found: Study, plots: Sequence[str] = ()) -> str:
-    """The report. plots: names of pictures beside it, the first of them of errors, the second of stages."""
+    """The report. plots: file names of pictures beside it, first that of errors, then that of stages."""
     look = found.look
     parts = [
         f"# What accuracy costs: {look['name']}",
@@ -66,7 +66,7 @@ instead of visible or the other way round, against the exact answer, before line
 
 
 def _floor(found: Study) -> str:
-    """What all are judged by."""
+    """A sentence on the true lines with which all contestants are compared, and their accuracy."""
     if found.truth is None:
         return "There are no true lines to judge by."
     reading = [p.stages["source"].wall for p in found.points if p.failure is None and "source" in p.stages]
@@ -87,7 +87,7 @@ def _name(point: Point) -> str:
 
 
 def _failures(points: Sequence[Point]) -> list[str]:
-    """What could not be had, one sentence for all of a contestant's settings with the same reason."""
+    """Sentences on failed measurements; a contestant's settings that failed for the same reason share one."""
     said: dict[tuple[str, str], list[Point]] = {}
     for p in points:
         if p.failure is not None:

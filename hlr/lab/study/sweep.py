@@ -1,4 +1,4 @@
-"""Which points a study measures, in which order, and which it leaves out."""
+"""The study: decides which points are measured, in which order, and which are left out."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ PATIENCE = 3.0
 
 @dataclass(slots=True)
 class Study:
-    """All that was measured of one model.
+    """All results of one model.
 
     look    what is drawn: name, scale, width, height, parts, lines, triangles
-    truth   accuracy of the lines that all were judged by, millimetres; None: there are none, and no errors
-    arithmetic  per accuracy, the kernel's pass with each kind of numbers (`hlr.lab.study.arithmetic.Rounding`)
-    notes   what was left out, in sentences
-    finished  False where it was stopped
+    truth   accuracy of the true lines, millimetres; None: they could not be drawn, and there are no errors
+    arithmetic  per accuracy, the kernel's pass with each kind of arithmetic (`hlr.lab.study.arithmetic.Rounding`)
+    notes   sentences on what was left out
+    finished  False if the study was stopped
     """
 
     source: str
@@ -49,8 +49,11 @@ class Study:
 class Scope:
     """What is to be measured.
 
-    accuracies  of ours and of PolyAlgo, millimetres; pixels: of depth buffers; predicates: accuracies at which kinds of
-    arithmetic are compared; rivals, reached: whether others are measured, and our own drawings class by class
+    accuracies  of hlr and PolyAlgo, millimetres on paper
+    pixels      of the depth buffers, along the longer side
+    predicates  accuracies at which kinds of arithmetic are compared, millimetres on paper
+    rivals      whether other programs are measured
+    reached     whether drawings of hlr are measured class by class
     """
 
     accuracies: Sequence[float] = ACCURACIES
@@ -79,8 +82,8 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     """Measure all points, each `runs` times in a process of its own.
 
     scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: processor seconds for each point.
-    only, hide, var, annotations: which parts, as of a drawing (`hlr.Options`).
-    into: is filled step by step, so that what is finished survives whatever stops this.
+    only, hide, var, annotations: which parts, as for a drawing (`hlr.Options`).
+    into: a Study that is filled step by step, so that finished results survive an interruption.
 
     Raises OptionError, and SourceError where the model cannot be drawn at all.
     """
@@ -90,7 +93,7 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     out = into if into is not None else Study(source, view, limit, runs)
     told = progress or (lambda _stage, _done: None)
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
-        # Without a scale as large as fits; from then on the same for all.
+        # Without a given scale the first look finds the largest that fits; all later points use it.
         chosen: dict[str, Any] = {"only": tuple(only), "hide": tuple(hide), "var": var, "annotations": annotations}
         first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit, **chosen)
         told("look", 0.0)
@@ -104,7 +107,7 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
 
 
 class _Points:
-    """All points, one after another."""
+    """Measures all points, one after another."""
 
     def __init__(
         self, out: Study, common: dict[str, Any], scope: Scope, limit: float, progress: Callable[[str, float], None]
@@ -137,7 +140,7 @@ class _Points:
         return answer(Job(work, setting=setting, name=name, limit=self._limit * patience, **self._common))
 
     def _first(self, who: str, settings: Sequence[float]) -> None:
-        """Coarse to fine, until one takes too long: then the finer ones would as well."""
+        """Measure the settings coarse to fine, until one takes too long: the finer ones would as well."""
         late: float | None = None
         for setting in settings:
             number = len(self._out.points)
@@ -154,7 +157,7 @@ class _Points:
             self._out.points.append(point_of(found))
 
     def _truth(self) -> None:
-        """A drawing finer than all, or as fine as the finest."""
+        """Draw the true lines: finer than all other drawings, or as fine as the finest."""
         drawn = [p.setting for p in self._out.points if p.who == HLR and p.failure is None]
         if not drawn:
             return
@@ -191,7 +194,7 @@ class _Points:
             self._out.arithmetic += found["kinds"]
 
     def _reached(self) -> None:
-        """Coarse to fine, as long as it is finished in time."""
+        """Measure our own drawings class by class, coarse to fine, until one does not finish in time."""
         late: float | None = None
         for point in self._out.points:
             if point.who != HLR or point.failure is not None:

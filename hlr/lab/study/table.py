@@ -67,14 +67,14 @@ def _plain(value: Any) -> str:
 
 
 def worst(point: Point, name: str) -> float | None:
-    """What `hlr.lab.measure` found of a class at its worst, millimetres; None: nothing."""
+    """The largest error of a class that `hlr.lab.measure` found, millimetres; None: not measured."""
     errors = point.reached.get(name) or {}
     value = errors.get("worst")
     return None if value is None else float(value)
 
 
 def points_of(text: str) -> list[Point]:
-    """The points of a table that `comma_separated` wrote, with all that plots need."""
+    """Read the points of a table that `comma_separated` wrote, with all figures that the plots need."""
     out = []
     for row in csv.DictReader(io.StringIO(text)):
         accuracy = float(row["accuracy_mm"]) if row["accuracy_mm"] else None

@@ -13,7 +13,7 @@ _STATUS, _RESET = Path("/proc/self/status"), Path("/proc/self/clear_refs")
 
 
 class Watch:
-    """Called with a stage's name when it begins; `Progress` for the pipeline. `stop` ends the last one."""
+    """A stopwatch, called with a stage's name when it begins, as the pipeline's `Progress`. `stop` ends the last."""
 
     def __init__(self) -> None:
         self.stages: dict[str, Cost] = {}
@@ -21,7 +21,7 @@ class Watch:
         self._wall = self._cpu = 0.0
 
     def __call__(self, stage: str, _fraction: float = 0.0) -> None:
-        """Begin a stage, if it is not running already."""
+        """Begin a stage, unless it is running already."""
         if stage == self._now:
             return
         self.stop()
@@ -30,7 +30,7 @@ class Watch:
         self._wall, self._cpu = time.perf_counter(), time.process_time()
 
     def stop(self) -> None:
-        """End the stage that runs."""
+        """End the current stage."""
         if self._now is None:
             return
         cost = self.stages.setdefault(self._now, Cost())
@@ -41,7 +41,7 @@ class Watch:
 
 
 def peak_memory() -> float:
-    """The largest resident set since `Watch` last began a stage, in MB; elsewhere than on Linux, since the start."""
+    """Peak resident memory in MB since `Watch` last began a stage; on systems other than Linux, since the start."""
     with contextlib.suppress(OSError):
         for line in _STATUS.read_text("ascii", "replace").splitlines():
             if line.startswith("VmHWM:"):
@@ -55,6 +55,6 @@ def peak_memory() -> float:
 
 
 def _forget_peak() -> None:
-    """Let the kernel count the peak anew: proc(5), clear_refs."""
+    """Reset the peak that Linux keeps for this process: proc(5), clear_refs."""
     with contextlib.suppress(OSError):
         _RESET.write_text("5", "ascii")

@@ -1,4 +1,4 @@
-"""The work of a measuring process: one job, what it cost, and its lines."""
+"""The work of a measuring process: it does one job, measures its cost, and keeps its lines."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from hlr.source.selection import open_selected
 
 
 def done(job: Job) -> dict[str, Any]:
-    """The answer to a job, for JSON: a `Point` of a contestant, or what the job's work says.
+    """Do a job; the answer, ready for JSON, is a contestant's `Point`, or the record of the job's kind of work.
 
-    Raises HlrError where it cannot be done.
+    Raises HlrError if the job cannot be done.
     """
     if job.work == "look":
         return _look(job)
@@ -50,9 +50,9 @@ def done(job: Job) -> dict[str, Any]:
 
 
 def _repeated(job: Job, draw: Callable[[Job], Point]) -> Point:
-    """Medians over the job's runs; fewer where they would not end in time.
+    """Medians over the job's runs; fewer runs if they would not finish within the limit.
 
-    The first run also loads libraries; it counts as any other, unless there are more.
+    The first run also loads libraries; the median includes it like the others.
     """
     points = [draw(job)]
     while len(points) < job.runs and time.process_time() * (1.0 + 1.0 / len(points)) < REPEAT * job.limit:
@@ -91,7 +91,7 @@ def _session(job: Job, options: Options, watch: Watch | None = None) -> Session:
 
 
 def _look(job: Job) -> dict[str, Any]:
-    """The scale at which all draw, and what is drawn."""
+    """The scale at which all contestants draw, and the size of the drawing."""
     drawing = draw_views(job.source, [job.view], _options(job))[0]
     x0, y0, x1, y1 = drawing.bounds
     return {
@@ -119,7 +119,7 @@ def _hlr(job: Job) -> Point:
     watch.stop()
     _keep(job, polylines_of(drawing, MEASURED_CHORD * job.setting))
     stages = dict(watch.stages)
-    # The pipeline does not say when it passes from deciding to hiding and to lines: its own clock does.
+    # Progress messages do not separate planning, visibility and linework; the drawing's own timings do.
     whole = stages.pop("visibility")
     clock = sum(drawing.timings[s] for s in ("plan", "visibility", "linework")) or 1.0
     for name in ("plan", "visibility", "linework"):
@@ -137,12 +137,12 @@ def _hlr(job: Job) -> Point:
 
 
 def _pieces(line: Line) -> int:
-    """Straight pieces, arcs and Bezier curves of a line."""
+    """The number of straight pieces, arcs and Bezier curves of a line."""
     return len(line.points) - 1 if line.curve is None else bezier_pieces(line.curve)
 
 
 def _truth(job: Job) -> dict[str, Any]:
-    """The lines that all are judged by: those of the finest drawing, and what may be drawn beside them."""
+    """The true lines for the judge: those of the finest drawing, and lines that a program may draw or leave out."""
     drawing = _drawn(job, Watch(), smooth=True, seam=True)
     _keep(job, polylines_of(drawing, MEASURED_CHORD * job.setting))
     return {"accuracy": job.setting, "lines": len(drawing.lines)}
@@ -193,7 +193,7 @@ def _flat_box(opened: Source, camera: Camera) -> tuple[Any, Any]:
 
 
 def _rival(job: Job, lines: Polylines, opened: Source, camera: Camera, accuracy: float | None, watch: Watch) -> Point:
-    """The figures of a contestant that yields bare lines."""
+    """The figures of a contestant whose result is polylines."""
     view: DrawnView = drawn_view(camera)
     watch("write")
     bare = drawing_of(lines, opened.name, view, job.scale or 1.0, accuracy or WRITTEN)
@@ -201,7 +201,7 @@ def _rival(job: Job, lines: Polylines, opened: Source, camera: Camera, accuracy:
     watch.stop()
     _keep(job, lines)
     counts = {"lines": len(lines.visible)}
-    if accuracy is not None:  # else they are curves, and here only chords of them
+    if accuracy is not None:  # without one they are curves, of which only chords are known here
         counts |= {"segments": len(lines.points) - len(lines.visible), "bytes": size}
     return Point(job.work, job.setting, accuracy=accuracy, stages=dict(watch.stages), counts=counts)
 
@@ -231,7 +231,7 @@ def _judge(job: Job) -> dict[str, Any]:
 
 
 def _reached(job: Job) -> dict[str, Any]:
-    """What an independent measurement says of our own drawing: OpenCASCADE's curves, surfaces, rays."""
+    """Measure our own drawing against OpenCASCADE's curves and surfaces and by rays (`hlr.lab.measure`)."""
     from hlr.lab.measure.classes import ModelJudge
 
     opened = open_selected(job.source, job)

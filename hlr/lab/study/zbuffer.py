@@ -38,7 +38,7 @@ MARGIN = 2.0
 
 
 def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: Watch) -> Polylines:
-    """The image's edges whose role says that they are drawn, and the contours of its curved faces, cut where they hide.
+    """The image's drawn edges and the contours of its curved faces, cut where their visibility changes.
 
     role (e,) as in `hlr.visibility.plan.Plan`; pixels along the longer side of the buffer; parallel views only.
     """
@@ -54,19 +54,19 @@ def hidden_lines(image: Image, role: npt.NDArray[np.uint8], pixels: int, watch: 
     allowed = depth + _bias(normals, scale, float(np.ptp(flat[:, 2])))[triangle]
     watch("linework")
     chains, offsets, kinds = _edges(image, role, normals)
-    # Pixels, y down.
+    # In pixels, y down.
     picture = np.stack([flat[:, 0] * scale + eye.centre[0], eye.centre[1] - flat[:, 1] * scale, flat[:, 2]], axis=1)
     return _cut(picture[chains], flat[chains, :2] * per_model, offsets, kinds, allowed)
 
 
 def _normals(flat: Floats, triangles: Ints) -> Floats:
-    """(t, 3) in view space, not of unit length; z negative toward the viewer."""
+    """(t, 3) normals in view space, not of unit length; z negative toward the viewer."""
     p, q, r = (flat[triangles[:, k]] for k in range(3))
     return np.cross(q - p, r - p)
 
 
 def _bias(normals: Floats, scale: float, deep: float) -> Floats:
-    """(t + 1,) depth that is forgiven on a triangle's pixels; the last is for pixels without one."""
+    """(t + 1,) the depth bias on each triangle's pixels; the last is for pixels without a triangle."""
     x, y, z = np.abs(normals).T
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = np.where(z > 0.0, np.maximum(x, y) / z, 0.0) / scale
@@ -74,7 +74,7 @@ def _bias(normals: Floats, scale: float, deep: float) -> Floats:
 
 
 def _edges(image: Image, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[Index, Index, npt.NDArray[np.uint8]]:
-    """Vertices of all polylines one after another, offsets (k + 1,) into them, and the numbers of their classes."""
+    """Vertices of all polylines one after another, offsets (k + 1,) into them, and class numbers (k,)."""
     walks, kinds = [], []
     chains = image.chains
     drawn = (role & DRAWN) != 0
@@ -95,7 +95,7 @@ def _edges(image: Image, role: npt.NDArray[np.uint8], normals: Floats) -> tuple[
 
 
 def _folds(image: Image, facing: Floats) -> npt.NDArray[np.bool_]:
-    """(e,) whether triangles on both sides of the viewing plane, or one alone, meet there."""
+    """(e,) whether an edge is a contour or boundary: it joins a front and a back triangle, or has only one."""
     edge = np.repeat(np.arange(len(image.edges)), np.diff(image.offsets))
     toward = facing[image.incident] < 0.0
     ahead = np.bincount(edge, toward, len(image.edges))
@@ -104,7 +104,7 @@ def _folds(image: Image, facing: Floats) -> npt.NDArray[np.bool_]:
 
 
 def _cut(picture: Floats, paper: Floats, offsets: Index, kinds: npt.NDArray[np.uint8], allowed: Floats) -> Polylines:
-    """Polylines cut halfway between samples that differ."""
+    """Cut polylines halfway between neighbouring samples of different visibility."""
     owner = np.repeat(np.arange(len(kinds)), np.diff(offsets))
     inner = owner[1:] == owner[:-1]
     reach = np.linalg.norm(np.diff(picture[:, :2], axis=0), axis=1)
@@ -123,7 +123,7 @@ def _cut(picture: Floats, paper: Floats, offsets: Index, kinds: npt.NDArray[np.u
     starts = np.append(True, line[1:] != line[:-1])[: len(line)]
     change = np.flatnonzero(~starts[1:] & (visible[1:] != visible[:-1]))
     middle = 0.5 * (place[change] + place[change + 1])
-    # What is kept: the vertices, and the middle twice where a line changes, as an end and as a beginning.
+    # Kept are the vertices and the middle of each change, which is listed twice: as an end and as a beginning.
     corner = np.flatnonzero(step == 0)
     order = np.concatenate([corner, change + 0.4, change + 0.6])
     points = np.concatenate([place[corner], middle, middle])[np.argsort(order, kind="stable")]

@@ -1,7 +1,6 @@
 """A depth image by rays: what a viewer of the paper sees at any point of it.
 
-It is a `RayCaster`'s mesh that is seen, which knows nothing of the drawing; the drawing only says where the camera
-stands.
+The rays meet the mesh of a `RayCaster`, which does not depend on the drawing; only the camera is the drawing's.
 """
 
 from __future__ import annotations
@@ -25,11 +24,11 @@ MARGIN = 5
 
 @dataclass(frozen=True)
 class Hits:
-    """What rays (...) meet first.
+    """The first hits of an array of rays, of any shape.
 
-    depth   (...) millimetres on paper; inf: nothing
-    normal  (..., 3) turned to the viewer
-    slope   (..., 2) by how much the depth grows to the right and upward
+    depth   (...) millimetres on paper; inf: no hit
+    normal  (..., 3) of the surface, turned to the viewer
+    slope   (..., 2) growth of the depth per millimetre to the right and upward
     """
 
     depth: Floats
@@ -44,7 +43,7 @@ class Hits:
         return Hits(*(each[index] for each in (self.depth, self.normal, self.slope)))  # type: ignore[call-overload]
 
     def where(self, chosen: npt.NDArray[np.bool_], other: Hits) -> Hits:
-        """The chosen ones of these (n,), the rest from `other`."""
+        """These hits where `chosen` (n,) is true, those of `other` elsewhere."""
         wide = chosen[:, None]
         return Hits(
             np.where(chosen, self.depth, other.depth),
@@ -55,7 +54,7 @@ class Hits:
 
 @dataclass(frozen=True)
 class Sheet:
-    """The grid of pixels: centres of the lower left one, size of one in millimetres, columns and rows."""
+    """The grid of pixels: centre of the lower left one, size of one in millimetres, numbers of columns and rows."""
 
     low: Floats
     pixel: float
@@ -64,7 +63,7 @@ class Sheet:
 
     @classmethod
     def of(cls, drawing: Exchange, model: Floats, pixels: int = PIXELS) -> Sheet:
-        """What is drawn and, in a parallel view, all of the model (n, 3): lines may be missing at its border."""
+        """The sheet around a drawing and, in a parallel view, around all points of the model (n, 3)."""
         found = [line.points for line in drawing.lines]
         if drawing.camera.eye is None or not found:
             found.append(drawing.on_paper(model))
@@ -72,14 +71,14 @@ class Sheet:
         points = points[np.isfinite(points).all(axis=1)]
         low, high = points.min(axis=0), points.max(axis=0)
         pixel = float((high - low).max()) / pixels or 1.0
-        # A place of its own within the pixel: lines that are parallel to the grid fall between its rows.
+        # An odd offset within the pixel, so that lines parallel to the grid fall between its rows.
         low = low - (MARGIN + np.array([0.3819, 0.2361])) * pixel
         columns, rows = (int(n) for n in np.ceil((high - low) / pixel) + MARGIN)
         return cls(low, pixel, columns, rows)
 
     @cached_property
     def centres(self) -> Floats:
-        """(rows, columns, 2) on paper."""
+        """(rows, columns, 2) the centres of the pixels on paper, millimetres."""
         x = self.low[0] + self.pixel * np.arange(self.columns)
         y = self.low[1] + self.pixel * np.arange(self.rows)
         return np.stack(np.meshgrid(x, y), axis=2)
@@ -98,7 +97,7 @@ class Depths:
         self._back = 2 * caster.diagonal + float(caster.centre @ drawing.camera.direction)
 
     def at(self, paper: Floats) -> Hits:
-        """What is seen at points (..., 2)."""
+        """The first hits at points (..., 2) on paper."""
         flat = paper.reshape(-1, 2)
         starts, toward = self.drawing.rays(flat, self._back)
         far, triangle = self._caster.first(starts, toward)

@@ -21,9 +21,9 @@ class FormatError(ValueError):
 
 @dataclass(frozen=True)
 class Camera:
-    """Where the drawing was made from, in model coordinates; `direction` points toward the viewer.
+    """The camera of the drawing, in model coordinates; `direction` points toward the viewer.
 
-    eye, distance   perspective only: the eye, and how far before it the image plane lies
+    eye, distance   perspective only: the eye, and the distance from it to the image plane
     """
 
     name: str
@@ -46,7 +46,7 @@ class DrawnLine:
     curve: Mapping[str, Any] | None = None
 
     def ink(self, spacing: float) -> Floats:
-        """Points on paper along what is drawn, the curve if there is one, at most about `spacing` apart."""
+        """Points on paper along the line (along its curve if it has one), at most about `spacing` apart."""
         rough = self.points if self.curve is None else _along(self.curve, 4 * len(self.points) + 16)
         along = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(rough, axis=0), axis=1))]
         count = max(2, int(np.ceil(along[-1] / spacing)) + 1)
@@ -68,7 +68,7 @@ class Exchange:
 
     @property
     def accuracy(self) -> float:
-        """Millimetres on paper that the drawing says it kept; 0 where it does not say."""
+        """The accuracy that the drawing states, millimetres on paper; 0 if it states none."""
         return float(self.document.get("accuracy", {}).get("used") or 0.0)
 
     @property
@@ -85,14 +85,14 @@ class Exchange:
             return np.asarray(self.factor * self.camera.distance / depth)
 
     def on_paper(self, model: Floats) -> Floats:
-        """Where points of the model (n, 3) lie on paper (n, 2), as the format describes it."""
+        """Project points of the model (n, 3) to paper (n, 2), as the format describes it."""
         from_eye = model if self.camera.eye is None else model - self.camera.eye
         flat = np.stack([from_eye @ self.camera.right, from_eye @ self.camera.up], axis=1)
         with np.errstate(all="ignore"):
             return np.asarray(flat * self.magnification(model)[:, None] - self.origin)
 
     def rays(self, paper: Floats, back: float) -> tuple[Floats, Floats]:
-        """Start and unit direction (n, 3) of the way from the viewer through points on paper (n, 2).
+        """Start and unit direction (n, 3) of the rays from the viewer through points on paper (n, 2).
 
         Parallel rays start `back` model units before the origin.
         """
@@ -168,7 +168,7 @@ def _line(number: int, entry: Mapping[str, Any], parts: int) -> DrawnLine:
 
 
 def parse(document: Mapping[str, Any] | str | bytes) -> Exchange:
-    """Check what the judge relies on and hand it over as arrays."""
+    """Read a document as arrays, and check all that the judge relies on."""
     data: Mapping[str, Any] = json.loads(document) if isinstance(document, str | bytes) else document
     if data.get("format") != "hlr-drawing" or data.get("version") != 2:
         raise FormatError(f"format {data.get('format')!r} version {data.get('version')!r}: hlr-drawing 2 expected")

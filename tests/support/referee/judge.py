@@ -1,8 +1,8 @@
 """Decides by rays whether drawn lines are truly visible or hidden.
 
-A point of a line drawn visible is wrong where the way to the viewer is blocked from the point and from a whole ring
-around it; one drawn hidden is wrong where it is blocked from none of them. The ring and the depth from which a hit
-counts absorb what is not decidable: the two meshes differ from the true model, each within its deflection.
+A point of a visible line is wrong if rays to the viewer are blocked from the point and from all points of a ring around
+it; a point of a hidden line is wrong if none of these rays is blocked. The ring, and the least depth from which a hit
+counts, leave room for what cannot be decided: both meshes differ from the true model by up to their deflections.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Samples:
 
 @dataclass(frozen=True)
 class Verdict:
-    """`blocked` counts, per sample, the blocked rays of the nine.
+    """`blocked` is the number of blocked rays, of nine, for each sample.
 
     judged      lines long enough to be sampled
     displaced   samples whose paper position is not the projection of their model position
@@ -65,7 +65,7 @@ class Verdict:
 
 
 class RayCaster:
-    """Embree over a reference mesh. Single precision: so the mesh is centred and brought to unit size first."""
+    """Rays by Embree against a reference mesh. Embree is single precision, so the mesh is centred and scaled to 1."""
 
     def __init__(self, reference: Reference) -> None:
         corners = reference.points[reference.triangles]
@@ -81,7 +81,7 @@ class RayCaster:
 
     @property
     def measure(self) -> float:
-        """What the rules' lengths are fractions of: the diagonal, or more where the mesh is coarser."""
+        """The length, model units, of which the rules take fractions: the diagonal, or more for a coarser mesh."""
         return self.diagonal * self._coarseness
 
     def blocked(self, points: Floats, camera: Camera) -> npt.NDArray[np.int64]:
@@ -110,7 +110,7 @@ class RayCaster:
         return self._hit(origins, toward, limit).reshape(-1, RING + 1)
 
     def open_around(self, points: Floats, camera: Camera, step: float) -> npt.NDArray[np.int64]:
-        """For each point the number of ring places with no surface as deep as the point, give or take `step`."""
+        """For each point the number of ring points without a surface at the point's depth, within `step`."""
         step /= self.diagonal
         starts = ((points - self._centre) / self.diagonal)[:, None, :] + self._ring(camera)[None]
         origins = (starts + step * camera.direction).reshape(-1, 3)
@@ -119,7 +119,7 @@ class RayCaster:
         return np.asarray(RING - met.sum(axis=1), dtype=np.int64)
 
     def first(self, starts: Floats, toward: Floats) -> tuple[Floats, npt.NDArray[np.int64]]:
-        """How far each ray goes before it hits (model units, inf where it never does), and the triangle, else -1."""
+        """The distance at which each ray hits (model units; inf: no hit), and the triangle (-1: no hit)."""
         far, hit = np.full(len(starts), np.inf), np.full(len(starts), -1, dtype=np.int64)
         for i in range(0, len(starts), CHUNK):
             part = slice(i, i + CHUNK)
@@ -163,7 +163,7 @@ def sample(drawing: Exchange, measure: float) -> tuple[Samples, int]:
 
 
 def _image_length(line: DrawnLine, camera: Camera) -> Floats:
-    """Running length of a line as seen: without what it covers along the line of sight."""
+    """Running length of a line in the image: its extent along the line of sight does not count."""
     steps = np.diff(line.points3, axis=0)
     sight = camera.direction if camera.eye is None else camera.eye - (line.points3[1:] + line.points3[:-1]) / 2
     sight = sight / np.linalg.norm(sight, axis=-1, keepdims=True)
@@ -177,7 +177,7 @@ def _at(points: Floats, along: Floats) -> Floats:
 
 
 def _displaced(drawing: Exchange, measure: float) -> int:
-    """Vertices that lie elsewhere on paper than where the format puts their model position."""
+    """The number of vertices whose place on paper is not the projection of their model position."""
     if not drawing.lines:
         return 0
     model = np.concatenate([line.points3 for line in drawing.lines])

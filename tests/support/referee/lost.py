@@ -21,7 +21,7 @@ class Lost:
     """Areas where the two meshes differ.
 
     mask   (rows, columns): the pixels
-    areas  square millimetres, and a place on paper, largest first
+    areas  size of each in square millimetres and a point in it on paper, largest first
     """
 
     mask: npt.NDArray[np.bool_]
@@ -29,7 +29,7 @@ class Lost:
 
 
 def lost(sheet: Sheet, image: Hits, own: Hits) -> Lost:
-    """Compare what is seen of the reference with what is seen of the drawing's own triangles."""
+    """Compare the depth image of the reference with that of the drawing's own triangles."""
     steep = np.minimum(*(np.linalg.norm(hits.slope, axis=2) for hits in (image, own)))
     with np.errstate(invalid="ignore"):
         apart = np.abs(image.depth - own.depth) > DEEP * sheet.pixel * (1 + steep)

@@ -1,10 +1,9 @@
-"""Finds lines that should be there: is everything drawn that is plainly visible?
+"""Finds missing lines: is everything drawn that is plainly visible?
 
-The ray test judges lines that are there, so an empty drawing would pass it, and so would a contour that is wrongly
-called hidden (half of its ring is blocked by its own body). Here a depth image of the model is asked instead: where
-the depth jumps or the normal turns between two pixels, a visible line has to run nearby. Each such place is found by
-halving the way between the two, so that what is merely steep or round is none: but only where there is no line, for
-what is drawn needs no proof.
+The ray test judges only lines that are drawn, so an empty drawing would pass it, and so would a contour that is wrongly
+hidden (its own body blocks half of its ring). Here a depth image of the model is used instead: where the depth jumps
+or the normal turns between two pixels, a visible line has to run nearby. If none does, the jump is located by repeated
+halving between the two pixels, so that a surface that is merely steep or round does not count.
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ SHORT = 5.0
 
 @dataclass(frozen=True)
 class Run:
-    """Missing places next to one another: how long, and the middle one on paper, both in millimetres."""
+    """Neighbouring places without a line: the length of the run, and its middle on paper, both in millimetres."""
 
     length: float
     at: tuple[float, float]
@@ -53,7 +52,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Missing:
-    """Places (n, 2) on paper beside which no visible line runs; asked: at how many places there should be one."""
+    """Places (n, 2) on paper that lack a visible line; asked: the number of places at which there should be one."""
 
     asked: int
     places: Floats
@@ -67,7 +66,7 @@ class Missing:
 
     @property
     def faults(self) -> list[Run]:
-        """Runs too long to be argued away, longest first."""
+        """Runs too long to be explained by the tolerances, longest first."""
         return [run for run in self.runs if run.length > SHORT * self.pixel]
 
 
@@ -96,7 +95,7 @@ def missing(drawing: Exchange, depths: Depths, sheet: Sheet, image: Hits) -> Mis
 
 @dataclass(frozen=True)
 class Pairs:
-    """Pairs of points (n, 2) on paper, and what is seen there."""
+    """Pairs of points (n, 2) on paper, and the hits of the depth image there."""
 
     start: Floats
     end: Floats
@@ -128,7 +127,7 @@ def _creases(depths: Depths, pairs: Pairs, jump: float, accuracy: float) -> tupl
 
 
 def _halved(depths: Depths, pairs: Pairs, first: Callable[[Hits, Hits, Hits], npt.NDArray[np.bool_]]) -> Pairs:
-    """The pairs drawn together where `first` says of three hits in a row that it happens between the first two."""
+    """Halve the pairs repeatedly; of three hits in a row, `first` tells whether the change is in the first half."""
     start, end, a, b = pairs.start, pairs.end, pairs.a, pairs.b
     for _ in range(HALVINGS):
         middle = (start + end) / 2
@@ -142,7 +141,7 @@ def _halved(depths: Depths, pairs: Pairs, first: Callable[[Hits, Hits, Hits], np
 def _wide(
     depths: Depths, pairs: Pairs, accuracy: float, apart: Callable[[Hits, Hits, Floats], npt.NDArray[np.bool_]]
 ) -> npt.NDArray[np.bool_]:
-    """Where both sides take up a part of a ring around the place: a crack or a splinter does not."""
+    """Where both sides fill a part of a ring around the place, unlike the sides of a crack or a splinter."""
     angles = np.arange(RING) * (2 * np.pi / RING)
     ring = WIDE * accuracy * np.stack([np.cos(angles), np.sin(angles)], axis=1)
     around = depths.at(pairs.middle[:, None] + ring)
@@ -150,13 +149,13 @@ def _wide(
 
 
 def _gap(a: Hits, b: Hits) -> Floats:
-    """Difference of depth; inf where only one of both met anything."""
+    """Difference of depth; inf where only one of the two rays hit anything."""
     with np.errstate(invalid="ignore"):
         return np.where(a.met & b.met, np.abs(a.depth - b.depth), np.where(a.met == b.met, 0.0, np.inf))
 
 
 def _off_plane(a: Hits, b: Hits, way: Floats) -> Floats:
-    """The same, but for what is explained by the planes of both."""
+    """Difference of depth, less the difference that the tangent planes of both hits explain."""
     with np.errstate(invalid="ignore"):
         rise = b.depth - a.depth
         apart = [np.abs(rise - (hits.slope * way).sum(axis=-1)) for hits in (a, b)]
@@ -164,14 +163,14 @@ def _off_plane(a: Hits, b: Hits, way: Floats) -> Floats:
 
 
 def _turn(a: Hits, b: Hits) -> Floats:
-    """Cosine between normals; 1 where either met nothing."""
+    """Cosine between normals; 1 where either ray hit nothing."""
     return np.where(a.met & b.met, (a.normal * b.normal).sum(axis=-1), 1.0)
 
 
 def runs(crossings: Sequence[Floats], sheet: Sheet) -> list[Run]:
-    """Places that lie within `REACH` pixels of one another as one run each, longest first.
+    """Join places within `REACH` pixels of one another into runs, longest first.
 
-    crossings: with the rows of the sheet's grid and with its columns, which together give a straight run's length.
+    crossings: places on the rows and on the columns of the sheet's grid; both are needed for a straight run's length.
     """
     places = np.concatenate(crossings)
     if not len(places):

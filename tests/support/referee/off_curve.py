@@ -19,7 +19,7 @@ ALLOWED = 1.0
 
 @dataclass(frozen=True)
 class Off:
-    """A line off its curve: its number, how far in accuracies, where on paper."""
+    """A line off its curve: its number, the distance in accuracies, the place on paper."""
 
     line: int
     accuracies: float
@@ -27,7 +27,7 @@ class Off:
 
 
 def off_curve(drawing: Exchange, true: Callable[[str, int], Any], slack: Callable[[str, int], float]) -> list[Off]:
-    """Lines of edges that lie farther off their own curves than they may, worst first.
+    """Lines of edges that are farther from their curves than the accuracy and the file's tolerance allow, worst first.
 
     true: from a part's name and an edge's number to points (n, 3) of its curve in the model
     slack: the tolerance that the file itself states for that edge and its vertices, model units
@@ -55,7 +55,7 @@ def off_curve(drawing: Exchange, true: Callable[[str, int], Any], slack: Callabl
 
 
 def distances(points: Floats, path: Floats, allowed: float) -> Floats:
-    """From each point (n, 2) to a polyline (m, 2); where that is more than `allowed`, to the nearest of all chords."""
+    """(n,) distances of points (n, 2) to a polyline (m, 2); all chords are tried only for those beyond `allowed`."""
     _, nearest = cKDTree(path).query(points)
     away = np.minimum(
         _to_chord(points, path[np.maximum(nearest - 1, 0)], path[nearest]),

@@ -29,7 +29,7 @@ def save(
     off: list[Off],
     lost: Lost | None,
 ) -> None:
-    """Write a PNG. Red: no visible line; orange rings: wrongly visible; purple: off its curve; blue: faces lost.
+    """Write a PNG. Red: missing visible line; orange rings: wrong visibility; purple: off its curve; blue: lost faces.
 
     wrong: places on paper (n, 2).
     """

@@ -1,4 +1,4 @@
-"""Everything that can be held against one drawing: wrong and missing lines, lines off their curves, lost faces."""
+"""Finds all faults of one drawing: wrong and missing lines, lines off their curves, lost faces."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Curves = tuple[Callable[[str, int], Any], Callable[[str, int], float]]
 
 @dataclass(frozen=True)
 class Judged:
-    """One drawing and all that is known of it; only the row where there is no drawing."""
+    """One drawing with all its faults; only the row of the report if there is no drawing."""
 
     row: report.Row
     drawing: exchange.Exchange | None = None
@@ -29,7 +29,7 @@ class Judged:
     off: list[Off] = field(default_factory=list)
 
     def why(self) -> Iterator[str]:
-        """The wrong lines, worst first, and then where lines are missing, off their curve, and faces lost."""
+        """One line of text per fault: wrong lines, worst first, then missing lines, lines off curves, lost faces."""
         if self.drawing is not None and self.verdict is not None:
             yield from offenders(self.drawing, self.verdict)
         if self.drawing is not None and self.seen is not None:
@@ -42,7 +42,7 @@ class Judged:
                 )
 
     def save_picture(self, path: Path) -> None:
-        """Everything marked on the depth image, as PNG."""
+        """Write a PNG: the depth image with all faults marked."""
         if self.drawing is None or self.verdict is None or self.seen is None:
             return
         wrong = self.drawing.on_paper(self.verdict.samples.points[self.verdict.wrong_visible])
@@ -51,7 +51,7 @@ class Judged:
 
 
 class Referee:
-    """An independent mesh of one model, ready to judge drawings of it; with its curves, where lines lie as well."""
+    """Judges drawings of one model by an independent mesh; given its curves, also whether lines lie on them."""
 
     def __init__(self, model: reference.Reference, curves: Curves | None = None, pixels: int = PIXELS) -> None:
         self._caster = RayCaster(model)
@@ -65,7 +65,7 @@ class Referee:
         seconds: float = 0.0,
         own: reference.Reference | None = None,
     ) -> Judged:
-        """Everything that can be held against one drawing; `own`: the triangles that it was made from."""
+        """Find all faults of one drawing; `own`: the triangles from which it was made."""
         start = time.perf_counter()
         verdict = judge(drawing, self._caster)
         seen = look(drawing, self._caster, own, self._pixels)

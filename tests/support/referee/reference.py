@@ -1,4 +1,4 @@
-"""The referee's own mesh of a model, by plain OpenCASCADE or trimesh; never by `hlr.source`."""
+"""The referee's own mesh of a model, made by OpenCASCADE or trimesh alone, without `hlr.source`."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Reference:
 
     @property
     def accuracy(self) -> float:
-        """What to ask of a drawing at scale 1, in millimetres."""
+        """The accuracy to request of a drawing at scale 1, in millimetres."""
         return self.diagonal * self.unit / self.fineness
 
 
@@ -54,7 +54,7 @@ def from_arrays(points: npt.ArrayLike, triangles: npt.ArrayLike, unit: float = 1
 
 
 def load(path: str | Path, fineness: float = FINENESS, cache: Path | None = None) -> Reference:
-    """Mesh a file, or take the mesh of the same file from `cache`: some need minutes."""
+    """Mesh a file, or take the mesh of the same file from `cache`: meshing can take minutes."""
     path = Path(path)
     if path.suffix.lower() not in BREP:
         return replace(from_mesh_file(path), fineness=fineness)
@@ -111,7 +111,7 @@ def shape_diagonal(shape: Any) -> float:
 
     box = Bnd_Box()
     BRepBndLib.AddOptimal_s(shape, box, False, False)
-    if box.IsVoid():  # nothing but triangles without surfaces
+    if box.IsVoid():  # only triangles without surfaces
         BRepBndLib.Add_s(shape, box, True)
     if box.IsVoid():
         raise ValueError("the shape is empty")
@@ -131,8 +131,8 @@ def from_shape(shape: Any, fineness: float = FINENESS, angle: float = 0.5) -> Re
     from OCP.TopoDS import TopoDS
 
     BRepTools.Clean_s(shape)
-    # The mesher refines nothing below the tolerance of a face's vertices, and some files have generous ones: without
-    # this the reference may be dozens of deflections off the surface.
+    # The mesher does not refine below the tolerance of a face's vertices, which is large in some files. Without this
+    # step the reference may be dozens of deflections off the surface.
     ShapeFix_ShapeTolerance().SetTolerance(shape, Precision.Confusion_s())
     BRepMesh_IncrementalMesh(shape, shape_diagonal(shape) / fineness, False, angle, True)
     points: list[Floats] = []

@@ -1,7 +1,7 @@
 """What a viewer of the paper sees, by two depth images: of the referee's own mesh, and of the drawing's triangles.
 
-What the first asks for and the drawing lacks may be the fault of any stage; what the second asks for and the drawing
-lacks is that of visibility and linework alone; where the two differ, faces were lost on the way.
+A line that the first image requires and the drawing lacks may be the fault of any stage. A missing line that the second
+image requires is the fault of visibility or linework. Where the two images differ, faces were lost in meshing.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from support.referee.reference import Reference
 
 @dataclass(frozen=True)
 class Seen:
-    """One drawing beside the depth images of its sheet; None: its triangles are not known."""
+    """One drawing compared with the depth images of its sheet; None: the drawing's triangles are not known."""
 
     sheet: Sheet
     image: Hits

@@ -1,1 +1,1 @@
-"""Hidden and visible, decided twice: random scenes, the kernel, and an exact oracle that shares nothing with it."""
+"""Visibility decided twice on random scenes: by the kernel, and by an exact oracle that shares no code with it."""

@@ -1,4 +1,4 @@
-"""The one place that knows how the kernel is called."""
+"""Calls the kernel's visibility pass; no other module of these tests does."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ DRAWN = 1
 
 @dataclass(frozen=True)
 class Way:
-    """How a scene is put to the kernel.
+    """How a scene is given to the kernel.
 
-    parts     every part by itself, and the wires as one more; else all is one part
+    parts     every part is a group, and the wires are one more; else all is one group
     trusted   the parts are closed, oriented and sound: faces turned away may be culled
-    bias      contact tolerance: what is hidden by no more than this is neither visible nor hidden but WITHIN; what a
-              trusted part hides of itself is hidden
+    bias      contact tolerance: an edge behind a face by no more than this is WITHIN, neither visible nor hidden;
+              behind a face of its own trusted part it is hidden
     """
 
     parts: bool = False
@@ -80,7 +80,7 @@ def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exac
     role = np.full(len(edges), DRAWN, dtype=np.uint8)
     found = _kernel.visibility(mesh, points, groups, role, threads=threads, arithmetic=arithmetic)
     pieces: dict[Edge, list[Piece]] = {}
-    # Diving (3) is a way of being within the tolerance.
+    # State 3, an edge that dives into a face, counts as within the tolerance.
     for number, t0, t1, state in zip(found.edge, found.t0, found.t1, found.state, strict=True):
         edge = (int(edges[number][0]), int(edges[number][1]))
         pieces.setdefault(edge, []).append((float(t0), float(t1), min(int(state), WITHIN)))

@@ -1,9 +1,9 @@
-"""What is visible, by exact rationals: slow, simple, and sharing nothing with the kernel.
+"""Decides visibility in exact rationals: slow, simple, and without any code of the kernel.
 
-Every drawn segment a -> b is held against every triangle. The part of the segment that a triangle hides is where
-four conditions hold, each linear in the segment's parameter t: inside the three sides of the triangle's image, and
-behind its plane. So it is one interval; the hidden part is the union, and the number of triangles in front (Appel's
-quantitative invisibility) is the number of intervals over a place.
+Every drawn segment a -> b is compared with every triangle. A triangle hides the segment where four conditions hold,
+each linear in the segment's parameter t: inside the three sides of the triangle's image, and behind its plane. So each
+triangle hides one interval of t. The hidden part is the union of the intervals, and the number of triangles in front
+(Appel's quantitative invisibility) is the number of intervals that contain t.
 
 Coincidences. Depth z grows away from the viewer. The segment, and nothing else, is moved by
 
@@ -123,7 +123,7 @@ def hidden_parts(segment: Segment, triangles: Iterable[Triangle], side: int = 1)
 
 
 def intervals(segment: Segment, triangles: Iterable[Triangle], side: int = 1) -> list[Interval]:
-    """The segment from 0 to 1, cut where the number of triangles in front changes."""
+    """The segment's parameters 0..1, cut where the number of triangles in front changes."""
     changes: dict[Fraction, int] = {ZERO: 0, ONE: 0}
     for start, end in hidden_parts(segment, triangles, side):
         changes[start] = changes.get(start, 0) + 1
@@ -141,7 +141,7 @@ def intervals(segment: Segment, triangles: Iterable[Triangle], side: int = 1) ->
 
 
 def states(found: Sequence[Interval]) -> list[tuple[Fraction, Fraction, bool]]:
-    """Hidden or not: intervals that differ in their count only are one."""
+    """Intervals (t0, t1, hidden); neighbours that differ only in their count are joined."""
     result: list[tuple[Fraction, Fraction, bool]] = []
     for t0, t1, count in found:
         if result and result[-1][2] == (count > 0):
@@ -152,7 +152,7 @@ def states(found: Sequence[Interval]) -> list[tuple[Fraction, Fraction, bool]]:
 
 
 def states_either_side(segment: Segment, triangles: Sequence[Triangle]) -> list[tuple[Fraction, Fraction, bool]]:
-    """Visible where the segment is visible moved to one side or to the other: the rule for lines over contours."""
+    """The rule for lines over contours: visible where the segment, moved to one side or the other, is visible."""
     one, other = (states(intervals(segment, triangles, side)) for side in (1, -1))
     ends = sorted({t for t0, t1, _ in [*one, *other] for t in (t0, t1)})
     cut = []
@@ -164,10 +164,10 @@ def states_either_side(segment: Segment, triangles: Sequence[Triangle]) -> list[
 
 
 def invisibility_at(segment: Segment, triangles: Iterable[Triangle], t: Fraction, side: int = 1) -> int:
-    """Count the triangles in front of one place, by coordinates alone: the oracle's own check.
+    """Count the triangles in front of one point, from coordinates alone, to check the oracle.
 
-    The place is really moved, by a concrete small amount, and held against each triangle through the barycentric
-    coordinates of its image. Only meaningful away from the ends of intervals.
+    The point is moved by a small finite amount and compared with each triangle by the barycentric coordinates of its
+    image. The result is meaningful only away from the ends of intervals.
     """
     e = Fraction(1, 1 << SMALL_BITS)
     a, b = segment

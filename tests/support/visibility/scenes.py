@@ -1,4 +1,4 @@
-"""Random scenes on tiny integer grids: nearly every one is full of coincidences."""
+"""Random scenes on tiny integer grids, so that nearly all have many coincident points and lines."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ BOX_QUADS = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2
 
 @dataclass(frozen=True)
 class Scene:
-    """Points, triangles, and lines that belong to no triangle; drawn are the triangles' edges and those lines.
+    """Points, triangles, and wires: lines that belong to no triangle. The triangles' edges and the wires are drawn.
 
-    parts    per triangle the number of its part; empty: all are one
-    closed   every part is a closed solid of some volume, wound outward
+    parts    per triangle the number of its part; empty: all triangles are one part
+    closed   every part is a closed solid with a volume above zero, wound outward
     """
 
     points: tuple[Point, ...]
@@ -46,13 +46,13 @@ class Scene:
         return self.points[edge[0]], self.points[edge[1]]
 
     def part_of(self, edge: Edge) -> int:
-        """The part of its first triangle; -1 for a wire."""
+        """The part of the edge's first triangle; -1 for a wire."""
         inside = (number for number, face in enumerate(self.faces) if edge[0] in face and edge[1] in face)
         first = next(inside, None)
         return -1 if first is None else self.parts[first] if self.parts else 0
 
     def apart(self) -> Scene:
-        """The same with no point shared between parts, nor with wires: the kernel's contract for parts."""
+        """The same scene with no point shared between parts or with wires, as the kernel requires of parts."""
         numbers: dict[tuple[int, int], int] = {}
 
         def own(part: int, point: int) -> int:
@@ -128,7 +128,7 @@ def _sheared_box(rng: random.Random, builder: Builder, corner: Point, size: int)
 
 
 def soup(rng: random.Random, size: int) -> Scene:
-    """Triangles through one another; some degenerate, some repeated."""
+    """Triangles that pass through one another; some degenerate, some repeated."""
     builder = Builder(weld=rng.random() < 0.5)
     for _ in range(rng.randint(2, 7)):
         corners = [_point(rng, size) for _ in range(3)]
@@ -150,7 +150,7 @@ def tetrahedra(rng: random.Random, size: int) -> Scene:
 
 
 def boxes(rng: random.Random, size: int) -> Scene:
-    """Upright and sheared boxes, crossing at will."""
+    """Upright and sheared boxes, which may pass through one another."""
     builder = Builder(weld=rng.random() < 0.5)
     for _ in range(rng.randint(1, 3)):
         _sheared_box(rng, builder, _point(rng, size), max(1, size // 2))
@@ -188,7 +188,7 @@ def coplanar(rng: random.Random, size: int) -> Scene:
 
 
 def collinear(rng: random.Random, size: int) -> Scene:
-    """Every corner above one of few image points: lines over lines, contours over contours, edge-on faces."""
+    """All corners lie over a few image points: lines over lines, contours over contours, edge-on faces."""
     builder = Builder(weld=rng.random() < 0.5)
     places = [(rng.randint(0, size), rng.randint(0, size)) for _ in range(rng.randint(3, 5))]
     for _ in range(rng.randint(2, 6)):
@@ -213,7 +213,7 @@ def wires(rng: random.Random, size: int) -> Scene:
 
 
 def solids(rng: random.Random, size: int) -> Scene:
-    """Parts that are all sound: closed, wound outward, of some volume; and free lines among them."""
+    """Sound parts (closed, wound outward, with a volume above zero), and free lines among them."""
     builder = Builder(weld=False)
     while len(builder.parts) < 4 or rng.random() < 0.4:
         corner = _point(rng, size)
@@ -265,7 +265,7 @@ SIZES = (2, 3, 4, 6, 12, 100)
 
 
 def scene(seed: int) -> Scene:
-    """The scene of a seed: kinds in turn, mostly on very small grids."""
+    """The scene of a seed; seeds take the kinds in turn, mostly on very small grids."""
     rng = random.Random(seed)
     size = SIZES[min(int(rng.expovariate(0.6)), len(SIZES) - 1)]
     return KINDS[seed % len(KINDS)](rng, size)
