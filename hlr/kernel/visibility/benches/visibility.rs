@@ -18,7 +18,7 @@ use hlr_visibility::scan::polygon_table::PolygonTable;
 use hlr_visibility::scan::scene::{Group, Numbers, Scene as Seen, solve};
 use hlr_visibility::scan::sweep::Steps;
 
-/// Sides of a prism: half of them are boxes, half of them cylinders.
+/// Sides of the prisms that stand for cylinders. Half of all prisms are cylinders, half are boxes.
 const ROUND: usize = 40;
 
 struct Random(u64);
@@ -88,7 +88,7 @@ fn in_view(p: &[f64; 3]) -> [f64; 3] {
     [h * (p[0] + p[1]), s * (p[1] - p[0] + 2.0 * p[2]), -t * (p[0] - p[1] + p[2])]
 }
 
-/// Drawn: where a cap meets a side, or two flat sides meet. Outline: between the sides of a cylinder.
+/// Role per edge. Drawn: where a cap meets a side, or two flat sides meet. Outline: between the sides of a cylinder.
 fn roles(scene: &Scene, t: &Topology) -> Vec<u8> {
     let corner = |t: usize, k: usize| scene.points[scene.triangles[t][k] as usize];
     let normal = |t: usize| {

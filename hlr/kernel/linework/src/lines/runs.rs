@@ -324,7 +324,7 @@ mod tests {
     #[test]
     fn lines_around_a_closed_chain_do_not_depend_on_where_it_begins() {
         use State::{Hidden as H, Visible as V};
-        // Perimeter 12: a hidden run of 0.3 is too short; the visible ones around it are not, wherever the chain starts.
+        // Perimeter 12: a hidden run of 0.3 is too short; the visible ones around it are not, wherever it starts.
         let short_gap = [(V, 0.1), (H, 2.9), (V, 3.0), (V, 1.0), (H, 3.0), (V, 1.25), (H, 0.3), (V, 0.45)];
         let mirrored: Vec<(State, f64)> = short_gap.iter().rev().copied().collect();
         // A visible run of 0.2, which may be cut in two by the start of the chain.

@@ -1,7 +1,7 @@
 //! Separates real intersections from contacts, where surfaces only touch.
 //!
-//! What is neither deep nor steep is a contact, unless it closes a gap: where surfaces that cross are tangent at a
-//! point.
+//! A crossing that is neither deep nor steep is a contact, unless it closes a gap in a real intersection line: crossing
+//! surfaces may be tangent at a point.
 
 use super::depth::{Bodies, Depth, SLIGHT_ANGLE};
 use super::reach::{Vec3, minus};
@@ -9,21 +9,21 @@ use super::search::Clash;
 use hlr_accuracy::CONTACT_REAL;
 use hlr_mesh::topology::components;
 
-/// In roots of the contact tolerance times the smaller part's size: surfaces of that radius that are tangent at a point
-/// differ by less than the tolerance over 2.8 of these.
+/// Longest gap to close, in units of the square root of (contact tolerance times the smaller part's size). Surfaces
+/// with that size as radius, tangent at a point, differ by less than the tolerance over 2.8 of these units.
 const BRIDGE: f64 = 4.0;
-/// In the sizes of its triangles: a figure where a curved face meets itself, as all triangles around a point do that
-/// cross one another there, is hardly larger, and is the tessellation's, not the shape's.
+/// In sizes of the triangles involved. A figure in which a solid meets itself and that is no larger than this comes
+/// from the tessellation, not from the shape: triangles around one point of a curved face cross one another.
 const SMALL: f64 = 2.0;
 
-/// A segment of an intersection line: the numbers of its ends, and of its groups, the lower first.
+/// A segment of an intersection line: the numbers of its end points, and of its groups, each with the lower first.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
     pub ends: [i32; 2],
     pub groups: [usize; 2],
 }
 
-/// One of several triangles that meet along one segment, as an edge in a plane has them.
+/// One distinct segment. Several pairs of triangles may meet along it, as where an edge lies in a plane.
 struct Candidate {
     segment: Segment,
     clash: Clash,
@@ -31,11 +31,11 @@ struct Candidate {
     sine: f64,
 }
 
-/// found: sorted by groups; ends, depth: of each; points: those that the ends are numbers of; width: of each group the
-/// longest side of its box.
+/// Returns the real intersection segments, and which groups pass through themselves.
 ///
-/// The real ones by the numbers of their ends, not by those of groups, which follow the order of triangles in the file.
-/// And which groups pass through themselves.
+/// `found`: sorted by groups. `ends`, `depth`: per clash. `points`: the points that `ends` are indices of. `width`: per
+/// group the longest side of its box, in model units. The segments are sorted by the numbers of their ends, not of
+/// their groups, which follow the order of triangles in the file.
 pub fn real(
     bodies: &Bodies,
     found: &[Clash],
@@ -60,7 +60,7 @@ pub fn real(
     (out, through)
 }
 
-/// Sorted by groups, then ends. Of several that are the same segment the first, with the most that is said of any.
+/// The distinct segments, sorted by groups, then ends. Each has the greatest depth and sine of all clashes along it.
 fn candidates(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], depth: &[Depth]) -> Vec<Candidate> {
     let mut order: Vec<usize> = (0..found.len()).collect();
     let key = |i: &usize| (bodies.groups(&found[*i]), ends[*i]);
@@ -82,7 +82,7 @@ fn candidates(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], depth: &[Dept
     order.chunk_by(|a, b| key(a) == key(b)).map(one).collect()
 }
 
-/// Numbers of ends, told apart by pair of groups.
+/// Numbers of end points, separate for each pair of groups.
 struct Nodes {
     of: Vec<[i32; 2]>,
     count: usize,
@@ -101,7 +101,7 @@ fn nodes(all: &[Candidate]) -> Nodes {
     nodes
 }
 
-/// A number per connected figure of the chosen segments, and how many figures there are.
+/// Per chosen segment the number of its connected figure, and the number of figures.
 fn figures(nodes: &Nodes, chosen: &[usize]) -> (Vec<usize>, usize) {
     let edges: Vec<[i32; 2]> = chosen.iter().map(|&i| nodes.of[i]).collect();
     let found: Vec<usize> = components(&edges, nodes.count).into_iter().map(|label| label as usize).collect();
@@ -109,7 +109,7 @@ fn figures(nodes: &Nodes, chosen: &[usize]) -> (Vec<usize>, usize) {
     (found, figures)
 }
 
-/// Which are neither contacts nor flush.
+/// Which segments are neither contacts nor flush.
 fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], width: &[f64]) -> Vec<bool> {
     let clear = |i: &usize| all[*i].depth.beyond >= 0.0 || all[*i].sine >= SLIGHT_ANGLE;
     let (sure, slight): (Vec<usize>, Vec<usize>) = (0..all.len()).partition(clear);
@@ -129,10 +129,10 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     let (mut holds, mut deepest) = (vec![0; count], vec![0.0f64; count]);
     for (&i, &f) in slight.iter().zip(&bridge) {
         for &n in &nodes.of[i] {
-            // Once per node: a node is of one figure.
+            // Counted once per node: a node belongs to one figure.
             holds[f] += u32::from(std::mem::take(&mut held[n as usize]));
         }
-        // Faces in one plane cross all over by what was rounded: that joins lines over any distance, and is nowhere
+        // Rounding makes faces in one plane cross everywhere. That joins lines over any distance, but is nowhere
         // deep.
         deepest[f] = deepest[f].max(all[i].depth.beyond / all[i].depth.touch + 1.0);
     }
@@ -145,7 +145,7 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
     out
 }
 
-/// Per figure: of the chosen segments the longest side of its box.
+/// Per figure of chosen segments: the longest side of its bounding box.
 fn extents(all: &[Candidate], chosen: &[usize], figure: &[usize], count: usize, points: &[Vec3]) -> Vec<f64> {
     let mut boxes = vec![([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]); count];
     for (&i, &f) in chosen.iter().zip(figure) {
@@ -160,7 +160,7 @@ fn extents(all: &[Candidate], chosen: &[usize], figure: &[usize], count: usize, 
     boxes.iter().map(|(low, high)| minus(high, low).into_iter().fold(0.0, f64::max)).collect()
 }
 
-/// Of the kept ones those of solids that meet themselves in figures hardly larger than the triangles they lie on.
+/// The kept segments in which a solid meets itself, in figures hardly larger than the triangles they lie on.
 fn small(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes, points: &[Vec3]) -> Vec<bool> {
     let (figure, count) = figures(nodes, kept);
     let extent = extents(all, kept, &figure, count, points);

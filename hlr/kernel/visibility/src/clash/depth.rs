@@ -2,25 +2,27 @@
 //!
 //! ```text
 //!           |                         |
-//!     ______|______ crosses     ______|______ stands on it: the triangle beyond the wall's lower edge is its
+//!     ______|______ crosses     ______|______ stands on it: beyond the wall's lower edge follows its
 //!           |                    -----+       bottom, which goes no deeper
 //! ```
 //!
-//! In meshes without B-rep the facets may be the shape itself, and bend by any angle: what their corners say is all
-//! there is to know. Of B-reps the surface is followed near the crossing (`reach`): that a corner far away lies beyond
-//! the other's plane says nothing about how deep it goes here.
+//! In meshes without B-rep the facets may be the shape itself, and bend by any angle: only their corners are known, so
+//! these decide. On B-reps the surface is followed near the crossing (`reach`): a corner far away that lies beyond the
+//! other's plane does not tell how deep the surface goes here.
 
 use super::reach::{Sheet, Vec3, cross, dot, minus};
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_OF_ONE_SOLID, FLUSH};
 
-/// Sine: two tessellations of one curved surface never cross at more, turning by half a radian per chord at most.
+/// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
+/// radian.
 pub const SLIGHT_ANGLE: f64 = 0.35;
-/// Share of a triangle's size: planar faces are flat within this share of it.
+/// Planar faces are flat within this share of a triangle's size.
 const ROUNDING: f64 = 1e-9;
 
-/// What is known of the surfaces. without_brep, touch: per group, a piece of a mesh without B-rep, and nearer than this
-/// to another surface it touches it; curved: per triangle, of a face that is not planar, or that may be anything.
+/// What is known of the surfaces. `without_brep`: per group, whether it belongs to a mesh without B-rep. `touch`: per
+/// group, the distance (model units) within which it touches another surface. `curved`: per triangle, whether its face
+/// is not planar, or not known.
 pub struct Bodies<'a> {
     pub sheet: Sheet<'a>,
     pub group: &'a [i32],
@@ -30,42 +32,42 @@ pub struct Bodies<'a> {
     pub deflection: f64,
 }
 
-/// Of one crossing.
+/// The depth of one crossing; lengths in model units.
 #[derive(Clone, Copy, Debug)]
 pub struct Depth {
-    /// Model units: nearer than this the two touch.
+    /// Within this distance the two surfaces touch.
     pub touch: f64,
-    /// By how much it goes deeper than a contact; below zero where it does not.
+    /// How much deeper it goes than a contact; negative for a contact.
     pub beyond: f64,
-    /// One surface stands flush on the other.
+    /// How far one surface reaches beyond the other; hardly at all where it stands flush on it.
     pub reach: f64,
 }
 
 impl Depth {
-    /// Of a crossing at this angle: hardly any of the wall is beyond the face.
+    /// Whether one surface stands flush on the other: it is steep (`sine`), and reaches hardly beyond it.
     pub fn flush(&self, sine: f64, deflection: f64) -> bool {
         self.reach < FLUSH * deflection && sine >= SLIGHT_ANGLE
     }
 }
 
-/// A triangle and the corners beyond its sides; a side beyond which nothing is, or several triangles are, has `apex` of
-/// its own first corner or of one of these.
+/// A triangle and the opposite corners of its neighbours (`apex`). Where a side has no neighbour, `apex` is the
+/// triangle's own first corner; where it has several, the corner of one of them.
 struct Around {
     corners: [Vec3; 3],
     apex: [Vec3; 3],
-    /// The ends of the sides beyond which the surface goes on in the triangle's own plane.
+    /// The ends of the sides beyond which the surface continues in the triangle's own plane.
     goes_on: [Option<[Vec3; 2]>; 3],
-    /// Lengths that count as nothing.
+    /// Shorter lengths count as 0.
     little: f64,
 }
 
 impl Bodies<'_> {
-    /// Per group: part of a mesh without B-rep.
+    /// The groups of both triangles.
     pub fn groups(&self, clash: &Clash) -> [usize; 2] {
         clash.triangles.map(|t| self.group[t as usize] as usize)
     }
 
-    /// middle: of the segment in which the two cross.
+    /// The depth of a clash. `middle`: the middle of the segment in which the two triangles cross.
     pub fn depth(&self, clash: &Clash, middle: &Vec3) -> Depth {
         let ([a, b], groups) = (clash.triangles, self.groups(clash));
         let solid = !groups.iter().any(|&g| self.without_brep[g]);
@@ -74,7 +76,7 @@ impl Bodies<'_> {
             touch *= CONTACT_OF_ONE_SOLID;
         }
         let (reach, mut level) = self.corners_beyond(clash);
-        // A planar face is where it is, and how far a wall goes beyond it is known; a facet is not.
+        // The position of a planar face is exact, so how far a wall goes beyond it is known; not so for a facet.
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
         let known = [a, b].map(|t| steep && !self.curved[t as usize]);
         let lever = self.lever(clash);
@@ -94,9 +96,9 @@ impl Bodies<'_> {
         Depth { touch, beyond, reach }
     }
 
-    /// How far each of two triangles, with those beyond its edges, reaches beyond the other's plane on its shallower
-    /// side, the lesser of both; and how far the other triangle reaches beyond the plane of each, with no more than
-    /// what goes on in its own plane beyond an edge along the crossing.
+    /// Two measures. First: how far each triangle with its neighbours reaches beyond the other's plane on its shallower
+    /// side, the lesser of both. Second, for the plane of each: how far the other triangle reaches beyond it, with only
+    /// those neighbours beyond an edge along the crossing that lie in its own plane.
     fn corners_beyond(&self, clash: &Clash) -> (f64, [f64; 2]) {
         let around = clash.triangles.map(|t| self.around(t));
         let (mut every, mut level) = (f64::INFINITY, [0.0; 2]);
@@ -149,9 +151,10 @@ impl Bodies<'_> {
         Around { corners, apex, goes_on, little }
     }
 
-    /// At most 1: how much of what is measured from each triangle's plane is certain, so far out as the other goes.
+    /// For each triangle a factor of at most 1: how reliable distances from its plane are, as far out as the other
+    /// goes.
     ///
-    /// What is rounded at the corners of a sliver tilts its plane, the more, the less high it is.
+    /// Rounded corners tilt the plane of a sliver; the narrower the sliver, the more.
     fn lever(&self, clash: &Clash) -> [f64; 2] {
         let size = clash.triangles.map(|t| {
             let [p, q, r] = self.sheet.triangles[t as usize].map(|v| self.sheet.points[v as usize]);
@@ -184,7 +187,7 @@ impl Span {
         (self.low, self.high) = (self.low.min(x), self.high.max(x));
     }
 
-    /// How far it reaches beyond zero on the side where it does so less.
+    /// How far the range reaches beyond zero, on the side where it reaches less.
     fn shallower(&self) -> f64 {
         self.high.min(-self.low)
     }

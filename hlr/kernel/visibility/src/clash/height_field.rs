@@ -1,29 +1,29 @@
 //! Finds pieces of a surface that are height fields: along one axis their triangles lie side by side, so no two of them
 //! meet.
 //!
-//! How many triangles, all turned one way, cover a place is the winding number of their common border around it: what
-//! two share cancels. Where the border touches itself nowhere, and goes once around what it encloses, that is 1 within
-//! and 0 without. So only the border has to be looked at: of a smooth surface, a few hundred sides for thousands of
-//! triangles.
+//! If all triangles are turned one way, the number of them that cover a place is the winding number of their common
+//! border around it: sides that two triangles share cancel. If the border touches itself nowhere and runs once around
+//! what it encloses, that number is 1 inside and 0 outside. So only the border has to be checked: on a smooth surface,
+//! a few hundred sides for thousands of triangles.
 //!
 //! ```text
-//!      ______            Two triangles have nothing in common then but corners and sides that they share: within, a
-//!     /\  /\ \           place on a side or at a corner is covered all around by the triangles there, and the border
+//!      ______            Then two triangles have nothing in common but the corners and sides that they share: inside,
+//!     /\  /\ \           a place on a side or at a corner is covered all around by the triangles there, and the border
 //!    /__\/__\_\          does not touch itself.
 //!    \  /\  / /
 //! ```
 //!
 //! After P. Volino and N. Magnenat-Thalmann, "Efficient self-collision detection on smoothly discretized surface
-//! animations using geometrical shape regularity", Computer Graphics Forum 13 (1994); theirs leaves the border out.
+//! animations using geometrical shape regularity", Computer Graphics Forum 13 (1994), which does not check the border.
 
 use std::cmp::Ordering;
 
 use hlr_exact::Point;
 
-/// Triangles of a piece, at most.
+/// Most triangles of a piece.
 pub const MOST: usize = 1 << 15;
 
-/// A place on the plane along the axis.
+/// A point projected along the axis.
 type Place = [i64; 2];
 
 /// A directed side of the border: the piece lies to its left.
@@ -35,7 +35,7 @@ struct Side {
     b: Place,
 }
 
-/// Along which axes, in which sense, a triangle is seen from the outside: two bits an axis.
+/// The axes and senses along which the outside of a triangle is seen: two bits per axis.
 pub fn seen_along(corners: [&Point; 3]) -> u8 {
     (0..3).fold(0, |bits, axis| {
         let [p, q, r] = corners.map(|p| place(p, axis, true));
@@ -64,7 +64,7 @@ fn place(p: &Point, axis: usize, outside: bool) -> Place {
     if outside { [x, y] } else { [y, x] }
 }
 
-/// Twice the area; coordinates are up to 2^30, as everywhere, so this is less than 2^63.
+/// Twice the signed area. Coordinates are at most 2^30, so this is less than 2^63.
 #[inline]
 fn turn(p: &Place, q: &Place, r: &Place) -> i64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
@@ -74,8 +74,8 @@ const EMPTY: u64 = u64::MAX;
 const FORTH: u8 = 1;
 const BACK: u8 = 2;
 
-/// Sides of one triangle only, in order of their first corners; None where a side is used in one direction twice, or a
-/// corner of the border is passed more than once.
+/// The sides that only one triangle has, sorted by their first corners. None if a side is used twice in one direction,
+/// or if the border passes a corner more than once.
 fn border(triangles: impl Iterator<Item = [i32; 3]>) -> Option<Vec<[i32; 2]>> {
     let (least, most) = triangles.size_hint();
     let slots = (4 * most.unwrap_or(least)).next_power_of_two().max(16);
@@ -109,8 +109,8 @@ fn border(triangles: impl Iterator<Item = [i32; 3]>) -> Option<Vec<[i32; 2]>> {
     (out.windows(2).all(|w| w[0][0] != w[1][0])).then_some(out)
 }
 
-/// Whether the border consists of loops of which one runs around, or several apart from one another; those that run the
-/// other way are holes.
+/// Whether the border consists of one outer loop, or of several apart from one another, and of holes, which run the
+/// other way.
 fn once_around(sides: &[Side]) -> bool {
     let mut passed = vec![false; sides.len()];
     let mut around: Vec<[Place; 2]> = Vec::new();
@@ -125,7 +125,7 @@ fn once_around(sides: &[Side]) -> bool {
                 bounds[0][k] = bounds[0][k].min(b[k]);
                 bounds[1][k] = bounds[1][k].max(b[k]);
             }
-            // What goes in comes out: every corner where a side ends is one where a side begins.
+            // Every corner at which a side ends is one at which a side begins.
             match sides.binary_search_by_key(to, |s| s.from) {
                 Ok(next) => at = next,
                 Err(_) => return false,
@@ -142,7 +142,7 @@ fn once_around(sides: &[Side]) -> bool {
     true
 }
 
-/// Whether two sides have a place in common that is no corner of both.
+/// Whether two sides have a point in common that is not a corner of both.
 fn touches_itself(sides: &mut [Side]) -> bool {
     sides.sort_unstable_by_key(|s| (s.a[0].min(s.b[0]), s.from));
     let mut active: Vec<Side> = Vec::new();
@@ -183,8 +183,8 @@ fn touch(s: &Side, t: &Side) -> bool {
     !beside(s, t) && !beside(t, s)
 }
 
-/// Whether two triangles that have a corner in common certainly meet in nothing else: seen along the axis along which
-/// the narrower of them is widest, a side of one of them at the corner parts them. Whichever comes first.
+/// Whether two triangles that share a corner certainly meet nowhere else: projected along the axis along which the
+/// narrower of them appears widest, a side of one of them at that corner separates them.
 pub fn only_at(points: &[Point], a: &[i32; 3], b: &[i32; 3], corner: i32) -> bool {
     let others = |t: &[i32; 3]| {
         let k = t.iter().position(|&v| v == corner).unwrap_or(0);
@@ -230,7 +230,7 @@ mod tests {
         })
     }
 
-    /// `turns` of a ramp, `steps` corners a turn, that climbs by `climb`, around a shaft.
+    /// A ramp around a shaft: `turns` turns, `steps` corners per turn, climbing by `climb`.
     fn ramp(steps: i32, turns: i32, climb: i32) -> (Vec<Point>, Vec<[i32; 3]>) {
         let corner = |k: i32, radius: f64| {
             let angle = f64::from(k) * std::f64::consts::TAU / f64::from(steps);
@@ -244,7 +244,7 @@ mod tests {
     #[test]
     fn a_ramp_is_one_until_it_comes_round() {
         let (points, mut triangles) = ramp(12, 1, 100);
-        // At the end it touches the image of its beginning.
+        // The image of its end touches the image of its beginning.
         assert!(!told(&points, &triangles));
         triangles.truncate(22);
         assert!(told(&points, &triangles));
@@ -286,7 +286,7 @@ mod tests {
         };
         let (mut fields, mut meeting) = (0, 0);
         for _ in 0..4000 {
-            // A sheet whose corners are shaken until it folds over.
+            // A sheet whose corners are moved at random until it folds over.
             let shake = 1 + random(14);
             let points: Vec<Point> =
                 (0..16).map(|k| [k % 4 * 8 + random(shake), k / 4 * 8 + random(shake), random(30)]).collect();

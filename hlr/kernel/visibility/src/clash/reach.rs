@@ -1,11 +1,11 @@
 //! Measures how far a surface goes beyond a triangle that it crosses, near the crossing.
 //!
 //! ```text
-//!            surface        From the middle of the common segment the section across it is walked both ways, over edges
-//!               /           at which the surface bends little, as far as it climbs away from the plane. It ends at sharp
-//!      ________/________    edges and borders, and where it turns back. So it matters neither where the corners of the
-//!  plane      /|            triangle are nor how the surface is cut into triangles: a corner far away along a bore's rim
-//!            | | depth      says nothing about here.
+//!            surface        From the middle of the common segment, the cross-section of the surface is followed both
+//!               /           ways over smooth edges, as long as it climbs away from the plane. It ends at sharp edges,
+//!      ________/________    at borders, and where it turns back. So the result depends neither on where the triangle's
+//!  plane      /|            corners are nor on how the surface is divided: a corner far away along a bore's rim has no
+//!            | | depth      influence.
 //!             ¯
 //! ```
 
@@ -21,17 +21,18 @@ pub struct Sheet<'a> {
 
 pub type Vec3 = [f64; 3];
 
-/// Cosine: a surface that turns by more from one triangle to the next has an edge there. Chords turn by half a radian.
+/// Cosine of an angle: a surface that turns by more between two triangles has a sharp edge there. Chords turn by at
+/// most half a radian.
 const SMOOTH: f64 = 0.77;
-/// Sine: what climbs less has turned parallel to the plane, and may go on to something else.
+/// Sine of an angle: a section that climbs less has turned parallel to the plane and ends there.
 const LEVEL: f64 = 0.1;
-/// Share of the angle at which the surface begins: what begins flat may go on flatter.
+/// The same as a share of the sine at the start: a section that begins flat may become flatter.
 const FLATTER: f64 = 0.3;
-/// Planes that are parallel, but for rounding, have no section across.
+/// Sine of an angle: planes that are parallel except for rounding have no cross-section.
 const PARALLEL: f64 = 1e-9;
 const STEPS: usize = 1000;
 
-/// Where the section leaves a triangle: over its side k, at a place relative to where it began.
+/// Where the section leaves a triangle: over its side k, at a place relative to the section's start.
 #[derive(Clone, Copy)]
 struct Exit {
     side: usize,
@@ -39,8 +40,8 @@ struct Exit {
 }
 
 impl Sheet<'_> {
-    /// How far the surface of triangle `of` goes beyond the plane of triangle `over`, on its shallower side; no more is
-    /// told than `most`. Infinite where it cannot be told.
+    /// How far the surface of triangle `of` goes beyond the plane of triangle `over` on its shallower side, in model
+    /// units, followed up to `most`. Infinite where it cannot be measured.
     pub fn reach(&self, over: u32, of: u32, at: &Vec3, most: f64) -> f64 {
         let (up, own) = (self.normals[over as usize], self.normals[of as usize]);
         let across = cross(&up, &own);
@@ -58,7 +59,7 @@ impl Sheet<'_> {
         climb(high, &up).min(climb(low, &up.map(|c| -c)))
     }
 
-    /// The greatest height on the way from a triangle over the side at which it is left.
+    /// The greatest height of the section that leaves a triangle over the given side.
     fn climb(
         &self,
         (mut triangle, mut exit): (u32, Exit),
@@ -108,7 +109,7 @@ impl Sheet<'_> {
     }
 }
 
-/// Where a section, a plane through the origin, crosses a side; what lies in the plane counts as before it.
+/// Where a section, a plane through the origin, crosses a side. A corner in the plane counts as before it.
 fn leave(corners: &[Vec3; 3], side: usize, section: &Vec3) -> Option<Exit> {
     let (p, q) = (&corners[side], &corners[(side + 1) % 3]);
     let (a, b) = (dot(p, section), dot(q, section));
@@ -136,7 +137,7 @@ mod tests {
     use super::*;
     use hlr_mesh::topology;
 
-    /// Of the surface around triangle `of` beyond triangle 0.
+    /// The reach of the surface around triangle `of` beyond triangle 0.
     fn reach(points: &[Vec3], triangles: &[[i32; 3]], of: u32, at: Vec3, most: f64) -> f64 {
         let t = topology::topology(triangles, points.len());
         let normals = topology::normals(points, triangles);
@@ -185,7 +186,8 @@ mod tests {
     #[test]
     fn a_surface_goes_on_over_a_bend_and_ends_at_an_edge() {
         let (mut points, mut triangles) = wall(1.0, 5.0, 1, 0.0, None);
-        // Below the wall it bends by 30 degrees, and goes on for as much again; then by a right angle.
+        // Below the wall the surface bends by 30 degrees and continues for the same length; then it bends by 90
+        // degrees.
         let (sine, cosine) = 30f64.to_radians().sin_cos();
         points.extend([[0.0, sine, -1.0 - cosine], [1.0, sine, -1.0 - cosine]]);
         triangles.push([5, 3, 7]);

@@ -1,4 +1,4 @@
-//! Finds triangles that may meet: their boxes and those of their groups overlap. Within one group only where asked for.
+//! Finds triangles that may meet: their boxes and those of their groups overlap. Pairs within a group only on request.
 
 use rayon::prelude::*;
 
@@ -8,12 +8,12 @@ use super::triangle_pair::{Meeting, Numbered, apart, meet};
 use crate::scan::box_tree::{Aabb, BoxTree};
 use hlr_exact::Point;
 
-/// Triangles below which nothing is gained by a second thread.
+/// With fewer triangles a second thread gains nothing.
 const MANY: usize = 1 << 13;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Clash {
-    /// Of the group with the lower number first; within a group the lower triangle first.
+    /// The triangle of the group with the lower number first; within a group the lower triangle first.
     pub triangles: [u32; 2],
     pub meeting: Meeting,
 }
@@ -21,7 +21,7 @@ pub struct Clash {
 #[derive(Default)]
 pub struct Clashes {
     pub found: Vec<Clash>,
-    /// Pairs of groups, and groups against themselves, that were searched.
+    /// Number of searches: pairs of groups, and groups against themselves.
     pub searched: usize,
     pub tests: u64,
 }
@@ -45,7 +45,7 @@ pub struct Surfaces<'a> {
     pub group: &'a [i32],
     /// Per group, whether it is searched for passing through itself.
     pub itself: &'a [bool],
-    /// Per triangle the planar face that it is of, or NO_PLANE: those of one plane do not pass through one another.
+    /// Per triangle its planar face, or NO_PLANE. Triangles of one planar face do not pass through one another.
     pub plane: &'a [i32],
 }
 
@@ -85,7 +85,7 @@ impl Surfaces<'_> {
         (order, first)
     }
 
-    /// Sorted by groups, then triangles. Cut short where `stopped` says so.
+    /// All clashes, sorted by groups, then triangles; incomplete if `stopped` returned true.
     pub fn clashes(&self, stopped: &(dyn Fn() -> bool + Sync)) -> Clashes {
         let count = self.itself.len();
         let (order, first) = self.by_group();
@@ -144,7 +144,7 @@ impl Surfaces<'_> {
         all
     }
 
-    /// Two triangles whose boxes overlap: of different groups that of the lower one first, or both of one group.
+    /// Tests two triangles whose boxes overlap: of different groups, the lower group first, or both of one group.
     fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
         let same = self.group[s as usize] == self.group[t as usize];
         let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
@@ -171,7 +171,8 @@ impl Surfaces<'_> {
         }
     }
 
-    /// Groups whose boxes overlap in more than their borders, the lower number first; and those asked for themselves.
+    /// Pairs of groups whose boxes overlap in more than their borders, the lower number first; and groups paired with
+    /// themselves on request.
     fn pairs(&self, boxes: &[Aabb], members: &[&[u32]]) -> Vec<[u32; 2]> {
         let live = (0..boxes.len() as u32).filter(|&g| !members[g as usize].is_empty());
         let tree = BoxTree::new(live.clone().map(|g| (boxes[g as usize], g)).collect());

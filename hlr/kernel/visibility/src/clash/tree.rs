@@ -1,9 +1,9 @@
 //! A bounding volume hierarchy that is searched against itself or another: finds all pairs of overlapping boxes, each
 //! once.
 //!
-//! Two hierarchies are gone down side by side, so what lies near one another is found together: per item that takes a
-//! few comparisons, where each item alone would begin at the root. Items lie in the order of the curve that G. Morton
-//! put through space ("A computer oriented geodetic data base", 1966): one sort makes the hierarchy.
+//! Two hierarchies are descended together, so that near items are found together. That takes a few comparisons per
+//! item, whereas a search for each item alone would begin at the root. Items are sorted along Morton's curve (G.
+//! Morton, "A computer oriented geodetic data base", 1966): one sort makes the hierarchy.
 
 use rayon::prelude::*;
 
@@ -20,22 +20,22 @@ struct Node {
     bounds: Aabb,
     first: u32,
     count: u32,
-    /// How many nodes further on the second half is, the first half follows at once; 0 for leaves.
+    /// Offset from this node to its second half; the first half is the next node. 0 for leaves.
     second: u32,
-    /// What all its items have in common.
+    /// The bits that all its items have in common.
     common: u8,
 }
 
-/// Items of a leaf, at most.
+/// Most items of a leaf.
 const LEAF: usize = 12;
-/// Items below which nothing is gained by a second thread.
+/// With fewer items a second thread gains nothing.
 const ALONE: usize = 4096;
-/// Items that one thread does not sort alone.
+/// From this many items on, several threads sort.
 const MANY: usize = 1 << 18;
-/// How often, from a node down to a leaf, it is asked in vain whether nothing within it meets.
+/// How often, on the way from a node to a leaf, the test `Apart` may fail before it is no longer tried.
 const ASKED: u32 = 5;
 
-/// What is found, added up over all pairs.
+/// The result of a search, merged from all pairs.
 pub trait Found: Default + Send {
     fn join(&mut self, other: Self);
 }
@@ -44,12 +44,12 @@ pub trait Found: Default + Send {
 pub trait Visit<F>: Fn(u32, u32, &mut F) + Sync {}
 impl<F, V: Fn(u32, u32, &mut F) + Sync> Visit<F> for V {}
 
-/// Whether no two of these items meet, which have this in common: yes only where it is certain.
+/// Whether no two of these items meet, given the bits they have in common. True only where that is certain.
 pub trait Apart: Fn(&[Item], u8) -> bool + Sync {}
 impl<A: Fn(&[Item], u8) -> bool + Sync> Apart for A {}
 
 impl Tree {
-    /// kind: of an item, bits that are looked at where several have them in common.
+    /// `kind`: the bits of an item. Each node keeps those that all its items have in common.
     pub fn new(items: Vec<Item>, kind: &(impl Fn(u32) -> u8 + Sync)) -> Tree {
         let bounds = items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
         let mut order: Vec<(u64, u32)> = items
@@ -69,7 +69,7 @@ impl Tree {
         Tree { items: sorted, nodes }
     }
 
-    /// Pairs of items of this hierarchy.
+    /// Visits pairs of items of this hierarchy.
     pub fn within<F: Found>(&self, visit: &impl Visit<F>, apart: &impl Apart) -> F {
         if self.nodes.is_empty() { F::default() } else { self.inside(0, 0, visit, apart) }
     }
@@ -106,7 +106,7 @@ impl Tree {
         out
     }
 
-    /// Pairs of an item of this hierarchy and one of another.
+    /// Visits pairs of one item of this hierarchy and one of another.
     pub fn between<F: Found>(&self, other: &Tree, visit: &impl Visit<F>) -> F {
         let mut out = F::default();
         if !self.nodes.is_empty() && !other.nodes.is_empty() {
@@ -170,7 +170,7 @@ impl Tree {
     }
 }
 
-/// The place of a box's middle along the curve: 21 bits of each coordinate, one after another.
+/// The position of a box's middle along Morton's curve: 21 bits of each coordinate, interleaved.
 fn code(bounds: &Aabb, of: &Aabb) -> u64 {
     let spread = |x: u64| {
         let x = (x | x << 32) & 0x001F_0000_0000_FFFF;
@@ -180,7 +180,7 @@ fn code(bounds: &Aabb, of: &Aabb) -> u64 {
         (x | x << 2) & 0x1249_2492_4924_9249
     };
     let side = (0..3).map(|k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).max().unwrap_or(0);
-    // Sums of two coordinates: twice as far.
+    // Middles are sums of two coordinates, so the range is twice as large.
     let down = (65 - (side as u64).leading_zeros()).saturating_sub(21);
     (0..3).fold(0, |out, k| {
         let twice = i64::from(of.low[k]) + i64::from(of.high[k]) - 2 * i64::from(bounds.low[k]);
@@ -188,7 +188,7 @@ fn code(bounds: &Aabb, of: &Aabb) -> u64 {
     })
 }
 
-/// Halves where the highest bit that differs changes; or equal ones, where none does.
+/// Builds the nodes: items are divided where their highest differing bit changes, or in the middle if none differs.
 fn built(order: &[(u64, u32)], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync)) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(items.len() / 3 + 1);
     build(order, items, first, kind, &mut nodes);

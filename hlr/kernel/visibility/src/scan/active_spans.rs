@@ -1,9 +1,9 @@
 //! Counts how many polygons lie in front of each end point of a drawn edge: the seeds of the counts along the edges.
 //!
-//! Within one band the asked points are sorted by x, and each polygon looks at those from its left to its right end in
-//! this band; depth is compared only where it covers the point. A point is asked once, however many edges end there:
-//! what is strictly decided holds for all of them, and only the ties (the faces around the vertex itself, mostly) are
-//! decided per edge, by the direction in which it leaves.
+//! Within one band the query points are sorted by x, and each polygon is compared with those between its left and right
+//! end in this band; depth is compared only where it covers the point. A point is queried once, however many edges end
+//! there: strict answers hold for all of them. Only ties (mostly the faces around the vertex itself) are decided per
+//! edge, by the direction in which it leaves.
 //!
 //! ```text
 //!   band ________________________________________________
@@ -12,7 +12,7 @@
 //!   _________________________________.____________________
 //! ```
 //!
-//! Of a fine mesh few corners are asked for: a coarse grid tells at once where there is none behind a polygon.
+//! Only few corners of a fine mesh are query points: a coarse grid tells at once where none lies behind a polygon.
 
 use rayon::prelude::*;
 
@@ -23,7 +23,8 @@ use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::Cover;
 
-/// Polygons in front of a drawn edge's end: as it lies, and moved toward the viewer by the contact tolerance.
+/// Numbers of polygons in front of a drawn edge's end: at its place, and moved toward the viewer by the contact
+/// tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
     pub plain: i32,
@@ -45,7 +46,7 @@ struct Found {
 }
 
 impl Seeds {
-    /// Ask for every end of the given edges.
+    /// Counts for every end of the given edges.
     pub fn new<A: Arithmetic>(
         mesh: &Mesh,
         table: &PolygonTable,
@@ -106,7 +107,7 @@ impl Seeds {
         let (h, o) = (&mesh.points[here as usize], &mesh.points[there as usize]);
         for &t in &self.ties[self.tie_offsets[s] as usize..self.tie_offsets[s + 1] as usize] {
             let t = t as usize;
-            // The edge is one of its sides: at no place behind it, and the less so if moved toward the viewer.
+            // The edge is a side of this polygon: nowhere behind it, even less if moved toward the viewer.
             if mesh.triangles[t].contains(&here) && mesh.triangles[t].contains(&there) {
                 continue;
             }
@@ -186,7 +187,7 @@ fn sweep_band<A: Arithmetic>(
     found
 }
 
-/// x extent of the piece of a triangle between y0 and y1, never too small.
+/// x range of the part of a triangle between y0 and y1; conservative, never too small.
 fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
     let (mut left, mut right) = (i32::MAX, i32::MIN);
     for (a, b) in [(p, q), (q, r), (r, p)] {
@@ -200,7 +201,7 @@ fn within([p, q, r]: [&Point; 3], y0: i64, y1: i64) -> (i32, i32) {
     (left, right)
 }
 
-/// An asked point in its band.
+/// A query point in its band.
 struct Stop {
     at: Point,
     slot: u32,
@@ -213,7 +214,7 @@ impl Stop {
     }
 }
 
-/// Where points are asked for: per cell of the image the depth of the farthest.
+/// A coarse grid of query points: per cell of the image the depth of the farthest.
 struct Places {
     low: [i64; 2],
     shift: u32,
@@ -222,7 +223,7 @@ struct Places {
     farthest: Vec<i32>,
 }
 
-/// Cells a polygon covers beyond which they are not looked at: it is large, and something will lie there.
+/// A polygon that covers more cells than this is not tested: it is large, and probably covers a query point.
 const MANY_CELLS: usize = 16;
 
 impl Places {
@@ -239,7 +240,7 @@ impl Places {
             return Places { low: [0; 2], shift: 0, columns: 0, rows: 0, farthest: Vec::new() };
         }
         let size = [0, 1].map(|k| high[k] - low[k] + 1);
-        // Four cells a point, and a few million in all.
+        // Four cells per point, and at most a few million in all.
         let wanted = (4.0 * count as f64).sqrt().clamp(1.0, 2048.0);
         let mut shift = 0;
         while (size[0].max(size[1]) >> shift) as f64 >= wanted {
@@ -255,7 +256,7 @@ impl Places {
         Places { low, shift, columns, rows, farthest }
     }
 
-    /// Whether a point may lie behind the triangle's nearest corner, in its box: no only where it is certain.
+    /// Whether a query point in the triangle's box may lie behind its nearest corner. False only where that is certain.
     #[inline]
     fn any_behind(&self, (p, q, r): (&Point, &Point, &Point)) -> bool {
         let cells = |k: usize, count: usize| {

@@ -6,7 +6,7 @@
 
 use hlr_exact::Point;
 
-/// A band count beyond this buys nothing.
+/// Most bands; more would gain nothing.
 const MOST_BANDS: usize = 4096;
 
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,8 @@ pub struct Bands {
 }
 
 impl Bands {
-    /// Bands low enough that few items meet in one, high enough that an item falls into about `spread` of them.
+    /// Chooses a band height: low enough that few items share a band, high enough that an item is in about `spread`
+    /// bands.
     pub fn choose(ranges: &[(i32, i32)], spread: f64) -> Bands {
         let Some(y0) = ranges.iter().map(|r| i64::from(r.0)).min() else {
             return Bands { y0: 0, shift: 31, count: 1 };
@@ -72,7 +73,7 @@ impl Bands {
     }
 }
 
-/// x extent of the part of a -> b between y0 and y1, never too small.
+/// x range of the part of a -> b between y0 and y1; conservative, never too small.
 #[inline]
 pub fn clipped_x(a: &Point, b: &Point, y0: i64, y1: i64) -> (i32, i32) {
     let (low, high) = if a[1] <= b[1] { (a, b) } else { (b, a) };

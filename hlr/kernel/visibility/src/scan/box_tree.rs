@@ -28,7 +28,7 @@ impl Aabb {
         (0..3).all(|k| self.low[k] <= other.high[k] && other.low[k] <= self.high[k])
     }
 
-    /// Overlaps in more than the border; a box without thickness may lie inside another.
+    /// Whether the boxes overlap in more than their borders. A box without thickness may lie inside another.
     pub fn enters(&self, other: &Aabb) -> bool {
         (0..3).all(|k| self.low[k] < other.high[k] && other.low[k] < self.high[k])
     }
@@ -42,7 +42,7 @@ impl Aabb {
         out
     }
 
-    /// Grown toward the viewer.
+    /// The box extended toward the viewer by `depth`.
     pub fn toward_viewer(mut self, depth: i64) -> Aabb {
         self.low[2] = (i64::from(self.low[2]) - depth).max(i64::from(i32::MIN)) as i32;
         self
@@ -74,7 +74,7 @@ impl BoxTree {
         BoxTree { nodes, items }
     }
 
-    /// Call `visit` for every item whose box overlaps `query`.
+    /// Calls `visit` for every item whose box overlaps `query`.
     pub fn query(&self, query: &Aabb, mut visit: impl FnMut(u32)) {
         if self.nodes.is_empty() {
             return;

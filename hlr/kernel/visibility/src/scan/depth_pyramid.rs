@@ -1,14 +1,14 @@
 //! Finds edges that are certainly hidden before any exact test: N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer
 //! visibility", SIGGRAPH 1993, made conservative and limited to whole cells.
 //!
-//! 1. The image is laid out in square cells. A group covers a cell wholly where it covers its middle, and none of its
-//!    contours enters the cell: how many polygons cover a place changes at contours only. So no polygon is looked at;
-//!    along a row, the contours that cross the line through its middles tell what is covered, like a scan line does.
+//! 1. The image is divided into square cells. A group covers a cell wholly if it covers its middle and none of its
+//!    contours enters the cell: the number of polygons that cover a place changes only at contours. So no polygon is
+//!    examined: along a row, the contours that cross the line through the cells' middles tell what is covered.
 //! 2. A cell keeps the depth of the nearest group that covers it wholly: behind the group's farthest polygon, all is
 //!    hidden.
 //! 3. Each level of the pyramid keeps the farther depth of two by two cells below.
-//! 4. A drawn edge that lies behind all cells that it touches by more than any contact tolerance is hidden, from end to
-//!    end: the exact pass would say the same, and need not be asked.
+//! 4. A drawn edge that lies behind all cells that it touches by more than any contact tolerance is hidden from end to
+//!    end: the exact pass would give the same result, and is skipped.
 //!
 //! ```text
 //!    . . . . . .       # wholly covered    + entered by a contour       the edge - - lies in # only, and behind:
@@ -18,8 +18,8 @@
 //!    . + + + + .
 //! ```
 //!
-//! It departs from the paper in that it holds groups instead of polygons, which are smaller than a cell mostly, and
-//! that it discards edges, not the contours and polygons that the others are compared with: those must stay complete.
+//! It departs from the paper in two ways. It stores groups instead of polygons, most of which are smaller than a cell.
+//! It discards only drawn edges: the contours and polygons that other edges are compared with must stay complete.
 
 use std::sync::atomic::{AtomicI32, Ordering};
 
@@ -31,7 +31,8 @@ use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use hlr_exact::Point;
 
-/// Width in cells of a group of median size: fewer cells are hardly ever covered wholly, more cost more than they save.
+/// Width in cells of a group of median size. With fewer, groups rarely cover a cell wholly; more cost more than they
+/// save.
 const CELLS_A_GROUP: f64 = 8.0;
 const LEAST_CELLS: f64 = 64.0;
 const MOST_CELLS: f64 = 2048.0;
@@ -40,10 +41,10 @@ pub struct DepthPyramid {
     x0: i64,
     y0: i64,
     shift: u32,
-    /// Cells a row, and rows, per level; level 0 is the finest.
+    /// Per level: cells per row, and rows. Level 0 is the finest.
     sizes: Vec<[usize; 2]>,
     levels: Vec<Vec<i32>>,
-    /// Added to a group's depth: no contact reaches beyond.
+    /// Added to a group's depth; larger than any contact tolerance.
     margin: i64,
     /// Parts that cover at least one cell wholly.
     pub groups: usize,
@@ -91,7 +92,7 @@ impl DepthPyramid {
         out
     }
 
-    /// 1. and 2.: the finest level, and how many groups cover something.
+    /// Steps 1 and 2: the depths of the finest level, and how many groups cover at least one cell.
     fn nearest(&self, mesh: &Mesh, table: &PolygonTable, contours: &[Contour]) -> (Vec<i32>, usize) {
         let farthest = farthest(mesh, table);
         let mut first = vec![0u32; mesh.groups.len() + 1];
@@ -125,10 +126,11 @@ impl DepthPyramid {
         (cells.into_iter().map(AtomicI32::into_inner).collect(), groups)
     }
 
-    /// Call `visit` for every cell that the polygons within these contours, all of one group, cover wholly.
+    /// Calls `visit` for every cell that the polygons within these contours, all of one group, cover wholly.
     fn covered(&self, mesh: &Mesh, contours: &[Contour], mut visit: impl FnMut(usize)) {
         let Some(window) = self.window(mesh, contours) else { return };
-        // Per cell: the change of the count where the row's middle passes into it, and whether a contour enters it.
+        // Per cell: the change of the count where the middle line of the row enters it, and whether a contour enters
+        // it.
         let mut change = vec![0i32; window.columns * window.rows];
         let mut entered = vec![false; window.columns * window.rows];
         for c in contours {
@@ -140,7 +142,7 @@ impl DepthPyramid {
                 entered[line + from - window.column..=line + to - window.column].fill(true);
                 let middle = self.y0 + ((row as i64) << self.shift) + (1i64 << (self.shift - 1));
                 if i64::from(lower) <= middle && middle < i64::from(upper) {
-                    // Passing it from left to right: to its left on the way up is what was covered so far.
+                    // The change from left to right: what lies left of the upward contour was covered so far.
                     let jump = if a[1] < b[1] { -c.jump } else { c.jump };
                     change[line + from - window.column] += jump;
                 }
@@ -172,11 +174,11 @@ impl DepthPyramid {
         }
         let (column, row) = (self.column(low[0]), self.row(low[1]));
         let out = Window { column, row, columns: self.column(high[0]) - column + 1, rows: self.row(high[1]) - row + 1 };
-        // Less than three a side: the contours enter all of them.
+        // With fewer than three cells per side, contours enter all of them.
         (out.columns > 2 && out.rows > 2).then_some(out)
     }
 
-    /// 3.: up to a level of one cell.
+    /// Step 3: builds the coarser levels, up to one cell.
     fn raise(&mut self) {
         while let (Some(&[columns, rows]), Some(below)) = (self.sizes.last(), self.levels.last()) {
             if columns * rows <= 1 {
@@ -193,7 +195,7 @@ impl DepthPyramid {
         }
     }
 
-    /// 4.: true only where it is certain.
+    /// Step 4: whether the edge a -> b is hidden from end to end. True only where that is certain.
     pub fn hides(&self, a: &Point, b: &Point) -> bool {
         let depth = i64::from(a[2].min(b[2])) - self.margin;
         let behind = |cell: i32| cell != i32::MAX && depth > i64::from(cell);
@@ -235,7 +237,7 @@ impl DepthPyramid {
     }
 }
 
-/// Per group the depth of its farthest counted polygon.
+/// Per group, the depth of its farthest counted polygon.
 fn farthest(mesh: &Mesh, table: &PolygonTable) -> Vec<i32> {
     let mut out = vec![i32::MIN; mesh.groups.len()];
     for (t, &group) in mesh.triangle_group.iter().enumerate() {

@@ -17,7 +17,7 @@ pub struct EdgeTable {
     pub contours: Vec<Contour>,
     /// Edges whose visibility has to be found.
     pub drawn: Vec<u32>,
-    /// Edges of closed groups with nothing but faces turned away: hidden by their own group, without any search.
+    /// Edges of closed groups at which all faces are turned away: hidden by their own group, without any search.
     pub hidden: Vec<u32>,
     /// Drawn edges seen end-on: points in the image.
     pub projecting: usize,
@@ -72,8 +72,9 @@ fn jump(mesh: &Mesh, table: &PolygonTable, edge: usize) -> i32 {
     sum
 }
 
-/// Between a triangle that is all but edge-on and one that is not, both turned the same way. Such a strip is nothing on
-/// paper, but what is left and right of it may be far apart: its borders are outlines, as they were if it were edge-on.
+/// Whether an edge lies between a triangle that is almost edge-on and one that is not, both turned the same way. A
+/// strip of such triangles has no width on paper, but the surfaces on its two sides may be far apart in depth. So its
+/// borders are outlines, as they would be if it were exactly edge-on.
 fn beside_edge_on(mesh: &Mesh, table: &PolygonTable, edge: usize) -> bool {
     let &[s, t] = mesh.incident(edge) else {
         return false;

@@ -1,7 +1,7 @@
 //! The slow, certain test: one drawn edge against every polygon separately, without assuming how polygons join.
 //!
-//! Used only where the count of the fast way failed its check. Each polygon is its own closed story (covered and in
-//! front at the start, three borders, one plane), so the sum over all polygons cannot be inconsistent.
+//! Used only where the count of the fast way failed its check. Each polygon is counted by itself (whether it covers the
+//! start, then crossings with its three borders and its plane), so the sum over all polygons cannot be inconsistent.
 
 use std::sync::OnceLock;
 
@@ -45,8 +45,8 @@ impl<'a> ExactQuery<'a> {
         self.decide_by::<A>(self.mesh.edge_group[edge], Aabb::of(&[a, b]), |_| Some((a, b)), out)
     }
 
-    /// The same where a segment is elsewhere for some polygons, or not compared with them at all: `ends` tells where
-    /// for each; reach: around all these places.
+    /// The same, where the edge has another position for some polygons, or is not compared with them at all. `ends`:
+    /// its position for each polygon. `reach`: a box around all these positions.
     pub fn decide_by<'p, A: Arithmetic>(
         &self,
         group: i32,

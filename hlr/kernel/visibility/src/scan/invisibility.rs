@@ -20,9 +20,9 @@ pub struct Event<P> {
 pub enum State {
     Visible = 0,
     Hidden = 1,
-    /// Hidden by less than the contact tolerance: in contact with what is in front.
+    /// Hidden by less than the contact tolerance: in contact with the surface in front.
     Within = 2,
-    /// The same, on the way to where it is hidden by more: not a contact but a stub that the tolerance leaves.
+    /// As `Within`, but next to a place where it is hidden by more: not a contact but a stub left by the tolerance.
     ///
     /// ```text
     ///        in front \  stub   \ hidden           a contact that ends behind something else is no stub:
@@ -54,8 +54,8 @@ fn state(count: Count) -> State {
     }
 }
 
-/// Walk the events (any order; sorted here). False where a count went negative or missed its independent end count;
-/// `out` then holds nothing.
+/// Counts along the edge over its events (any order; sorted here). False if a count became negative or differs from the
+/// independent count at the end; `out` is then empty.
 pub fn walk<P: Place>(start: Count, events: &mut [Event<P>], end: Count, out: &mut Vec<Segment>) -> bool {
     out.clear();
     events.sort_unstable_by(|a, b| a.at.compare(&b.at));
@@ -70,7 +70,8 @@ pub fn walk<P: Place>(start: Count, events: &mut [Event<P>], end: Count, out: &m
         while k < events.len() && events[k].at.compare(&at) == Ordering::Equal {
             next.plain += events[k].plain;
             next.moved += events[k].moved;
-            // Only where a surface's depth is reached, moved by the tolerance, does one count change alone.
+            // One of the two counts changes alone only where the edge, moved by the tolerance, passes through a
+            // surface.
             by_depth |= events[k].plain == 0;
             k += 1;
         }

@@ -17,10 +17,10 @@ pub struct SnappedGroup {
     pub sound: bool,
     /// Contact tolerance in depth units of the grid.
     pub delta: i64,
-    /// The most that anything may be moved before it is compared with this group: less than its thickness, or what
-    /// lies behind it would show through.
+    /// The most that an edge may be moved before it is compared with this group, in depth units of the grid. It is less
+    /// than the group's thickness, or edges behind it would show through.
     pub cap: i64,
-    /// Lines that lie exactly on other groups' polygons, by construction: only their own tolerance counts.
+    /// The group's lines lie exactly on other groups' polygons by construction: only its own tolerance counts.
     pub tight: bool,
 }
 

@@ -11,7 +11,7 @@
 //! 6. `piercing`       where drawn edges pierce polygons of other groups, or of groups that pass through themselves
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
-//! 9. `own_faces`      the same for edges whose own faces are seen nearly edge-on: hidden only if these turn over
+//! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
 //! alone decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).

@@ -1,20 +1,21 @@
 //! Visibility of edges against the faces they bound, where these are seen nearly edge-on.
 //!
-//! The edge's chords lie on the true face, its triangles beside it by their deflection. Seen openly that matters
-//! little; seen edge-on a triangle that is off by a hair comes in front of the edge over a length that has no limit. So
-//! there the edge is compared with the triangles of its own face as if it lay off the face by more than they do, on the
-//! side that is seen: they hide it only if the face really turns in front of it. Where the face turns over on the way,
-//! at the end of its outline, the side changes: beyond that the edge lies behind the face, however its triangles go.
+//! The edge lies on the true face, but the face's triangles are off it by up to the deflection. Where the face is seen
+//! at a large angle, that matters little. Where it is seen edge-on, a slightly displaced triangle can cover the edge
+//! over an unlimited length. So there the edge is compared with the triangles of its own face as if it were moved off
+//! the face, to the visible side, by more than their deflection: they hide it only if the face really turns in front of
+//! it. Where the face turns over along the edge, at the end of its outline, the side changes: beyond that place the
+//! edge lies behind the face, wherever its triangles are.
 //!
 //! ```text
 //!      sight  ----------------->     the face F, its triangles /\ and its border o, looked at along F
 //!              _.-o-._
-//!          F .` /   \ `.            o: behind a triangle by rounding and chance
-//!           o--/-----\--.           x: off the face on the side that is seen: before all of them
+//!          F .` /   \ `.            o: behind a triangle only through its deflection
+//!           o--/-----\--.           x: moved off the face to the visible side: in front of all of them
 //! ```
 //!
-//! Everything else is compared with the edge as it lies. Each polygon is counted by itself (`exact_query`), so the sum
-//! cannot contradict itself.
+//! All other polygons are compared with the edge in its true place. Each polygon is counted by itself (`exact_query`),
+//! so the sum cannot contradict itself.
 
 use rayon::prelude::*;
 
@@ -26,42 +27,42 @@ use super::polygon_table::PolygonTable;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 
-/// What the faces at an edge of a closed body do to it themselves, right where it is: seen is a convex edge of which
-/// any face is turned toward the viewer, and a concave one of which all are.
+/// Whether the faces at an edge of a closed body hide it themselves. A convex edge is visible if any of its faces is
+/// turned toward the viewer, a concave one if all are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Beside {
-    /// A face is a wall along the sight, or there are not two.
+    /// A face is parallel to the line of sight, or there are not exactly two faces.
     Unknown = 0,
     Visible = 1,
     Hidden = 2,
 }
 
-/// Edges, or stretches of them, whose own faces are seen nearly edge-on; edges ascend, and the stretches of one make it
-/// up.
+/// Edges whose own faces are seen nearly edge-on, divided into stretches. Edges ascend; the stretches of an edge cover
+/// all of it.
 pub struct OwnFaces<'a> {
     /// Per stretch: the edge, and its parameters there.
     pub edge: &'a [i32],
     pub range: &'a [[f64; 2]],
-    /// The edge that is the stretch as it lies: the very same, or one without triangles.
+    /// The edge that represents the stretch in its true place: the same edge, or one without triangles.
     pub line: &'a [i32],
-    /// What its faces do to the stretch themselves, where they are those of a closed body: a `Beside`.
+    /// Whether its own faces hide the stretch, if they belong to a closed body: a `Beside`.
     pub beside: &'a [u8],
-    /// Whether its own triangles fold over there, so that even those seen openly may be off in front of it.
+    /// Whether its own triangles fold over there, so that even those seen at a large angle may lie in front of it.
     pub dented: &'a [bool],
-    /// Of the faces of stretch s, offsets[s]..offsets[s + 1]: the number, and the edge without triangles that is the
-    /// stretch off that face.
+    /// The faces of stretch s are offsets[s]..offsets[s + 1] of `face` and `off`: the number of the face, and an edge
+    /// without triangles that is the stretch moved off that face.
     pub offsets: &'a [i32],
     pub face: &'a [i32],
     pub off: &'a [i32],
     pub triangle_face: &'a [i32],
-    /// Faces that go on smoothly into one another have one number.
+    /// Per face a number that it shares with the faces that continue it smoothly.
     pub sheet: &'a [i32],
     /// Depth units of the grid per unit in the image.
     pub depth_scale: f64,
 }
 
-/// The same, with columns of its own.
+/// `OwnFaces` that owns its arrays.
 #[derive(Clone, Debug, Default)]
 pub struct Owned {
     pub edge: Vec<i32>,
@@ -94,8 +95,8 @@ impl Owned {
     }
 }
 
-/// |N . v|: triangles seen at more are compared with the edge as it lies. They do not come in front of it by being off;
-/// where they do, far from the edge, they are what hides it.
+/// |N . v|: triangles seen at more are compared with the edge in its true place. Their deflection does not bring them
+/// in front of it; if they lie in front of it elsewhere, they really hide it.
 const EDGE_ON: f64 = 0.5;
 
 const VISIBLE: u8 = Beside::Visible as u8;
@@ -121,8 +122,8 @@ impl OwnFaces<'_> {
         depth_scale: 1.0,
     };
 
-    /// The pieces (ascending by edge), those of these edges as their own faces leave them; and of how many edges they
-    /// are others now.
+    /// The pieces (ascending by edge), with those of these edges corrected for their own faces, and the number of edges
+    /// whose pieces changed.
     pub fn applied<A: Arithmetic>(
         &self,
         mesh: &Mesh,
@@ -144,7 +145,7 @@ impl OwnFaces<'_> {
                 }
                 let mut segments = self.decided::<A>(mesh, table, exact, run)?;
                 if mesh.incident(edge as usize).is_empty() {
-                    // An outline, moved off its face for all polygons alike: what is seen of it so is seen.
+                    // An outline is moved off its face for all polygons alike; what is visible of it then is visible.
                     let lifted: Vec<Segment> = pieces[first..last].iter().map(|p| p.segment).collect();
                     segments = merged(&segments, &lifted, State::less_hidden);
                 }
@@ -166,7 +167,7 @@ impl OwnFaces<'_> {
         (out, found.len() as u64)
     }
 
-    /// None where the triangles of its own faces do to an edge what the faces do.
+    /// The corrected pieces of an edge; None where the triangles of its own faces hide it exactly where the faces do.
     fn decided<A: Arithmetic>(
         &self,
         mesh: &Mesh,
@@ -253,7 +254,7 @@ impl OwnFaces<'_> {
         };
         let ends = |t: usize| match (asked, off(t)) {
             (Asked::All | Asked::AllWhole | Asked::Own, Some(ends)) => Some(ends),
-            // The end of a stretch is rounded: it need not lie on the triangles at its edge, which hide none of it.
+            // The end of a stretch is rounded and may lie off the triangles at its edge; these hide none of it.
             (Asked::OwnAsTheyLie, Some(_)) | (Asked::All | Asked::AllWhole, None) => {
                 (!around.contains(&(t as i32))).then_some(plain)
             }
@@ -291,7 +292,7 @@ impl State {
     }
 }
 
-/// Of two answers, at each place the one that is picked.
+/// Merges two results: at each place `pick` chooses the state.
 fn merged(one: &[Segment], two: &[Segment], pick: fn(State, State) -> State) -> Vec<Segment> {
     let mut out: Vec<Segment> = Vec::with_capacity(one.len().max(two.len()));
     let (mut i, mut j, mut start) = (0, 0, 0.0);
@@ -312,15 +313,15 @@ fn merged(one: &[Segment], two: &[Segment], pick: fn(State, State) -> State) -> 
 
 #[derive(Clone, Copy)]
 enum Asked {
-    /// All polygons, own ones that are seen edge-on from off their faces.
+    /// All polygons. Own ones seen edge-on are compared with the edge moved off their faces.
     All,
-    /// All polygons, all own ones from off their faces. Behind a face that turns in front of it, an edge comes from
-    /// under polygons that are seen openly under others that are not: one of the two answers has a gap there, the other
-    /// has none.
+    /// All polygons. All own ones are compared with the edge moved off their faces. Behind its own face, an edge may
+    /// pass from polygons seen at a large angle to polygons seen edge-on: `All` or `AllWhole` may have a gap there, the
+    /// other has none.
     AllWhole,
-    /// Own polygons alone, from off their faces.
+    /// Own polygons only, compared with the edge moved off their faces.
     Own,
-    /// Own polygons alone, from the stretch as it lies.
+    /// Own polygons only, compared with the stretch in its true place.
     OwnAsTheyLie,
 }
 

@@ -22,13 +22,13 @@ use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::{Cover, shifted_side};
 
-/// Other groups around one, beyond which their boxes are not told apart.
+/// With more other groups than this around one, their boxes are not tested separately.
 const MANY_AROUND: usize = 32;
 
 pub struct Piercings<P> {
     pub events: Vec<Vec<Event<P>>>,
     pub tests: u64,
-    /// Parts for which a search was needed at all.
+    /// Number of groups for which a search was needed.
     pub groups: usize,
 }
 
@@ -89,7 +89,7 @@ pub fn piercings<A: Arithmetic>(
     Piercings { events: found.into_iter().map(|f| f.0).collect(), tests, groups: searched }
 }
 
-/// Report where a -> b passes through the polygon: as it lies, and moved toward the viewer by `delta`.
+/// Reports where a -> b passes through the polygon: in its true place, and moved toward the viewer by `delta`.
 pub fn pierce<A: Arithmetic>(
     a: &Point,
     b: &Point,
@@ -152,11 +152,11 @@ fn through<A: Arithmetic>(
     Some((A::piercing(ga, ga - gb), if gb > zero { 1 } else { -1 }))
 }
 
-/// Polygons that edges of other groups may reach, with their boxes; all of groups that are not sound.
+/// Polygons that edges of other groups may reach, with their boxes; and all polygons of groups that are not sound.
 fn reached(mesh: &Mesh, table: &PolygonTable, boxes: &[Aabb], sought: &[bool], largest: i64) -> Vec<(Aabb, u32)> {
     let live = || (0..boxes.len()).filter(|&p| sought[p]);
     let tree = BoxTree::new(live().map(|p| (boxes[p].toward_viewer(largest), p as u32)).collect());
-    // None: with so many groups around it all are taken.
+    // None: so many groups lie around it that all its polygons are taken.
     let mut near: Vec<Option<Vec<Aabb>>> = vec![None; boxes.len()];
     for p in live().filter(|&p| mesh.groups[p].sound) {
         let mut around = Vec::new();
@@ -193,7 +193,7 @@ fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
         }
         boxes
     };
-    // A table for each thread, where there are few groups.
+    // One table per thread, if there are few groups.
     let count = mesh.triangles.len();
     let threads = if mesh.groups.len() < count / 64 { rayon::current_num_threads() } else { 1 };
     let chunk = count.div_ceil(threads).max(1);
@@ -213,7 +213,7 @@ fn part_boxes(mesh: &Mesh) -> Vec<Aabb> {
     boxes
 }
 
-/// Parts whose box, grown by the contact tolerance, meets another's, and groups that are not sound.
+/// Groups whose box, extended by the contact tolerance, meets another's, and groups that are not sound.
 fn sought_groups(mesh: &Mesh, boxes: &[Aabb]) -> Vec<bool> {
     let live: Vec<usize> = (0..boxes.len()).filter(|&p| boxes[p] != Aabb::EMPTY).collect();
     let largest = live.iter().map(|&p| mesh.groups[p].delta).max().unwrap_or(0);

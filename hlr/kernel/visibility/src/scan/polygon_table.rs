@@ -7,17 +7,17 @@ use hlr_exact::Point;
 use hlr_exact::arithmetic::{Arithmetic, Ring};
 use hlr_exact::predicates::orient2d;
 
-/// Radians to the line of sight up to which a triangle is seen edge-on but for what its file has rounded.
+/// Angle to the line of sight, in radians, up to which a triangle counts as edge-on: its file rounds its corners.
 const ALMOST: f64 = 2e-5;
 
-/// Height in the image over the wider side of the longest side's box, in units of the grid, up to which rounding the
-/// corners may have turned a triangle over.
+/// Twice a triangle's area in the image over its larger extent (in x or y), in grid units: roughly its height. Up to
+/// this, rounding the corners may have turned the triangle over.
 const NEEDLE: i128 = 2;
 
 pub struct PolygonTable {
     /// +1 toward the viewer, -1 away, 0 edge-on.
     pub facing: Vec<i8>,
-    /// Seen edge-on but for what its file has rounded, though `facing` says toward or away.
+    /// Edge-on except for rounding in its file, although `facing` is not 0.
     pub almost: Vec<bool>,
     pub culled: usize,
 }
@@ -58,7 +58,8 @@ impl PolygonTable {
     }
 }
 
-/// Hardly higher than the grid is fine, as between corners that lie in one line: rounding turns it any way.
+/// Whether a triangle is hardly higher than a grid unit, as between corners in one line, so that rounding decides which
+/// way it faces.
 fn is_needle((p, q, r): (&Point, &Point, &Point)) -> bool {
     let way = |a: &Point, b: &Point| [0, 1].map(|k| i128::from(b[k]) - i128::from(a[k]));
     let sides = [way(p, q), way(q, r), way(r, p)];
@@ -88,8 +89,8 @@ mod tests {
         assert!(!is_needle((&[0, 0, 0], &[5, 0, 0], &[0, 5, 0])));
     }
 
-    /// Whether culling hides an edge between a triangle that is turned away and another one, whose third corner is so
-    /// far off the edge.
+    /// Whether culling hides an edge between a triangle that is turned away and one whose third corner is `off` grid
+    /// units from the edge.
     fn hidden_beside(off: i32) -> bool {
         let points: Vec<Point> = vec![[0, 0, 0], [1_000_000, 0, 0], [0, 1_000_000, 0], [500_000, -off, 0]];
         let mesh = Mesh {

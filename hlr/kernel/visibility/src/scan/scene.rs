@@ -33,7 +33,7 @@ pub struct Scene<'a> {
     pub groups: &'a [Group],
 }
 
-/// The numbers that the predicates are decided with. All but the exact ones may be wrong: for study alone.
+/// The arithmetic of the predicates. All but the exact one may give wrong results: for study only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Numbers {
     Exact,
@@ -49,7 +49,7 @@ pub enum Refusal {
 }
 
 impl<'a> Scene<'a> {
-    /// Rounded to the finest grid that leaves room for the tolerances; None where a coordinate is not finite.
+    /// The scene rounded to the finest grid that leaves room for the tolerances; None if a coordinate is not finite.
     pub fn snapped(&self) -> Option<(Mesh<'a>, Grid)> {
         let room = self.groups.iter().map(|group| group.delta).fold(0.0, f64::max);
         let grid = Grid::around(self.points)?.with_room(room);
@@ -75,7 +75,7 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Which pieces of the drawn edges are seen.
+/// Finds which pieces of the drawn edges are visible.
 pub fn solve(
     scene: &Scene,
     own: OwnFaces,

@@ -1,11 +1,10 @@
 //! Tells whether the counted polygons form a single layer in the image. Then none of them hides another, and back-face
 //! culling alone decides every edge.
 //!
-//! How many of them cover a place is the winding number of their contours around it (every polygon contributes its own
-//! border, turned one way; what two share cancels). Where the contours make up one convex polygon, run through once,
-//! that is 1 within and 0 without. So it is for any convex body, seen from anywhere; and because the question is asked
-//! of the snapped points, the answer holds for what the pass would find, not for what the body was before it was
-//! rounded.
+//! The number of them that cover a place is the winding number of their contours around it (every polygon contributes
+//! its own border, turned one way; sides that two share cancel). If the contours form one convex polygon, traversed
+//! once, that number is 1 inside and 0 outside. This is so for any convex body from any direction. The test uses the
+//! snapped points, so it holds for the rounded body that the pass works on.
 //!
 //! ```text
 //!        ______            every turn to the left or none,
@@ -21,13 +20,13 @@ use super::mesh::Mesh;
 
 type Place = [i32; 2];
 
-/// True only where it is certain. Contours are those of the counted polygons, none of them seen end-on.
+/// True only where it is certain. `contours`: those of the counted polygons, none of them seen end-on.
 pub fn is_single_layer(mesh: &Mesh, contours: &[Contour]) -> bool {
     let mut next: HashMap<Place, Place> = HashMap::with_capacity(contours.len());
     for c in contours {
         let (a, b) = mesh.ends(c.edge as usize);
         let (a, b) = ([a[0], a[1]], [b[0], b[1]]);
-        // What is covered lies on the left.
+        // The covered side is the left one.
         let (from, to) = match c.jump {
             1 => (a, b),
             -1 => (b, a),
@@ -70,7 +69,7 @@ mod tests {
     use super::super::mesh::{Mesh, SnappedGroup};
     use super::*;
 
-    /// Whether a ring of places in the image, in this order, is one sheet.
+    /// Whether the ring of these image points, in this order, is a single layer.
     fn ring(places: &[[i32; 2]]) -> bool {
         let n = places.len() as i32;
         let edges: Vec<[i32; 2]> = (0..n).map(|i| [i, (i + 1) % n]).collect();

@@ -38,11 +38,11 @@ pub struct Counters {
     pub by_culling_alone: u64,
     pub pyramid_parts: u64,
     pub hidden_by_pyramid: u64,
-    /// Edges that triangles of their own faces would hide or show otherwise than these faces do.
+    /// Edges that the triangles of their own faces would hide or show wrongly.
     pub freed_of_own_faces: u64,
 }
 
-/// Seconds of the steps.
+/// Time per step, in seconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seconds {
     pub tables: f64,
@@ -61,14 +61,14 @@ pub struct Outcome {
     pub seconds: Seconds,
 }
 
-/// Which steps this scene calls for. Whatever is chosen within the conditions, the pieces are the same.
+/// The steps to run. Any choice that meets the conditions below gives the same pieces.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps {
-    /// Seeds and crossings; may be left out for a scene of one convex body. Where that turns out to overlap itself in
-    /// the image, nothing is left out.
+    /// Seeds and crossings. They may be left out for a scene of one convex body; if that turns out to overlap itself in
+    /// the image, they are run all the same.
     pub crossings: bool,
-    /// May be left out where no edge comes within the contact tolerance of a polygon of another group, and all are
-    /// sound.
+    /// Piercings. They may be left out if no edge comes within the contact tolerance of a polygon of another group, and
+    /// all groups are sound.
     pub piercings: bool,
     pub pyramid: bool,
 }
@@ -78,7 +78,8 @@ impl Steps {
     pub const ALL: Steps = Steps { crossings: true, piercings: true, pyramid: false };
 }
 
-/// None if `stopped` said so. With other numbers than exact ones pieces may be wrong, and counts contradict each other.
+/// Runs the pass; None if `stopped` returned true. With inexact arithmetic, pieces may be wrong and counts contradict
+/// each other.
 pub fn visibility_by<A: Arithmetic>(
     mesh: &Mesh,
     steps: Steps,
@@ -110,7 +111,7 @@ pub fn visibility_by<A: Arithmetic>(
         seconds.own_faces = clock.lap();
         return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
     }
-    // What was taken for a convex body may pass through itself as well.
+    // A body wrongly taken for convex may also pass through itself.
     let piercing = steps.piercings || !steps.crossings;
     // 2. edges that surely lie behind something need no search
     if steps.pyramid {
@@ -150,10 +151,10 @@ pub fn visibility_by<A: Arithmetic>(
         piercings: pierced.events.iter().map(|e| e.len() as u64).sum(),
         ..counters
     };
-    // 6. with the edges that culling and the pyramid decided
+    // 6. add the edges that culling and the pyramid decided
     let mut pieces = gathered(walked, &edges.hidden, &mut counters);
     seconds.counting = clock.lap();
-    // 7. what own faces seen edge-on hide
+    // 7. correct edges whose own faces are seen edge-on
     (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
     seconds.own_faces = clock.lap();
     if stopped() {
@@ -169,7 +170,7 @@ impl Clock {
         Clock(Instant::now())
     }
 
-    /// Seconds since the last one.
+    /// Seconds since the last call.
     fn lap(&mut self) -> f64 {
         let now = Instant::now();
         let past = now.duration_since(self.0).as_secs_f64();
@@ -178,7 +179,7 @@ impl Clock {
     }
 }
 
-/// Move drawn edges that surely lie behind something to the hidden ones; returns how many.
+/// Moves drawn edges that certainly lie behind something to the hidden ones; returns how many.
 fn discard(mesh: &Mesh, pyramid: &DepthPyramid, edges: &mut EdgeTable) -> usize {
     let behind: Vec<bool> = edges
         .drawn
@@ -199,8 +200,8 @@ fn discard(mesh: &Mesh, pyramid: &DepthPyramid, edges: &mut EdgeTable) -> usize 
     gone.len()
 }
 
-/// Of polygons that lie side by side none hides another's edge. What belongs to none, or only to such as are turned
-/// away or seen edge-on, is asked for by itself.
+/// The pieces of a single layer, in which no polygon hides another's edge. Edges without polygons, or whose polygons
+/// are all turned away or edge-on, are tested one by one.
 fn alone<A: Arithmetic>(
     mesh: &Mesh,
     table: &PolygonTable,
