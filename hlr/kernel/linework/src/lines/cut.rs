@@ -123,7 +123,7 @@ pub fn ranked(lines: &[Polyline], traits: &[Trait], view: &View, space: f64) -> 
 
 impl Cut {
     /// Removes the lines of chains that are nowhere visible. Hidden lines of other chains stay: where they meet visible
-    /// ones, both ends are placed together.
+    /// ones of their chain, both ends are moved together.
     pub fn keep_sighted(&mut self, chains: usize) {
         let mut seen = vec![false; chains];
         self.lines.iter().filter(|line| line.visible).for_each(|line| seen[line.chain as usize] = true);

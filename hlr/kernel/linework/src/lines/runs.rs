@@ -43,7 +43,7 @@ impl Geometry<'_> {
     }
 }
 
-/// In mean edge lengths of the chain.
+/// Hidden runs of fewer mean edge lengths of the chain are noise.
 const NOISE_EDGES: f64 = 2.5;
 
 #[derive(Clone, Copy, Debug)]

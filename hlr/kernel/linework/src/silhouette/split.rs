@@ -6,7 +6,7 @@ use super::Model;
 use super::refine::Stretch;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, sub};
 
-/// Cosine of the turn (measured from straight back) within which the image counts as turning back.
+/// Cosine of the angle from straight back within which the image counts as turning back.
 const BACK: f64 = 0.7;
 /// Radians; a curve that closes after one turn stays whole.
 const TURN: f64 = std::f64::consts::TAU;

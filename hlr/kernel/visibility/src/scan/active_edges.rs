@@ -108,7 +108,7 @@ impl<A: Arithmetic> Sweep<'_, A> {
         (self.events, self.tests)
     }
 
-    /// Drop the actives that ended before `entering`, and meet the others.
+    /// Drops the active edges that ended before `entering`, and tests it against the others.
     #[inline(always)]
     fn meet(&mut self, entering: &Entry, active: &mut Vec<Entry>, mut test: impl FnMut(&mut Self, &Entry)) {
         let mut k = 0;
