@@ -22,7 +22,7 @@ from hlr.drawing.curve import Arc, Curve
 Index = npt.NDArray[np.int64]
 
 MOST_CHORDS = 20_000
-"""Of one curve."""
+"""Largest number of chords of one curve."""
 
 
 @dataclass(frozen=True, slots=True)

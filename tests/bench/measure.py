@@ -47,7 +47,7 @@ def _megabytes() -> float:
 
 
 def _fresh(shape: Any) -> Any:
-    """The shape without triangulation: whoever comes next has to tessellate."""
+    """The shape without triangulation, so that the next program has to tessellate."""
     forget_mesh(shape)
     return shape
 
@@ -70,7 +70,7 @@ def measure(scene: str, who: Sequence[str], repeat: int, budget: float = float("
         for turn in range(repeat):
             if turn and time.perf_counter() - start > budget:
                 break
-            # To and fro: neither is always the one that comes first.
+            # The order alternates, so that no program always comes first.
             for k in range(len(who)) if turn % 2 == 0 else reversed(range(len(who))):
                 seconds[k].append(runners[k]())
         peak = _megabytes()
@@ -80,13 +80,13 @@ def measure(scene: str, who: Sequence[str], repeat: int, budget: float = float("
                 names = ("path", "circle", "ellipse", "line", "polyline")
                 result |= {"bytes": len(text), "lines": sum(text.count(f"<{name} ".encode()) for name in names)}
             result |= {"seconds": statistics.median(taken), "all": taken}
-            if len(who) == 1:  # else nobody knows whose it is
+            if len(who) == 1:  # with several, the peak cannot be attributed
                 result |= {"peak_mb": peak, "grown_mb": peak - before}
     return results
 
 
 def _runner(shape: Any, deflection: float, who: str, out: Path, result: dict[str, Any]) -> Callable[[], float]:
-    """What is run again and again; what it needs is prepared here and not timed."""
+    """The function to be timed repeatedly; its input is prepared here and not timed."""
     if who == "memory":
         return lambda: 0.0
     if who in SVG:

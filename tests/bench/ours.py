@@ -15,8 +15,8 @@ DIRECTION = (1.0, -1.0, 1.0)
 class Kernel:
     """One isometric view of a triangulated shape, hidden lines on.
 
-    Timed is what OpenCASCADE's load, update and extraction are on the other side: from triangles and the names of the
-    edges to be drawn to visible and hidden pieces, with the edge table and the turn into view space.
+    The time covers the counterpart of OpenCASCADE's load, update and extraction: from triangles and the numbers of the
+    drawn edges to visible and hidden pieces, including the edge table and the rotation into view space.
     """
 
     def __init__(self, shape: Any, contact: float) -> None:
@@ -69,7 +69,7 @@ def _member(keys: np.ndarray, ascending: np.ndarray) -> np.ndarray:
 
 
 def draw(shape: Any, accuracy: float) -> tuple[float, dict[str, int]]:
-    """Seconds of the stage "visibility" of a whole drawing, which tessellates for itself; and its counters."""
+    """Seconds of the stage "visibility" of a whole drawing with its own tessellation; and its counters."""
     import hlr
     from hlr.request.options import Options
 

@@ -20,7 +20,7 @@ Result = dict[str, Any]
 
 
 def measured(scene: str, who: Sequence[str], given: Namespace, repeat: int) -> list[Result]:
-    """In turns, in one process. A failure is a result too: the table says so instead of lacking a row."""
+    """Measure programs in turns, in one process. A failure is a result too, and has its row in the table."""
     command = [
         sys.executable,
         "-m",
@@ -50,7 +50,7 @@ def _failed(scene: str, who: Sequence[str], failure: str) -> list[Result]:
 
 
 def together(scene: str, who: Sequence[str], given: Namespace, slow: bool = False) -> list[Result]:
-    """Times of all of them in turns; where one fails, of each by itself. Then of each the memory, by itself."""
+    """Times of all programs in turns, or one by one if any fails; then the memory of each in its own process."""
     repeat = 1 if slow else given.repeat
     results = measured(scene, who, given, repeat)
     if len(who) > 1 and any("failure" in result for result in results):
@@ -78,7 +78,7 @@ def ratio(peer: Result | None, own: Result) -> float | None:
 
 
 def times(value: float | None) -> str:
-    """A ratio; those that are lost stand out."""
+    """A ratio as text; ratios below one are marked."""
     if value is None:
         return "-"
     return f"{value:.1f} x" if value >= 1.0 else f"**{value:.2f} x**"

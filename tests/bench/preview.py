@@ -61,7 +61,7 @@ def clocks() -> np.ndarray:
 
 
 def peak_memory() -> int:
-    """Kilobytes. Not from getrusage where it can be helped: there a child begins with the peak of its parent."""
+    """Peak memory in kilobytes. Not from getrusage if possible: there a child starts with its parent's peak."""
     status = Path("/proc/self/status")
     if status.exists():
         return next(int(line.split()[1]) for line in status.read_text().splitlines() if line.startswith("VmHWM"))
@@ -69,7 +69,7 @@ def peak_memory() -> int:
 
 
 def direction(frame: int) -> tuple[float, float, float]:
-    """Isometric first, then around."""
+    """The view direction of a frame: isometric first, then turned around the model."""
     angle = math.radians(-45.0 + 3.0 * frame)
     return (math.cos(angle), math.sin(angle), math.sqrt(0.5))
 

@@ -60,7 +60,7 @@ def tables(given: argparse.Namespace) -> dict[str, Callable[[], Table]]:
 
 
 def machine() -> str:
-    """What it was measured on, and what else that did."""
+    """The machine of the measurements, and its other load."""
     load = ", ".join(f"{value:.1f}" for value in os.getloadavg()) if hasattr(os, "getloadavg") else "unknown"
     cores = os.cpu_count()
     return f"{platform.platform()}, {cores} cores, Python {platform.python_version()}; load average {load}"

@@ -64,7 +64,7 @@ class Child:
         )
 
     def answer(self, ask: str = "") -> Row:
-        """The next line as a record; one with "failure" where there is none."""
+        """The next line of the child as a record; a record with "failure" if the child wrote none."""
         process = self._process
         assert process.stdin is not None and process.stdout is not None and process.stderr is not None
         try:

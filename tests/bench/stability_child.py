@@ -1,4 +1,4 @@
-"""One model by one program, in a process of its own: other programs may crash or never end.
+"""Draws one model by one program, in a process of its own, because other programs may crash or never end.
 
 Writes a JSON object per line: first the drawing at rest, then one for every (amount, seed) it reads.
 """
@@ -41,7 +41,7 @@ def drawer(name: str, model: Model, path: Path) -> Drawer:
 
 
 class Measurement:
-    """One drawer's drawing at rest, and what becomes of it."""
+    """One program's drawing of the undisturbed model, and its changes when the model is disturbed."""
 
     def __init__(self, model: Model, draw: Drawer) -> None:
         self._model, self._draw = model, draw
@@ -60,7 +60,7 @@ class Measurement:
 
 
 def allow(seconds: int) -> None:
-    """End this process when it has computed for so long from now: time on a clock would depend on who else computes."""
+    """Limit this process to so many seconds of processor time from now; clock time would depend on other load."""
     hard = resource.getrlimit(resource.RLIMIT_CPU)[1]
     resource.setrlimit(resource.RLIMIT_CPU, (int(time.process_time()) + seconds + 1, hard))
 

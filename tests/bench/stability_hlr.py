@@ -32,7 +32,7 @@ def nodes(parts: Sequence[Floats], reach: float, seed: int) -> list[Floats]:
 
 
 def turn(reach: float, size: float, seed: int) -> Floats:
-    """(3, 3) rotation about a random axis that moves what lies half a size from the axis by `reach`."""
+    """(3, 3) rotation about a random axis that moves points at half the model's size from the axis by `reach`."""
     axis = np.random.default_rng(seed).normal(size=3)
     x, y, z = axis / np.linalg.norm(axis)
     k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -86,7 +86,7 @@ class Model:
         self.per_model = first.scale * first.unit
         self.accuracy = first.accuracy.used
         self.deflection = first.accuracy.deflection
-        # Meshed once more than needed: the mesh of a drawing that was fitted is not told.
+        # Mesh again: a drawing that was fitted to a sheet does not hold its mesh.
         self.meshed = self._mesh()
         every = np.concatenate(self.points)
         low, high = every.min(axis=0), every.max(axis=0)

@@ -1,4 +1,4 @@
-"""What two drawings do not have in common: millimetres of ink lost and gained, visible and hidden apart."""
+"""The difference of two drawings: millimetres of ink lost and gained, visible and hidden ones separate."""
 
 from __future__ import annotations
 

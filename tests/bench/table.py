@@ -24,6 +24,6 @@ class Table:
 
 
 def geometric_mean(ratios: Iterable[float]) -> float:
-    """Not a number where there is none."""
+    """The geometric mean; NaN if there are no ratios."""
     found = [log(ratio) for ratio in ratios]
     return exp(sum(found) / len(found)) if found else float("nan")

@@ -29,7 +29,7 @@ def test_cells_of_exact_cubes() -> None:
 
 @pytest.mark.slow
 def test_parts_of_an_assembly_do_not_touch() -> None:
-    """Each stays in the ball of its cell: else the peer and we would be asked about contacts too."""
+    """Each stays within a ball in its cell; otherwise the benchmark would also measure contacts."""
     for number, solid in enumerate(Shape.cast(scenes.assembly(200)).Solids()):
         vertices, _ = solid.tessellate(0.1, 0.5)
         centre = np.array([number % 6, number // 6 % 6, number // 36]) * scenes.CELL

@@ -33,7 +33,7 @@ def test_a_line_that_turns_hidden_is_lost_and_gained() -> None:
     before = ink([(True, stays), (True, turns)], STEP * ACCURACY)
     after = ink([(True, stays), (True, np.array([turns[0], cut])), (False, np.array([cut, turns[1]]))], STEP * ACCURACY)
     found = change(before, after, ACCURACY)
-    # Where the visible line ends it is forgiven three accuracies.
+    # Near the end of the visible line three accuracies are tolerated.
     assert found.lost_visible == pytest.approx(6.0 - NEAR * ACCURACY, abs=ACCURACY)
     # The hidden line begins beneath the ink of the visible one.
     assert found.gained_hidden == pytest.approx(6.0 - COVER * ACCURACY, abs=ACCURACY)
@@ -86,7 +86,7 @@ def test_no_disturbance_is_no_change(two_boxes: Model) -> None:
         ((0.0, 0.0, -4.0), (28.0, 20.0, 20.0, 28.0)),
         # Drawn out before the large box: 40 mm turn visible, and 20 mm of the large one's rim turn hidden.
         ((0.0, -80.0, 0.0), (20.0, 40.0, 40.0, 20.0)),
-        # Two accuracies are forgiven.
+        # Two accuracies are tolerated.
         ((0.0, 0.0, -0.1), (0.0, 0.0, 0.0, 0.0)),
     ],
 )
@@ -99,7 +99,7 @@ def test_a_part_that_moves_changes_what_geometry_says(
     after = ink(strokes(two_boxes.drawn([large, small + np.array(moved)])), step)
     found = change(before, after, two_boxes.accuracy)
     lengths = (found.lost_visible, found.gained_visible, found.lost_hidden, found.gained_hidden)
-    # Four ends, each forgiven by the width of the visible ink beside it.
+    # Four ends; at each the width of the visible ink beside it is tolerated.
     slack = 4 * COVER * two_boxes.accuracy if any(expected) else 0.0
     assert lengths == pytest.approx(expected, abs=slack)
 

@@ -43,7 +43,7 @@ class Triangulation:
         whole = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
         self.triangles = np.ascontiguousarray(triangles[whole], dtype=np.int32)
         self.triangle_part = np.concatenate(self._parts)[whole]
-        # Of shapes without edges, such as tori, none.
+        # Shapes without edges to draw, such as tori, have none.
         ends = np.concatenate([np.zeros((0, 2), np.int64), *self._segments])
         segments = np.sort(number.ravel()[ends], axis=1).astype(np.int64)
         self.drawn = np.unique(segments[:, 0] * len(self.points) + segments[:, 1])

@@ -52,7 +52,7 @@ def cone_and_cylinder() -> cq.Workplane:
 
 
 def shaft_in_bore() -> cq.Workplane:
-    """Contact of equal radii: two tessellations of one cylinder pierce one another without meaning to."""
+    """Contact of equal radii: two tessellations of one cylinder pierce one another though the surfaces only touch."""
     bearing = cq.Workplane().box(30, 30, 20).faces(">Z").workplane().hole(12)
     shaft = cq.Workplane().workplane(offset=-20).circle(6).extrude(40)
     return cq.Workplane(obj=cq.Compound.makeCompound([bearing.val(), shaft.val()]))
@@ -95,7 +95,7 @@ def vase() -> cq.Workplane:
 
 
 def thin_walls() -> cq.Workplane:
-    """An open shell of 0.2 mm: what absorbs contacts must not show the back of a wall."""
+    """An open shell 0.2 mm thick: the contact tolerance must not make the back of a wall visible."""
     return cq.Workplane().box(40, 30, 20).edges("|Z").fillet(4).faces(">Z").shell(-0.2)
 
 

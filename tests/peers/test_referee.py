@@ -1,4 +1,4 @@
-"""The referee accepts what is right and finds what is wrong; else its zero would mean nothing."""
+"""The referee accepts right drawings and finds faults in wrong ones; otherwise zero faults would mean nothing."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from support.referee.judge import FRACTIONS, RayCaster, judge, offenders
 
 
 def test_the_referee_imports_nothing_of_hlr() -> None:
-    """What is one mistake in both would not be found."""
+    """A mistake that both share would not be found."""
     for path in Path(reference.__file__).parent.glob("*.py"):
         nodes = list(ast.walk(ast.parse(path.read_text("utf-8"))))
         names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
@@ -250,7 +250,7 @@ def test_command_judges_a_finished_drawing(tmp_path: Path, capsys: pytest.Captur
 
 @pytest.mark.slow
 def test_missing_and_wrongly_hidden_outlines_are_noticed() -> None:
-    """What rays from drawn lines cannot see: a contour called hidden, and no line at all."""
+    """Rays from drawn lines cannot find these: a contour wrongly hidden, and a missing line."""
     shape = models.shape("bracket")
     judging = referee.Referee(reference.from_shape(shape))
     document = occt.draw(shape, "exact", occt.camera_of("iso"))

@@ -84,7 +84,7 @@ def test_a_line_that_is_not_drawn_is_missed(bracket: Any, kind: str) -> None:
     faults = found.seen.gaps.faults
     ink = exchange.parse({**document, "lines": [gone]}).lines[0].ink(0.1)
     length = float(np.linalg.norm(np.diff(ink, axis=0), axis=1).sum())
-    # Where it runs into others and past them, they answer for it.
+    # Near other lines that it meets or passes, those lines cover for it.
     assert sum(run.length for run in faults) == pytest.approx(length, rel=0.15, abs=15 * found.seen.sheet.pixel)
     assert all(np.linalg.norm(ink - run.at, axis=1).min() < 2 * found.seen.sheet.pixel for run in faults)
     assert found.row.bad and any("no visible line" in text for text in found.why())
@@ -92,7 +92,7 @@ def test_a_line_that_is_not_drawn_is_missed(bracket: Any, kind: str) -> None:
 
 @pytest.mark.parametrize("accuracies", [0.5, 2.0])
 def test_an_edge_off_its_curve_is_noticed(bracket: Any, accuracies: float) -> None:
-    """Moved on paper and in the model alike, so that only its own curve can tell."""
+    """The edge is moved on paper and in the model alike, so that only its own curve shows the fault."""
     _, judging, document = bracket
     moved = longest(document, **{"class": "sharp", "visible": True})
     drawing = exchange.parse(document)

@@ -36,7 +36,7 @@ def moved(model: Frozen, matrix: np.ndarray, offset: Sequence[float] = (0.0, 0.0
 
 
 def _corners(part: PartMesh, change: Callable[[np.ndarray], np.ndarray]) -> SurfaceParameters | None:
-    """Where triangles lie on their surfaces goes with them."""
+    """The surface parameters of the triangles' corners, changed with the triangles."""
     on = part.surface_parameters
     return replace(on, corner=np.ascontiguousarray(change(on.corner))) if on is not None else None
 
@@ -123,7 +123,7 @@ def _split(part: PartMesh, rng: Random) -> PartMesh:
     steps = np.stack([part.edge_nodes[:-1], part.edge_nodes[1:]], axis=1)
     sides = np.concatenate([part.triangles[:, [0, 1]], part.triangles[:, [1, 2]], part.triangles[:, [2, 0]]])
     key = np.sort(np.concatenate([sides, steps]), axis=1) @ np.array([n, 1], np.int64)
-    # Steps from one edge's last node to the next edge's first are none, nor are those between one and the same node.
+    # Skip steps from one edge's last node to the next edge's first, and steps from a node to itself.
     real = np.ones(len(steps), bool)
     real[part.edge_offsets[1:-1] - 1] = False
     real &= steps[:, 0] != steps[:, 1]
@@ -181,5 +181,5 @@ def jiggled(model: Frozen, amount: float, rng: Random) -> Frozen:
 
 
 def joined_by(model: Frozen, *more: Frozen) -> Frozen:
-    """The same with the parts of others after its own."""
+    """The model with the parts of other models after its own."""
     return replace(model, parts=(*model.parts, *(part for other in more for part in other.parts)))

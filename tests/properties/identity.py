@@ -61,5 +61,5 @@ def ownerless(drawing: Drawing) -> Counter[tuple[str, bool, bytes, bytes]]:
 
 
 def identities(drawing: Drawing) -> list[tuple[str, bool, int, int | None, int | None, int]]:
-    """Of every line in order: class, visibility, part, edge, face, number of points."""
+    """Class, visibility, part, edge, face and number of points of every line, in order."""
     return [(x.kind, x.visible, x.part, x.edge, x.face, len(x.points)) for x in drawing.lines]

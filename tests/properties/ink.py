@@ -1,8 +1,7 @@
 """Changes between two drawings of one model: the longest stretch and the whole length of ink that differs.
 
-Ink is sampled along all lines. What one drawing has and the other has not, within the reach, makes up stretches along
-its lines; a drawing that only moved a little has none, and one on which a line changed from visible to hidden has one
-as long as the line.
+Ink is sampled along all lines. Neighbouring samples without ink of the other drawing within reach form a stretch. A
+drawing that only moved a little has none; if a line changed from visible to hidden, it has one as long as the line.
 """
 
 from __future__ import annotations
@@ -32,9 +31,9 @@ so an edge that changes as a whole is always noticed."""
 
 @dataclass(frozen=True)
 class Change:
-    """What two drawings do not have in common: the longest stretch and all of it, in accuracies; where the longest is.
+    """The difference of two drawings: its longest stretch and its whole length, in accuracies; where the longest is.
 
-    share: of all ink of both.
+    share: the whole length as a share of all ink of both.
     """
 
     longest: float
@@ -51,7 +50,7 @@ def _moved(drawing: Drawing, step: float, moved: Map) -> Ink:
 
 
 def _missing(one: Drawing, other: Drawing, reach: float, visible: bool, a: Map, b: Map) -> tuple[float, float, str]:
-    """What ink of one class the first has and the second has not: longest stretch, all of it, and where."""
+    """Ink of one visibility that only the first has: longest stretch, whole length, and where the longest is."""
     accuracy = one.accuracy.used
     step = STEP * accuracy
     mine, theirs = _moved(one, step, a), _moved(other, step, b)

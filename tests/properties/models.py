@@ -25,5 +25,5 @@ def model(name: str) -> Frozen:
 
 
 def accuracy(frozen: Frozen) -> float:
-    """At scale 1, where a model of no other unit is as large on paper as it is."""
+    """The accuracy in mm for a drawing at scale 1."""
     return frozen.diagonal * frozen.frame.unit / FINENESS

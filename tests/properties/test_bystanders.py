@@ -1,4 +1,4 @@
-"""What stands behind everything, or beside it, changes no visible line.
+"""A part added behind or beside all others changes no visible line of theirs.
 
 IDENTICAL  of B-rep parts that do not run into one another, with a part added behind all others and within their
            outline: the visible lines in every coordinate on paper and in the model, their order and owners, and the
@@ -102,7 +102,7 @@ def test_of_an_assembly_from_a_file_the_visible_ink_stays(where):
 
 
 def expect_ink_to_stay(model, view, accuracy, where, kind, **options):
-    """Beside everything nothing hides it, so the hidden ink stays too."""
+    """A part beside all others hides nothing, so the hidden ink stays too."""
     before = draw(model, view, accuracy, **options)
     more = place(model, before, where, kind)
     after = own(draw(more, view, accuracy, **options), len(model.parts))

@@ -21,7 +21,7 @@ from hlr.request.accuracy import MEASURED_FINENESS, under
 from hlr.source import open_source
 
 SAMPLES = 20_000
-"""Points judged by rays, and points of outlines, where the caller does not say how many."""
+"""Default number of points judged by rays, and of outline points."""
 
 
 def measured(

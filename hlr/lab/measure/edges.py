@@ -27,13 +27,13 @@ Edge = tuple[int, int]
 """A part of the drawing, and the index of an edge in it."""
 
 CHORDS = 96
-"""Per edge, and per span of a spline a twelfth of them."""
+"""Chords per edge; a spline has a twelfth of them per span, if that is more."""
 MOST_FINER = 64
-"""How many times more chords than `CHORDS` there are at most."""
+"""Largest factor by which the number of chords is raised above `CHORDS`."""
 CHECKS = 9
-"""Places where a record is compared with OpenCASCADE."""
+"""Number of points at which a record is compared with OpenCASCADE."""
 FREE = 2000
-"""Points of an edge whose curve has no record."""
+"""Number of points of an edge whose curve has no record."""
 ITERATIONS = 12
 
 

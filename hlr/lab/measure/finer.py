@@ -36,7 +36,7 @@ from hlr.request.accuracy import MEASURED_REACH, MEASURED_SAME, MEASURED_SAMPLE
 Mask = npt.NDArray[np.bool_]
 
 BETWEEN = 5
-"""How much denser rays look at a stretch that is longer than the accuracy."""
+"""Factor by which samples for rays are denser on a stretch that is longer than the accuracy."""
 MOST_SAMPLES = 2_000_000
 """Along all lines; beyond, samples are farther apart than they should be, and what they find is not finer than that."""
 

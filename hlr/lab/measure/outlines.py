@@ -34,7 +34,7 @@ from hlr.request.accuracy import MEASURED_RETRY, MEASURED_STEP
 
 ITERATIONS = 30
 EDGE_ON = 1e-9
-"""|N . V| of unit vectors below which a place counts as edge-on."""
+"""|N . V| of unit vectors below which a point counts as edge-on."""
 SETTLED = 1e-13
 """Steps and remainders below which a search has ended, in longest steps and accuracies."""
 

@@ -33,7 +33,7 @@ from hlr.request.accuracy import ANGLE, MEASURED_CONTACT, MEASURED_SAMPLE, MESH_
 
 RING = 8
 DISAGREE, BLOCKED, FREE = 0, 1, 2
-"""What nine rays say."""
+"""The verdict of nine rays: they disagree, all are blocked, or none is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ class Caster:
         )
 
     def verdict(self, points: Floats, threads: int) -> npt.NDArray[np.int8]:
-        """(n,) what the nine rays say of points (n, 3) of the model: BLOCKED, FREE or undecided."""
+        """(n,) verdict of the nine rays on points (n, 3) of the model: DISAGREE, BLOCKED or FREE."""
         angle = np.arange(RING) * (2.0 * np.pi / RING)
         ring = np.concatenate(
             [np.zeros((1, 3)), np.outer(np.cos(angle), self.right) + np.outer(np.sin(angle), self.up)]

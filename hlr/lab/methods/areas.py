@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from hlr.common.types import Ints
 
 ENDINGS = ("a", "b", "c", "d", "pixel", "quartered")
-"""How an area comes to its end.
+"""The ways in which an area is decided.
 
 a          all polygons are disjoint
-b          one is left, which intersects it or is contained in it
-c          a surrounding polygon, and no other
+b          one polygon is left, which intersects it or is contained in it
+c          one surrounding polygon is left
 d          a surrounding polygon in front of all others
 pixel      it is a single pixel, decided at its centre
 quartered  none of these: its quarters follow

@@ -12,7 +12,7 @@ from pathlib import Path
 from hlr.errors import HlrError, OptionError
 
 TIME_LIMIT = 60.0
-"""Seconds, where nothing else is said."""
+"""Default, seconds."""
 
 MEMORY_LIMIT = 4 * 2**30
 """Bytes, where nothing else is said, or a third of what there is: a table that grows needs room for twice its size

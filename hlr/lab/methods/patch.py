@@ -14,7 +14,7 @@ from hlr.common.types import Floats
 from hlr.errors import OptionError
 
 TERMS = 4
-"""Of a polynomial of the third degree."""
+"""Number of coefficients of a polynomial of the third degree."""
 
 FARTHEST = 8192.0
 """Pixels that a patch may reach beyond the picture."""

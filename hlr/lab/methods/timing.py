@@ -14,7 +14,7 @@ from hlr.lab.methods.viewport import Viewport
 
 REPEATS = 3
 QUICK = 0.5
-"""Seconds: what is over sooner is repeated, and the median taken."""
+"""Seconds: a shorter run is repeated, and the median taken."""
 
 Trial = tuple[str, str]
 """A method and its variant."""

@@ -17,7 +17,7 @@ LARGEST = 8192
 """Pixels along a side: with 256 steps to a pixel, exact comparisons stay within 128 bits."""
 
 MARGIN = 0.02
-"""Of the picture, left empty on each side of a model that is fitted into it."""
+"""Share of the picture that is left empty on each side of a model that is fitted into it."""
 
 Matrix = tuple[tuple[float, float, float, float], ...]
 Window = tuple[float, float, float, float]

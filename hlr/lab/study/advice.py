@@ -8,7 +8,7 @@ from hlr.lab.study.job import HLR, Point
 from hlr.request.accuracy import DEFAULT_ACCURACY
 
 DEAR = 2.0
-"""Times the cost of the usual drawing: what may be spent on a finer one without a thought."""
+"""A finer accuracy is recommended freely up to this multiple of the cost of the default one."""
 
 
 def advice(points: Sequence[Point]) -> str:

@@ -84,7 +84,7 @@ NOTHING = 255
 """State where an edge has no piece at all."""
 
 SAME = 1e-9
-"""Of an edge: pieces that end so close to one another end at the same place, each rounded its way."""
+"""Share of an edge: ends of pieces closer than this are the same point, rounded differently."""
 
 
 def _wrong(truth: Segments, other: Segments, length: Floats) -> Floats:

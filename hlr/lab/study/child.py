@@ -13,7 +13,7 @@ import signal
 import sys
 
 SHARE = 0.6
-"""Of the machine's memory: where more is asked for, the point cannot be had."""
+"""Share of the machine's memory that a job may use; a job that needs more fails."""
 
 
 def main() -> int:

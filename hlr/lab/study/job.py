@@ -24,7 +24,7 @@ STAGES = ("source", "tessellate", "scene", "plan", "visibility", "linework", "wr
 """Of every contestant, where it has them: read, triangulate, prepare, decide, hide, gather the lines, write an SVG."""
 
 TIMED = STAGES[1:-1]
-"""What a contestant is charged with: from the shape in memory to the lines in memory."""
+"""The stages that count as a contestant's time: from the shape in memory to the lines in memory."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, forget_mesh, mark_ta
 from hlr.lab.study.watch import Watch
 
 CHORD_MM = 0.001
-"""On paper: how far chords are off the exact algorithm's curves. They are made when the clock has stopped."""
+"""Chord error on paper of the exact algorithm's curves. The chords are made after the timing."""
 
 
 def poly(shape: Any, camera: Camera, per_model: float, deflection: float, angle: float, watch: Watch) -> Polylines:

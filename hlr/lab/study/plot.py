@@ -21,7 +21,7 @@ STAGE_COLORS = {
     "linework": "#e08a5b",
 }
 FLOOR = 1e-5
-"""Errors and shares below this are drawn here: the judge sees nothing smaller."""
+"""Errors (mm) and shares below this are plotted at this value: the judge resolves nothing smaller."""
 
 PANELS = (
     ("ink_p99", "visible ink: 99 % is nearer to the truth than, mm on paper"),

@@ -13,7 +13,7 @@ from typing import Any
 from hlr.lab.study.job import Job
 
 WAIT = 20.0
-"""Limits by the clock, where others keep the processors busy; and where there is no limit but the clock's."""
+"""Clock time allowed, as a multiple of the limit: other programs may keep the processors busy."""
 
 
 def answer(job: Job) -> dict[str, Any]:

@@ -187,7 +187,7 @@ def _length(value: float | None) -> str:
 
 
 NOTHING = 1e-9
-"""Millimetres: what rounding makes of nothing."""
+"""Millimetres: lengths up to this count as zero."""
 
 
 def _share(value: float | None) -> str:

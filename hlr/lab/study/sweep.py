@@ -17,9 +17,9 @@ A4 = (277.0, 190.0)
 """Millimetres: a landscape sheet with its margins."""
 
 FINER = 0.4
-"""Of the finest accuracy that could be drawn: the accuracy of the lines that all are judged by."""
+"""Accuracy of the true lines, as a share of the finest accuracy that could be drawn."""
 PATIENCE = 3.0
-"""Limits of time that the truth and the judge may take: they are nobody's cost."""
+"""Time allowed for the true lines and the judge, as a multiple of the limit."""
 
 
 @dataclass(slots=True)

@@ -71,7 +71,7 @@ def _repeated(job: Job, draw: Callable[[Job], Point]) -> Point:
 
 
 REPEAT = 0.5
-"""Of the limit: what would take longer in all is not drawn again."""
+"""Share of the limit: no further run begins if all runs together would take longer."""
 
 
 def _options(job: Job, **others: Any) -> Options:
@@ -207,7 +207,7 @@ def _rival(job: Job, lines: Polylines, opened: Source, camera: Camera, accuracy:
 
 
 WRITTEN = 0.001
-"""Accuracy in millimetres with which lines are written that have none of their own."""
+"""Accuracy in millimetres for writing lines of programs that have no accuracy setting."""
 
 
 def _arithmetic(job: Job) -> dict[str, Any]:

@@ -30,9 +30,9 @@ from hlr.visibility.plan import DRAWN
 SAMPLE = 0.5
 """Pixels between two samples of an edge."""
 FACTOR, UNITS = 1.0, 1.0
-"""Of the slope and of the smallest difference in depth: the two numbers of glPolygonOffset."""
+"""The arguments of glPolygonOffset: multiples of the depth slope, and of the smallest depth difference."""
 DEPTH_BITS = 24
-"""Of a usual depth buffer: its smallest difference in depth."""
+"""Bits of a usual depth buffer, which give its smallest depth difference."""
 MARGIN = 2.0
 """Pixels left empty around the model."""
 
