@@ -23,6 +23,7 @@ def measured(scene: str, who: Sequence[str], given: Namespace, repeat: int) -> l
     """Measure programs in turns, in one process. A failure is a result too, and has its row in the table."""
     command = [
         sys.executable,
+        "-P",
         "-m",
         "bench.measure",
         scene,

@@ -55,7 +55,7 @@ class Child:
     def __init__(self, drawer: str, path: Path, limit: int) -> None:
         self._limit = limit
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "bench.stability_child", drawer, str(path), str(limit)],
+            [sys.executable, "-P", "-m", "bench.stability_child", drawer, str(path), str(limit)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,

@@ -88,7 +88,7 @@ def test_the_command_tells_all_this(tmp_path):
     scrawled_cylinder()[0].exportBrep(str(tmp_path / "part.brep"))
 
     def command(*arguments):
-        words = [sys.executable, "-m", "hlr", *arguments]
+        words = [sys.executable, "-P", "-m", "hlr", *arguments]
         return subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True, timeout=120)
 
     done = command("draw", "part.brep", "-o", "part.json", "--strict", "--explain")

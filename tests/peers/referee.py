@@ -121,7 +121,15 @@ def draw_with_occt(path: Path, views: Sequence[View], method: str, timeout: floa
     for view in views:
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "drawing.json"
-            command = [sys.executable, "-m", "peers.occt", str(path), f"--method={method}", f"--view={view_name(view)}"]
+            command = [
+                sys.executable,
+                "-P",
+                "-m",
+                "peers.occt",
+                str(path),
+                f"--method={method}",
+                f"--view={view_name(view)}",
+            ]
             try:
                 done = subprocess.run(
                     [*command, f"--out={out}"],

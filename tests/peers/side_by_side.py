@@ -52,7 +52,15 @@ def theirs(path: Path, drawing: Drawing, method: str, limit: float) -> Panel:
     deflection = drawing.accuracy.deflection / drawing.unit
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "drawing.json"
-        command = [sys.executable, "-m", "peers.occt", str(path), f"--method={method}", f"--view={drawing.view.name}"]
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            "peers.occt",
+            str(path),
+            f"--method={method}",
+            f"--view={drawing.view.name}",
+        ]
         command += [f"--out={out}", f"--deflection={deflection}", "--flat"]
         try:
             subprocess.run(command, timeout=limit, check=True, capture_output=True, env=environment())

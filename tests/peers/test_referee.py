@@ -180,7 +180,16 @@ def test_reference_of_a_far_away_model_is_as_good(tmp_path: Path) -> None:
 def test_command_judges_a_peer_and_writes_the_table(tmp_path: Path) -> None:
     path = models.save("box", tmp_path)
     table = tmp_path / "table.md"
-    command = [sys.executable, "-m", "peers.referee", path, "--views=iso", "--peer=occt-exact", "--peer=occt-poly"]
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "peers.referee",
+        path,
+        "--views=iso",
+        "--peer=occt-exact",
+        "--peer=occt-poly",
+    ]
     done = subprocess.run(
         [*command, f"--table={table}", f"--png={tmp_path}"],
         capture_output=True,
