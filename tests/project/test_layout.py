@@ -242,7 +242,7 @@ def test_every_room_stands_on_a_floor():
 
 
 def test_the_architecture_page_lists_the_rooms_in_their_order():
-    page = (ROOT / "ARCHITECTURE.md").read_text("utf-8")
+    page = (ROOT / "hlr/docs/ARCHITECTURE.md").read_text("utf-8")
     assert tuple(re.findall(r"^\| \[`(\w+)`\]\(\S+\) \| \S", page, re.MULTILINE)) == FLOORS
 
 

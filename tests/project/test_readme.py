@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = ("README.md", "docs/python.md", "docs/previews.md", "docs/drop_ins.md")
+PAGES = ("README.md", "hlr/docs/python.md", "hlr/docs/previews.md", "hlr/docs/drop_ins.md")
 EXAMPLES = [
     (page, text)
     for page in PAGES

@@ -61,7 +61,7 @@ goldens:
 # Build the site of the documentation into build/site
 docs:
     pip install --quiet --editable '.[docs]'
-    sphinx-build -W -c docs . build/site
+    sphinx-build -W -c .ci/docs . build/site
 
 # Run the whole gate: a fresh environment, the wheel, all checks, all tests; some ten minutes
 gate:

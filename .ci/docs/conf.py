@@ -1,7 +1,7 @@
 """The documentation site: the Markdown pages of the repository where they are, and the API from its docstrings.
 
     pip install '.[docs]'
-    sphinx-build -W -c docs . build/site
+    sphinx-build -W -c .ci/docs . build/site
 
 The source folder is the repository itself, so the links between pages are the same on the site and in the repository.
 """
@@ -10,7 +10,7 @@ import re
 import shutil
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 
 project = "hlr"
 author = "the authors of hlr"
@@ -19,7 +19,7 @@ html_theme = "furo"
 html_title = "hlr"
 
 root_doc = "README"
-include_patterns = ["*.md", "docs/*.md", "examples/**.md", "hlr/**.md", "tests/**.md"]
+include_patterns = ["*.md", "examples/**.md", "hlr/**.md", "tests/**.md"]
 exclude_patterns = ["build", "**/target", "**/.*", "tests/data", "tests/fuzz/corpus"]
 
 myst_enable_extensions = ["html_image"]
@@ -40,27 +40,27 @@ CONTENTS = """
 :hidden:
 :caption: Use
 examples/README
-docs/installation
-docs/command_line
-docs/python
-docs/previews
-docs/drop_ins
-docs/accuracy
-docs/limits
+hlr/docs/installation
+hlr/docs/command_line
+hlr/docs/python
+hlr/docs/previews
+hlr/docs/drop_ins
+hlr/docs/accuracy
+hlr/docs/limits
 ```
 ```{toctree}
 :hidden:
 :caption: Look up
-docs/api
+hlr/docs/api
 hlr/writers/JSON
 hlr/writers/PNG
-GLOSSARY
+hlr/docs/GLOSSARY
 CHANGELOG
 ```
 ```{toctree}
 :hidden:
 :caption: Figures
-docs/measurements
+hlr/docs/measurements
 examples/study/README
 hlr/lab/measure/README
 hlr/kernel/methods/README
@@ -72,8 +72,8 @@ examples/drop_ins/README
 ```{toctree}
 :hidden:
 :caption: Build
-ARCHITECTURE
-CONTRIBUTING
+hlr/docs/ARCHITECTURE
+hlr/docs/CONTRIBUTING
 hlr/kernel/README
 tests/hard/README
 tests/properties/README
