@@ -13,6 +13,7 @@ from hlr.tables.writers import PICTURE, WRITERS, titles
 
 VERBS = {
     "draw": f"Draw a model as {titles('or')}.",
+    "batch": "Draw many models, only what has changed, with a report.",
     "plan": "Which steps a drawing needs, and why, without drawing it.",
     "preview": "Shaded picture of a model as PNG.",
     "methods": "Time the visible-surface methods side by side.",

@@ -18,32 +18,16 @@ import contextlib
 import os
 import select
 import signal
-import sys
 import threading
 import time
 from pathlib import Path
 from typing import NoReturn
 
-from hlr.common.process import claim
+from hlr.common.process import CRASHES, claim, tie_to, without_core_files
 from hlr.errors import SourceError
 from hlr.tables.readers import of_ending
 
 from .signals import STOPPING, Stopped, hang_up_ignored
-
-CRASHES = {
-    getattr(signal, name): words
-    for name, words in (
-        ("SIGSEGV", "segmentation fault"),
-        ("SIGBUS", "bus error"),
-        ("SIGABRT", "abort"),
-        ("SIGILL", "illegal instruction"),
-        ("SIGFPE", "arithmetic error"),
-        ("SIGTRAP", "trap"),
-        ("SIGSYS", "bad system call"),
-    )
-    if hasattr(signal, name)
-}
-"""Signals of a crash."""
 
 _READING = ("", "source", "tessellate")
 """Stages in which OpenCASCADE or a script runs; all other stages run our code alone."""
@@ -97,9 +81,9 @@ def start(source: str) -> None:
     os.close(reading)
     signal.pthread_sigmask(signal.SIG_SETMASK, before)
     _Worker.allowed, _Worker.notes = False, writing
-    _tie_to(own)
+    tie_to(own)
     claim()
-    _prepare()
+    without_core_files()
 
 
 def note(what: str) -> None:
@@ -209,35 +193,3 @@ class _Notes:
         """The last report."""
         lines = self._text.decode("utf-8", "replace").splitlines()
         return lines[-1] if lines else ""
-
-
-def _tie_to(parent: int) -> None:
-    """End when the waiting process ends, even by a signal that it cannot pass on."""
-    if sys.platform == "linux":
-        import ctypes  # NumPy would load it anyway
-
-        with contextlib.suppress(OSError, AttributeError):
-            ctypes.CDLL(None).prctl(1, int(signal.SIGKILL))  # PR_SET_PDEATHSIG
-        if os.getppid() != parent:
-            os._exit(1)
-        return
-
-    def watch() -> None:  # as soon as OpenCASCADE lets go of the interpreter
-        while os.getppid() == parent:
-            time.sleep(1.0)
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
-
-
-def _prepare() -> None:
-    """Write no core files. With HLR_DEBUG: write them, and a traceback of a crash."""
-    if os.environ.get("HLR_DEBUG", "") not in ("", "0"):
-        import faulthandler
-
-        faulthandler.enable()
-        return
-    import resource
-
-    with contextlib.suppress(OSError, ValueError):
-        resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))

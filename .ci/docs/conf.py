@@ -42,6 +42,7 @@ CONTENTS = """
 examples/README
 hlr/docs/installation
 hlr/docs/command_line
+hlr/docs/batch
 hlr/docs/python
 hlr/docs/previews
 hlr/docs/drop_ins

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
 
+from hlr.cache.store import DRAWINGS
+from hlr.errors import counted
 from hlr.tables.readers import file_titles
 
 if TYPE_CHECKING:
-    from hlr.cache.store import Store
+    from hlr.cache.store import Kept, Store
 
 
 _FILES = file_titles(lambda reader: reader.cached)
 
-_HELP = f"""The cache of {_FILES} files that were read before, so that they need not be read again.
+_HELP = f"""The cache of {_FILES} files that were read before, so that they need not be read again, and of what
+batches have drawn.
 
 \b
   HLR_CACHE=DIR        the folder, instead of the system's usual one for caches
@@ -35,21 +39,26 @@ def info(as_json: bool) -> None:
     store = _store()
     entries = [] if store is None else store.entries()
     size = sum(kept.size for kept in entries)
+    models, drawn = _counted(entries)
     if as_json:
         import json
 
         folder = None if store is None else str(store.folder)
         most = None if store is None else store.most
-        click.echo(json.dumps({"folder": folder, "models": len(entries), "bytes": size, "most_bytes": most}, indent=2))
+        click.echo(
+            json.dumps(
+                {"folder": folder, "models": models, "drawn": drawn, "bytes": size, "most_bytes": most}, indent=2
+            )
+        )
     elif store is None:
         click.echo(_OFF)
     else:
-        click.echo(f"{store.folder}: {_models(len(entries))}, {_mega(size)} of at most {_mega(store.most)}")
+        click.echo(f"{store.folder}: {_told(entries)}, {_mega(size)} of at most {_mega(store.most)}")
 
 
 @cache.command()
 def clear() -> None:
-    """Remove all models from the cache; other files in its folder stay."""
+    """Remove all models and drawings from the cache; other files in its folder stay."""
     from hlr.errors import WriteError
 
     store = _store()
@@ -60,7 +69,7 @@ def clear() -> None:
         gone = store.clear()
     except OSError as error:
         raise WriteError(f"{store.folder} cannot be cleared: {(error.strerror or str(error)).lower()}") from None
-    click.echo(f"{store.folder}: {_models(len(gone))} removed, {_mega(sum(kept.size for kept in gone))}")
+    click.echo(f"{store.folder}: {_told(gone)} removed, {_mega(sum(kept.size for kept in gone))}")
 
 
 _OFF = "The cache is off (HLR_CACHE)."
@@ -74,8 +83,15 @@ def _store() -> Store | None:
     return None if where is None else Store(where, most_bytes())
 
 
-def _models(count: int) -> str:
-    return "1 model" if count == 1 else f"{count} models"
+def _counted(entries: Sequence[Kept]) -> tuple[int, int]:
+    """How many entries are models that were read, and how many are what a batch has drawn of a source."""
+    drawn = sum(DRAWINGS in kept.path.name for kept in entries)
+    return len(entries) - drawn, drawn
+
+
+def _told(entries: Sequence[Kept]) -> str:
+    models, drawn = _counted(entries)
+    return counted(models, "model") + (f" and {counted(drawn, 'drawn source')}" if drawn else "")
 
 
 def _mega(size: int) -> str:

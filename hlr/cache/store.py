@@ -13,8 +13,11 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-_ENTRY = re.compile(r"[0-9a-f]{40}\.model")
-_UNFINISHED = re.compile(r"[0-9a-f]{40}\.model\.\w+\.part")
+MODEL, DRAWINGS = "model", "drawings"
+"""Kinds of entries: what was read of a CAD file, and what was drawn of a source. They share the folder and its size."""
+
+_ENTRY = re.compile(rf"[0-9a-f]{{40}}\.({MODEL}|{DRAWINGS})")
+_UNFINISHED = re.compile(rf"[0-9a-f]{{40}}\.({MODEL}|{DRAWINGS})\.\w+\.part")
 """A file that is being written, or that was left unfinished."""
 
 _ABANDONED = 3600.0
@@ -37,13 +40,13 @@ class Kept:
 class Store:
     """Entries by key, forty hexadecimal digits. Files with other names are ignored."""
 
-    def __init__(self, folder: Path, most: int) -> None:
-        """most: the most bytes that all entries together may take."""
-        self.folder, self.most = folder, most
+    def __init__(self, folder: Path, most: int, kind: str = MODEL) -> None:
+        """most: the most bytes that all entries together may take, of any kind. kind: of those read and written."""
+        self.folder, self.most, self.kind = folder, most, kind
 
     def path(self, key: str) -> Path:
         """The path of an entry's file, which may not exist."""
-        return self.folder / f"{key}.model"
+        return self.folder / f"{key}.{self.kind}"
 
     def read(self, key: str) -> bytes | None:
         """The bytes of an entry's file, unchecked; None where there is no file that can be read."""

@@ -185,7 +185,7 @@ def test_what_was_read_from_something_else_or_by_something_else_is_not_used(chan
     elif change == "code":
         monkeypatch.setattr(cache_key, "_own_code", lambda: "another")
     else:
-        monkeypatch.setattr(cache_key, "_bindings", lambda: ["cadquery_ocp-9.dist-info"])
+        monkeypatch.setattr(cache_key, "bindings", lambda: ["cadquery_ocp-9.dist-info"])
     cache_key._reader_versions.cache_clear()
     assert "is in the cache now" in open_source(part).reading
     assert len(list(own_cache.iterdir())) == 2

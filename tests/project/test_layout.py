@@ -33,6 +33,7 @@ FLOORS = (
     "lab",
     "public",
     "compat",
+    "batch",
     "cli",
 )
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from functools import cache
 from hashlib import blake2b
-from importlib.util import find_spec
 from pathlib import Path
+
+from hlr.common.packages import bindings
 
 
 def cache_key(path: Path, kind: str, annotations: bool) -> str:
@@ -26,7 +26,7 @@ def cache_key(path: Path, kind: str, annotations: bool) -> str:
 @cache
 def _reader_versions() -> tuple[str, ...]:
     """Digest of hlr's code and versions of OpenCASCADE's bindings; the bindings are not imported."""
-    return _own_code(), *_bindings()
+    return _own_code(), *bindings()
 
 
 def _own_code() -> str:
@@ -42,17 +42,3 @@ def code_files() -> list[Path]:
     hlr = Path(__file__).parents[2]
     readers = sorted(path for room in ("source", "cache", "tables") for path in (hlr / room).rglob("*.py"))
     return readers + sorted(hlr.glob("__init__.py*"))
-
-
-def _bindings() -> list[str]:
-    """Names and versions of the distributions beside the package OCP; where there are none, its date and size."""
-    try:
-        spec = find_spec("OCP")
-    except ValueError:
-        spec = None
-    if spec is None or spec.origin is None:
-        return ["none"]
-    state, package = os.stat(spec.origin), Path(spec.origin)
-    beside = package.parent.parent if spec.submodule_search_locations else package.parent
-    named = sorted(name for name in os.listdir(beside) if "ocp" in name.lower() and name.endswith(".dist-info"))
-    return named or [f"{state.st_mtime_ns} {state.st_size}"]

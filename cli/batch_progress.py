@@ -1,0 +1,129 @@
+"""What is said while a batch runs: a live display on a terminal, a line for each source elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+import click
+
+from hlr.batch.run import source_size
+
+if TYPE_CHECKING:
+    from rich.live import Live
+    from rich.table import Table
+
+    from hlr.batch.job import Outcome
+    from hlr.batch.plan import Plan
+
+_PERIOD_S = 0.1
+"""Seconds between two pictures of the live display."""
+
+
+class Lines:
+    """A line for each source that was drawn, on standard error. quiet: for failures only."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._quiet = quiet
+        self._total = self._ended = 0
+
+    def planned(self, plan: Plan, todo: Sequence[int]) -> None:
+        """As of `hlr.batch.run.Listener`."""
+        self._plan, self._total, self._ended = plan, len(todo), 0
+
+    def begun(self, number: int, stage: str) -> None:
+        """As of `Listener`; a line at the end is enough."""
+
+    def ended(self, number: int, outcome: Outcome) -> None:
+        """As of `Listener`."""
+        self._ended += 1
+        if outcome.failure is not None or not self._quiet:
+            click.echo(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}", err=True)
+
+    def __enter__(self) -> Lines:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+
+class Display(Lines):
+    """A bar with the time left, and below it what is running; failures stay above it."""
+
+    def __init__(self) -> None:
+        super().__init__(quiet=False)
+        self._live: Live | None = None
+
+    def planned(self, plan: Plan, todo: Sequence[int]) -> None:
+        """As of `Listener`."""
+        super().planned(plan, todo)
+        self._weights = {number: 1e5 + source_size(plan.jobs[number]) for number in todo}
+        self._done, self._started = 0.0, time.monotonic()
+        self._running: dict[int, tuple[str, float]] = {}
+        if todo:
+            from rich.console import Console
+            from rich.live import Live
+
+            console = Console(stderr=True)
+            self._live = Live(console=console, transient=True, get_renderable=self._picture)
+            self._live.start()
+
+    def begun(self, number: int, stage: str) -> None:
+        """As of `Listener`."""
+        _, since = self._running.get(number, ("", time.monotonic()))
+        self._running[number] = (stage, since)
+
+    def ended(self, number: int, outcome: Outcome) -> None:
+        """As of `Listener`."""
+        self._ended += 1
+        self._running.pop(number, None)
+        self._done += self._weights[number]
+        if self._live is not None and (outcome.failure is not None or outcome.warned):
+            self._live.console.print(told(self._plan, number, outcome), markup=False, highlight=False)
+        if self._ended == self._total:
+            self._stop()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stop()
+
+    def _stop(self) -> None:
+        if self._live is not None:
+            self._live.stop()
+            self._live = None
+
+    def _picture(self) -> Table:
+        from rich.progress_bar import ProgressBar
+        from rich.table import Table
+        from rich.text import Text
+
+        now, whole = time.monotonic(), sum(self._weights.values())
+        share = self._done / whole
+        left = f"{(now - self._started) * (1.0 - share) / share:.0f} s left" if share > 0.0 else ""
+        grid = Table.grid(padding=(0, 1))
+        grid.add_row(Text(f"{self._ended}/{self._total}"), ProgressBar(1.0, share, width=30), Text(left))
+        for number, (stage, since) in sorted(self._running.items()):
+            grid.add_row(Text(""), Text(f"{self._plan.jobs[number].title}: {stage}"), Text(f"{now - since:.0f} s"))
+        return grid
+
+
+def told(plan: Plan, number: int, outcome: Outcome) -> str:
+    """One line about a job that has ended."""
+    title = plan.jobs[number].title
+    if outcome.failure is not None:
+        return f"{title}: failed: {' '.join(outcome.failure.message.split())}"
+    warnings = sum(note["warning"] for drawing in outcome.drawings for note in drawing["notes"])
+    told = f", {warnings} warning{'s' if warnings > 1 else ''}" if warnings else ""
+    views = len(outcome.drawings)
+    return f"{title}: {views} view{'s' if views > 1 else ''}, {outcome.seconds:.1f} s{told}"
+
+
+def progress(quiet: bool) -> Lines:
+    """What suits standard error."""
+    terminal = sys.stderr is not None and sys.stderr.isatty()
+    return Display() if terminal and not quiet else Lines(quiet)

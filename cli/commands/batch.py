@@ -1,0 +1,245 @@
+"""`hlr batch`: draw many sources, and only what has changed."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from hlr.errors import OptionError
+from hlr.tables.writers import WRITERS
+
+from ..batch_progress import Lines, progress
+from ..parameters import Vector3, ViewName
+from ..signals import tidily
+from ..verb import Verb
+from ..view_options import NO_CACHE
+
+if TYPE_CHECKING:
+    from hlr.batch.kept import Kept
+    from hlr.batch.keys import Digests
+    from hlr.batch.manifest import Manifest
+    from hlr.batch.plan import Plan
+    from hlr.batch.pool import LocalPool
+    from hlr.batch.run import Done
+
+FAILED = 1
+"""Exit code where some sources could not be drawn."""
+
+
+@click.command(cls=Verb)
+@click.argument("sources", nargs=-1, metavar="[FOLDER | PATTERN... | hlr.toml]")
+@click.option(
+    "-o", "--output", metavar="FOLDER", help="Where to write. Default: what the manifest says, else drawings."
+)
+@click.option(
+    "--view", "views", type=ViewName(), metavar="NAME|X,Y,Z", multiple=True,
+    help="As of hlr draw; may be repeated. Default: front, top, right, iso.",
+)  # fmt: skip
+@click.option("--format", "formats", type=click.Choice(list(WRITERS)), multiple=True, help="May be repeated.")
+@click.option(
+    "-j",
+    "--jobs",
+    type=click.IntRange(1, 1024),
+    metavar="N",
+    help="Sources drawn at the same time. Default: all cores.",
+)
+@click.option("--strict", is_flag=True, help="Warnings are errors: a source with one counts as failed.")
+@click.option("--init", is_flag=True, help="Write a manifest hlr.toml for the models here, to be changed at will.")
+@click.option("--list", "only_list", is_flag=True, help="Print the files that would be written, and draw nothing.")
+@click.option("--dry-run", is_flag=True, help="Print which sources would be drawn, and which are unchanged.")
+@click.option("--watch", is_flag=True, help="Stay, and draw again what changes on disk. Ctrl-C ends it.")
+@NO_CACHE
+@click.option("-q", "--quiet", is_flag=True, help="Print failures only.")
+def batch(
+    *,
+    sources: tuple[str, ...],
+    jobs: int | None,
+    init: bool,
+    only_list: bool,
+    dry_run: bool,
+    quiet: bool,
+    **others: Any,
+) -> int:
+    """Draw many models, those alone that have changed, and write a report.
+
+    \b
+      hlr batch                                   # what hlr.toml here says, or all models under this folder
+      hlr batch parts -o drawings --view iso
+      hlr batch "parts/**/*.step" -o drawings --format svg --format pdf
+
+    Exit codes: 0 all is drawn, 1 some sources failed and the rest is there, 2 the batch itself was wrong.
+    """
+    if init:
+        return _init(sources)
+    watch = others.pop("watch")
+    asked = _Asked(sources, **others)
+    plan, kept, digests = _prepared(asked)
+    if only_list:
+        for job in plan.jobs:
+            for row in job.files:
+                for file in row:
+                    click.echo(plan.output / file)
+        return 0
+    if dry_run:
+        for job in plan.jobs:
+            click.echo(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
+        return 0
+    _make_folder(plan.output)
+    with ExitStack() as stack:
+        # Beside the drawings there is a display to take down, and workers to end.
+        stack.enter_context(tidily())
+        show = stack.enter_context(progress(quiet))
+        pool = _Pool(stack, jobs or os.cpu_count() or 1)
+        code = _round(plan, kept, digests, show, pool, quiet)
+        if watch:
+            _watch(asked, plan, kept, digests, show, pool, quiet)
+    return code
+
+
+class _Asked:
+    """What the command line asks for. The manifest is read again where it has changed."""
+
+    def __init__(
+        self,
+        sources: Sequence[str],
+        output: str | None,
+        views: Sequence[str | Vector3],
+        formats: Sequence[str],
+        strict: bool,
+    ) -> None:
+        self._sources, self._output, self._strict = sources, output, strict
+        self._given = {
+            "views": [view if isinstance(view, str) else list(view) for view in views],
+            "formats": list(formats),
+        }
+
+    def plan(self) -> Plan:
+        """The plan of the batch, as the files are now."""
+        from hlr.batch.plan import plan
+
+        manifest = self._manifest()
+        output = Path(self._output) if self._output is not None else manifest.root / manifest.output
+        return plan(manifest, Path(os.path.abspath(output)), self._strict)
+
+    def _manifest(self) -> Manifest:
+        from hlr.batch.manifest import find, read, without_file
+
+        named = [Path(source) for source in self._sources] or [Path()]
+        if len(named) == 1:
+            one = named[0]
+            file = one if one.suffix == ".toml" else find(one)
+            if file is not None:
+                return read(file, **self._given)
+            if one.is_dir():
+                return without_file(one.resolve(), **self._given)
+        return without_file(Path().resolve(), files=[str(path) for path in named], **self._given)
+
+
+class _Pool:
+    """The pool of workers, made when there is work for it."""
+
+    def __init__(self, stack: ExitStack, workers: int) -> None:
+        self._stack, self._workers = stack, workers
+        self._pool: LocalPool | None = None
+
+    def __call__(self) -> LocalPool:
+        if self._pool is None:
+            from hlr.batch.pool import LocalPool
+
+            self._pool = LocalPool(self._workers)
+            self._stack.callback(self._pool.close)
+        return self._pool
+
+
+def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
+    from hlr.batch.kept import Kept
+    from hlr.batch.keys import Digests
+    from hlr.cache.folder import folder, most_bytes
+    from hlr.cache.store import DRAWINGS, Store
+
+    plan, where, digests = asked.plan(), folder(), Digests()
+    return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
+
+
+def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, quiet: bool) -> int:
+    """Draw what has changed, write the report, and say how it went. Returns the exit code."""
+    from hlr.batch.ci import github
+    from hlr.batch.report import write
+    from hlr.batch.run import run, tidy
+
+    started = time.monotonic()
+    done = run(plan, kept, pool, show)
+    tidy(plan.output)
+    report = write(done, digests, os.environ)
+    for line in github(report, os.environ):
+        click.echo(line)
+    _add_to_summary(plan.output / "summary.md")
+    if not quiet:
+        click.echo(_said(done, time.monotonic() - started), err=True)
+    return FAILED if report["counts"]["failed"] else 0
+
+
+def _said(done: Done, seconds: float) -> str:
+    """One line about a batch."""
+    failed = sum(outcome.failure is not None for outcome in done.outcomes)
+    drawn = sum(done.outcomes[number].failure is None for number in done.drawn)
+    unchanged = len(done.outcomes) - len(done.drawn)
+    return f"{done.plan.output}: {drawn} drawn, {unchanged} unchanged, {failed} failed, {seconds:.1f} s"
+
+
+def _watch(asked: _Asked, plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, quiet: bool) -> None:
+    """Draw again whatever changes, until a signal ends the command."""
+    from hlr.batch.watch import changes
+    from hlr.errors import HlrError
+
+    root, output = plan.manifest.root, plan.output
+    if not quiet:
+        click.echo(f"watching {root}; Ctrl-C ends it", err=True)
+    outside = {Path(root, job.source).resolve() for job in plan.jobs}
+    for changed in changes(root, output, outside):
+        digests.forget(changed)
+        try:
+            plan = asked.plan()
+            _round(plan, kept, digests, show, pool, quiet)
+        except HlrError as error:  # a manifest in the middle of being changed
+            click.echo(f"hlr: {error}", err=True)
+
+
+def _make_folder(folder: Path) -> None:
+    from hlr.drawing.files import write_all
+
+    write_all({}, [folder])
+
+
+def _add_to_summary(file: Path) -> None:
+    """Add the summary to that of the job, where GitHub asks for one."""
+    summary = os.environ.get("GITHUB_STEP_SUMMARY")
+    if summary:
+        try:
+            with open(summary, "ab") as opened:
+                opened.write(file.read_bytes() + b"\n")
+        except OSError as error:
+            click.echo(f"hlr: warning: {summary}: {error.strerror}", err=True)
+
+
+def _init(sources: tuple[str, ...]) -> int:
+    """Write a manifest with all keys and what they mean."""
+    from hlr.batch.first_manifest import text_for
+    from hlr.batch.manifest import FILE
+    from hlr.drawing.files import write_all
+
+    folder = Path(sources[0]) if sources else Path()
+    if len(sources) > 1 or not folder.is_dir():
+        raise OptionError("--init takes one folder, which gets the manifest")
+    file = folder / FILE
+    if file.exists():
+        raise OptionError(f"{file} is there already; change it, or remove it first")
+    write_all({file: text_for(folder).encode()})
+    click.echo(f"{file} is written", err=True)
+    return 0

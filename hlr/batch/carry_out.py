@@ -1,0 +1,134 @@
+"""Carry out one job in this process: draw its views, and tell what the drawings depend on."""
+
+from __future__ import annotations
+
+import re
+import sys
+import sysconfig
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Any, cast
+
+from hlr.batch.job import Job, Outcome, failed
+from hlr.batch.request import options_of
+from hlr.common.process import debugging
+from hlr.errors import HlrError
+
+if TYPE_CHECKING:
+    from hlr.common.types import Progress
+    from hlr.drawing.drawing import Drawing
+    from hlr.request.options import View
+
+_REFERENCE = re.compile(rb"DOCUMENT_FILE\s*\(\s*'([^'\r\n]{1,300})'")
+"""A file that a STEP file refers to."""
+
+
+def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
+    """Draw all views of a job. Whatever goes wrong becomes a failure of the outcome; nothing is written."""
+    from importlib import invalidate_caches
+
+    invalidate_caches()  # modules beside a script may be new
+    started, before = perf_counter(), set(sys.modules)
+    try:
+        outcome = _drawn(job, progress)
+    except HlrError as error:
+        outcome = failed(type(error).__name__, str(error))
+    except MemoryError:
+        outcome = failed("MemoryError", f"{job.source}: out of memory; a larger accuracy needs less.")
+    except Exception as error:
+        if debugging():
+            raise
+        text = " ".join(str(error).split()) or "no message"
+        outcome = failed(
+            "InternalError",
+            f"{job.source}: internal error: {type(error).__name__}: {text}; this is a fault of hlr, please report it.",
+        )
+    modules = _own_modules(set(sys.modules) - before)
+    for name in modules:  # the next job imports them again, as they are then
+        del sys.modules[name]
+    depends = {*modules.values(), *_references(Path(job.root, job.source))}
+    return replace(
+        outcome,
+        depends=tuple(sorted(_from_root(path, job.root) for path in depends)),
+        seconds=round(perf_counter() - started, 4),
+        peak_memory_mb=_peak_memory_mb(),
+    )
+
+
+def _drawn(job: Job, progress: Progress | None) -> Outcome:
+    from hlr.drawing.saving import render
+    from hlr.public.draw import draw_views
+
+    options = options_of(job.options)
+    drawings = draw_views(str(Path(job.root, job.source)), cast("list[View]", list(job.views)), options, progress)
+    started = perf_counter()
+    contents = tuple(tuple(render(drawing, format) for format in job.formats) for drawing in drawings)
+    writing = (perf_counter() - started) / len(drawings)
+    return Outcome(None, tuple(_facts(drawing, writing) for drawing in drawings), contents)
+
+
+def _facts(drawing: Drawing, writing: float) -> dict[str, Any]:
+    """What the report says of a drawing. writing: seconds."""
+    import json
+
+    from hlr.writers.json import accuracies
+
+    bounds, visible = drawing.bounds, sum(bool(line.visible) for line in drawing.lines)
+    facts = {
+        "view": drawing.view.name,
+        "scale": drawing.scale,
+        "width_mm": bounds.x1 - bounds.x0,
+        "height_mm": bounds.y1 - bounds.y0,
+        "lines": {"visible": visible, "hidden": len(drawing.lines) - visible},
+        "parts": len(drawing.parts),
+        "accuracy": accuracies(drawing),
+        "notes": [note.as_dict() | {"warning": note.is_warning} for note in drawing.notes],
+        "seconds": {stage: round(s, 4) for stage, s in ({**drawing.timings} | {"write": writing}).items()},
+    }
+    # Numbers may be NumPy's.
+    found: dict[str, Any] = json.loads(json.dumps(facts, default=lambda value: value.tolist()))
+    return found
+
+
+def _own_modules(names: Iterable[str]) -> dict[str, Path]:
+    """Of these modules, those that no package manager has installed: name and file."""
+    installed = [Path(sysconfig.get_path(name)).resolve() for name in ("stdlib", "platstdlib", "purelib", "platlib")]
+    installed += [Path(__file__).resolve().parents[1]]
+    found = {}
+    for name in names:
+        file = getattr(sys.modules.get(name), "__file__", None)
+        if file is None:
+            continue
+        path = Path(file).resolve()
+        if "site-packages" not in path.parts and not any(path.is_relative_to(folder) for folder in installed):
+            found[name] = path
+    return found
+
+
+def _references(source: Path) -> list[Path]:
+    """Files that a STEP file refers to, and that are there."""
+    if source.suffix.lower() not in (".step", ".stp"):
+        return []
+    try:
+        named = _REFERENCE.findall(source.read_bytes())
+        paths = [source.parent / name.decode("utf-8", "replace") for name in named]
+        return [path.resolve() for path in paths if path.is_file()]
+    except (OSError, ValueError):
+        return []
+
+
+def _from_root(path: Path, root: str) -> str:
+    base = Path(root).resolve()
+    return path.relative_to(base).as_posix() if path.is_relative_to(base) else path.as_posix()
+
+
+def _peak_memory_mb() -> float:
+    """The most memory that this process has taken so far; 0: the system does not tell."""
+    try:
+        import resource
+    except ImportError:
+        return 0.0
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return round(peak / (1e6 if sys.platform == "darwin" else 1e3), 1)

@@ -1,0 +1,55 @@
+"""Failures and warnings in the forms of CI services: lines that GitHub shows beside a file, GitLab's code quality."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from hashlib import sha256
+from typing import Any
+
+from hlr.batch.junit import title
+
+
+def _told(found: dict[str, Any]) -> Iterator[tuple[str, str, str, str]]:
+    """(level, path, title, message) for each failure and each warning."""
+    for source in found["sources"]:
+        if source["error"] is not None:
+            yield "error", source["source"], title(source), source["error"]["message"]
+        notes = [note["text"] for drawing in source["drawings"] for note in drawing["notes"] if note["warning"]]
+        for text in dict.fromkeys(notes):
+            yield "warning", source["source"], title(source), text
+
+
+def github(found: dict[str, Any], environment: Mapping[str, str]) -> list[str]:
+    """Lines for standard output, by which GitHub shows failures and warnings; none elsewhere."""
+    if environment.get("GITHUB_ACTIONS") != "true":
+        return []
+    return [
+        f"::{level} file={_property(path)},title={_property(name)}::{_data(message)}"
+        for level, path, name, message in _told(found)
+    ]
+
+
+def code_quality(found: dict[str, Any], environment: Mapping[str, str]) -> bytes | None:
+    """GitLab's report of code quality; None where GitLab does not run the batch."""
+    if environment.get("GITLAB_CI") != "true":
+        return None
+    rows = [
+        {
+            "description": message,
+            "check_name": f"hlr-{level}",
+            "fingerprint": sha256(f"{level}\0{name}\0{message}".encode("utf-8", "replace")).hexdigest(),
+            "severity": "major" if level == "error" else "minor",
+            "location": {"path": path, "lines": {"begin": 1}},
+        }
+        for level, path, name, message in _told(found)
+    ]
+    return json.dumps(rows, indent=1).encode("ascii") + b"\n"
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

@@ -1,0 +1,79 @@
+"""The sources of a batch: files that patterns name, or all models under a folder."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from fnmatch import fnmatch
+from pathlib import Path
+
+from hlr.tables.readers import of_ending
+
+_CAD_SCRIPT = re.compile(rb"^[ \t]*(?:import|from)[ \t]+(?:cadquery|build123d)\b", re.MULTILINE)
+_SHOWS = re.compile(rb"^[ \t]*show(?:_object)?[ \t]*\(|^result[ \t]*=", re.MULTILINE)
+_MARKS = frozenset("*?[")
+_NO_FOLDERS = ("node_modules", "site-packages")
+
+
+def is_pattern(name: str) -> bool:
+    """Whether a name stands for any number of files."""
+    return bool(_MARKS & set(name))
+
+
+def named(root: Path, pattern: str) -> list[Path]:
+    """The files that a name or a pattern stands for, sorted: of a folder all models under it.
+
+    A pattern leaves out what is no model; a name stands for its file, whatever it is. Empty where there is none.
+    """
+    path = root / pattern
+    if not is_pattern(pattern):
+        return list(models_under(path)) if path.is_dir() else [path] if path.exists() else []
+    base, rest = _split(path)
+    found = base.glob(rest) if rest else ()
+    return sorted(each for each in found if each.is_file() and of_ending(each.suffix) is not None)
+
+
+def models_under(folder: Path) -> Iterator[Path]:
+    """All models under a folder, sorted. Hidden folders and those of installed packages are left out.
+
+    A script is run to be drawn, so only those count that import CadQuery or build123d and show something.
+    """
+    for place, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not _is_foreign(Path(place, name)))
+        for name in sorted(names):
+            path, reader = Path(place, name), of_ending(Path(name).suffix)
+            if not name.startswith(".") and reader is not None and (reader.kind != "script" or _shows(path)):
+                yield path
+
+
+def without(paths: Iterable[Path], patterns: Iterable[str], root: Path) -> list[Path]:
+    """The paths that none of the patterns fits."""
+    patterns = list(patterns)
+    return [path for path in paths if not any(_fits(path, pattern, root) for pattern in patterns)]
+
+
+def _fits(path: Path, pattern: str, root: Path) -> bool:
+    """Whether a pattern names a file or a folder above it; `*` and `**` go across folders alike."""
+    whole = str(root / pattern).replace("**/", "*")
+    return any(fnmatch(str(each), whole) for each in (path, *path.parents))
+
+
+def _split(path: Path) -> tuple[Path, str]:
+    """The folder before the first mark of a pattern, and the rest."""
+    parts = path.parts
+    first = next(number for number, part in enumerate(parts) if is_pattern(part))
+    return Path(*parts[:first]), os.path.join(*parts[first:])
+
+
+def _is_foreign(folder: Path) -> bool:
+    name = folder.name
+    return name.startswith((".", "__")) or name in _NO_FOLDERS or (folder / "pyvenv.cfg").exists()
+
+
+def _shows(script: Path) -> bool:
+    try:
+        text = script.read_bytes()
+    except OSError:
+        return False
+    return bool(_CAD_SCRIPT.search(text) and _SHOWS.search(text))

@@ -1,0 +1,84 @@
+"""A job, one source to be drawn in some views, and its outcome: plain data that can be sent to another process."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+View = str | tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One source in some views, with one set of options.
+
+    root             the folder that all paths start from, absolute
+    source           path of the source, seen from the root, with / between folders
+    views, formats   each view is written in each format
+    files            paths of the files, seen from the folder of outputs: views by formats
+    options          fields of `hlr.Options`
+    depends          paths of files that the source depends on besides, seen from the root
+    time_limit_s     seconds after which the job is given up
+    memory_limit_mb  megabytes of memory above which the job is given up
+    rule             where the manifest asks for it: keys that lead to its table
+    """
+
+    root: str
+    source: str
+    views: tuple[View, ...]
+    formats: tuple[str, ...]
+    files: tuple[tuple[str, ...], ...]
+    options: Mapping[str, Any] = field(default_factory=dict)
+    depends: tuple[str, ...] = ()
+    time_limit_s: float = 600.0
+    memory_limit_mb: float = 4000.0
+    rule: tuple[str | int, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """What the job is called in messages: the source, and the parameters of a script."""
+        return " ".join((self.source, *(f"{name}={value}" for name, value in self.parameters.items())))
+
+    @property
+    def parameters(self) -> Mapping[str, Any]:
+        """Values for the parameters of a script."""
+        return self.options.get("parameters") or {}
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why nothing was drawn: the kind of the error, and one sentence."""
+
+    kind: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of a job.
+
+    failure         None: it was drawn
+    drawings        facts of each view, as they stand in the report
+    contents        of each file: views by formats
+    depends         files that the source pulled in: paths seen from the root, or absolute outside it
+    seconds         by the clock
+    peak_memory_mb  the most memory that the job took; 0: unknown
+    """
+
+    failure: Failure | None = None
+    drawings: tuple[dict[str, Any], ...] = ()
+    contents: tuple[tuple[bytes, ...], ...] = ()
+    depends: tuple[str, ...] = ()
+    seconds: float = 0.0
+    peak_memory_mb: float = 0.0
+
+    @property
+    def warned(self) -> bool:
+        """Whether a note of a drawing is a warning."""
+        return any(note["warning"] for drawing in self.drawings for note in drawing["notes"])
+
+
+def failed(kind: str, message: str, seconds: float = 0.0) -> Outcome:
+    """The outcome of a job that drew nothing."""
+    return Outcome(Failure(kind, message), seconds=seconds)

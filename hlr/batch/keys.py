@@ -1,0 +1,92 @@
+"""What a job depends on, as one key: if nothing of it has changed, neither have the drawings.
+
+Keys are made of contents, not of times of change: a fresh checkout has the same ones.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from functools import cache
+from hashlib import blake2b, file_digest
+from pathlib import Path
+
+from hlr.batch.job import Job
+from hlr.common.packages import bindings, installed
+from hlr.tables.readers import of_ending
+
+_FORM = 1
+"""Of what is kept of an outcome: another one makes other keys."""
+
+_NOT_DRAWING = ("batch", "cli", "compat", "docs", "kernel", "lab")
+"""Folders of hlr whose code no drawing depends on; the kernel counts as it is compiled."""
+
+_LIBRARIES = ("ezdxf", "lxml", "manifold3d", "networkx", "numpy", "pillow", "pydyf", "trimesh")
+"""Packages beside OpenCASCADE that read models or write files."""
+
+
+class Digests:
+    """Digests of files (SHA-256, hexadecimal), each read once until it is forgotten."""
+
+    def __init__(self) -> None:
+        self._known: dict[Path, str | None] = {}
+
+    def of(self, path: Path) -> str | None:
+        """The digest of a file's content; None where there is no file that can be read."""
+        if path not in self._known:
+            try:
+                with path.open("rb") as file:
+                    self._known[path] = file_digest(file, "sha256").hexdigest()
+            except (OSError, ValueError):
+                self._known[path] = None
+        return self._known[path]
+
+    def forget(self, paths: Iterable[Path]) -> None:
+        """Read these files again when they are asked for."""
+        for path in paths:
+            self._known.pop(path, None)
+
+
+def key_of(job: Job, digests: Digests) -> str | None:
+    """40 hexadecimal digits: of all that is known before a job is carried out. None: the source cannot be read.
+
+    What the source pulls in is known only afterwards: `hlr.batch.kept` compares that.
+    """
+    source = digests.of(Path(job.root, job.source))
+    if source is None:
+        return None
+    known = {
+        "form": _FORM,
+        "program": _program(),
+        "packages": _packages(job),
+        "source": [job.source, source],
+        "views": job.views,
+        "formats": job.formats,
+        "options": {name: value for name, value in job.options.items() if name != "threads"},
+        "depends": [[path, digests.of(Path(job.root, path))] for path in job.depends],
+    }
+    text = json.dumps(known, sort_keys=True, default=str)
+    return blake2b(text.encode("utf-8", "surrogatepass"), digest_size=20).hexdigest()
+
+
+@cache
+def _program() -> str:
+    """Digest of hlr's own code and of its kernel: in a checkout they change more often than the version."""
+    digest = blake2b(digest_size=20)
+    home = Path(__file__).parents[1]
+    for folder, folders, names in os.walk(home):
+        folders[:] = sorted(name for name in folders if not (Path(folder) == home and name in _NOT_DRAWING))
+        for name in sorted(names):
+            if name.endswith((".py", ".so", ".pyd")):
+                digest.update(name.encode() + b"\0" + Path(folder, name).read_bytes())
+    return digest.hexdigest()
+
+
+def _packages(job: Job) -> list[str]:
+    """Names and versions of the packages that a job may use: of a script, all that are installed."""
+    reader = of_ending(Path(job.source).suffix)
+    if reader is not None and reader.kind == "script":
+        return installed()
+    used = [name for name in installed() if name.partition("-")[0].lower() in _LIBRARIES]
+    return used + bindings() if reader is not None and reader.brep else used

@@ -1,0 +1,58 @@
+"""The report as Markdown, for the summary of a CI job: what failed, what was warned of, and the slowest sources."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from hlr.batch.junit import title
+from hlr.errors import counted
+
+_MOST_ROWS = 200
+"""Of a table: CI services refuse long summaries."""
+
+_SLOWEST = 10
+
+
+def document(found: dict[str, Any]) -> bytes:
+    """Markdown."""
+    counts, sources = found["counts"], found["sources"]
+    head = (
+        f"{counted(counts['drawings'], 'drawing')} of {counted(counts['sources'], 'source')}, "
+        f"{counts['failed']} failed, {counts['warned']} with warnings."
+    )
+    failed = [(title(source), source["error"]["message"]) for source in sources if source["error"]]
+    warned = [
+        (title(source), text)
+        for source in sources
+        for text in dict.fromkeys(n["text"] for d in source["drawings"] for n in d["notes"] if n["warning"])
+    ]
+    slowest = sorted(sources, key=lambda source: -source["cost"]["seconds"])[:_SLOWEST]
+    parts = [
+        f"# Drawings\n\n{head}\n",
+        _table("Failed", ("source", "why"), failed),
+        _table("Warnings", ("source", "warning"), warned),
+        _table(
+            "Slowest",
+            ("source", "seconds", "memory, MB"),
+            [(title(s), f"{s['cost']['seconds']:.2f}", f"{s['cost']['peak_memory_mb']:.0f}") for s in slowest],
+        ),
+    ]
+    return "\n".join(filter(None, parts)).encode()
+
+
+def _table(heading: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
+    if not rows:
+        return ""
+    lines = [f"## {heading}", "", f"| {' | '.join(columns)} |", "|" + " --- |" * len(columns)]
+    lines += [f"| {' | '.join(map(_cell, row))} |" for row in rows[:_MOST_ROWS]]
+    if len(rows) > _MOST_ROWS:
+        lines += ["", f"{len(rows) - _MOST_ROWS} more stand in manifest.json."]
+    return "\n".join(lines) + "\n"
+
+
+def _cell(text: str) -> str:
+    """A text as it is: names of files and parts may hold what Markdown or HTML would read."""
+    plain = " ".join(text.split()).replace("&", "&amp;").replace("<", "&lt;")
+    return re.sub(r"([\\`*_\[\]|~])", r"\\\1", plain)

@@ -1,0 +1,160 @@
+"""The plan of a batch: from a manifest to jobs, each with the files that it will write."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from hlr.batch.discover import models_under, named, without
+from hlr.batch.job import Job
+from hlr.batch.manifest import Manifest, Rule
+from hlr.batch.schema import KEYS, listed
+from hlr.errors import OptionError
+
+MOST_VARIANTS = 10_000
+"""Of one source."""
+
+REPORTS = ("manifest.json", "junit.xml", "summary.md", "code-quality.json")
+"""Files of the report, in the folder of outputs."""
+
+_FIELD = re.compile(r"\{(\w*)\}")
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """All jobs of a batch, in the order of the report.
+
+    output  the folder that is written to, absolute
+    """
+
+    manifest: Manifest
+    output: Path
+    jobs: tuple[Job, ...]
+
+
+def plan(manifest: Manifest, output: Path, strict: bool = False) -> Plan:
+    """The jobs that a manifest asks for. strict: warnings are errors, in every job.
+
+    Raises OptionError where patterns name no file, a name of files has an unknown field, or two drawings would be
+    written to one file.
+    """
+    jobs: list[Job] = []
+    for rule in manifest.rules:
+        sources = _sources(manifest, rule, output)
+        stems = Counter(str(path.with_suffix("")) for path in set(sources))
+        for path in sources:
+            options = {**rule.options, **({"strict": True} if strict else {})}
+            jobs.extend(_jobs(manifest, rule, path, options, alone=stems[str(path.with_suffix(""))] == 1))
+    _check_names(manifest, jobs)
+    return Plan(manifest, output, tuple(jobs))
+
+
+def _sources(manifest: Manifest, rule: Rule, output: Path) -> list[Path]:
+    root, patterns = manifest.root, listed(rule.values["files"])
+    found = [] if patterns else list(models_under(root))
+    for pattern in patterns:
+        files = named(root, pattern)
+        if not files:
+            raise manifest.error((*rule.where, "files"), f"{pattern} names no model under {root}")
+        found += files
+    outside = [path for path in dict.fromkeys(found) if not path.is_relative_to(output)]
+    kept = without(outside, listed(rule.values["exclude"]), root)
+    if not kept:
+        raise manifest.error((*rule.where, "files"), f"there is no model under {root}")
+    return kept
+
+
+def _jobs(manifest: Manifest, rule: Rule, path: Path, options: Mapping[str, Any], alone: bool) -> Iterator[Job]:
+    """A job for each variant of a source. alone: no other source of the rule differs in its ending only."""
+    values = rule.values
+    views = tuple(tuple(view) if isinstance(view, list) else view for view in _views(values["views"]))
+    formats = tuple(dict.fromkeys(listed(values["formats"])))
+    root, source = str(manifest.root), Path(os.path.relpath(path, manifest.root)).as_posix()
+    template = values["name"]
+    if not alone and template == KEYS["name"].default:
+        template = template.replace("{stem}", "{stem}.{ending}")
+    depends = []
+    for pattern in listed(values["depends"]):
+        paths = named(manifest.root, pattern) or [manifest.root / pattern]
+        depends += [Path(os.path.relpath(each, manifest.root)).as_posix() for each in paths]
+    base = Job(root, source, views, formats, (), options, tuple(dict.fromkeys(depends)))
+    base = replace(base, time_limit_s=values["time_limit_s"], memory_limit_mb=values["memory_limit_mb"])
+    for variant in _variants(manifest, rule):
+        more = {"parameters": variant} if variant else {}
+        names = [
+            _filled(manifest, rule, template, _fields(source, view, number, variant))
+            for number, view in enumerate(views, 1)
+        ]
+        files = tuple(tuple(f"{name}.{format}" for format in formats) for name in names)
+        yield replace(base, files=files, options={**options, **more}, rule=rule.where)
+
+
+def _views(value: Any) -> list[Any]:
+    """A list of views; a single direction is three numbers."""
+    return [value] if isinstance(value, str) else value
+
+
+def _variants(manifest: Manifest, rule: Rule) -> list[dict[str, Any]]:
+    """All combinations of the parameters' values; one without any where there are none."""
+    matrix = {name: listed(value) for name, value in rule.values["parameters"].items()}
+    count = 1
+    for each in matrix.values():
+        count *= len(each)
+    if count > MOST_VARIANTS:
+        raise manifest.error((*rule.where, "parameters"), f"{count} variants of one source are too many")
+    return [dict(zip(matrix, each, strict=True)) for each in product(*matrix.values())]
+
+
+def _fields(source: str, view: Any, number: int, variant: Mapping[str, Any]) -> dict[str, str]:
+    """What the fields of a name stand for."""
+    path = PurePosixPath(source)
+    words = ",".join(f"{name}={value}" for name, value in variant.items())
+    return {
+        **{name: _safe(str(value)) for name, value in variant.items()},
+        "folder": "/".join(part for part in path.parent.parts if part not in ("..", "/")) or ".",
+        "stem": path.stem,
+        "ending": path.suffix.lstrip("."),
+        "view": _safe(view if isinstance(view, str) else ",".join(f"{x:g}" for x in view)),
+        "n": str(number),
+        "variant": f"-{_safe(words)}" if words else "",
+    }
+
+
+def _filled(manifest: Manifest, rule: Rule, template: str, fields: Mapping[str, str]) -> str:
+    """The name of a file, without its ending. Raises OptionError for an unknown field, or a way out of the folder."""
+    unknown = [name for name in _FIELD.findall(template) if name not in fields]
+    if unknown:
+        known = ", ".join(f"{{{name}}}" for name in fields)
+        raise manifest.error((*rule.where, "name"), f"there is no field {{{unknown[0]}}}: use {known}")
+    name = PurePosixPath(_FIELD.sub(lambda match: fields[match[1]], template))
+    if name.is_absolute() or ".." in name.parts or not name.name or "\\" in str(name):
+        raise manifest.error((*rule.where, "name"), f"{name} leads out of the folder of outputs")
+    return str(name)
+
+
+def _safe(text: str) -> str:
+    """A text as a part of a file's name."""
+    return re.sub(r"[^\w.+=,-]", "_", text)
+
+
+def _check_names(manifest: Manifest, jobs: Sequence[Job]) -> None:
+    """Raise OptionError where two drawings have one file, or one that the report needs."""
+    first: dict[str, str] = {name: "the report" for name in REPORTS}
+    for job in jobs:
+        for row, view in zip(job.files, job.views, strict=True):
+            for file in row:
+                what = f"{job.title}, {view}"
+                # As a file system sees it that takes large and small letters for the same.
+                other = first.setdefault(file.casefold(), what)
+                if other is not what:
+                    raise _clash(manifest, job, f"{other} and {what} would both be written to {file}")
+
+
+def _clash(manifest: Manifest, job: Job, message: str) -> OptionError:
+    return manifest.error((*job.rule, "name"), f"{message}: choose another name for one of them")

@@ -1,0 +1,78 @@
+"""Pools: whoever carries out jobs. `LocalPool` does so with worker processes on this machine.
+
+Any object that follows the protocol `Pool` will do: what runs elsewhere gets jobs and gives outcomes as plain data.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import Protocol
+
+from hlr.batch.job import Job, Outcome
+from hlr.batch.worker import Begun, Ended, Worker
+
+_GLANCE = 0.1
+"""Seconds between two looks at the time and memory that the running jobs take."""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """Something happened to a job. number: its place among the jobs. stage: it has begun; outcome: it has ended."""
+
+    number: int
+    stage: str = ""
+    outcome: Outcome | None = None
+
+
+class Pool(Protocol):
+    """Carries out jobs, in any order and each once."""
+
+    def run(self, jobs: Sequence[Job]) -> Iterator[Event]:
+        """Carry out jobs, the first ones first. Each ends with one event that has an outcome, whatever goes wrong."""
+
+    def close(self) -> None:
+        """End all that still runs."""
+
+
+class LocalPool:
+    """Worker processes on this machine, started when there is work for them and kept until the pool is closed."""
+
+    def __init__(self, workers: int) -> None:
+        self._most = workers
+        self._workers: list[Worker] = []
+        self._said: SimpleQueue[Begun | Ended] = SimpleQueue()
+
+    def run(self, jobs: Sequence[Job]) -> Iterator[Event]:
+        """As of `Pool`."""
+        while len(self._workers) < min(self._most, len(jobs)):
+            self._workers.append(Worker(self._said))
+        waiting, left = iter(enumerate(jobs)), len(jobs)
+        for worker in self._workers:
+            _give(worker, waiting)
+        while left:
+            try:
+                said = self._said.get(timeout=_GLANCE)
+            except Empty:
+                for worker in self._workers:
+                    worker.keep_within_limits()
+                continue
+            if isinstance(said, Begun):
+                yield Event(said.number, stage=said.stage)
+            else:
+                left -= 1
+                _give(said.worker, waiting)
+                yield Event(said.number, outcome=said.outcome)
+
+    def close(self) -> None:
+        """As of `Pool`."""
+        for worker in self._workers:
+            worker.end()
+        self._workers.clear()
+
+
+def _give(worker: Worker, waiting: Iterator[tuple[int, Job]]) -> None:
+    with contextlib.suppress(StopIteration):
+        worker.give(*next(waiting))

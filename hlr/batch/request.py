@@ -1,0 +1,49 @@
+"""Options of a drawing as a manifest writes them: from plain values to `hlr.Options`, and their check."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from hlr.errors import HlrError, OptionError
+from hlr.request.options import Options, Perspective
+
+NAMES = tuple(Options.__dataclass_fields__)
+"""Of all options that a manifest may give."""
+
+
+def options_of(values: Mapping[str, Any]) -> Options:
+    """The options with these values; arrays become tuples, and a table of `perspective` becomes the camera.
+
+    Raises OptionError for a camera that has no such field; `check` says whether the values are right.
+    """
+    given = {name: _tuples(value) for name, value in values.items()}
+    camera = given.get("perspective")
+    if isinstance(camera, Mapping):
+        unknown = [name for name in camera if name not in Perspective.__dataclass_fields__]
+        if unknown:
+            known = ", ".join(Perspective.__dataclass_fields__)
+            raise OptionError(f"perspective has no field {unknown[0]!r}: use {known}")
+        given["perspective"] = Perspective(**{name: _tuples(value) for name, value in camera.items()})
+    return Options(**given)
+
+
+def check(values: Mapping[str, Any], views: tuple[Any, ...]) -> None:
+    """Check options and views as `hlr.draw_views` does, before any work. Raises OptionError, ViewError."""
+    from hlr.request.check import checked, checked_views
+
+    checked_views(views, checked(options_of(values)))
+
+
+def wrong_one(values: Mapping[str, Any]) -> str | None:
+    """The first of these options that is refused by itself; None: only together they are."""
+    for name, value in values.items():
+        try:
+            check({name: value}, ("iso",))
+        except HlrError:
+            return name
+    return None
+
+
+def _tuples(value: Any) -> Any:
+    return tuple(map(_tuples, value)) if isinstance(value, list) else value

@@ -1,0 +1,147 @@
+"""Run a batch: what is unchanged is left alone, the rest goes to a pool, and every drawing is written as it comes."""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from hlr.batch.job import Job, Outcome, failed
+from hlr.batch.kept import Kept
+from hlr.batch.manifest import Manifest
+from hlr.batch.plan import Plan
+from hlr.batch.request import check, wrong_one
+from hlr.drawing import files
+from hlr.errors import HlrError, WriteError
+
+if TYPE_CHECKING:
+    from hlr.batch.pool import Pool
+
+
+class Listener(Protocol):
+    """Whoever watches a batch. Jobs are told by their number in the plan."""
+
+    def planned(self, plan: Plan, todo: Sequence[int]) -> None:
+        """These jobs have to be drawn; all others are unchanged."""
+
+    def begun(self, number: int, stage: str) -> None:
+        """A job has come to a stage."""
+
+    def ended(self, number: int, outcome: Outcome) -> None:
+        """A job was carried out, and its files are written."""
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """A batch that is done: an outcome for each job of the plan, and the numbers of those that were drawn now."""
+
+    plan: Plan
+    outcomes: tuple[Outcome, ...]
+    drawn: tuple[int, ...]
+
+
+def run(plan: Plan, kept: Kept, pool: Callable[[], Pool], listener: Listener) -> Done:
+    """Carry out all jobs of a plan. pool: called when there is work for it; whoever made it closes it.
+
+    Raises OptionError, ViewError where an option of a job cannot be drawn, before anything is; WriteError where the
+    folder of outputs cannot be made.
+    """
+    outcomes: dict[int, Outcome] = {}
+    for number, job in enumerate(plan.jobs):
+        outcome = kept.find(job)
+        if outcome is not None:
+            outcomes[number] = without_contents(written(plan, job, outcome))
+    todo = [number for number in _largest_first(plan.jobs) if number not in outcomes]
+    _check_options(plan.manifest, [plan.jobs[number] for number in todo])
+    listener.planned(plan, todo)
+    if todo:
+        for event in pool().run([plan.jobs[number] for number in todo]):
+            number = todo[event.number]
+            if event.outcome is None:
+                listener.begun(number, event.stage)
+                continue
+            job = plan.jobs[number]
+            outcome = written(plan, job, event.outcome)
+            kept.keep(job, outcome)
+            # The contents are on disk now: in memory they would add up.
+            outcomes[number] = without_contents(outcome)
+            listener.ended(number, outcomes[number])
+    return Done(plan, tuple(outcomes[number] for number in range(len(plan.jobs))), tuple(sorted(todo)))
+
+
+def written(plan: Plan, job: Job, outcome: Outcome) -> Outcome:
+    """Write the files of an outcome, all or none; what is there already, byte for byte, is not touched."""
+    if outcome.failure is not None:
+        return outcome
+    contents: dict[Path, bytes] = {}
+    for names, row in zip(job.files, outcome.contents, strict=True):
+        for name, content in zip(names, row, strict=True):
+            path = plan.output / name
+            if _content(path, len(content)) != content:
+                contents[path] = content
+    try:
+        files.write_all(contents, dict.fromkeys(path.parent for path in contents))
+    except WriteError as error:
+        return failed("WriteError", str(error), outcome.seconds)
+    return outcome
+
+
+def without_contents(outcome: Outcome) -> Outcome:
+    """The outcome without the bytes of its files."""
+    return replace(outcome, contents=())
+
+
+def tidy(folder: Path) -> None:
+    """Remove what runs that were killed have left unfinished under a folder, an hour ago or more."""
+    for place, _, names in os.walk(folder):
+        for name in filter(_UNFINISHED.fullmatch, names):
+            path = Path(place, name)
+            with suppress(OSError):
+                if path.stat().st_mtime < time.time() - _ABANDONED_S:
+                    path.unlink()
+
+
+_UNFINISHED = re.compile(r"\..*\.[0-9a-f]{8}\.tmp")
+"""A file of `hlr.drawing.files.write_all` that has not got its name yet."""
+
+_ABANDONED_S = 3600.0
+
+
+def _content(path: Path, size: int) -> bytes | None:
+    """The content of a file of this size; None: there is no such file."""
+    with suppress(OSError):
+        if path.stat().st_size == size:
+            return path.read_bytes()
+    return None
+
+
+def _largest_first(jobs: Sequence[Job]) -> list[int]:
+    """The jobs' numbers: large sources first, so that none of them is left alone at the end."""
+    return sorted(range(len(jobs)), key=lambda number: (-source_size(jobs[number]), number))
+
+
+def source_size(job: Job) -> int:
+    """Bytes; 0 where there is no such file."""
+    with suppress(OSError):
+        return Path(job.root, job.source).stat().st_size
+    return 0
+
+
+def _check_options(manifest: Manifest, jobs: Sequence[Job]) -> None:
+    """Raise OptionError or ViewError where the options of a job, or its views, cannot be drawn."""
+    seen = set()
+    for job in jobs:
+        if (job.rule, job.views) in seen:
+            continue
+        seen.add((job.rule, job.views))
+        options = {name: value for name, value in job.options.items() if name != "parameters"}
+        try:
+            check(options, job.views)
+        except HlrError as error:
+            name = wrong_one(options) or "views"
+            raise manifest.error((*job.rule, name), str(error)) from None

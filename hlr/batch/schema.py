@@ -1,0 +1,101 @@
+"""The keys of a manifest: what each holds, and what it means. What is added to manifests is a row here.
+
+Beside these keys every option of a drawing may be given: the fields of `hlr.Options`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """A row: the default, what is allowed in words, whether a value is, and what the key means.
+
+    anywhere  also in a table [[source]]; else only at the top
+    """
+
+    default: Any
+    allowed: str
+    allows: Callable[[Any], bool]
+    meaning: str
+    anywhere: bool = True
+
+
+def _is_text(value: Any) -> bool:
+    return isinstance(value, str) and bool(value.strip()) and "\0" not in value
+
+
+def _is_texts(value: Any) -> bool:
+    return _is_text(value) or (isinstance(value, list) and bool(value) and all(map(_is_text, value)))
+
+
+def _is_none_or_texts(value: Any) -> bool:
+    return value == [] or _is_texts(value)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_positive(value: Any) -> bool:
+    return _is_number(value) and value > 0.0
+
+
+def _is_view(value: Any) -> bool:
+    return _is_text(value) or (isinstance(value, list) and len(value) == 3 and all(map(_is_number, value)))
+
+
+def _is_views(value: Any) -> bool:
+    return _is_text(value) or (isinstance(value, list) and bool(value) and all(map(_is_view, value)))
+
+
+def _is_parameter(value: Any) -> bool:
+    return isinstance(value, str | bool) or _is_number(value)
+
+
+def _is_matrix(value: Any) -> bool:
+    if not isinstance(value, dict):
+        return False
+    lists = [each if isinstance(each, list) else [each] for each in value.values()]
+    return all(name.isidentifier() for name in value) and all(each and all(map(_is_parameter, each)) for each in lists)
+
+
+_TEXTS = "a text or a list of texts"
+
+KEYS = {
+    "output": Key("drawings", "the name of a folder", _is_text, "the folder that is written to", anywhere=False),
+    "files": Key([], _TEXTS, _is_none_or_texts, "the sources: names or patterns, such as parts/**/*.step"),
+    "exclude": Key([], _TEXTS, _is_none_or_texts, "names or patterns of files that are left out"),
+    "views": Key(
+        ["front", "top", "right", "iso"],
+        "names of views, or directions such as [1, -1, 1]",
+        _is_views,
+        "the views of each source",
+    ),
+    "formats": Key(["svg"], _TEXTS, _is_texts, "the formats of each view"),
+    "name": Key(
+        "{folder}/{stem}{variant}-{view}",
+        "a text",
+        _is_text,
+        "the name of a file, without its ending: {folder}, {stem}, {ending}, {view}, {n}, {variant}, and parameters",
+    ),
+    "parameters": Key(
+        {},
+        "a table of names with a value, or a list of values, each",
+        _is_matrix,
+        "parameters of scripts: one variant is drawn for each combination of values",
+    ),
+    "depends": Key([], _TEXTS, _is_none_or_texts, "files that the sources depend on besides: names or patterns"),
+    "time_limit_s": Key(600.0, "a positive number", _is_positive, "seconds after which a source is given up"),
+    "memory_limit_mb": Key(4000.0, "a positive number", _is_positive, "megabytes above which a source is given up"),
+}
+"""All keys, in the order in which people are told of them."""
+
+
+def listed(value: Any) -> list[Any]:
+    """A list as it is; anything else as a list of one."""
+    return value if isinstance(value, list) else [value]

@@ -1,0 +1,33 @@
+"""Watch the files of a batch, and draw again what has changed on disk."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+_STEP_MS = 20
+"""Milliseconds between two looks at what the system has told."""
+
+_SETTLE_MS = 40
+"""Milliseconds that changes are gathered for: an editor writes a file in several steps."""
+
+
+def changes(root: Path, output: Path, others: set[Path]) -> Iterator[set[Path]]:
+    """The files that have changed, time after time, for ever. Those in the folder of outputs do not count.
+
+    root: watched with all its folders; others: files outside it.
+    """
+    from watchfiles import watch
+
+    folders = {path.parent for path in others if not path.is_relative_to(root)}
+    for changed in watch(root, *folders, step=_STEP_MS, debounce=_SETTLE_MS, raise_interrupt=True):
+        paths = {Path(path) for _, path in changed}
+        paths = {path for path in paths if not path.is_relative_to(output) and not _is_aside(path, root)}
+        if paths:
+            yield paths
+
+
+def _is_aside(path: Path, root: Path) -> bool:
+    """Whether a path is hidden below the root, or is compiled code: no drawing depends on it."""
+    parts = path.relative_to(root).parts if path.is_relative_to(root) else path.parts[-1:]
+    return any(part.startswith(".") or part == "__pycache__" for part in parts)

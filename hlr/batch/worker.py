@@ -1,0 +1,207 @@
+"""A worker of the local pool: a process that does one job after the other, and is replaced when it ends."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any
+
+from hlr.batch.frames import receive, send
+from hlr.batch.job import Job, Outcome, failed
+from hlr.common.process import CRASHES
+from hlr.tables.readers import of_ending
+
+if TYPE_CHECKING:
+    import psutil
+
+_READING = ("", "source", "tessellate")
+"""Stages in which OpenCASCADE or a script runs; all other stages run our code alone."""
+
+_KILLED = 9
+"""The signal that the system kills with where memory is short."""
+
+
+_PATIENCE = 0.5
+"""Seconds that a process has to end when its input has ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A job has come to a stage."""
+
+    number: int
+    stage: str
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """A job has ended, and its worker is free."""
+
+    number: int
+    outcome: Outcome
+    worker: Worker
+
+
+class Worker:
+    """A process, and the thread of this one that talks with it. The thread's messages go into a queue."""
+
+    def __init__(self, said: SimpleQueue[Begun | Ended]) -> None:
+        self._said = said
+        self._given: SimpleQueue[tuple[int, Job] | None] = SimpleQueue()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._running: _Running | None = None
+        # The process ends with the thread that starts it, at the latest.
+        self._thread = threading.Thread(target=self._work, daemon=True)
+        self._thread.start()
+
+    def give(self, number: int, job: Job) -> None:
+        """Let it do a job; it has none now."""
+        self._given.put((number, job))
+
+    def keep_within_limits(self) -> None:
+        """End the job that it does where that takes too long, or too much memory."""
+        running = self._running
+        if running is not None:
+            running.keep_within_limits()
+
+    def end(self) -> None:
+        """End it, whatever it does."""
+        self._given.put(None)
+        process = self._process
+        if process is not None:
+            _kill(process.pid)
+
+    def _work(self) -> None:
+        while (given := self._given.get()) is not None:
+            number, job = given
+            started = time.monotonic()
+            outcome = self._outcome(number, job, started)
+            self._running = None
+            self._said.put(Ended(number, outcome, self))
+        self._stop()
+
+    def _outcome(self, number: int, job: Job, started: float) -> Outcome:
+        running = _Running(job)
+        code: int | None = None
+        try:
+            process = self._started(job)
+            assert process.stdin is not None and process.stdout is not None
+            send(process.stdin.fileno(), job)
+            self._running = running
+            while True:
+                said, value = receive(process.stdout.fileno())
+                if said == "at":
+                    running.moved(value)
+                elif said == "stage":
+                    running.stage = value
+                    self._said.put(Begun(number, value))
+                elif said == "ended":
+                    return _ended(value)
+                else:
+                    code = value
+                    break
+        except (EOFError, OSError):
+            code = self._stop()
+        why = running.verdict or _why(job, running.stage, code)
+        return failed(*why, seconds=round(time.monotonic() - started, 4))
+
+    def _started(self, job: Job) -> subprocess.Popen[bytes]:
+        if self._process is None:
+            # -P: the folder that the batch works in must not provide modules.
+            command = [sys.executable, "-P", "-m", "hlr.batch.worker_process", str(os.getpid())]
+            self._process = subprocess.Popen(
+                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=job.root, start_new_session=True
+            )
+        return self._process
+
+    def _stop(self) -> int | None:
+        """End the process and forget it. Returns how it ended."""
+        process, self._process = self._process, None
+        if process is None:
+            return None
+        with contextlib.suppress(OSError, subprocess.TimeoutExpired):
+            process.communicate(timeout=_PATIENCE)
+            return process.returncode
+        _kill(process.pid)
+        return process.wait()
+
+
+class _Running:
+    """The job that a worker does now: in which process, since when, and why it was ended, if it was."""
+
+    def __init__(self, job: Job) -> None:
+        self._job, self.stage = job, ""
+        self.verdict: tuple[str, str] | None = None
+        self._process: psutil.Process | None = None
+        self._since = time.monotonic()
+
+    def moved(self, pid: int) -> None:
+        """The job is done by this process from now on."""
+        import psutil
+
+        with contextlib.suppress(psutil.Error):
+            self._process = psutil.Process(pid)
+        self._since = time.monotonic()
+
+    def keep_within_limits(self) -> None:
+        """Kill the process where it takes too long, or too much memory."""
+        import psutil
+
+        job, process = self._job, self._process
+        if process is None or self.verdict is not None:
+            return
+        with contextlib.suppress(psutil.Error):
+            if time.monotonic() - self._since > job.time_limit_s:
+                self.verdict = (
+                    "TimeLimit",
+                    f"{job.source} took longer than {job.time_limit_s:g} s and was given up: raise time_limit_s, or "
+                    "ask for a larger accuracy.",
+                )
+            elif process.memory_info().rss > job.memory_limit_mb * 1e6:
+                self.verdict = (
+                    "MemoryLimit",
+                    f"{job.source} took more than {job.memory_limit_mb:g} MB of memory and was given up: raise "
+                    "memory_limit_mb, or ask for a larger accuracy.",
+                )
+            else:
+                return
+            _kill(process.pid)
+
+
+def _ended(outcome: Any) -> Outcome:
+    assert isinstance(outcome, Outcome)
+    return outcome
+
+
+def _why(job: Job, stage: str, code: int | None) -> tuple[str, str]:
+    """Why a job has no outcome: the kind of failure, and a sentence."""
+    name, reader = job.source, of_ending(Path(job.source).suffix)
+    if code is None or code >= 0:
+        if reader is not None and reader.kind == "script":
+            return "SourceError", f"{name} ended its process before anything was drawn; take os._exit out of it."
+        return "Crash", f"{name}: the process that drew it ended with exit code {code}."
+    if -code == _KILLED:
+        return "SourceError", f"{name}: the work was killed, most likely for want of memory."
+    reason = CRASHES.get(-code, f"signal {-code}")
+    if stage in _READING and reader is not None and reader.crash:
+        doing = "meshed" if stage == "tessellate" else "read"
+        return "SourceError", f"{reader.crash.format(name=name, reason=reason, doing=doing)}."
+    return "Crash", f"{name} crashed hlr ({reason}); this is a fault of hlr, please report it with the model."
+
+
+def _kill(pid: int) -> None:
+    """Kill a process and all that it has started."""
+    import psutil
+
+    with contextlib.suppress(psutil.Error):
+        process = psutil.Process(pid)
+        for each in (*process.children(recursive=True), process):
+            with contextlib.suppress(psutil.Error):
+                each.kill()

@@ -1,0 +1,120 @@
+"""`hlr batch` as a command."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from batch.models import FakePool, Silent, tetrahedron
+
+from hlr.batch.kept import Kept
+from hlr.batch.keys import Digests
+from hlr.batch.manifest import manifest_of
+from hlr.batch.plan import plan
+from hlr.batch.report import write
+from hlr.batch.run import run
+from hlr.cache.store import DRAWINGS, Store
+
+
+@pytest.fixture
+def hlr_batch(tmp_path):
+    """Run the command in an empty folder, with a cache of its own."""
+    models = tmp_path / "models"
+    models.mkdir()
+
+    def command(*arguments, program=("-m", "hlr"), **variables):
+        line = [sys.executable, "-P", *program, "batch", *map(str, arguments)]
+        env = os.environ | {"HLR_CACHE": str(tmp_path / "cache")} | variables
+        return subprocess.run(line, cwd=models, env=env, check=False, capture_output=True, text=True, timeout=120)
+
+    command.folder = models
+    return command
+
+
+@pytest.mark.slow
+def test_a_folder_is_drawn_once(hlr_batch):
+    for number in range(3):
+        tetrahedron(hlr_batch.folder / f"{number}.off", number + 1)
+    (hlr_batch.folder / "bad.off").write_text("OFF\n")
+    first = hlr_batch("--view", "iso", "-j", "2", GITHUB_ACTIONS="true")
+    assert first.returncode == 1 and "3 drawn, 0 unchanged, 1 failed" in first.stderr
+    assert first.stdout.startswith("::error file=bad.off,title=bad.off::bad.off ")
+    report = json.loads((hlr_batch.folder / "drawings/manifest.json").read_text())
+    assert [source["state"] for source in report["sources"]] == ["drawn", "drawn", "drawn", "failed"]
+    (hlr_batch.folder / "bad.off").unlink()
+    time.sleep(0.01)
+    again = hlr_batch("--view", "iso")
+    assert again.returncode == 0 and "0 drawn, 3 unchanged, 0 failed" in again.stderr
+    assert hlr_batch("--dry-run", "--view", "iso").stdout == "unchanged  0.off\nunchanged  1.off\nunchanged  2.off\n"
+    svg = hlr_batch.folder / "drawings/0-iso.svg"
+    assert hlr_batch("--list", "--view", "iso", "0.off").stdout == f"{svg}\n"
+    # The same bytes as drawn by itself.
+    alone = [sys.executable, "-m", "hlr", "draw", "0.off", "-q", "-o", "alone.svg"]
+    subprocess.run(alone, cwd=hlr_batch.folder, check=True)
+    assert (hlr_batch.folder / "alone.svg").read_bytes() == svg.read_bytes()
+
+
+@pytest.mark.slow
+def test_a_run_without_work_loads_nothing_heavy(hlr_batch, tmp_path):
+    folder = hlr_batch.folder
+    for number in range(100):
+        model = tetrahedron(folder / f"{number}.off", number + 1)
+        os.utime(model, (0, 0))
+    # As if they had been drawn: what counts is the run after that.
+    store, digests = Store(tmp_path / "cache", 10**9, DRAWINGS), Digests()
+    asked = plan(manifest_of({"views": ["iso"]}, folder), folder / "drawings")
+    write(run(asked, Kept(store, digests), FakePool(), Silent()), digests, {})
+    code = (
+        "import atexit, os, sys\n"
+        "from hlr.cli import main\n"
+        "atexit.register(lambda: print(sum(os.times()[:4]), *sys.modules))\n"
+        "main()\n"
+    )
+    done = hlr_batch("--view", "iso", program=("-c", code))
+    assert "0 drawn, 100 unchanged, 0 failed" in done.stderr
+    seconds, *modules = done.stdout.split()
+    assert not {"numpy", "OCP", "rich", "psutil", "subprocess", "hlr._kernel"} & set(modules)
+    assert float(seconds) < 1.0
+
+
+@pytest.mark.slow
+def test_the_manifest_is_followed_and_what_is_wrong_refused(hlr_batch):
+    tetrahedron(hlr_batch.folder / "parts/a.off")
+    assert hlr_batch("--init").returncode == 0
+    manifest = hlr_batch.folder / "hlr.toml"
+    assert 'files = ["**/*.off"]' in manifest.read_text()
+    assert hlr_batch("--init").returncode == 2
+    manifest.write_text('output = "out"\nviews = ["iso"]\nformats = ["json"]\n\ncrease = 400\n')
+    wrong = hlr_batch()
+    assert wrong.returncode == 2 and wrong.stderr.startswith("hlr: hlr.toml, line 5, crease: crease 400 is not a")
+    manifest.write_text(manifest.read_text().replace("400", "40"))
+    assert hlr_batch("-q").stderr == ""
+    assert (hlr_batch.folder / "out/parts/a-iso.json").exists()
+    # The folder itself may be a file.
+    (hlr_batch.folder / "file").touch()
+    refused = hlr_batch("-o", "file")
+    assert refused.returncode == 2 and "cannot write" in refused.stderr
+
+
+@pytest.mark.slow
+def test_watching_draws_what_is_saved(hlr_batch, tmp_path):
+    model, svg = tetrahedron(hlr_batch.folder / "a.off"), hlr_batch.folder / "drawings/a-iso.svg"
+    command = [sys.executable, "-P", "-m", "hlr", "batch", "--watch", "--view", "iso"]
+    process = subprocess.Popen(command, cwd=hlr_batch.folder, stderr=subprocess.PIPE, text=True)
+    try:
+        for line in process.stderr:
+            if line.startswith("watching"):
+                break
+        time.sleep(0.3)  # the watcher itself starts after that line
+        before = svg.read_bytes()
+        tetrahedron(model, 25)
+        end = time.monotonic() + 20.0
+        while svg.read_bytes() == before:
+            assert time.monotonic() < end
+            time.sleep(0.02)
+    finally:
+        process.send_signal(signal.SIGINT)
+        assert process.wait(timeout=10) == -signal.SIGINT

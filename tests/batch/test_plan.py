@@ -1,0 +1,106 @@
+"""Plans: which sources there are, and what each file is called."""
+
+import re
+from pathlib import Path
+
+import pytest
+from batch.models import tetrahedron
+
+from hlr.batch.manifest import manifest_of
+from hlr.batch.plan import REPORTS, plan
+from hlr.batch.report import _WRITERS
+from hlr.errors import OptionError
+
+
+def planned(root, **found):
+    """Files of each job of a manifest: its title, and the names."""
+    return {
+        job.title: [name for row in job.files for name in row]
+        for job in plan(manifest_of(found, root), root / "drawings").jobs
+    }
+
+
+def test_all_models_under_a_folder_are_sources(tmp_path):
+    for name in ("b.off", "sub/a.off", ".git/c.off", "venv/d.off", "drawings/e.off", "node_modules/f.off"):
+        tetrahedron(tmp_path / name)
+    (tmp_path / "venv/pyvenv.cfg").touch()
+    (tmp_path / "notes.txt").touch()
+    found = planned(tmp_path, views="iso")
+    assert found == {"b.off": ["b-iso.svg"], "sub/a.off": ["sub/a-iso.svg"]}
+
+
+def test_scripts_of_a_folder_are_run_only_where_they_show_a_cad_model(tmp_path):
+    texts = {
+        "part.py": "import cadquery as cq\nresult = cq.Workplane().box(1, 1, 1)\n",
+        "shown.py": "from build123d import *\nshow_object(Box(1, 1, 1))\n",
+        "helper.py": "import cadquery as cq\ndef box():\n    result = cq.Workplane()\n",
+        "setup.py": "result = 1\n",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    assert list(planned(tmp_path)) == ["part.py", "shown.py"]
+    assert list(planned(tmp_path, files=["*.py"], exclude="setup.py")) == ["helper.py", "part.py", "shown.py"]
+
+
+def test_patterns_leave_out_what_is_no_model_and_names_do_not(tmp_path):
+    for name in ("parts/a.off", "parts/deep/b.off", "c.off"):
+        tetrahedron(tmp_path / name)
+    (tmp_path / "parts/readme.txt").touch()
+    assert list(planned(tmp_path, files="parts/*")) == ["parts/a.off"]
+    assert list(planned(tmp_path, files="**/*.off")) == ["c.off", "parts/a.off", "parts/deep/b.off"]
+    assert list(planned(tmp_path, files=["c.off", "parts", "c.off"])) == ["c.off", "parts/a.off", "parts/deep/b.off"]
+    assert list(planned(tmp_path, files="**/*.off", exclude=["parts/deep"])) == ["c.off", "parts/a.off"]
+    assert list(planned(tmp_path, files="parts/readme.txt")) == ["parts/readme.txt"]
+    with pytest.raises(OptionError, match=r"prts/\*\.step names no model under"):
+        planned(tmp_path, files="prts/*.step")
+    with pytest.raises(OptionError, match="there is no model under"):
+        planned(tmp_path / "parts/deep/none")
+
+
+def test_each_combination_of_parameters_is_a_variant(tmp_path):
+    (tmp_path / "a.py").touch()
+    found = planned(tmp_path, files="a.py", views=["iso"], parameters={"size": [10, 20.5], "name": "x/y"})
+    assert found == {
+        "a.py size=10 name=x/y": ["a-size=10,name=x_y-iso.svg"],
+        "a.py size=20.5 name=x/y": ["a-size=20.5,name=x_y-iso.svg"],
+    }
+    found = planned(
+        tmp_path, files="a.py", views=["iso", [1, 0, 0]], parameters={"size": [1]}, name="{stem}_{size}_{n}"
+    )
+    assert found == {"a.py size=1": ["a_1_1.svg", "a_1_2.svg"]}
+
+
+def test_models_that_differ_in_their_ending_only_have_files_of_their_own(tmp_path):
+    tetrahedron(tmp_path / "a.off")
+    (tmp_path / "a.stl").touch()
+    assert planned(tmp_path, views="top") == {"a.off": ["a.off-top.svg"], "a.stl": ["a.stl-top.svg"]}
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("{stem}", "a.off, front and a.off, top would both be written to a.svg"),
+        ("{stem}-{size}", "there is no field {size}: use {folder}, {stem}"),
+        ("../{stem}-{view}", "../a-front leads out of the folder of outputs"),
+        ("/tmp/{view}", "/tmp/front leads out of the folder of outputs"),
+    ],
+)
+def test_names_that_cannot_be(tmp_path, name, message):
+    tetrahedron(tmp_path / "a.off")
+    with pytest.raises(OptionError, match=re.escape(message)):
+        planned(tmp_path, name=name, views=["front", "top"])
+
+
+def test_a_drawing_does_not_take_a_file_of_the_report(tmp_path):
+    tetrahedron(tmp_path / "a.off")
+    with pytest.raises(OptionError, match=r"the report and a\.off, iso would both be written to Manifest\.json"):
+        planned(tmp_path, name="Manifest", formats="json", views="iso")
+    assert tuple(_WRITERS) == REPORTS
+
+
+def test_a_source_outside_the_root_is_drawn_inside_the_folder(tmp_path):
+    tetrahedron(tmp_path / "other/a.off")
+    (tmp_path / "here").mkdir()
+    found = planned(tmp_path / "here", files="../other/*.off", views="iso")
+    assert found == {"../other/a.off": ["other/a-iso.svg"]}
+    assert Path(tmp_path / "here/drawings" / "other/a-iso.svg").is_relative_to(tmp_path / "here/drawings")

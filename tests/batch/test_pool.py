@@ -1,0 +1,99 @@
+"""The pool of worker processes: whatever a source does costs that source alone."""
+
+import os
+import re
+import signal
+import sys
+from dataclasses import replace
+
+import pytest
+from batch.models import tetrahedron
+
+from hlr.batch.job import Job
+from hlr.batch.pool import LocalPool
+
+SCRIPTS = {
+    "exits.py": "import os\nos._exit(3)\n",
+    "crashes.py": "import ctypes\nctypes.string_at(0)\n",
+    "killed.py": "import os\nos.kill(os.getpid(), 9)\n",
+    "endless.py": "while True: pass\n",
+    "greedy.py": "import time\nheld = bytearray(b'x') * 700_000_000\ntime.sleep(60)\n",
+    "wrong.py": "1 / 0\n",
+    "leaves.py": "import sys\nsys.exit(4)\n",
+    "noisy.py": "import os\nprint('x' * 100_000)\nos.write(1, b'y' * 100_000)\n1 / 0\n",
+}
+SAID = {
+    "exits.py": "exits.py ended its process before anything was drawn",
+    "crashes.py": r"crashes.py crashed \(segmentation fault\)",
+    "killed.py": "killed.py: the work was killed, most likely for want of memory",
+    "endless.py": "endless.py took longer than 2 s and was given up: raise time_limit_s",
+    "greedy.py": "greedy.py took more than 500 MB of memory and was given up: raise memory_limit_mb",
+    "wrong.py": "wrong.py, line 1: ZeroDivisionError: division by zero",
+    "leaves.py": "leaves.py left with exit code 4",
+    "noisy.py": "noisy.py, line 4: ZeroDivisionError",
+}
+
+
+def job(root, source, **more):
+    files = ((f"{source}.svg",),)
+    return Job(str(root), source, ("iso",), ("svg",), files, {"threads": 1}, time_limit_s=60.0, **more)
+
+
+@pytest.fixture
+def pool():
+    pool = LocalPool(2)
+    yield pool
+    pool.close()
+
+
+@pytest.mark.slow
+def test_what_a_source_does_costs_that_source_alone(pool, tmp_path):
+    jobs = []
+    for number, (name, text) in enumerate(SCRIPTS.items()):
+        (tmp_path / name).write_text(text)
+        limits = {"time_limit_s": 2.0} if name == "endless.py" else {}
+        jobs.append(replace(job(tmp_path, name, memory_limit_mb=500.0), **limits))
+        jobs.append(job(tmp_path, tetrahedron(tmp_path / f"{number}.off", number + 1).name))
+    outcomes = {jobs[e.number].source: e.outcome for e in pool.run(jobs) if e.outcome is not None}
+    assert outcomes.keys() == {job.source for job in jobs}
+    for name, outcome in outcomes.items():
+        if name in SAID:
+            assert outcome.failure is not None and re.match(SAID[name], outcome.failure.message)
+        else:
+            assert outcome.failure is None and outcome.contents[0][0].startswith(b"<?xml")
+            assert outcome.peak_memory_mb > 10.0 or sys.platform == "win32"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs POSIX signals")
+def test_a_killed_worker_is_replaced(pool, tmp_path):
+    jobs = [job(tmp_path, tetrahedron(tmp_path / f"{n}.off", n + 1).name) for n in range(6)]
+    killed, outcomes = [], []
+    for event in pool.run(jobs):
+        if event.outcome is None and not killed:
+            process = pool._workers[0]._process
+            killed.append(process.pid)
+            os.kill(process.pid, signal.SIGKILL)
+        elif event.outcome is not None:
+            outcomes.append(event.outcome)
+    assert len(outcomes) == 6 and sum(outcome.failure is not None for outcome in outcomes) <= 1
+    assert all(w._process is None or w._process.pid not in killed for w in pool._workers)
+
+
+@pytest.mark.slow
+def test_nothing_of_one_script_reaches_the_next(tmp_path):
+    for folder in ("one", "other"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "lib.py").write_text(f"where = {folder!r}\n")
+        text = (
+            "import os, lib\nassert not os.environ.get('SEEN')\nos.environ['SEEN'] = '1'\nraise ValueError(lib.where)\n"
+        )
+        (tmp_path / folder / "part.py").write_text(text)
+    pool = LocalPool(1)
+    try:
+        jobs = [job(tmp_path, "one/part.py"), job(tmp_path, "other/part.py")]
+        outcomes = [event.outcome for event in pool.run(jobs) if event.outcome is not None]
+    finally:
+        pool.close()
+    assert [outcome.failure.message[-6:] for outcome in outcomes] == [": one.", "other."]
+    assert [outcome.depends for outcome in outcomes] == [("one/lib.py",), ("other/lib.py",)]
