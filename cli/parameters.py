@@ -7,6 +7,8 @@ import re
 
 import click
 
+from hlr.tables.sheets import papers
+
 Vector3 = tuple[float, float, float]
 
 
@@ -57,40 +59,24 @@ class Scale(click.ParamType[float]):
         return above / below
 
 
-PAPER = {
-    "a0": (841.0, 1189.0),
-    "a1": (594.0, 841.0),
-    "a2": (420.0, 594.0),
-    "a3": (297.0, 420.0),
-    "a4": (210.0, 297.0),
-    "a5": (148.0, 210.0),
-    "a6": (105.0, 148.0),
-    "letter": (215.9, 279.4),
-    "legal": (215.9, 355.6),
-    "tabloid": (279.4, 431.8),
-}
-"""Millimetres, upright."""
-
-MARGIN = 10.0
-"""Millimetres that stay empty on each side of a sheet of paper."""
-
-
-class Size(click.ParamType[tuple[float, float]]):
-    """Width and height in millimetres: 200x150, or a sheet of paper less its margins: A4, A4-landscape."""
+class Size(click.ParamType["tuple[float, float] | str"]):
+    """Width and height in millimetres: 200x150, or the name of a sheet of paper: A4, A4-landscape."""
 
     name = "WxH|A4"
 
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
-        """Two positive numbers."""
-        words = re.split(r"[\s_-]+", str(value).strip().lower())
-        if words[0] in PAPER and words[1:] in ([], ["portrait"], ["landscape"]):
-            narrow, wide = (side - 2.0 * MARGIN for side in PAPER[words[0]])
-            return (wide, narrow) if words[1:] == ["landscape"] else (narrow, wide)
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float] | str:
+        """Two positive numbers, or the text that names a sheet."""
         sides = [number_of(side) for side in re.split("[xX×]", str(value))]
         match sides:
             case [float(width), float(height)] if width > 0.0 and height > 0.0:
                 return (width, height)
-        self.fail(f"{value!r} is not a size in millimetres such as 200x150, A4 or A4-landscape", param, ctx)
+        try:
+            papers(str(value))
+        except ValueError:
+            self.fail(f"{value!r} is not a size in millimetres such as 200x150, A4 or A4-landscape", param, ctx)
+        return str(value)
 
 
 class Window(click.ParamType[tuple[float, float, float, float]]):

@@ -32,6 +32,14 @@ def tell_notes(notes: Iterable[Note], strict: bool = False, quiet: bool = False)
             remark(str(note))
 
 
+def tell_early(notes: Iterable[Note], strict: bool = False, quiet: bool = False) -> None:
+    """The same while a progress bar may be on the terminal: it is cleared first, and drawn anew below."""
+    notes = list(notes)
+    if notes and sys.stderr is not None and sys.stderr.isatty():
+        sys.stderr.write("\r\x1b[K")
+    tell_notes(notes, strict, quiet)
+
+
 def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
     """A summary of the drawings as JSON: one entry for each file."""
     import json

@@ -32,12 +32,23 @@ VIEW = click.option(
 )
 
 SIZE = (
-    click.option("--scale", type=Scale(), metavar="1:2|0.5|2", help="Paper to model. Default: 1:1."),
+    click.option(
+        "--page",
+        metavar="A4|WxH",
+        help="A sheet: A0 to A6, letter, legal or tabloid, with -landscape or -portrait; or its size in millimetres. "
+        "Without --scale the drawing gets the largest standard scale that fits inside margins of 10 mm. Default: A4.",
+    ),
+    click.option(
+        "--scale",
+        type=Scale(),
+        metavar="1:2|0.5|2",
+        help="Paper to model. Without --page the page is as large as the drawing.",
+    ),
     click.option(
         "--fit",
         type=Size(),
         metavar="WxH|A4",
-        help="Instead of a scale: fit into a size in millimetres, or a sheet less margins of 10 mm: A4, A4-landscape.",
+        help="Instead of a scale: as large as fits into a size in millimetres, or as fills a sheet: A4, A4-landscape.",
     ),
 )
 

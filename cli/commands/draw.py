@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -17,12 +17,13 @@ from ..guard import start
 from ..meter import meter
 from ..parameters import Duration, Vector3
 from ..streams import Output, result_only
-from ..telling import summary, tell_notes, tell_plan, tell_report, tell_written, written
+from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
 from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, Command, names_of, options, perspective_of
 
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing
+    from hlr.drawing.notes import Note, Noted
     from hlr.request.options import Options, View
 
     from ..meter import Progress
@@ -35,14 +36,19 @@ def _asked_for() -> Iterator[Callable[[Command], Command]]:
         if row.option not in known:  # classes may share one
             name = row.option
             known.add(name)
-            if row.by_default:
-                yield click.option(f"--{name}/--no-{name}", default=True, help=row.help)
-            else:
+            if row.by_default is False:
                 yield click.option(f"--{name}", is_flag=True, help=row.help)
+            else:
+                yield click.option(f"--{name}/--no-{name}", default=row.by_default, help=row.help)
 
 
 LINES: tuple[Callable[[Command], Command], ...] = (
-    click.option("--hidden/--no-hidden", default=True, help="Hidden lines, dashed. Default: on."),
+    click.option(
+        "--hidden/--no-hidden",
+        default=None,
+        help="Hidden lines, dashed. Default: in views along an axis, such as front; not in pictorial ones, such as iso "
+        "or in perspective.",
+    ),
     *_asked_for(),
     click.option("--see-through", is_flag=True, help="Parts that are transparent in the file hide nothing."),
     click.option("--fill", is_flag=True, help="Paint the visible faces under the lines."),
@@ -114,11 +120,18 @@ def draw(
         with meter(quiet) as progress:
             import hlr
 
+            early: list[Note] = []
+
+            def noted(notes: Sequence[Note]) -> None:
+                tell_early(notes, request.strict, quiet)
+                early.extend(notes)
+
             if request.within is None:
-                drawings = hlr.draw_views(source, list(views), request, progress=progress)
+                drawings = hlr.draw_views(source, list(views), request, progress=progress, noted=noted)
             else:
-                drawings = _within(source, list(views), request, progress, targets, out, started)
-        tell_notes((note for drawing in drawings for note in drawing.notes), request.strict, quiet)
+                drawings = _within(source, list(views), request, progress, noted, targets, out, started)
+        late = (note for drawing in drawings for note in drawing.notes if note not in early)
+        tell_notes(late, request.strict, quiet)
         if request.within is None or (request.report and not to_stdout(targets)):
             drawings = write(drawings, targets, out.put)
         if request.report:
@@ -133,8 +146,6 @@ def draw(
 
 def request_of(
     *,
-    scale: float | None,
-    fit: tuple[float, float] | None,
     perspective: bool,
     eye: Vector3 | None,
     target: Vector3 | None,
@@ -144,10 +155,9 @@ def request_of(
     """The options of the command line as a request. Raises OptionError where they contradict each other."""
     from hlr.request.options import Options
 
-    if scale is not None and fit is not None:
+    if others["scale"] is not None and others["fit"] is not None:
         raise OptionError("--scale and --fit contradict one another; give one of them")
-    camera = perspective_of(perspective, eye, target, fov)
-    return Options(scale=1.0 if scale is None else scale, fit=fit, perspective=camera, **others)
+    return Options(perspective=perspective_of(perspective, eye, target, fov), **others)
 
 
 def _within(
@@ -155,6 +165,7 @@ def _within(
     views: list[View],
     request: Options,
     progress: Progress,
+    noted: Noted,
     targets: Targets,
     out: Output,
     started: float,
@@ -184,7 +195,7 @@ def _within(
 
         asked = checked_views(views, checked(request))
         opened = open_selected(source, request)
-        drawings = draw_within(opened, asked, request, progress, finished, started)
+        drawings = draw_within(opened, asked, request, progress, finished, started, noted)
         drawings = done or drawings
         if request.report:
             drawings = [with_report(opened, drawing, progress) for drawing in drawings]

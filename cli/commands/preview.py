@@ -43,7 +43,11 @@ if TYPE_CHECKING:
     help="Shaded faces; all lines, hidden or not, without faces; or these lines, paler with distance. Default: shaded.",
 )
 @click.option("--edges", is_flag=True, help="The visible lines of the drawing on top; behind glass, lighter.")
-@click.option("--smooth", is_flag=True, help="With --edges: also tangent edges, thin.")
+@click.option(
+    "--smooth/--no-smooth",
+    default=None,
+    help="With --edges: also tangent edges, thin. Default: in pictorial views only.",
+)
 @click.option(
     "--background", metavar="COLOUR", default="white", help="A CSS name, #rrggbb or transparent. Default: white."
 )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hlr.errors import OptionError, SourceError
+from hlr.tables.sheets import papers
 
 from ..guard import end_when_orphaned
 from ..meter import meter
@@ -68,7 +69,7 @@ def study(  # noqa: PLR0913 - one for each option of the command
     output: str,
     view: View,
     scale: float | None,
-    fit: tuple[float, float] | None,
+    fit: tuple[float, float] | str | None,
     accuracies: tuple[float, ...],
     pixels: tuple[int, ...],
     rivals: bool,
@@ -114,7 +115,7 @@ def study(  # noqa: PLR0913 - one for each option of the command
                     source,
                     view,
                     scale=scale,
-                    fit=fit,
+                    fit=papers(fit)[0].room if isinstance(fit, str) else fit,
                     scope=scope,
                     limit=limit,
                     runs=runs,

@@ -13,6 +13,7 @@ from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line, Points
 from hlr.drawing.lines import bounds_of
 from hlr.drawing.notes import Note
+from hlr.drawing.page import Page
 from hlr.drawing.saving import render, write
 from hlr.drawing.scale import ratio
 
@@ -95,10 +96,11 @@ class Drawing(ByValue):
     reached   the errors that were measured; None unless asked for
     plan      for each effect whether it was on, why, and what it cost
     window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
+    page      the page, and where the drawing lies on it; None: the file is as large as the drawing or its window
     reading   how a CAD file was obtained, for people: read, or taken from the cache; not written to files
 
     >>> import hlr
-    >>> drawing = hlr.draw("part.step", view="front")
+    >>> drawing = hlr.draw("part.step", view="front", scale=1)
     >>> len(drawing.lines), len(drawing.visible), len(drawing.hidden)
     (6, 4, 2)
     >>> drawing.bounds
@@ -124,6 +126,7 @@ class Drawing(ByValue):
     reached: Reached | None = None
     plan: Sequence[Decision] = ()
     window: Bounds | None = None
+    page: Page | None = None
     reading: str = field(default="", compare=False)
 
     def __repr__(self) -> str:
@@ -150,8 +153,10 @@ class Drawing(ByValue):
         return bounds_of(self.lines)
 
     @property
-    def page(self) -> Bounds:
-        """The rectangle that SVG and PDF show, with a margin around it: the window, or else the bounds."""
+    def area(self) -> Bounds:
+        """The rectangle that SVG and PDF show: the page, or with a margin around it the window, or else the bounds."""
+        if self.page is not None:
+            return self.page.bounds
         return self.bounds if self.window is None else self.window
 
     @overload

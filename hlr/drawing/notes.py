@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -17,6 +18,7 @@ NoteCode = Literal[
     "defects",
     "more-defects",
     "paper-size",
+    "page-too-small",
     "nothing-in-view",
     "over-time",
     "script-shape",
@@ -38,7 +40,8 @@ CODES: dict[NoteCode, str] = {
     "loops-turned": "outlines or holes of faces run the wrong way round in the model; they are drawn as they are meant",
     "defects": "a part is drawn as it is, though it is open, doubled, turned inside out or the like",
     "more-defects": "more parts have defects than are named",
-    "paper-size": "at 1:1, which nobody asked for, the drawing is very small or very large",
+    "paper-size": "at the scale that was asked for, the drawing is very small or very large",
+    "page-too-small": "at the scale that was asked for, the drawing is larger than its page inside the margins",
     "nothing-in-view": "there is not a line in the drawing",
     "over-time": "reading and the coarsest drawing took longer than the time that was given",
     "script-shape": "which of its shapes a script has shown, or is taken to have meant",
@@ -88,3 +91,7 @@ class Note:
     def as_dict(self) -> dict[str, str]:
         """For JSON."""
         return {"code": self.code, "text": self.text}
+
+
+Noted = Callable[[Sequence[Note]], None]
+"""Called with notes as soon as they are known."""

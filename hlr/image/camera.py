@@ -7,14 +7,14 @@ square roots, element by element: they round alike on every machine, which BLAS 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.errors import ViewError
-from hlr.request.directions import EYE, apart, axes, directed, normalized
+from hlr.request.directions import EYE, apart, axes, directed, normalized, pictorial
 from hlr.request.options import Options, Perspective, Vector, View
 from hlr.source.model import Frame
 
@@ -40,6 +40,7 @@ class Camera:
     """All vectors in model coordinates; direction points from the object toward the viewer.
 
     Perspective where eye is not None; `distance` is that of the image plane, through the target.
+    pictorial: in perspective, or oblique to the axes of the world.
     """
 
     name: str
@@ -51,6 +52,7 @@ class Camera:
     fov: float | None = None
     distance: float | None = None
     framed: bool = False
+    pictorial: bool = False
 
     def project(self, points: Floats, divide: bool = False) -> Floats:
         """(n, 3) model coordinates -> (n, 3) x right, y up, depth; perspective: z maps to -distance^2 / z.
@@ -96,7 +98,13 @@ def resolve(view: View, options: Options, frame: Frame, bounds: Floats) -> Camer
             eye, target, direction = _eye(perspective, direction, frame, bounds)
     right, up = axes(direction, options.up or named_up)
     camera = Camera(
-        name, _to_model(frame, direction), _to_model(frame, right), _to_model(frame, up), eye=eye, target=target
+        name,
+        _to_model(frame, direction),
+        _to_model(frame, right),
+        _to_model(frame, up),
+        eye=eye,
+        target=target,
+        pictorial=eye is not None or pictorial(direction),
     )
     return camera if eye is None else _framed(camera, perspective, bounds)
 
@@ -150,14 +158,4 @@ def _framed(camera: Camera, perspective: Perspective | None, bounds: Floats) -> 
             away = corners - np.asarray(camera.eye)
             reach = max(float(np.max(np.abs(dot(away, v)) / ahead)) for v in (camera.right, camera.up))
             fov = min(WIDEST, 2.0 * math.degrees(math.atan(MARGIN * reach)))
-    return Camera(
-        camera.name,
-        camera.direction,
-        camera.right,
-        camera.up,
-        camera.eye,
-        camera.target,
-        fov,
-        distance,
-        framed=perspective.eye is not None,
-    )
+    return replace(camera, fov=fov, distance=distance, framed=perspective.eye is not None)

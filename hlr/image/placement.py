@@ -9,13 +9,16 @@ import numpy as np
 
 from hlr.common.types import Floats
 from hlr.drawing.notes import Note
+from hlr.drawing.scale import ratio
 from hlr.errors import SourceError
 from hlr.image.camera import ASPECT, NEAR, Camera
+from hlr.image.paper import on_paper, settled
 from hlr.image.strays import stray_note
 from hlr.request.accuracy import CURVE_BULGE, MOST_MAGNIFIED, Tolerances, choose, derive
 from hlr.request.options import Options
 from hlr.source.model import Source
 from hlr.tables.readers import is_brep
+from hlr.tables.sheets import Paper, papers
 
 SMALLEST_PAPER, LARGEST_PAPER = 5.0, 3000.0
 """Millimetres: beyond these a drawing is probably not what was meant, and a note says so."""
@@ -24,15 +27,14 @@ CORNERS = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
 """(8, 3) which end of a box each of its corners has along each axis."""
 AXES = np.arange(3)
 
-_CURE = "give a scale, or a size to fit it into"
-
 
 @dataclass(frozen=True, slots=True)
 class Placement:
     """A view's scale (paper : millimetres of the model), per_model (paper millimetres per model unit), tolerances.
 
     aspect: width to height of the frame; magnified: how much larger than at the target the nearest point is drawn.
-    fit: the millimetres of paper within which the view is to fit; None: its scale is given
+    paper: the sheet, the way it lies; None: the page is as large as the drawing.
+    settled: the request alone tells the scale, and no sheet has to be laid one way or the other.
     """
 
     scale: float
@@ -43,17 +45,18 @@ class Placement:
     aspect: float
     magnified: float
     notes: tuple[Note, ...] = ()
-    fit: tuple[float, float] | None = None
+    paper: Paper | None = None
+    settled: bool = False
 
     def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placement:
         """The placement with the size taken from the mesh: points (n, 3) in model coordinates.
 
         Curves bulge over their chords and are fitted within a share of the accuracy: `curved` leaves room for both.
         """
-        if self.fit is None:
+        if self.settled:
             return self
         width, height = _extent(camera, points, self.aspect)
-        if curved and not camera.framed:
+        if curved and options.fit is not None and not camera.framed:
             bulge = max(
                 self.tolerances.deflection * self.magnified, CURVE_BULGE * self.tolerances.accuracy / self.per_model
             )
@@ -72,7 +75,7 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
     corners = bounds[CORNERS, AXES]
     if float((bounds[1] - bounds[0]).max()) <= 0.0:
         raise SourceError(f"{source.name} has no size: all of it lies in one point")
-    aspect = options.fit[0] / options.fit[1] if options.fit else ASPECT
+    aspect = _aspect(options)
     width, height = _extent(camera, corners, aspect)
     brep = is_brep(source.kind)
     magnified = _magnified(camera, corners)
@@ -111,18 +114,31 @@ def _sized(
     width: float, height: float, options: Options, unit: float, brep: bool, aspect: float, magnified: float
 ) -> Placement:
     """Scale and tolerances of a view. width, height: on the image plane, model units."""
-    scale = options.scale
-    if options.fit is not None:
-        ratios = [f / (s * unit) for f, s in zip(options.fit, (width, height), strict=True) if s > 0.0]
-        scale = min(ratios, default=1.0)
+    placed = on_paper((width * unit, height * unit), options)
+    scale = placed.scale
     per_model = scale * unit
     diagonal = math.hypot(width, height) * per_model
     accuracy = choose(options.accuracy, diagonal)
     tolerances = derive(accuracy, per_model * magnified, diagonal, brep=brep)
-    notes: tuple[Note, ...] = ()
-    if options.fit is None and options.scale == 1.0 and diagonal > 0.0:
-        if diagonal < SMALLEST_PAPER:
-            notes = (Note("paper-size", f"the drawing is only {diagonal:.2g} mm large at 1:1: {_CURE}"),)
-        elif diagonal > LARGEST_PAPER:
-            notes = (Note("paper-size", f"the drawing is {diagonal / 1000.0:.3g} m large at 1:1: {_CURE}"),)
-    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, options.fit)
+    notes = () if options.scale is None else _size_notes(diagonal, scale)
+    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, placed.paper, settled(options))
+
+
+def _size_notes(diagonal: float, scale: float) -> tuple[Note, ...]:
+    """What is said of a drawing (diagonal: millimetres) that its given scale makes very small or very large."""
+    if 0.0 < diagonal < SMALLEST_PAPER:
+        size = f"only {diagonal:.2g} mm"
+    elif diagonal > LARGEST_PAPER:
+        size = f"{diagonal / 1000.0:.3g} m"
+    else:
+        return ()
+    text = f"the drawing is {size} large at {ratio(scale)}: without a scale it gets one that fits a page"
+    return (Note("paper-size", text),)
+
+
+def _aspect(options: Options) -> float:
+    """Width to height of the frame of a camera: that of the size to fit into, where this is one."""
+    if options.fit is None:
+        return ASPECT
+    rooms = [paper.room for paper in papers(options.fit)] if isinstance(options.fit, str) else [options.fit]
+    return rooms[0][0] / rooms[0][1] if len(rooms) == 1 else ASPECT

@@ -7,17 +7,23 @@ from typing import Any
 
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
+from hlr.drawing.notes import Noted
 from hlr.pipeline.session import Session, refuse_warnings
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, Request, View
 
 
 def draw_views(
-    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+    source: Any,
+    views: Sequence[View],
+    options: Options | None = None,
+    progress: Progress | None = None,
+    noted: Noted | None = None,
 ) -> list[Drawing]:
     """One drawing per view; the source is read and meshed once.
 
     source: whatever `hlr.source.open_source` takes. views: names or directions from the object toward the viewer.
+    noted: called with the notes on the size of the views as soon as it is known, before the work begins.
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
     """
     options = checked(options or Options())
@@ -25,6 +31,8 @@ def draw_views(
     if not views:
         return []
     session = Session(source, views, options, progress)
+    if noted is not None:
+        noted([note for placement in session.placements for note in placement.notes])
     drawings = []
     for i, (view, draft) in enumerate(zip(views, session.drafts(), strict=True)):
         session.progress("visibility", i / len(views))

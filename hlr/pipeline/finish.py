@@ -12,10 +12,13 @@ from hlr.common.clock import Clock, lap
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
-from hlr.drawing.lines import held
+from hlr.drawing.lines import bounds_of, held
 from hlr.drawing.notes import Note
+from hlr.drawing.page import Page, centred
 from hlr.image.camera import Camera
 from hlr.image.image import Image
+from hlr.image.paper import misfit
+from hlr.image.placement import Placement
 from hlr.linework.lines import Linework
 from hlr.request.effect import Decisions, Planner
 from hlr.request.options import Options, Request
@@ -77,6 +80,7 @@ def finished(
     frame = None if window is None else Frame(window, stated, placement.per_model)
     lines, fill, empty = cut_at_window(lines, fill, frame, planner)
     empty = empty or _empty(lines, fill)
+    page, misfit = (None, ()) if window is not None else page_of(placement, lines)
     lap(clock, "linework", started)
     clock["total"] = sum(clock.values())
     counters = _counters(solved, lines, fill)
@@ -102,13 +106,14 @@ def finished(
         up_axis=source.frame.up,
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in image.parts),
         lines=lines,
-        notes=tuple(dict.fromkeys((*source.notes, *scene.notes, *placement.notes, *empty, *remarks))),
+        notes=tuple(dict.fromkeys((*source.notes, *scene.notes, *placement.notes, *misfit, *empty, *remarks))),
         counters={**counters, **rescued, "clipping_planes": cuts},
         timings=clock,
         fill=fill,
         request=request,
         plan=Decisions(planner, counters),
         window=window,
+        page=page,
         reading=getattr(source, "reading", ""),
     )
 
@@ -140,6 +145,17 @@ def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[
         "coloured_faces": faces,
         "gradients": 0 if fill is None else len(fill.gradients),
     }
+
+
+def page_of(placement: Placement, lines: Sequence[Line]) -> tuple[Page | None, tuple[Note, ...]]:
+    """The page with the lines in its middle, and a warning where they do not fit inside its margins."""
+    paper = placement.paper
+    if paper is None:
+        return None, ()
+    drawn = bounds_of(lines)
+    page = centred(paper.name, paper.width, paper.height, drawn)
+    warning = misfit((drawn.width, drawn.height), placement.scale, paper)
+    return page, () if warning is None else (warning,)
 
 
 def _empty(lines: Sequence[Line], fill: Fill | None) -> tuple[Note, ...]:

@@ -20,7 +20,7 @@ from hlr.image.outlines import outlined
 from hlr.image.placement import Placement, place
 from hlr.image.transparency import without_glass
 from hlr.pipeline.finish import drawn_view
-from hlr.pipeline.session import Draft, Session, refuse_warnings
+from hlr.pipeline.session import Draft, Session, by_view, refuse_warnings
 from hlr.request.check import checked_views
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Facts, Planner
@@ -99,9 +99,10 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
         if effects.behind:
             planner_behind = Planner(drawing_effects(), lines)
             behind = without_glass(outlined(bare, options.threads, planner_behind), shaded.glass)
-            drawing = session.drawing(Draft(behind, lines, planner_behind))
+            drawing = session.drawing(Draft(behind, by_view(lines, camera, planner_behind), planner_behind))
             _ink(pixels, drawing, eye, [BEHIND], options.threads)
-        drawing = session.drawing(Draft(bare, lines, Planner(drawing_effects(), lines)))
+        planner_lines = Planner(drawing_effects(), lines)
+        drawing = session.drawing(Draft(bare, by_view(lines, camera, planner_lines), planner_lines))
         _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK], options.threads)
         lap(clock, "edges", started)
     clock["total"] = sum(clock.values())

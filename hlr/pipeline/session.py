@@ -13,7 +13,7 @@ The stages in order; on the right, what stops there because it needs no more::
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
@@ -35,7 +35,7 @@ from hlr.linework.lines import draw_lines
 from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
 from hlr.pipeline.finish import Solved, finished
 from hlr.request.accuracy import ANGLE, REMESH, SMALL_DRAWING
-from hlr.request.drawing_effects import drawing_effects
+from hlr.request.drawing_effects import BY_VIEW, drawing_effects
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
@@ -49,9 +49,13 @@ Placing = Callable[[Camera, Options, Source, Floats], Placement]
 """Chooses a view's place on paper: as `hlr.image.placement.place`."""
 
 
+MOST_MESHINGS = 3
+"""A view whose outlines are smaller than its box may get a larger scale, for which the source is meshed again."""
+
+
 @dataclass(slots=True)
 class Draft:
-    """One view on its way to a drawing: its image, what was asked for, and what was decided so far."""
+    """One view on its way to a drawing: its image, what was asked for (`by_view`), and what was decided so far."""
 
     image: Image
     options: Options
@@ -115,11 +119,11 @@ class Session:
     def drafts(self) -> list[Draft]:
         """One draft per view, of one scene, meshed finely enough for all.
 
-        With a size to fit into, the scale depends on the outlines: these are then traced here.
+        With a page or a size to fit into, the scale depends on the outlines: these are then traced here.
         """
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
-        for _ in range(2):
+        for _ in range(MOST_MESHINGS):
             finest = min(at.tolerances.deflection for at in self.placements)
             self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner)
             note_meshing(planner, self.scene)
@@ -138,16 +142,17 @@ class Session:
     def _fitted(self, camera: Camera, placement: Placement, planner: Planner) -> Draft:
         """The draft at its final scale: outlines have to fit, which reach beyond the mesh by less than the accuracy."""
         image = image_of(self.scene, camera, placement)
-        if placement.fit is None:
-            return Draft(image, self.options, planner)
+        options = by_view(self.options, camera, planner)
+        if placement.settled:
+            return Draft(image, options, planner)
         surfaces = self.scene.true_surfaces
         bends = surfaces is not None and bool(surfaces.curved.any() or (np.diff(self.scene.chains.offsets) > 1).any())
-        found = outlined(image, self.options.threads, planner)
-        fitted = placement.fitted(camera, self.options, found.points, bends)
+        found = outlined(image, options.threads, planner)
+        fitted = placement.fitted(camera, options, found.points, bends)
         if fitted.tolerances.deflection == placement.tolerances.deflection:
-            return Draft(found.placed(fitted), self.options, planner)
+            return Draft(found.placed(fitted), options, planner)
         # At another scale the outlines are traced anew: finer, or less fine.
-        return Draft(image.placed(fitted), self.options, planner)
+        return Draft(image.placed(fitted), options, planner)
 
     def shown(self, draft: Draft) -> Image:
         """The image as it is drawn: with outlines, clipped, and without glass where the viewer sees through it."""
@@ -174,10 +179,17 @@ class Session:
         lifted = projected if image.silhouettes is None else image.lifted(plan.divide)
         segments = solve(image, plan, lifted, options.threads)
         started = lap(clock, "visibility", started)
-        lines = draw_lines(image, self.edge_curves, plan, segments, projected, options.hidden, options.threads)
+        lines = draw_lines(image, self.edge_curves, plan, segments, projected, bool(options.hidden), options.threads)
         lap(clock, "linework", started)
         solved = Solved(image, plan, segments, lines)
         return finished(self.source, self.scene, solved, draft.planner, options, clock, request, self.remarks)
+
+
+def by_view(options: Options, camera: Camera, planner: Planner) -> Options:
+    """The options of one view: what was left to the kind of view is yes or no."""
+    facts = Facts(pictorial=camera.pictorial)
+    found: dict[str, Any] = {name: planner.on(effect, facts) for name, effect in BY_VIEW.items()}
+    return replace(options, **found)
 
 
 def refuse_warnings(notes: Sequence[Note]) -> None:

@@ -27,7 +27,7 @@ from typing import Any
 
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
-from hlr.drawing.notes import Note
+from hlr.drawing.notes import Note, Noted
 from hlr.errors import HlrError
 from hlr.pipeline.draw import draw_views
 from hlr.pipeline.session import Session
@@ -73,11 +73,13 @@ def draw_within(
     progress: Progress | None = None,
     finished: Finished | None = None,
     started: float | None = None,
+    noted: Noted | None = None,
 ) -> list[Drawing]:
     """One drawing per view, as fine as `options.within` seconds allow, but not finer than `options.accuracy`.
 
     finished: called with the drawings of each pass as soon as they are there; its time counts.
     started: when the time began, by `perf_counter`; None: now.
+    noted: as of `hlr.pipeline.draw.draw_views`.
 
     Where reading and the first pass take longer than that, the first drawing is the result, and a note states the
     excess. KeyboardInterrupt before the first drawing is raised; after it, the last finished drawing is the result.
@@ -101,7 +103,7 @@ def draw_within(
         begun = perf_counter()
         watch = _Watch(progress, passes[-1], accuracy, begun, started + budget) if passes else progress
         try:
-            best = draw_views(opened, views, replace(request, accuracy=accuracy), watch)
+            best = draw_views(opened, views, replace(request, accuracy=accuracy), watch, None if best else noted)
         except (_TooLong, KeyboardInterrupt, HlrError, MemoryError):
             if not best:
                 raise

@@ -15,10 +15,15 @@ from hlr.source.selection import open_selected
 if TYPE_CHECKING:
     from hlr.common.types import Progress
     from hlr.drawing.drawing import Drawing
+    from hlr.drawing.notes import Noted
 
 
 def draw_views(
-    source: Any, views: Sequence[View], options: Options | None = None, progress: Progress | None = None
+    source: Any,
+    views: Sequence[View],
+    options: Options | None = None,
+    progress: Progress | None = None,
+    noted: Noted | None = None,
 ) -> list[Drawing]:
     """One drawing per view; the source is read and meshed once.
 
@@ -26,6 +31,7 @@ def draw_views(
     views     names or directions, as of `draw`
     options   what is asked for; None: the defaults
     progress  as of `draw`
+    noted     called with the notes on the size of the views as soon as it is known, before the work begins
 
     Raises SourceError, ViewError, OptionError; with options.strict StrictError for any warning.
 
@@ -36,16 +42,16 @@ def draw_views(
     """
     options = options or Options()
     if not options.report and options.within is None:
-        return drawn_once(source, views, options, progress)  # which checks what is asked for
+        return drawn_once(source, views, options, progress, noted)  # which checks what is asked for
     options = checked(options)
     views = checked_views(views, options)
     opened = open_selected(source, options)
     if options.within is None:
-        drawings = drawn_once(opened, views, options, progress)
+        drawings = drawn_once(opened, views, options, progress, noted)
     else:
         from hlr.pipeline.within import draw_within
 
-        drawings = draw_within(opened, views, options, progress)
+        drawings = draw_within(opened, views, options, progress, noted=noted)
     return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
 
 
@@ -62,16 +68,22 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
     of its range; with strict=True StrictError for any warning.
 
     >>> import hlr
-    >>> drawing = hlr.draw("part.step", view="front", scale=0.5)
+    >>> drawing = hlr.draw("part.step", view="front")
     >>> drawing
-    <Drawing part.step, front, 1:2, 4 visible and 2 hidden lines>
+    <Drawing part.step, front, 5:1, 4 visible and 2 hidden lines>
     >>> drawing.save("part.svg").name
     'part.svg'
+
+    Without a scale the drawing goes on a sheet, A4 unless `page` names another, at the largest standard scale that
+    fits. With one it is as large as that makes it:
+
+    >>> hlr.draw("part.step", view="front", scale=0.5).bounds
+    Bounds(x0=0.0, y0=0.0, x1=15.0, y1=5.0)
 
     A bare triangle, as arrays, seen from above:
 
     >>> triangle = ([(0, 0, 0), (30, 0, 0), (0, 20, 0)], [(0, 1, 2)])
-    >>> hlr.draw(triangle, view=(0, 0, 1)).bounds
+    >>> hlr.draw(triangle, view=(0, 0, 1), scale=1).bounds
     Bounds(x0=0.0, y0=0.0, x1=30.0, y1=20.0)
 
     Every error says what is wrong, in one sentence:

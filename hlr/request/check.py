@@ -11,38 +11,35 @@ import numpy as np
 
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
+from hlr.request.drawing_effects import BY_VIEW
 from hlr.request.options import Options, Perspective, Vector, View
+from hlr.tables.sheets import papers
 
 MOST_THREADS = 1024
 MOST_SCALE = 1e9
 SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e7
 """Millimetres."""
+SWITCHES = ("seam", "intersections", "see_through", "fill", "circles", "strict", "report", "annotations")
+"""Options that are yes or no."""
 NARROWEST, WIDEST = 0.01, 170.0
 """Degrees: fields of view that can be drawn."""
 
 
 def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for each option
     """The same options, checked: types, ranges, contradictions. Raises OptionError that says what is allowed."""
-    for name in (
-        "hidden", "smooth", "seam", "intersections", "see_through", "fill", "circles", "strict", "report", "annotations"
-    ):  # fmt: skip
+    for name in (*BY_VIEW, *SWITCHES):
         value = getattr(options, name)
+        if value is None and name in BY_VIEW:
+            continue
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
-    if not _is_real(options.scale) or not 1.0 / MOST_SCALE <= options.scale <= MOST_SCALE:
-        raise OptionError(f"scale {_shown(options.scale)} cannot be drawn: give a positive number, such as 0.5 for 1:2")
+    _check_size(options)
     accuracy = options.accuracy
     if accuracy is not None and (not _is_real(accuracy) or not (math.isfinite(accuracy) and accuracy > 0.0)):
         raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
     within = options.within
     if within is not None and (not _is_real(within) or not (math.isfinite(within) and within > 0.0)):
         raise OptionError(f"within needs a positive number of seconds, not {_shown(within)}")
-    if options.fit is not None and (
-        not _is_vector(options.fit, 2) or min(options.fit) < SMALLEST_FIT or max(options.fit) > LARGEST_FIT
-    ):
-        raise OptionError(f"fit needs a positive width and height in millimetres, such as 277x190, not {options.fit!r}")
-    if options.fit is not None and options.scale != 1.0:
-        raise OptionError("scale and fit contradict one another: give one of them")
     if options.see_through and options.report:
         raise OptionError("report measures what all parts hide: leave it out, or see_through")
     if options.window is not None:
@@ -62,6 +59,34 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
     if options.perspective is not None:
         _perspective(options.perspective)
     return options
+
+
+def _check_size(options: Options) -> None:
+    """Scale, fit and page."""
+    scale, fit, page = options.scale, options.fit, options.page
+    if scale is not None and (not _is_real(scale) or not 1.0 / MOST_SCALE <= scale <= MOST_SCALE):
+        raise OptionError(f"scale {_shown(scale)} cannot be drawn: give a positive number, such as 0.5 for 1:2")
+    if scale is not None and fit is not None:
+        raise OptionError("scale and fit contradict one another: give one of them")
+    if isinstance(fit, str):
+        _check_page(fit)
+        if page is not None:
+            raise OptionError(f"page and fit both name a sheet, {page!r} and {fit!r}: give one of them")
+    elif fit is not None and (not _is_vector(fit, 2) or min(fit) < SMALLEST_FIT or max(fit) > LARGEST_FIT):
+        raise OptionError(
+            f"fit needs a positive width and height in millimetres, such as 277x190, or a sheet such as A4, not {fit!r}"
+        )
+    if page is not None:
+        _check_page(page)
+
+
+def _check_page(page: Any) -> None:
+    if not isinstance(page, str) and not _is_vector(page, 2):
+        raise OptionError(f"page needs the name of a sheet, such as A3, or a width and height, not {page!r}")
+    try:
+        papers(page)
+    except ValueError as error:
+        raise OptionError(str(error)) from None
 
 
 def check_crease(crease: float) -> None:

@@ -36,6 +36,10 @@ CLOSEST = 1e-9
 """Share of the coordinates and of the model's size: an eye nearer to its target than this has no direction."""
 
 
+SLANT = 1e-9
+"""Least component of a view's direction along an axis: with less, it does not lean toward that axis."""
+
+
 def check_directions(views: Sequence[View], up: Vector | None, perspective: Perspective | None) -> None:
     """Check cameras as far as that is possible before the model is read.
 
@@ -101,6 +105,11 @@ def axes(direction: Vector, up_hint: Vector | None) -> tuple[Vector, Vector]:
     right = normalized(side, "right")
     # The cross product of unit vectors is a unit vector up to rounding.
     return right, normalized(cross(direction, right), "up")
+
+
+def pictorial(direction: Vector) -> bool:
+    """Whether a parallel view along this unit vector (world axes) shows more than two of the model's dimensions."""
+    return sum(abs(c) > SLANT for c in direction) > 1
 
 
 def apart(eye: Vector, target: Vector, radius: float) -> None:

@@ -29,9 +29,27 @@ def _option_effect(option: str, title: str, counter: str, off: str = "not asked 
     return Effect(title, ASKED, needed, (counter,))
 
 
+def _view_effect(option: str, title: str, counter: str, usual: bool, off: str = "") -> Effect:
+    """An effect that an option decides, or, where that is left open, the kind of view.
+
+    usual: whether pictorial views have it; off: what it means that it is off.
+    """
+
+    def needed(f: Facts, options: Options) -> Answer:
+        asked: bool | None = getattr(options, option)
+        kind = "a pictorial view" if f.pictorial else "a view along an axis"
+        on = f.pictorial is usual if asked is None else bool(asked)
+        why = kind if asked is None else "asked for" if asked else "not asked for"
+        return on, why if on else f"{why}{off}"
+
+    return Effect(title, ASKED, needed, (counter,))
+
+
 def _lines_of(row: LineClass) -> Effect:
     """Lines of one class."""
     counter = str(row.counter)
+    if row.option is not None and row.by_default is None:
+        return _view_effect(row.option, row.title, counter, True)
     if row.option is not None:
         return _option_effect(row.option, row.title, counter)
     return Effect(row.title, ASKED, lambda _facts, _options: (True, "drawn in every drawing"), (counter,))
@@ -200,7 +218,7 @@ _BEFORE: tuple[Effect, ...] = (
     Effect("depth pyramid", SCENE, _pyramid, ("pyramid_parts", "hidden_by_pyramid")),
     Effect("piercing search", SCENE, _piercings, ("piercing_tests",)),
     Effect("contact tolerance", SCENE, _contact, ("contacts",)),
-    _option_effect("hidden", "hidden lines", "hidden_lines", "not asked for: what nothing shows of goes no further"),
+    _view_effect("hidden", "hidden lines", "hidden_lines", False, ": what nothing shows of goes no further"),
 )
 
 _AFTER: tuple[Effect, ...] = (
@@ -210,6 +228,13 @@ _AFTER: tuple[Effect, ...] = (
     Effect("window", ASKED, _window, ("window_cuts",)),
     Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),
 )
+
+
+BY_VIEW = {
+    "hidden": "hidden lines",
+    **{row.option: row.title for row in counted() if row.option is not None and row.by_default is None},
+}
+"""Options that may be left to the kind of view, and their effects."""
 
 
 def drawing_effects() -> tuple[Effect, ...]:

@@ -38,6 +38,7 @@ class Facts(NamedTuple):
     convex         the whole model is one convex body
     unsound        number of groups that may pass through themselves
     perspective    the view is in perspective
+    pictorial      the view is in perspective, or oblique to the model's axes
     crossed        number of planes of the view volume that the model crosses
     bent           number of edges and outlines that may be curved
     edges          number of edges that may be drawn
@@ -60,6 +61,7 @@ class Facts(NamedTuple):
     convex: bool = False
     unsound: int = 0
     perspective: bool = False
+    pictorial: bool = False
     crossed: int = 0
     bent: int = 0
     edges: int = 0

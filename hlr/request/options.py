@@ -39,12 +39,16 @@ class Perspective:
 class Options:
     """What is asked of a drawing. Lengths are millimetres on paper unless said otherwise.
 
-    hidden       draw hidden lines
-    smooth       draw tangent (G1) edges, thin
+    hidden       draw hidden lines; None: in views along an axis of the model, not in pictorial ones
+    smooth       draw tangent (G1) edges, thin; None: in pictorial views (oblique or in perspective), not in others
     seam         draw the seams of closed surfaces
     intersections  draw the lines in which surfaces pass through one another
-    scale        paper : model; 0.5 is 1:2
-    fit          (width, height) to fit the drawing into instead of a scale
+    scale        paper : model; 0.5 is 1:2. None, and no `fit`: the largest standard scale (ISO 5455) at which the
+                 drawing fits its page inside margins of 10 mm
+    fit          instead of a scale: (width, height) to fit the drawing into, or the name of a sheet to fill
+    page         the name of a sheet, such as "A3" or "letter-portrait", or (width, height) in millimetres. A sheet lies
+                 the way that allows the larger scale. None: A4; with a scale or a size to fit into, the page is as
+                 large as the drawing
     window       (x0, y0, x1, y1): only this rectangle of the drawing, in the coordinates that it has without a window:
                  its lower left corner is 0, 0; lines are cut at the sides, and what lies outside still hides
     accuracy     None: 0.05, or a two-thousandth of the drawing's diagonal where that is less
@@ -70,12 +74,13 @@ class Options:
     [<Drawing part.step, iso, 2:1, 10 visible and 0 hidden lines>]
     """
 
-    hidden: bool = True
-    smooth: bool = False
+    hidden: bool | None = None
+    smooth: bool | None = None
     seam: bool = False
     intersections: bool = True
-    scale: float = 1.0
-    fit: tuple[float, float] | None = None
+    scale: float | None = None
+    fit: tuple[float, float] | str | None = None
+    page: tuple[float, float] | str | None = None
     window: tuple[float, float, float, float] | None = None
     accuracy: float | None = None
     crease: float = 30.0
@@ -97,12 +102,13 @@ class Options:
 class Wishes(TypedDict, total=False):
     """The fields of `Options` as the keywords of `hlr.draw`: none has to be given."""
 
-    hidden: bool
-    smooth: bool
+    hidden: bool | None
+    smooth: bool | None
     seam: bool
     intersections: bool
-    scale: float
-    fit: tuple[float, float] | None
+    scale: float | None
+    fit: tuple[float, float] | str | None
+    page: tuple[float, float] | str | None
     window: tuple[float, float, float, float] | None
     accuracy: float | None
     crease: float

@@ -55,7 +55,7 @@ class PreviewOptions:
     occlusion    corners and crevices are darker (ambient occlusion, in screen space)
     specular     highlights
     depth, ids   also make the depth map and the map of parts and faces
-    smooth       with edges: also tangent edges, thin
+    smooth       with edges: also tangent edges, thin; None: in pictorial views
     crease       degrees: a mesh without B-rep is smooth where it folds less than this
     accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
     up, perspective, threads, strict, only, hide, var, annotations   as of a drawing (`Options`)
@@ -75,7 +75,7 @@ class PreviewOptions:
     specular: bool = False
     depth: bool = False
     ids: bool = False
-    smooth: bool = False
+    smooth: bool | None = None
     crease: float = 30.0
     accuracy: float | None = None
     up: Vector | None = None
@@ -101,7 +101,7 @@ class PreviewWishes(TypedDict, total=False):
     specular: bool
     depth: bool
     ids: bool
-    smooth: bool
+    smooth: bool | None
     crease: float
     accuracy: float | None
     up: Vector | None
@@ -257,7 +257,7 @@ def check_size(size: Any) -> None:
         )
 
 
-def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale: float = 1.0) -> Options:
+def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale: float | None = None) -> Options:
     """The request for a picture's line drawing, with the same camera. fit: (width, height), millimetres on paper."""
     return Options(
         hidden=options.look != "shaded",

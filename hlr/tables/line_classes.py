@@ -53,7 +53,7 @@ class LineClass:
     border           a face ends there, at another or at nothing
     tangent          the surface goes on there without a fold, so that its image may turn over
     option           the option that asks for such lines (`hlr.request.options.Options`); None: they are always drawn
-    by_default       whether they are drawn where the option is not given
+    by_default       whether they are drawn where the option is not given; None: in pictorial views only
     help             of that option on the command line
     counter          of such lines among a drawing's counters, and with it a row in the table of effects; None: neither
     width_mm         of visible lines
@@ -70,7 +70,7 @@ class LineClass:
     border: bool = False
     tangent: bool = False
     option: str | None = None
-    by_default: bool = True
+    by_default: bool | None = True
     help: str = ""
     counter: str | None = None
     width_mm: float = WIDE_MM
@@ -96,8 +96,8 @@ LINE_CLASSES: dict[str, LineClass] = {
             border=True,
             tangent=True,
             option="smooth",
-            by_default=False,
-            help="Also tangent edges, thin.",
+            by_default=None,
+            help="Tangent edges, thin. Default: in pictorial views only.",
             counter="smooth_lines",
             width_mm=NARROW_MM,
             occt="smooth",

@@ -89,8 +89,9 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     )
     loose = Facts(meeting=near, unsound=int(np.count_nonzero(used & ~groups.sound & ~groups.cull)))
     straight = image.chains.straight
+    view = Facts(pictorial=image.camera.pictorial)
     for name in ("hidden lines", *(row.title for row in counted()), "circles of meshes", "colours"):
-        planner.on(name)
+        planner.on(name, view)
     planner.on("back-face culling", facts)
     touch = planner.on("contact tolerance", loose)
     sought = int(np.count_nonzero(~straight & (image.chains.index >= 0)))

@@ -15,6 +15,7 @@ from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
 from hlr.drawing.notes import Note
+from hlr.drawing.page import Page
 from hlr.errors import SourceError
 from hlr.request.effect import Decision
 from hlr.tables.line_classes import LINE_CLASSES, Kind, names
@@ -103,6 +104,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         fill=revived(Fill | None, document.get("fill"), "fill"),
         reached=_reached(document["accuracy"].get("reached"), accuracy),
         window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
+        page=revived(Page | None, document.get("page"), "page"),
         plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(document["plan"])),
     )
 

@@ -39,8 +39,7 @@ def pdf(drawing: Drawing) -> bytes:
         document.add_object(group)
         layers.append(group.reference)
 
-    unit = 10.0**-page.places
-    side = max(page.width, page.height) * unit * _POINTS_PER_MM
+    side = max(page.width, page.height) * _POINTS_PER_MM
     user_unit = max(1, math.ceil(side / _MAX_SIDE))
     factor = _POINTS_PER_MM / user_unit
     content = zlib.compress(_content(page, factor, drawing.fill), _LEVEL)
@@ -57,7 +56,7 @@ def pdf(drawing: Drawing) -> bytes:
     sheet = {
         "Type": "/Page",
         "Parent": document.pages.reference,
-        "MediaBox": pydyf.Array([0, 0, _real(page.width * unit * factor), _real(page.height * unit * factor)]),
+        "MediaBox": pydyf.Array([0, 0, _real(page.width * factor), _real(page.height * factor)]),
         "Contents": stream.reference,
         "Resources": pydyf.Dictionary(resources),
     }
@@ -105,8 +104,7 @@ def _content(page: Strokes, factor: float, fill: Fill | None) -> bytes:
 
 def _matrix(page: Strokes, factor: float) -> tuple[float, ...]:
     """From millimetres to the page."""
-    unit = 10.0**-page.places
-    return (factor, 0.0, 0.0, factor, -page.left * unit * factor, -page.bottom * unit * factor)
+    return (factor, 0.0, 0.0, factor, -page.left * factor, -page.bottom * factor)
 
 
 def _real(value: float) -> str:

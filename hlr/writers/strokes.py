@@ -27,16 +27,28 @@ START, LINE, CONTROL, QUADRATIC, CUBIC, ARC, WHOLE = range(7)
 QUADRATIC or CUBIC row ends; the end of an arc; the centre of a whole circle or ellipse, the only row of its stroke."""
 
 
+PAGE_PLACES = 3
+"""Decimals of millimetres that the size of a page may have."""
+
+
 @dataclass(frozen=True, slots=True)
 class Strokes:
-    """A drawing on its page. left, bottom, width, height: the page in grid steps of 10**-places millimetres."""
+    """A drawing on its page, with points in grid steps of 10**-places millimetres.
+
+    left, bottom, width, height: the page in the drawing's coordinates, millimetres.
+    """
 
     places: int
-    left: int
-    bottom: int
-    width: int
-    height: int
+    left: float
+    bottom: float
+    width: float
+    height: float
     layers: tuple[_kernel.Layer, ...]
+
+    @property
+    def side_places(self) -> int:
+        """Decimals of the page's width and height: a sheet has its exact size, however coarse the drawing is."""
+        return max(self.places, PAGE_PLACES)
 
     def svg(self, layer: _kernel.Layer) -> bytes:
         """The elements of a layer, with its dashes."""
@@ -63,18 +75,21 @@ def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     cubic: arcs and quadratic curves become cubic ones, for formats that know no others. Raises WriteError where a point
     is not finite.
     """
-    x0, y0, x1, y1 = bounds = drawing.page
+    x0, y0, x1, y1 = bounds = drawing.area
     accuracy, places = drawing.accuracy.used, places_of(drawing, bounds)
     order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
     try:
         layers = held(drawing.lines).layers(order, places, accuracy, cubic)
     except ValueError:
         raise WriteError(number.NOT_FINITE) from None
+    if drawing.page is not None:
+        return Strokes(places, x0, y0, drawing.page.width, drawing.page.height, tuple(layers))
     step = 10.0**places
+    unit = 10.0**-places
     border = math.ceil((style.MARGIN + WIDE_MM) * 10**places)
     left, bottom = round(x0 * step) - border, round(y0 * step) - border
     right, top = round(x1 * step) + border, round(y1 * step) + border
-    return Strokes(places, left, bottom, right - left, top - bottom, tuple(layers))
+    return Strokes(places, left * unit, bottom * unit, (right - left) * unit, (top - bottom) * unit, tuple(layers))
 
 
 @dataclass(slots=True)

@@ -31,10 +31,8 @@ _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 def svg(drawing: Drawing) -> bytes:
     """The drawing as an SVG file. Raises WriteError where a point is not finite."""
     page = strokes(drawing)
-    unit = 10.0**-page.places
-    left, top = page.left * unit, -(page.bottom + page.height) * unit
-    width, height = (number(v * unit, page.places) for v in (page.width, page.height))
-    corner = f"{number(left, page.places)} {number(top, page.places)}"
+    width, height = (number(side, page.side_places) for side in (page.width, page.height))
+    corner = f"{number(page.left, page.places)} {number(-page.bottom - page.height, page.places)}"
     out = [
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '

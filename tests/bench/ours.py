@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from bench.triangulation import Triangulation
 
+from support.at_size import AT_SIZE
+
 DIRECTION = (1.0, -1.0, 1.0)
 
 
@@ -73,7 +75,7 @@ def draw(shape: Any, accuracy: float) -> tuple[float, dict[str, int]]:
     import hlr
     from hlr.request.options import Options
 
-    (drawing,) = hlr.draw_views(shape, [DIRECTION], Options(accuracy=accuracy))
+    (drawing,) = hlr.draw_views(shape, [DIRECTION], Options(accuracy=accuracy, **AT_SIZE))
     return float(drawing.timings["visibility"]), dict(drawing.counters)
 
 
@@ -82,7 +84,7 @@ def svg(shape: Any, path: Path) -> float:
     import hlr
 
     start = time.perf_counter()
-    hlr.draw(shape, view=DIRECTION, hidden=True).save(path)
+    hlr.draw(shape, view=DIRECTION, hidden=True, scale=1.0, smooth=False).save(path)
     return time.perf_counter() - start
 
 

@@ -97,7 +97,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     headings = ["model", "triangles", "scene", "plan", "visibility", "linework", "after meshing", "whole", "deciding"]
     rows, results = [], {}
     for name, make in things:
-        options = hlr.Options(hidden=not given.no_hidden, **({} if name in SCENES else {"fit": (277, 190)}))
+        size = {"scale": 1.0} if name in SCENES else {"fit": (277, 190)}
+        options = hlr.Options(hidden=not given.no_hidden, smooth=False, **size)
         try:
             found = compared(make(), options, given.view, given.repeat)
         except hlr.HlrError as error:

@@ -28,6 +28,8 @@ from typing import Any
 
 import numpy as np
 
+from support.at_size import AT_SIZE
+
 SIZE = (1920, 1080)
 Arrays = dict[str, np.ndarray]
 Run = Callable[[int], tuple[np.ndarray, float]]
@@ -94,7 +96,7 @@ def ours(given: Arrays, antialias: bool, threads: int) -> Run:
     frame_buffer = np.zeros((SIZE[1], SIZE[0], 4), np.uint8)  # VTK's window has one, too
 
     def run(frame: int) -> tuple[np.ndarray, float]:
-        camera = resolve(direction(frame), Options(), Frame(), bounds)
+        camera = resolve(direction(frame), Options(**AT_SIZE), Frame(), bounds)
         eye = lens(camera, points, scale, SIZE)
         light = _kernel.Light(toward=toward_light(camera, SHOULDER), ambient=AMBIENT, diffuse=DIFFUSE)
         started = clocks()

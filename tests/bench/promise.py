@@ -14,6 +14,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from support.at_size import ALL_LINES
+
 ACCURACIES = (0.5, 0.1, 0.05, 0.01)
 SHEET = (277.0, 190.0)
 SMALLEST, LARGEST = 20.0, 400.0
@@ -56,7 +58,8 @@ def one(path: Path, accuracy: float) -> dict[str, Any]:
     opened = open_source(path)
     low, high = opened.bounds()
     size = float(((high - low) ** 2).sum() ** 0.5) * opened.frame.unit
-    options = hlr.Options(accuracy=accuracy, fit=None if SMALLEST <= size <= LARGEST else SHEET)
+    usual = SMALLEST <= size <= LARGEST
+    options = hlr.Options(accuracy=accuracy, scale=1.0 if usual else None, fit=None if usual else SHEET, **ALL_LINES)
     (drawing,) = hlr.draw_views(opened, ["iso"], options)
     reached = measured(opened, drawing)
     return {

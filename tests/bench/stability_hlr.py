@@ -14,6 +14,7 @@ from hlr import Options
 from hlr.drawing.drawing import Drawing
 from hlr.source import open_source
 from hlr.source.model import PartMesh, Source, Tessellation
+from support.at_size import ALL_LINES
 from support.stand_ins import draw_source
 
 Floats = npt.NDArray[np.float64]
@@ -80,8 +81,8 @@ class Model:
     def __init__(self, thing: Any, view: Any = "iso", fit: tuple[float, float] | None = FIT) -> None:
         self.source = open_source(str(thing) if isinstance(thing, Path) else thing)
         self._view = view
-        first = draw_source(self.source, view, Options(fit=fit))
-        self._options = Options(scale=first.scale)
+        first = draw_source(self.source, view, Options(scale=None if fit else 1.0, fit=fit, **ALL_LINES))
+        self._options = Options(scale=first.scale, **ALL_LINES)
         self.view, self.scale = first.view, first.scale
         self.per_model = first.scale * first.unit
         self.accuracy = first.accuracy.used

@@ -73,7 +73,7 @@ def read(tmp_path, name):
 
 
 def test_the_front_view_of_a_box_is_four_lines(run, tmp_path):
-    run("draw", "box.off", "-o", "box.json", "--view", "front")
+    run("draw", "box.off", "-o", "box.json", "--view", "front", "--scale", "1:1")
     lines = read(tmp_path, "box.json")["lines"]
     assert sorted(line["visible"] for line in lines) == [True] * len(lines)
     length = sum(
@@ -85,7 +85,7 @@ def test_the_front_view_of_a_box_is_four_lines(run, tmp_path):
 
 
 def test_the_isometric_view_of_a_box_hides_three_edges(run, tmp_path):
-    run("draw", "box.off", "-o", "box.json", "--scale", "1:2")
+    run("draw", "box.off", "-o", "box.json", "--scale", "1:2", "--hidden")
     drawn = read(tmp_path, "box.json")
     hidden = [line for line in drawn["lines"] if not line["visible"]]
     assert len(hidden) == 3
@@ -138,7 +138,8 @@ def test_text_that_is_not_utf_8(run, tmp_path):
 
 def test_several_views_in_several_formats(run, tmp_path):
     for ending in ("svg", "pdf", "json"):
-        run("draw", "box.off", "-o", "{stem}-{view}." + ending, "--view", "top", "--view", "1,2,3")
+        views = ("--view", "top", "--view", "1,2,3")
+        run("draw", "box.off", "-o", "{stem}-{view}." + ending, *views, "--scale", "1")
     assert len(list(tmp_path.glob("box-*"))) == 6
     size = pypdfium2.PdfDocument(tmp_path / "box-top.pdf")[0].get_size()
     assert size == pytest.approx((51 * 72 / 25.4, 41 * 72 / 25.4), abs=0.1)

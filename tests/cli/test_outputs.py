@@ -4,6 +4,7 @@ import pytest
 
 import hlr
 from hlr import Options, Perspective
+from hlr.tables.sheets import papers
 from support import fake_pipeline as fake
 
 
@@ -93,13 +94,16 @@ def test_an_eye_is_no_named_view(hlr_real, verb):
 @pytest.mark.parametrize(
     ("given", "size"),
     [
-        ("A4", (190.0, 277.0)), ("a4-landscape", (277.0, 190.0)), ("A4 landscape", (277.0, 190.0)),
-        ("A3-portrait", (277.0, 400.0)), ("A0", (821.0, 1169.0)), ("letter", (195.9, 259.4)),
+        ("A4", (277.0, 190.0)), ("a4-portrait", (190.0, 277.0)), ("A4 landscape", (277.0, 190.0)),
+        ("A3-portrait", (277.0, 400.0)), ("A0", (1169.0, 821.0)), ("letter", (259.4, 195.9)), ("120x80", (100.0, 60.0)),
     ],
 )  # fmt: skip
 def test_paper_sizes(hlr_command, given, size):
+    assert hlr_command("draw", "a.step", "--page", given).code == 0
+    assert papers(fake.ASKED[-1][2].page)[0].room == pytest.approx(size)
     assert hlr_command("draw", "a.step", "--fit", given).code == 0
-    assert fake.ASKED[-1][2].fit == pytest.approx(size)
+    fit = fake.ASKED[-1][2].fit
+    assert fit == ((120.0, 80.0) if given == "120x80" else given)
 
 
 def cube():
@@ -158,6 +162,9 @@ def test_a_small_cube_is_no_reason_for_strict_to_refuse(hlr_real, tmp_path):
     cube().export(tmp_path / "c.stl")
     result = hlr_real("draw", "c.stl", "--strict", "-o", "c.svg")
     assert result.code == 0
-    assert result.err.startswith("hlr: note: the drawing is only 2.2 mm large at 1:1")
-    assert hlr.draw(cube(), strict=True).notes[0].code == "paper-size"
+    assert result.err == ""
+    result = hlr_real("draw", "c.stl", "--strict", "--scale", "1:1", "-o", "c.svg")
+    assert result.code == 0
+    assert result.err.startswith("hlr: note: the drawing is only 2.2 mm large at 1:1") and result.err.count("\n") == 1
+    assert hlr.draw(cube(), strict=True, scale=1.0).notes[0].code == "paper-size"
     assert hlr_real("preview", "c.stl", "--strict", "-o", "c.png", "--size", "20x20").code == 0

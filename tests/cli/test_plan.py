@@ -13,8 +13,13 @@ def test_the_plan_of_a_file(hlr_real):
     assert done.code == 0
     rows = {line[:28].strip(): line for line in done.out.splitlines()}
     assert " off " in rows["crossing search"] and "convex" in rows["crossing search"]
-    assert " on " in rows["hidden lines"]
-    assert "off" in hlr_real("plan", MODEL, "--no-hidden").out.partition("hidden lines")[2].splitlines()[0]
+    assert " off " in rows["hidden lines"] and "a pictorial view" in rows["hidden lines"]
+    assert " on " in rows["smooth edges"] and "a pictorial view" in rows["smooth edges"]
+    assert "on" in hlr_real("plan", MODEL, "--hidden").out.partition("hidden lines")[2].splitlines()[0]
+    assert (
+        "off"
+        in hlr_real("plan", MODEL, "--view", "front", "--no-hidden").out.partition("hidden lines")[2].splitlines()[0]
+    )
 
 
 def test_the_plan_for_machines(hlr_real):

@@ -14,6 +14,7 @@ from hlr.drawing.curve import Arc, Bezier
 from hlr.drawing.drawing import Drawing, DrawnPart
 from hlr.drawing.fill import Gradient
 from hlr.drawing.notes import Note
+from support.at_size import ALL_LINES, AT_SIZE
 from support.drawings import drawing, line, sample
 
 POINTS = np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 2.0], [4.0, 0.0]])
@@ -26,7 +27,7 @@ MAKERS = [
     lambda: replace(line([[0, 0], [1, 1]]), curve=Bezier(3, POINTS.copy())),
     lambda: DrawnPart("a", None, np.eye(4)),
     lambda: Gradient(np.zeros(2), np.ones(2), np.linspace(0, 1, 3), np.zeros((3, 3), np.uint8)),
-    lambda: hlr.draw(trimesh.creation.icosphere(2), "iso", scale=9, fill=True).fill,
+    lambda: hlr.draw(trimesh.creation.icosphere(2), "iso", scale=9, fill=True, **ALL_LINES).fill,
     sample,
     lambda: hlr.preview(trimesh.creation.box((9, 9, 9)), size=(9, 9), depth=True, ids=True),
 ]
@@ -64,27 +65,27 @@ def test_no_number_and_minus_zero_are_themselves():
 
 def test_two_runs_make_equal_drawings():
     box = trimesh.creation.box((10, 20, 30))
-    one, other = (hlr.draw(box, threads=threads) for threads in (1, 2))
-    assert one == other and hash(one) == hash(other) and one != hlr.draw(box, "front")
+    one, other = (hlr.draw(box, threads=threads, **AT_SIZE) for threads in (1, 2))
+    assert one == other and hash(one) == hash(other) and one != hlr.draw(box, "front", **AT_SIZE)
     assert replace(one, timings={"total": 1.0}) == one != replace(one, notes=(Note("defects", "open"),))
     assert set(one.plan) == set(other.plan)
 
 
 def test_it_shows_itself_in_one_line():
-    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "iso")
+    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "iso", **AT_SIZE)
     assert repr(drawing) == "<Drawing Trimesh, iso, 1:1, 9 visible and 3 hidden lines>"
     assert repr(drawing.lines[0]).startswith("<Line sharp, visible, part 0, 2 points>")
 
 
 def test_visible_and_hidden_lines_and_bounds():
-    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "front")
+    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "front", **AT_SIZE)
     assert set(drawing.visible) | set(drawing.hidden) == set(drawing.lines)
     assert all(x.visible for x in drawing.visible) and not any(x.visible for x in drawing.hidden)
     assert drawing.bounds == pytest.approx((0, 0, 10, 30)) and drawing.bounds.height == pytest.approx(30)
 
 
 def test_a_drawing_cannot_be_changed():
-    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "front")
+    drawing = hlr.draw(trimesh.creation.box((10, 20, 30)), "front", **AT_SIZE)
     with pytest.raises(FrozenInstanceError):
         drawing.scale = 2.0
     with pytest.raises(ValueError, match="read-only"):

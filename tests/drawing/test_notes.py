@@ -9,6 +9,7 @@ import trimesh
 
 import hlr
 from hlr.drawing.notes import CODES, Note, NoteCode
+from support.at_size import AT_SIZE
 
 
 def test_there_is_one_table_of_codes_and_the_format_describes_it():
@@ -26,7 +27,7 @@ def test_a_note_is_a_frozen_value():
 
 
 def test_a_drawing_writes_code_and_text():
-    drawing = hlr.draw(trimesh.creation.box((1, 1, 1)), "front")
+    drawing = hlr.draw(trimesh.creation.box((1, 1, 1)), "front", **AT_SIZE)
     (note,) = drawing.notes
     assert note.code == "paper-size" and note.text.startswith("the drawing is only")
     from hlr.drawing.saving import render
@@ -36,7 +37,7 @@ def test_a_drawing_writes_code_and_text():
 
 def test_strict_says_the_sentence_of_a_warning_and_lets_remarks_pass():
     box = trimesh.creation.box((1, 1, 1))
-    assert [note.is_warning for note in hlr.draw(box, "front", strict=True).notes] == [False]
+    assert [note.is_warning for note in hlr.draw(box, "front", strict=True, **AT_SIZE).notes] == [False]
     box.update_faces(box.face_normals[:, 2] < 0.5)
     with pytest.raises(hlr.StrictError, match=r"is drawn as it is: open"):
-        hlr.draw(box, "front", strict=True)
+        hlr.draw(box, "front", strict=True, **AT_SIZE)

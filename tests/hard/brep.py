@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr import Drawing
+from support.at_size import AT_SIZE
 from support.expected import Edge3, Ink, differences, doubled, expect, ink
 from support.referee import exchange, judge, referee, reference
 
@@ -158,7 +159,7 @@ def faultless(source: Any, shape: Any, views: Iterable[Any], fineness: float = Q
     import hlr
 
     rays = Rays(shape, fineness)
-    for drawing in hlr.draw_views(source, list(views), hlr.Options(accuracy=rays.accuracy)):
+    for drawing in hlr.draw_views(source, list(views), hlr.Options(accuracy=rays.accuracy, **AT_SIZE)):
         faults = rays.faults(drawing)
         assert not faults, f"{drawing.view.name} {drawing.view.direction}:\n" + "\n".join(faults[:10])
         yield drawing

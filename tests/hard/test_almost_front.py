@@ -11,6 +11,7 @@ import math
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, differences, expect, ink
 from support.measures import length
 from support.meshes import BOX_EDGES, box, ring
@@ -34,7 +35,7 @@ def brep():
 @pytest.mark.parametrize("tilt", TILTS)
 def test_the_same_lines_while_the_turn_moves_nothing(picture, kind, turn, tilt):
     x, z = math.sin(turn * tilt[0]), math.sin(turn * tilt[1])
-    drawing = hlr.draw(MESH if kind == "mesh" else brep(), (x, -math.sqrt(1 - x * x - z * z), z))
+    drawing = hlr.draw(MESH if kind == "mesh" else brep(), (x, -math.sqrt(1 - x * x - z * z), z), **AT_SIZE)
     agrees(drawing, by_oracle(drawing, *MESH, BOX_EDGES))
     used = drawing.accuracy.used
     if turn * 60 <= used / 2:
@@ -48,12 +49,12 @@ def test_the_same_lines_while_the_turn_moves_nothing(picture, kind, turn, tilt):
 @pytest.mark.parametrize("turn", TURNS)
 def test_a_direction_of_any_length_and_a_negative_zero(turn):
     for size in (1e-200, 1.0, 1e200):
-        drawing = hlr.draw(MESH, (turn * size, -1.0 * size, -0.0))
+        drawing = hlr.draw(MESH, (turn * size, -1.0 * size, -0.0), **AT_SIZE)
         assert {line.visible for line in drawing.lines} == {True} or turn > 1e-4
         agrees(drawing, by_oracle(drawing, *MESH, BOX_EDGES))
 
 
 @pytest.mark.parametrize("turn", [1e-9, 1e-6, 1e-4])
 def test_the_edges_that_point_at_the_viewer_are_not_drawn_as_dots(turn):
-    drawing = hlr.draw(MESH, (turn, -1, turn))
+    drawing = hlr.draw(MESH, (turn, -1, turn), **AT_SIZE)
     assert len(drawing.lines) == 4

@@ -11,6 +11,7 @@ import pytest
 from hard.brep import like
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect, of_kind
 
 VIEW = (1, -2, 1.5)
@@ -39,7 +40,7 @@ ON_PAPER_FRONT = {
 
 
 def test_from_the_front(picture):
-    drawing = hlr.draw(model(), "front")
+    drawing = hlr.draw(model(), "front", **AT_SIZE)
     seen, unseen = ([((a, 0, b), (c, 0, d)) for (a, b), (c, d) in ON_PAPER_FRONT[k]] for k in ("seen", "unseen"))
     like(drawing, expect(drawing, seen, unseen), without=["intersection"])
     picture(drawing, "front")
@@ -47,7 +48,7 @@ def test_from_the_front(picture):
 
 def test_from_the_top():
     """The upright edges are points; the block's foot is inside the base; its front sticks out over it."""
-    drawing = hlr.draw(model(), "top")
+    drawing = hlr.draw(model(), "top", **AT_SIZE)
     seen = [((0, 0, 10), (10, 0, 10)), ((18, 0, 10), (30, 0, 10)), ((30, 0, 10), (30, 20, 10))]
     seen += [((30, 20, 10), (0, 20, 10)), ((0, 20, 10), (0, 0, 10))]
     seen += [((10, -5, 24), (18, -5, 24)), ((18, -5, 24), (18, 12, 24)), ((18, 12, 24), (10, 12, 24))]
@@ -57,7 +58,7 @@ def test_from_the_top():
 
 def test_edges_end_where_they_pierce():
     """The lower edge of the block's right side runs back into the base's front and is hidden from there."""
-    drawing = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(), VIEW, **AT_SIZE)
     found = [
         line
         for line in drawing.lines
@@ -69,7 +70,7 @@ def test_edges_end_where_they_pierce():
 
 
 def test_the_lines_of_intersection_are_drawn():
-    drawing = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(), VIEW, **AT_SIZE)
     whole = [((10, 0, 4), (18, 0, 4)), ((18, 0, 4), (18, 0, 10)), ((10, 0, 4), (10, 0, 10))]
     whole += [((18, 0, 10), (18, 12, 10)), ((10, 0, 10), (10, 12, 10)), ((10, 12, 10), (18, 12, 10))]
     length = sum(abs(a[0] - b[0]) + abs(a[1] - b[1]) + abs(a[2] - b[2]) for a, b in whole)

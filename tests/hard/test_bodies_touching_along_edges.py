@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, defects, of_kind
 from support.meshes import BOX_EDGES, box, merged
 
@@ -28,7 +29,7 @@ def model(welded):
 @pytest.mark.parametrize("welded", [True, False])
 @pytest.mark.parametrize("view", ["iso", "front", (1, -2, 1.5), (-1, 0.4, -0.5)])
 def test_the_common_edge_is_there_once(view, welded, picture):
-    drawing = hlr.draw(model(welded), view)
+    drawing = hlr.draw(model(welded), view, **AT_SIZE)
     points, triangles = merged(box(*LOW), box(*HIGH))
     edges = [(i + k, j + k) for k in (0, 8) for i, j in BOX_EDGES]
     agrees(drawing, by_oracle(drawing, points, triangles, edges))

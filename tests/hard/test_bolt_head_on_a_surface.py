@@ -11,6 +11,7 @@ import pytest
 from hard.brep import box_edges, compound, faultless, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 HEAD, HEIGHT, SHANK, HOLE = 8.0, 5.0, 4.0, 4.5
@@ -30,8 +31,8 @@ def model(tilt=0.0):
 def test_the_front_half_of_the_rim_is_seen_and_the_hole_is_not(tilt, picture):
     """Turned in space the planes are equal only up to rounding; the picture is the same."""
     view, up = (turn(v, (1, 2, 3), tilt) for v in (VIEW, (0, 0, 1)))
-    drawing = hlr.draw(model(tilt), view, up=up)
-    flat = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(tilt), view, up=up, **AT_SIZE)
+    flat = hlr.draw(model(), VIEW, **AT_SIZE)
     seen, unseen = box_edges((-HALF, -HALF, -THICK), (HALF, HALF, 0), VIEW)
     seen += ring(HEAD, HEIGHT) + ring(HEAD, 0, 180, 360)
     seen += [((x, 0, 0), (x, 0, HEIGHT)) for x in (HEAD, -HEAD)]

@@ -13,6 +13,7 @@ import pytest
 from hard.brep import box_edges, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect, of_kind
 
 SIDE, THICK = 30.0, 4.0
@@ -51,13 +52,13 @@ def intersections(drawing):
 
 
 def test_the_plate_hides_the_shank_from_where_it_enters(picture):
-    drawing = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(), VIEW, **AT_SIZE)
     like(drawing, expected(drawing, ENTRY), either=intersections(drawing))
     picture(drawing, twice=1.0)
 
 
 def test_the_generators_enter_at_the_very_height():
-    drawing = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(), VIEW, **AT_SIZE)
     for x in (SHANK, -SHANK):
         sides = [line.points3 for line in of_kind(drawing, "outline", True) if abs(line.points3[:, 0] - x).max() < 0.1]
         low = min(side @ np.asarray(drawing.view.up) for side in np.concatenate(sides))
@@ -66,7 +67,7 @@ def test_the_generators_enter_at_the_very_height():
 
 
 def test_the_circle_where_it_enters_is_drawn():
-    drawing = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(), VIEW, **AT_SIZE)
     found = of_kind(drawing, "intersection")
     points = np.concatenate([line.points3 for line in found])
     near = drawing.accuracy.used

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, defects
 from support.meshes import face, merged, turned_over
 
@@ -30,7 +31,7 @@ def book(count, opening=2 * np.pi, turned=False):
 @pytest.mark.parametrize("turned", [False, True])
 def test_each_page_hides_those_behind_it(picture, count, view, turned):
     points, triangles = book(count, np.pi if count in (2, 7) else 2 * np.pi, turned)
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     sides = [(4 * k + i, 4 * k + (i + 1) % 4) for k in range(count) for i in range(4)]
     agrees(drawing, by_oracle(drawing, points, triangles, sides), step=0.3)
     if count == 7 and view == "iso":

@@ -12,6 +12,7 @@ import pytest
 from hard.brep import arc, box_edges, compound
 
 import hlr
+from support.at_size import ALL_LINES
 from support.expected import differences, expect, ink
 
 ACCURACY = 0.05
@@ -39,7 +40,7 @@ def visible_edges(sunk, view):
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize("view", [(0, -1, 1), (0.1, -1, 0.4), (0.1, -1, 0.15), (0.1, -0.4, 1)], ids=str)
 def test_there_is_a_line_around_its_foot_however_deep(share, view, picture):
-    drawing = hlr.draw(model(share * ACCURACY), view, scale=1, accuracy=ACCURACY)
+    drawing = hlr.draw(model(share * ACCURACY), view, scale=1, accuracy=ACCURACY, **ALL_LINES)
     wanted = expect(drawing, visible_edges(share * ACCURACY, view))
     told = differences(wanted, ink(drawing), ACCURACY * (1 + abs(share)))
     assert not [each for each in told if "visible ink is missing" in each]

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, defects
 from support.meshes import BOX_EDGES, box, merged, turned_over
 
@@ -48,7 +49,7 @@ BROKEN = {
 @pytest.mark.parametrize("name", BROKEN)
 def test_what_lies_inside_is_seen_only_through_what_is_open(picture, name, view):
     points, triangles = merged((POINTS, BROKEN[name][0]), INSIDE)
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     edges = [*BOX_EDGES, *((i + 8, j + 8) for i, j in BOX_EDGES)]
     agrees(drawing, by_oracle(drawing, points, triangles, edges), step=0.3)
     if view == "iso" and name == "front missing":
@@ -66,7 +67,7 @@ def test_what_is_wrong_is_said(name):
 
 @pytest.mark.parametrize("name", [n for n in BROKEN if BROKEN[n][1]])
 def test_a_drawing_notes_what_is_wrong(name):
-    assert hlr.draw((POINTS, BROKEN[name][0]), "iso").notes
+    assert hlr.draw((POINTS, BROKEN[name][0]), "iso", **AT_SIZE).notes
 
 
 def needle(a, b, middle):
@@ -80,7 +81,7 @@ def test_a_triangle_without_area_changes_nothing(middle):
     # Along the edge from (-10, -10, -10) to (10, -10, -10), and beyond its end.
     points, triangles = needle(0, 4, middle)
     for view in VIEWS:
-        drawing = hlr.draw((points, triangles), view)
+        drawing = hlr.draw((points, triangles), view, **AT_SIZE)
         edges = [*BOX_EDGES, (4, 8)] if middle[0] > 10 else BOX_EDGES
         agrees(drawing, by_oracle(drawing, points, triangles, edges), step=0.3)
 
@@ -88,7 +89,7 @@ def test_a_triangle_without_area_changes_nothing(middle):
 @pytest.mark.parametrize("corner", [0, 3, 7])
 def test_a_triangle_with_two_corners_in_one_place_is_left_out_and_noted(corner):
     triangles = np.concatenate([TRIANGLES, [[corner, corner, 1], [2, 5, 5]]])
-    drawing = hlr.draw((POINTS, triangles), "iso")
+    drawing = hlr.draw((POINTS, triangles), "iso", **AT_SIZE)
     assert "2 degenerate triangles (two corners in one place) were left out." in map(str, drawing.notes)
     agrees(drawing, by_oracle(drawing, POINTS, TRIANGLES, BOX_EDGES))
 
@@ -103,5 +104,5 @@ def test_a_hollow_solid_is_no_defective_one_to_look_at():
     points, triangles = merged((POINTS, TRIANGLES), turned_over(INSIDE))
     edges = [*BOX_EDGES, *((i + 8, j + 8) for i, j in BOX_EDGES)]
     for view in VIEWS:
-        drawing = hlr.draw((points, triangles), view)
+        drawing = hlr.draw((points, triangles), view, **AT_SIZE)
         agrees(drawing, by_oracle(drawing, points, triangles, edges), step=0.3)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, expect
 from support.meshes import as_parts, face, merged, moved
 
@@ -36,7 +37,7 @@ def test_a_face_whose_side_lies_on_the_border_of_another(picture, how, mirror, t
     other = [(10, -15, depth), (10, 5, depth), (10 + 6 * reach, 5, depth), (10 + 6 * reach, -15, depth)]
     m = turn @ mirror
     model = how(*(moved(face(*c), lambda p: p @ m.T) for c in (SCREEN, other)))
-    drawing = hlr.draw(model, "top")
+    drawing = hlr.draw(model, "top", **AT_SIZE)
     at = lambda *lines: [tuple(m @ p for p in line) for line in lines]  # noqa: E731
     inner, outer = 10 + 6 * reach, 10
     if reach == 1:
@@ -63,7 +64,9 @@ def test_between_two_screens_that_meet_in_the_image_nothing_is_seen(mirror):
     left = [(-10, -10, 5), (0, -10, 5), (0, 10, 5), (-10, 10, 5)]
     right = [(0, -10, 0), (10, -10, 0), (10, 10, 0), (0, 10, 0)]
     behind = [(0, -5, -5), (0, 5, -5), (4, 0, -5)]
-    drawing = hlr.draw(merged(*(moved(face(*c), lambda p: p @ mirror) for c in (left, right, behind))), "top")
+    drawing = hlr.draw(
+        merged(*(moved(face(*c), lambda p: p @ mirror) for c in (left, right, behind))), "top", **AT_SIZE
+    )
     seen, unseen = [*sides(left), *sides(right)], [s for s in sides(behind) if s[0][0] or s[1][0]]
     flip = lambda lines: [tuple(mirror @ p for p in line) for line in lines]  # noqa: E731
     agrees(drawing, expect(drawing, flip(seen), flip(unseen)))

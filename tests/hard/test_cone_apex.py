@@ -12,6 +12,7 @@ import pytest
 from hard.brep import kinds, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 RADIUS, HEIGHT = 10.0, 20.0
@@ -30,7 +31,7 @@ def tilted(degrees):
 @pytest.mark.slow
 @pytest.mark.parametrize("degrees", [0, 1e-7, 5, 20, HALF - 1, HALF, 180, 180 - 20])
 def test_within_its_angle_only_the_rim(degrees, picture):
-    drawing = hlr.draw(cone(), tilted(degrees))
+    drawing = hlr.draw(cone(), tilted(degrees), **AT_SIZE)
     like(drawing, expect(drawing, ring(RADIUS)))
     assert {visible for _, visible in kinds(drawing)} == {True}
     if degrees == 20:
@@ -39,7 +40,7 @@ def test_within_its_angle_only_the_rim(degrees, picture):
 
 @pytest.mark.parametrize("degrees", [HALF + 3, 45, 60, 80])
 def test_beyond_it_two_generators_and_the_near_part_of_the_rim(degrees, picture):
-    drawing = hlr.draw(cone(), tilted(degrees))
+    drawing = hlr.draw(cone(), tilted(degrees), **AT_SIZE)
     # The normal (h cos a, h sin a, r) is square to the direction (sin t, 0, cos t).
     where = float(np.degrees(np.arccos(-RADIUS / (HEIGHT * np.tan(np.radians(degrees))))))
     ends = [(RADIUS * np.cos(a), RADIUS * np.sin(a), 0) for a in np.radians([where, -where])]
@@ -59,5 +60,5 @@ def test_half_a_cone_alone_has_no_outline_from_above(nurbs):
     (face,) = [face for face in solid.Faces() if face.geomType() == "CONE"]
     if nurbs:
         face = cq.Shape.cast(BRepBuilderAPI_NurbsConvert(face.wrapped, True).Shape())
-    drawing = hlr.draw(face, "top", accuracy=10 / 3000)
+    drawing = hlr.draw(face, "top", accuracy=10 / 3000, **AT_SIZE)
     assert {kind for kind, _ in kinds(drawing)} == {"boundary"}

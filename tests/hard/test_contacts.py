@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle
 from support.meshes import BOX_EDGES, as_parts, box, merged, moved, rotation
 
@@ -50,7 +51,7 @@ EDGES = [*BOX_EDGES, *((i + 8, j + 8) for i, j in BOX_EDGES)]
 @pytest.mark.parametrize("name", CONTACTS)
 def test_what_touches_hides_only_what_is_behind(picture, how, view, name):
     model = how(BASE, CONTACTS[name])
-    drawing = hlr.draw(model, view)
+    drawing = hlr.draw(model, view, **AT_SIZE)
     agrees(drawing, by_oracle(drawing, *merged(BASE, CONTACTS[name]), EDGES), step=0.3)
     if view == "iso" and name in ("corner-on-edge", "half-side-by-side"):
         picture(drawing, name)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, expect
 from support.meshes import as_parts, face, merged, moved, ring, rotation
 
@@ -29,7 +30,7 @@ def turned(turn, corners):
 
 def seen(how, turn, order, toward):
     faces = [ONE, OTHER, THIRD][::order]
-    drawing = hlr.draw(model(how, turn, *faces), tuple(turn @ toward))
+    drawing = hlr.draw(model(how, turn, *faces), tuple(turn @ toward), **AT_SIZE)
     agrees(drawing, expect(drawing, [s for f in faces for s in turned(turn, f)]))
 
 
@@ -60,7 +61,7 @@ def test_all_sides_are_seen_face_on_when_turned():
 def test_what_lies_below_is_hidden(picture, turn):
     faces = [ONE, OTHER, THIRD]
     toward, up = tuple(turn @ (0, 0, 1)), tuple(turn @ (0, 1, 0))
-    drawing = hlr.draw(model(merged, turn, *faces, BELOW), toward, up=up)
+    drawing = hlr.draw(model(merged, turn, *faces, BELOW), toward, up=up, **AT_SIZE)
     agrees(drawing, expect(drawing, [s for f in faces for s in turned(turn, f)], turned(turn, BELOW)))
     picture(drawing)
 
@@ -70,5 +71,5 @@ def test_what_lies_below_is_hidden(picture, turn):
 def test_a_face_upon_part_of_itself(how, turn):
     # Two sides of the smaller one run along sides of the larger one: there once.
     small = [(0, 0, 0), (8, 0, 0), (8, 5, 0), (0, 5, 0)]
-    drawing = hlr.draw(model(how, turn, ONE, small), tuple(turn @ (0.2, 0.1, 1)))
+    drawing = hlr.draw(model(how, turn, ONE, small), tuple(turn @ (0.2, 0.1, 1)), **AT_SIZE)
     agrees(drawing, expect(drawing, [*turned(turn, ONE), *turned(turn, small)]))

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import differences, expect, ink
 from support.meshes import as_parts, box, box_lines, face, grid, merged
 
@@ -38,7 +39,7 @@ def hidden_behind(drawing, lines):
 @pytest.mark.parametrize("turn", [0.0, 0.3])
 def test_lines_across_the_crack_are_hidden(picture, how, width, turn):
     block = box((-10, -5, -9), (10, 5, -5))
-    drawing = hlr.draw(how(*halves(width, block)), (turn, turn / 2, 1), accuracy=ACCURACY)
+    drawing = hlr.draw(how(*halves(width, block)), (turn, turn / 2, 1), accuracy=ACCURACY, **AT_SIZE)
     assert hidden_behind(drawing, box_lines((-10, -5, -9), (10, 5, -5))) == []
     if width == 0.5 and turn:
         picture(drawing)
@@ -50,7 +51,7 @@ def test_a_line_along_the_crack_is_hidden(how, width):
     # A needle whose one side lies exactly under the crack, from end to end of it but for 10.
     needle = face((0, -10, -5), (0, 10, -5), (8, 0, -5))
     sheet = halves(width, needle)
-    drawing = hlr.draw(how(*sheet), "top", accuracy=ACCURACY)
+    drawing = hlr.draw(how(*sheet), "top", accuracy=ACCURACY, **AT_SIZE)
     # Something visible is there anyway: the sides of the crack. But it belongs to the sheet, not to what lies behind.
     shining = [x for x in drawing.lines if x.visible and np.allclose(x.points3[:, 2], -5)]
     assert shining == []
@@ -58,7 +59,7 @@ def test_a_line_along_the_crack_is_hidden(how, width):
 
 def test_a_gap_three_accuracies_wide_is_looked_through():
     block = box((-10, -5, -9), (10, 5, -5))
-    drawing = hlr.draw(merged(*halves(3.0, block)), "top", accuracy=ACCURACY)
+    drawing = hlr.draw(merged(*halves(3.0, block)), "top", accuracy=ACCURACY, **AT_SIZE)
     crossing = [x for x in drawing.lines if x.visible and np.allclose(np.abs(x.points3[:, 1]), 5)]
     assert len(crossing) == 2
     assert {tuple(np.abs(x.points3[:, 0]).round(6)) for x in crossing} == {(0.075, 0.075)}
@@ -70,7 +71,7 @@ def test_a_t_junction_lets_nothing_through(view):
     left = grid(np.array([[(x, y, 0.1 * y) for y in (-20, 0, 20)] for x in (-20.0, 0.0)]))
     right = grid(np.array([[(x, y, 0.1 * y) for y in (-20, -20 / 3, 20 / 3, 20)] for x in (0.0, 20.0)]))
     low, high = (-5, -6, -9), (5, 4, -7)
-    drawing = hlr.draw(merged(left, right, box(low, high)), view)
+    drawing = hlr.draw(merged(left, right, box(low, high)), view, **AT_SIZE)
     seen = [x for x in drawing.lines if x.visible and (x.points3[:, 2] < -6.5).all()]
     assert seen == []
     told = differences(expect(drawing, [], box_lines(low, high)), ink(drawing), drawing.accuracy.used)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, expect
 from support.meshes import as_parts, face, merged, moved, rotation
 
@@ -40,7 +41,7 @@ def by_hand():
 
 @pytest.mark.parametrize("model", [merged, as_parts])
 def test_each_strip_is_hidden_where_it_dives_under_one_other(picture, model):
-    drawing = hlr.draw(model(*strips(3)), "top")
+    drawing = hlr.draw(model(*strips(3)), "top", **AT_SIZE)
     agrees(drawing, expect(drawing, *by_hand()))
     picture(drawing)
 
@@ -49,6 +50,6 @@ def test_each_strip_is_hidden_where_it_dives_under_one_other(picture, model):
 @pytest.mark.parametrize("count", [3, 7])
 def test_cycles_from_other_sides(view, count):
     points, triangles = merged(*strips(count))
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     sides = [(4 * k + i, 4 * k + (i + 1) % 4) for k in range(count) for i in range(4)]
     agrees(drawing, by_oracle(drawing, points, triangles, sides))

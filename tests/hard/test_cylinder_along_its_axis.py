@@ -11,6 +11,7 @@ import pytest
 from hard.brep import arc, kinds, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 HALF, OUTER, INNER = 50.0, 20.0, 18.0
@@ -25,7 +26,7 @@ def pipe():
 
 
 def test_along_the_branch(picture):
-    drawing = hlr.draw(pipe(), "top")
+    drawing = hlr.draw(pipe(), "top", **AT_SIZE)
     box = [((-HALF, -y, 0), (HALF, -y, 0)) for y in (OUTER, -OUTER)]
     box += [((x, -OUTER, 0), (x, OUTER, 0)) for x in (HALF, -HALF)]
     inside = [((-HALF, y, 0), (HALF, y, 0)) for y in (INNER, -INNER)]
@@ -34,7 +35,7 @@ def test_along_the_branch(picture):
 
 
 def test_along_the_pipe(picture):
-    drawing = hlr.draw(pipe(), "right")
+    drawing = hlr.draw(pipe(), "right", **AT_SIZE)
     circles = [piece for r in (OUTER, INNER) for piece in arc((0, 0, 0), (0, r, 0), (0, 0, r))]
     foot, inner_foot = (OUTER**2 - BRANCH**2) ** 0.5, (INNER**2 - BORE**2) ** 0.5
     branch = [((0, y, foot), (0, y, TOP)) for y in (BRANCH, -BRANCH)] + [((0, -BRANCH, TOP), (0, BRANCH, TOP))]
@@ -48,7 +49,7 @@ def test_along_the_pipe(picture):
 @pytest.mark.parametrize("seam", [False, True])
 def test_a_cylinder_is_one_circle_on_its_axis_and_hardly_off_it(degrees, seam):
     view = turn((0, 0, 1), (1, 1, 0), degrees)
-    drawing = hlr.draw(cq.Workplane().cylinder(40, 10), view, seam=seam)
+    drawing = hlr.draw(cq.Workplane().cylinder(40, 10), view, seam=seam, **AT_SIZE)
     like(drawing, expect(drawing, ring(10, 20)))
     # At most a dot of the seam, upon the rim.
     assert kinds(drawing) <= {("sharp", True), ("sharp", False), *([("seam", True)] if seam else [])}

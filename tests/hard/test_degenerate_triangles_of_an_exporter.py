@@ -12,6 +12,7 @@ import trimesh
 from hard.brep import same
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle
 from support.meshes import BOX_EDGES, BOX_QUADS, box, split
 
@@ -44,8 +45,8 @@ def engine(tmp_path, spoil):
 
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
 def test_it_is_drawn_as_before(tmp_path, view, picture):
-    sound = hlr.draw(engine(tmp_path, lambda p, t: (p, t)), view)
-    drawing = hlr.draw(engine(tmp_path, cells), view)
+    sound = hlr.draw(engine(tmp_path, lambda p, t: (p, t)), view, **AT_SIZE)
+    drawing = hlr.draw(engine(tmp_path, cells), view, **AT_SIZE)
     same(sound, drawing)
     assert len(drawing.parts) == 4
     if view == "iso":
@@ -54,7 +55,7 @@ def test_it_is_drawn_as_before(tmp_path, view, picture):
 
 def test_one_of_them_by_the_oracle():
     points, triangles = box((0, 0, 0), (30, 20, 10))
-    drawing = hlr.draw(cells(points, triangles), (1, -2, 1.5))
+    drawing = hlr.draw(cells(points, triangles), (1, -2, 1.5), **AT_SIZE)
     agrees(drawing, by_oracle(drawing, points, triangles, BOX_EDGES))
 
 

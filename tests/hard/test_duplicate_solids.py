@@ -12,6 +12,7 @@ from OCP.BRep import BRep_Builder
 from OCP.TopoDS import TopoDS_Solid
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 
@@ -58,7 +59,7 @@ MODELS = [in_an_assembly, one_shape_twice, built_twice, turned_over, faces_of_bo
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
 def test_a_box_three_times_is_twelve_edges(view):
     box = cq.Solid.makeBox(30, 20, 10)
-    drawing = hlr.draw(compound(box, box.copy(), box.rotate((15, 10, 5), (15, 10, 6), 180)), view)
+    drawing = hlr.draw(compound(box, box.copy(), box.rotate((15, 10, 5), (15, 10, 6), 180)), view, **AT_SIZE)
     like(drawing, expect(drawing, *box_edges((0, 0, 0), (30, 20, 10), drawing.view.direction)))
 
 
@@ -68,8 +69,8 @@ def test_a_box_three_times_is_twelve_edges(view):
     "model", [in_an_assembly, one_shape_twice, built_twice, turned_over, faces_of_both, shells_of_both]
 )
 def test_it_is_drawn_like_one(model, view, picture):
-    drawing = hlr.draw(model(), view)
-    same(hlr.draw(part(), view), drawing)
+    drawing = hlr.draw(model(), view, **AT_SIZE)
+    same(hlr.draw(part(), view, **AT_SIZE), drawing)
     once(drawing)
     if view == "iso" and model is built_twice:
         picture(drawing, twice=1.0)
@@ -81,7 +82,7 @@ def test_within_one_part_it_is_said(model):
     (found,) = hlr.info(model()).parts
     assert found.triangles == one.triangles and found.closed
     assert found.defects == (f"{one.triangles} duplicated triangles",)
-    (note,) = hlr.draw(model()).notes
+    (note,) = hlr.draw(model(), **AT_SIZE).notes
     assert note.text.endswith("duplicated triangles.")
 
 

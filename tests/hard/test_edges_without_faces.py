@@ -12,6 +12,7 @@ from hard.brep import compound
 
 import hlr
 from hlr.drawing.notes import Note
+from support.at_size import AT_SIZE
 
 
 def edges(count=28):
@@ -33,7 +34,7 @@ def test_a_file_of_edges_is_refused(tmp_path, suffix):
 def test_beside_a_solid_they_are_left_out_with_a_note(picture):
     assembly = cq.Assembly()
     assembly.add(cq.Workplane().box(20, 20, 20), name="box").add(compound(*edges(3)), name="path")
-    drawing = hlr.draw(assembly, "iso")
+    drawing = hlr.draw(assembly, "iso", **AT_SIZE)
     assert drawing.notes == (Note("wires-left-out", 'Part "path" without faces (3 edges) left out.'),)
     assert {drawing.parts[line.part].name for line in drawing.lines} == {"box"}
     assert len(drawing.lines) == 12

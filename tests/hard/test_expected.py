@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import Ink, agrees, by_oracle, differences, expect, ink, read_picture, wrong_by_rays
 from support.models import box, parts
 
@@ -18,7 +19,7 @@ MESH = box((10, 20, 30))
 
 @pytest.fixture(scope="module")
 def drawing():
-    return hlr.draw(MESH, (3, -1, 2))
+    return hlr.draw(MESH, (3, -1, 2), **AT_SIZE)
 
 
 def boxed(drawing):
@@ -45,7 +46,7 @@ def test_a_box_by_hand_by_the_oracle_and_by_rays(drawing):
 @pytest.mark.slow
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective(eye=(60, -20, 40))])
 def test_every_change_is_noticed(perspective):
-    drawing = hlr.draw(MESH, (3, -1, 2), perspective=perspective)
+    drawing = hlr.draw(MESH, (3, -1, 2), perspective=perspective, **AT_SIZE)
     truth = boxed(drawing)
     used = drawing.accuracy.used
     assert differences(truth, ink(drawing), used) == []
@@ -72,7 +73,7 @@ def test_nothing_expected_is_refused(drawing):
 
 def test_a_picture_is_read_as_it_was_drawn(tmp_path):
     model = parts(box((10, 20, 30)), box((4, 40, 4), (1, 2, 3)))
-    drawing = hlr.draw(model, "iso")
+    drawing = hlr.draw(model, "iso", **AT_SIZE)
     was, read = ink(drawing), read_picture(drawing.save(tmp_path / "a.svg"))
     assert read.lengths() == pytest.approx(was.lengths(), rel=1e-4)
     assert differences(was, read, 0.01) == []

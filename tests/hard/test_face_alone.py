@@ -11,6 +11,7 @@ import pytest
 from hard.brep import arc, compound, kinds, like, ring, walk
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 
@@ -24,7 +25,7 @@ RIM = walk([(x, y, 0) for x, y in ((-20, -10), (20, -10), (20, 10), (-20, 10), (
 
 @pytest.mark.parametrize("view", ["top", "bottom", "iso", (1, 2, -0.5)])
 def test_its_border_from_both_sides(view, picture):
-    drawing = hlr.draw(plate(), view)
+    drawing = hlr.draw(plate(), view, **AT_SIZE)
     like(drawing, expect(drawing, RIM + ring(6)))
     assert kinds(drawing) == {("boundary", True)}
     if view == "iso":
@@ -33,7 +34,7 @@ def test_its_border_from_both_sides(view, picture):
 
 @pytest.mark.parametrize("view", ["front", "right"])
 def test_edge_on_a_line(view):
-    drawing = hlr.draw(plate(), view)
+    drawing = hlr.draw(plate(), view, **AT_SIZE)
     like(drawing, expect(drawing, RIM))
 
 
@@ -41,7 +42,7 @@ def test_edge_on_a_line(view):
 def test_its_back_hides_too(side):
     """A square behind it, seen through the hole only where the hole is: the hole is larger than half of it."""
     square = cq.Workplane(origin=(12, 0, -3 * side)).rect(6, 6).extrude(1).faces("<Z").val()
-    drawing = hlr.draw(compound(plate(), square), (0, 0, side))
+    drawing = hlr.draw(compound(plate(), square), (0, 0, side), **AT_SIZE)
     small = walk([(12 + x, y, 0) for x, y in ((-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3))])
     like(drawing, expect(drawing, RIM + ring(6), small))
 
@@ -50,7 +51,7 @@ def test_half_a_sphere_alone_has_an_outline_inside_and_out():
     """Seen from obliquely below into the bowl: border whole, the outline where the bowl turns away."""
     bowl = cq.Workplane().sphere(10).intersect(cq.Workplane().box(40, 40, 20).translate((0, 0, -10)))
     face = bowl.faces("%SPHERE").val()
-    drawing = hlr.draw(face, (0, -1, 1))
+    drawing = hlr.draw(face, (0, -1, 1), **AT_SIZE)
     u, v = (10 * np.asarray(axis) for axis in (drawing.view.right, drawing.view.up))
     # The lower half of the great circle across the view bounds the outside; the border is seen whole from above. Both
     # ends of the half circle (curvature 1/10) touch the ellipse (1/5 there), less than a fifth of the accuracy away.

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, expect
 from support.meshes import as_parts, box, box_lines, face, merged, moved, rotation
 
@@ -24,7 +25,7 @@ def test_a_sheet_on_edge_is_one_line_and_hides_nothing(picture, off, turn, how):
     # Behind it a block, above and below the sheet's plane: the sheet's line crosses its face, in front.
     low, high = (-4, 20, -5), (4, 28, 5)
     model = how(*(moved(m, lambda p: p @ turn.T) for m in (face(*SHEET), box(low, high))))
-    drawing = hlr.draw(model, tuple(turn @ (0, -1, off)), up=tuple(turn @ (0, 0, 1)))
+    drawing = hlr.draw(model, tuple(turn @ (0, -1, off)), up=tuple(turn @ (0, 0, 1)), **AT_SIZE)
     front = [line for line in box_lines(low, high) if line[0][1] == line[1][1] == 20]
     wanted = [*front, ((-10, -10, 0), (10, -10, 0))]
     agrees(drawing, expect(drawing, [tuple(turn @ p for p in line) for line in wanted]))
@@ -37,7 +38,7 @@ def test_a_sheet_on_edge_is_one_line_and_hides_nothing(picture, off, turn, how):
 def test_behind_a_block_the_line_is_hidden(off, turn):
     low, high = (-4, -28, -5), (4, -20, 5)
     model = merged(*(moved(m, lambda p: p @ turn.T) for m in (face(*SHEET), box(low, high))))
-    drawing = hlr.draw(model, tuple(turn @ (0, -1, off)), up=tuple(turn @ (0, 0, 1)))
+    drawing = hlr.draw(model, tuple(turn @ (0, -1, off)), up=tuple(turn @ (0, 0, 1)), **AT_SIZE)
     front = [line for line in box_lines(low, high) if line[0][1] == line[1][1] == -28]
     seen = [*front, ((-10, -10, 0), (-4, -10, 0)), ((4, -10, 0), (10, -10, 0))]
     place = lambda lines: [tuple(turn @ p for p in line) for line in lines]  # noqa: E731
@@ -49,5 +50,5 @@ def test_a_stack_of_sheets_on_edge_and_a_line_through_all_of_them(off):
     # Parallel sheets seen on edge, and a needle that points at the viewer: it is a point, and nothing on paper.
     sheets = [face(*((x, y, z) for x, y, _ in SHEET)) for z in (-3.0, 0.0, 3.0)]
     needle = face((1, -15, 1), (1, 15, 1), (1, 0, 1 + 1e-9))
-    drawing = hlr.draw(merged(*sheets, needle), (0, -1, off))
+    drawing = hlr.draw(merged(*sheets, needle), (0, -1, off), **AT_SIZE)
     agrees(drawing, expect(drawing, [((-10, 0, z), (10, 0, z)) for z in (-3, 0, 3)]))

@@ -13,6 +13,7 @@ import pytest
 
 import hlr
 from support import edge_on, sheets
+from support.at_size import AT_SIZE
 
 CASES = [
     ("twisted", 0.05, (0.8190332625407435, 0.5737153309804119, -0.0059358108041117075)),
@@ -32,7 +33,7 @@ CASES = [
 def test_what_is_seen_is_drawn_and_nothing_else(name, accuracy, view, picture):
     shape = sheets.SHEETS[name]()
     truth = edge_on.Truth(shape, grid=200)
-    drawing = hlr.draw(shape, view, accuracy=accuracy)
+    drawing = hlr.draw(shape, view, accuracy=accuracy, **AT_SIZE)
     found = truth.judge(drawing)
     assert found.seen > 200 and found.judged > 50
     assert not found.gaps, found.gaps[:5]
@@ -47,7 +48,7 @@ def test_the_judge_can_find_both_faults():
 
     shape = sheets.SHEETS["cylinder of 150 degrees"]()
     truth = edge_on.Truth(shape, grid=200)
-    drawing = hlr.draw(shape, (1.0, 0.2, 0.3), accuracy=0.1)
+    drawing = hlr.draw(shape, (1.0, 0.2, 0.3), accuracy=0.1, **AT_SIZE)
     found = truth.judge(drawing)
     assert not found.gaps and not found.wrong
     seen = [line for line in drawing.lines if line.visible]

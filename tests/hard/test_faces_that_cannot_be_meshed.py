@@ -13,6 +13,7 @@ from hard.brep import box_edges, like
 
 import hlr
 from hlr.drawing.notes import Note
+from support.at_size import AT_SIZE
 from support.brep_shapes import plate_with_sliver, sliver
 from support.expected import expect
 
@@ -25,7 +26,7 @@ def box():
 
 @pytest.mark.parametrize("view", ["iso", "front", (0.3, -1, -0.4)])
 def test_the_rest_is_drawn_as_if_it_were_not_there(view, picture):
-    drawing = hlr.draw(plate_with_sliver(), view)
+    drawing = hlr.draw(plate_with_sliver(), view, **AT_SIZE)
     assert NOTE in drawing.notes
     like(drawing, expect(drawing, *box_edges((-15, -10, -5), (15, 10, 5), drawing.view.direction)))
     if view == "iso":
@@ -38,9 +39,9 @@ def test_the_report_says_so():
 
 def test_strict_refuses_it():
     with pytest.raises(hlr.StrictError, match="1 of 7 faces could not be meshed"):
-        hlr.draw(plate_with_sliver(), strict=True)
+        hlr.draw(plate_with_sliver(), strict=True, **AT_SIZE)
 
 
 def test_nothing_but_such_a_face_is_refused():
     with pytest.raises(hlr.SourceError, match="none of its faces could be meshed"):
-        hlr.draw(cq.Shape.cast(sliver()))
+        hlr.draw(cq.Shape.cast(sliver()), **AT_SIZE)

@@ -11,6 +11,7 @@ import pytest
 from hard.brep import same
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, wrong_by_rays
 from support.meshes import BOX_EDGES, BOX_QUADS, box, sphere, split
 
@@ -29,7 +30,7 @@ def spoilt(mesh):
 
 @pytest.mark.parametrize("view", ["iso", "front", (1, -2, 3), (-1, 0.4, -0.5)])
 def test_it_is_drawn_as_before(view, picture):
-    sound, drawing = hlr.draw(tub(), view), hlr.draw(spoilt(tub()), view)
+    sound, drawing = hlr.draw(tub(), view, **AT_SIZE), hlr.draw(spoilt(tub()), view, **AT_SIZE)
     same(sound, drawing)
     agrees(drawing, by_oracle(drawing, *tub(), BOX_EDGES))
     if view == "iso":
@@ -38,7 +39,7 @@ def test_it_is_drawn_as_before(view, picture):
 
 def test_its_outlines_too():
     bowl = sphere(10, 48, 16, top=0.3)
-    sound, drawing = hlr.draw(bowl, (1, -2, 1)), hlr.draw(spoilt(bowl), (1, -2, 1))
+    sound, drawing = hlr.draw(bowl, (1, -2, 1), **AT_SIZE), hlr.draw(spoilt(bowl), (1, -2, 1), **AT_SIZE)
     same(sound, drawing)
     judged, wrong = wrong_by_rays(drawing, *bowl)
     assert judged and not wrong

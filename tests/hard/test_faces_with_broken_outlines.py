@@ -13,6 +13,7 @@ import pytest
 
 import hlr
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 from support.brep_shapes import shifted_cylinder
 
 
@@ -34,7 +35,10 @@ BROKEN = [("top",), ("bottom",), ("seam", "top"), ("seam", "bottom")]
 
 @pytest.mark.parametrize("moved", BROKEN)
 def test_it_is_drawn_like_a_sound_one(moved):
-    sound, drawing = hlr.draw(shifted_cylinder(), "iso"), hlr.draw(shifted_cylinder(*moved), "iso")
+    sound, drawing = (
+        hlr.draw(shifted_cylinder(), "iso", **AT_SIZE),
+        hlr.draw(shifted_cylinder(*moved), "iso", **AT_SIZE),
+    )
     assert drawing.notes == ()
     assert sorted((line.kind, line.visible) for line in drawing.lines) == sorted(
         (line.kind, line.visible) for line in sound.lines

@@ -13,6 +13,7 @@ from hard.brep import same
 
 import hlr
 from hlr.drawing.saving import render
+from support.at_size import AT_SIZE
 from support.models import turned
 from support.referee import exchange, referee, reference
 
@@ -61,7 +62,7 @@ def block(tilt: float, lid: bool = True) -> trimesh.Trimesh:
 def test_its_outline_is_whole(tilt, view):
     mesh = block(tilt)
     model = reference.from_arrays(mesh.vertices, mesh.faces)
-    drawing = hlr.draw(mesh, view, accuracy=model.diagonal / 20000)
+    drawing = hlr.draw(mesh, view, accuracy=model.diagonal / 20000, **AT_SIZE)
     judged = referee.Referee(model).judge("block", "hlr", exchange.parse(render(drawing, "json")))
     assert not judged.row.bad, [str(judged.row), *judged.why()]
 
@@ -72,8 +73,8 @@ def test_its_outline_is_whole(tilt, view):
 @pytest.mark.parametrize("tilt", TILTS)
 def test_inside_out_it_is_drawn_the_same(tilt, lid, view):
     mesh = block(tilt, lid)
-    same(hlr.draw(mesh, view), hlr.draw(turned(mesh), view))
+    same(hlr.draw(mesh, view, **AT_SIZE), hlr.draw(turned(mesh), view, **AT_SIZE))
 
 
 def test_picture(picture):
-    picture(hlr.draw(block(1e-6), "iso"), twice=1.0)
+    picture(hlr.draw(block(1e-6), "iso", **AT_SIZE), twice=1.0)

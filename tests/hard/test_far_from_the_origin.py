@@ -10,6 +10,7 @@ import pytest
 from hard.brep import box_edges, like, once, ring, same
 
 import hlr
+from support.at_size import ALL_LINES, AT_SIZE
 from support.expected import expect
 
 FAR = (1e6, -1e6, 5e5)
@@ -23,10 +24,10 @@ def part():
 @pytest.mark.parametrize("view", ["front", "top", "iso", (1, -2, 0.7)])
 @pytest.mark.parametrize("place", [FAR, (1e6, 1e6, 1e6), (0, 0, -3e6)])
 def test_the_same_drawing_as_at_the_origin(view, place):
-    near = hlr.draw(part(), view, scale=20)
-    far = hlr.draw(part().translate(place), view, scale=20)
+    near = hlr.draw(part(), view, scale=20, **ALL_LINES)
+    far = hlr.draw(part().translate(place), view, scale=20, **ALL_LINES)
     moved = cq.Workplane(obj=part().val().located(cq.Location(place)))
-    for drawing in (far, hlr.draw(moved, view, scale=20)):
+    for drawing in (far, hlr.draw(moved, view, scale=20, **ALL_LINES)):
         # Each is held against its own lower left corner: where the paper is far away, its digits are rounded.
         assert drawing.bounds == pytest.approx(near.bounds, abs=0.01)
         assert sorted((line.kind, line.visible) for line in drawing.lines) == sorted(
@@ -37,7 +38,7 @@ def test_the_same_drawing_as_at_the_origin(view, place):
 
 def test_by_hand(picture):
     x, y, z = FAR
-    drawing = hlr.draw(part().translate(FAR), "iso", scale=20)
+    drawing = hlr.draw(part().translate(FAR), "iso", scale=20, **ALL_LINES)
     direction = drawing.view.direction
     seen, unseen = box_edges((x - 0.5, y - 0.5, z - 0.25), (x + 0.5, y + 0.5, z + 0.25), direction)
     upper = [tuple((p[0] + x, p[1] + y, p[2] + z) for p in e) for e in ring(0.2, 0.25)]
@@ -58,7 +59,7 @@ def hole(place):
 def test_two_of_them_far_apart_keep_their_shape():
     """A drawing of two such parts two metres apart at an accuracy that still resolves them."""
     pair = cq.Compound.makeCompound([part().val(), part().translate((2000, 0, 0)).val()])
-    drawing = hlr.draw(pair, "front", accuracy=0.01)
+    drawing = hlr.draw(pair, "front", accuracy=0.01, **AT_SIZE)
     widths = []
     for low, high in ((-1, 1), (1999, 2001)):
         xs = [x for line in drawing.lines for x in line.points3[:, 0] if low < x < high]

@@ -12,6 +12,7 @@ import pytest
 from hard.brep import arc, kinds, like, turn, walk
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 X, Y, Z, R = 30.0, 20.0, 10.0, 4.0
@@ -38,13 +39,13 @@ def outline(x, y, z):
 @pytest.mark.parametrize("off", [0, 1e-9, -1e-6, 1e-4])
 def test_edge_on_a_rectangle_and_nothing_else(off):
     """Degrees off the front: each tangent line turns into the contour and out of it."""
-    drawing = hlr.draw(upright(), turn((0, -1, 0), (0, 0, 1), off))
+    drawing = hlr.draw(upright(), turn((0, -1, 0), (0, 0, 1), off), **AT_SIZE)
     like(drawing, expect(drawing, walk([(-X, 0, -Z), (X, 0, -Z), (X, 0, Z), (-X, 0, Z), (-X, 0, -Z)])))
     assert len([line for line in drawing.lines if line.kind == "outline"]) == 2
 
 
 def test_all_edges_rounded(picture):
-    drawing = hlr.draw(all_round(), "top")
+    drawing = hlr.draw(all_round(), "top", **AT_SIZE)
     like(drawing, expect(drawing, outline(X, Y, 0)))
     assert {kind for kind, visible in kinds(drawing) if visible} == {"outline"}
     picture(drawing, twice=0.2)
@@ -52,7 +53,7 @@ def test_all_edges_rounded(picture):
 
 @pytest.mark.parametrize("degrees", [1, 20, 44])
 def test_outlines_are_where_the_normal_is_square_to_the_view(degrees):
-    drawing = hlr.draw(upright(), turn((0, -1, 0), (0, 0, 1), degrees))
+    drawing = hlr.draw(upright(), turn((0, -1, 0), (0, 0, 1), degrees), **AT_SIZE)
     right = np.asarray(drawing.view.right)
     corner = np.array([X - R, Y - R, 0]) * np.sign(right)
     reach = corner @ right + R

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import of_kind, wrong_by_rays
 from support.measures import length, placed
 from support.meshes import grid
@@ -33,7 +34,7 @@ def helix(around=32, along=80):
 @pytest.mark.parametrize("view", ["front", "iso", (1, -1, 0.2), "top"])
 def test_rays_agree(picture, view):
     points, triangles = helix()
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     judged, wrong = wrong_by_rays(drawing, points, triangles)
     assert judged >= 15
     assert wrong <= judged // 200
@@ -42,7 +43,7 @@ def test_rays_agree(picture, view):
 
 
 def test_from_above_it_is_two_circles_and_the_upper_end(picture):
-    drawing = hlr.draw(helix(), "top", hidden=False)
+    drawing = hlr.draw(helix(), "top", hidden=False, scale=1.0, smooth=False)
     # However it climbs, the tube reaches from R - r to R + r: its outlines are circles, each turn over the one below.
     radii = np.hypot(*np.concatenate([placed(drawing, x) for x in of_kind(drawing, "outline")]).T)
     assert np.minimum(abs(radii - RADIUS - ROD), abs(radii - RADIUS + ROD)) == pytest.approx(0, abs=0.05)
@@ -57,6 +58,6 @@ def test_from_above_it_is_two_circles_and_the_upper_end(picture):
     strict=True, reason="an outline that lies over itself a turn below is drawn over itself for a quarter turn"
 )
 def test_from_above_each_circle_is_there_once():
-    drawing = hlr.draw(helix(), "top", hidden=False)
+    drawing = hlr.draw(helix(), "top", hidden=False, scale=1.0, smooth=False)
     total = sum(map(length, of_kind(drawing, "outline")))
     assert total == pytest.approx(2 * np.pi * (RADIUS + ROD) + 2 * np.pi * (RADIUS - ROD), rel=0.01)

@@ -11,6 +11,7 @@ import pytest
 from hard.brep import faultless, once
 
 import hlr
+from support.at_size import AT_SIZE
 
 RADIUS, PITCH, TURNS, WIRE = 8.0, 6.0, 1.5, 1.2
 
@@ -30,12 +31,12 @@ def test_by_rays():
 
 
 def test_its_outline_is_there_once():
-    once(hlr.draw(spring(), "front"))
+    once(hlr.draw(spring(), "front", **AT_SIZE))
 
 
 @pytest.mark.slow
 def test_it_is_as_wide_and_high_as_helix_and_wire_say(picture):
-    drawing = hlr.draw(spring(), "front")
+    drawing = hlr.draw(spring(), "front", **AT_SIZE)
     x0, y0, x1, y1 = drawing.bounds
     near = 2 * drawing.accuracy.used
     assert x1 - x0 == pytest.approx(2 * (RADIUS + WIRE), abs=near)
@@ -46,7 +47,7 @@ def test_it_is_as_wide_and_high_as_helix_and_wire_say(picture):
 
 def test_no_line_leaves_the_wire():
     """Each point of each line lies on the surface: one wire's radius from the helix."""
-    drawing = hlr.draw(spring(), "iso")
+    drawing = hlr.draw(spring(), "iso", **AT_SIZE)
     t = np.linspace(-0.2, TURNS + 0.2, 20000)
     helix = np.stack([RADIUS * np.cos(2 * np.pi * t), RADIUS * np.sin(2 * np.pi * t), PITCH * t], axis=1)
     from scipy.spatial import cKDTree

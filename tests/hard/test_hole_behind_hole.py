@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, expect
 from support.meshes import as_parts, box, box_lines, grid, merged, ring
 
@@ -29,7 +30,7 @@ def plate(y):
 @pytest.mark.parametrize("count", [1, 2, 20])
 def test_through_all_holes_a_bar_is_seen_between_their_borders(picture, how, count):
     low, high = (-9, 90, -2), (9, 94, 2)
-    drawing = hlr.draw(how(*(plate(4.0 * k) for k in range(count)), box(low, high)), "front")
+    drawing = hlr.draw(how(*(plate(4.0 * k) for k in range(count)), box(low, high)), "front", **AT_SIZE)
     seen = [*ring(RIM), *ring(HOLE), *(((-5, 90, z), (5, 90, z)) for z in (-2, 2))]
     unseen = [((s * 5, 90, z), (s * 9, 90, z)) for s in (-1, 1) for z in (-2, 2)]
     unseen += [((s * 9, 90, -2), (s * 9, 90, 2)) for s in (-1, 1)]
@@ -42,7 +43,7 @@ def test_through_all_holes_a_bar_is_seen_between_their_borders(picture, how, cou
 def test_a_block_exactly_as_large_as_the_holes(how):
     # Its front lies on the borders in the image: there once, as part of the first plate's hole.
     low, high = (-5, 90, -5), (5, 94, 5)
-    drawing = hlr.draw(how(plate(0.0), plate(4.0), box(low, high)), "front")
+    drawing = hlr.draw(how(plate(0.0), plate(4.0), box(low, high)), "front", **AT_SIZE)
     agrees(drawing, expect(drawing, [*ring(RIM), *ring(HOLE)]))
 
 
@@ -62,7 +63,7 @@ def test_through_a_checkerboard_every_other_square_is_seen(picture, view):
     first = len(board[0])
     edges = [(4 * k + i, 4 * k + (i + 1) % 4) for k in range(len(cells)) for i in range(4)]
     edges += [(first + i, first + j) for i in range(8) for j in range(i + 1, 8) if bin(i ^ j).count("1") == 1]
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     agrees(drawing, by_oracle(drawing, points, triangles, edges), step=0.3)
     assert len(box_lines((3, 5, 3), (21, 7, 19))) == 12
     if view == (0.2, -1, 0.1):

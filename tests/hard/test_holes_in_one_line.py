@@ -19,7 +19,7 @@ MODEL = Path(__file__).parents[2] / "examples" / "models" / "nist_ftc_06_asme1_a
 @pytest.mark.parametrize("accuracy", [0.1, 0.2])
 def test_no_outline_runs_from_hole_to_hole(accuracy):
     pytest.importorskip("OCP")
-    drawing = hlr.draw(MODEL, "iso-ne", fit=(240, 180), accuracy=accuracy, hidden=False)
+    drawing = hlr.draw(MODEL, "iso-ne", fit=(240, 180), accuracy=accuracy, hidden=False, smooth=False)
     outlines = [line for line in drawing.lines if line.kind == "outline"]
     assert outlines, "fillets have outlines"
     top = 180

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import defects, of_kind, wrong_by_rays
 from support.meshes import cells
 
@@ -30,7 +31,7 @@ def bottle(n=160, m=64):
 @pytest.mark.parametrize("view", ["iso", "front", (1, 2, 3), (1, 1, 0.1)])
 def test_rays_agree(picture, view):
     points, triangles = bottle()
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     judged, wrong = wrong_by_rays(drawing, points, triangles)
     assert judged >= 25
     assert wrong <= judged // 100

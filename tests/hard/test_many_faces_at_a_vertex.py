@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import Ink, agrees, expect, on_paper, pieces
 from support.measures import length
 
@@ -31,7 +32,7 @@ def cone(radii):
 @pytest.mark.slow
 def test_from_the_side_a_cone_is_a_triangle(picture):
     points, triangles = cone(np.full(COUNT, RADIUS))
-    drawing = hlr.draw((points, triangles), "front")
+    drawing = hlr.draw((points, triangles), "front", **AT_SIZE)
     corners = [(-RADIUS, 0, 0), (RADIUS, 0, 0), (0, 0, HEIGHT)]
     agrees(drawing, expect(drawing, [(corners[i], corners[i - 1]) for i in range(3)]))
     picture(drawing)
@@ -40,7 +41,7 @@ def test_from_the_side_a_cone_is_a_triangle(picture):
 @pytest.mark.parametrize("view", ["iso", (1, 0.1, 0.5)])
 def test_obliquely_two_generators_touch_the_base(picture, view):
     points, triangles = cone(np.full(COUNT, RADIUS))
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     d = np.asarray(drawing.view.direction)
     # The normal at the angle t is (H cos t, H sin t, R): square to the view where cos(t - s) = -R dz / (H |dxy|).
     middle = np.arctan2(d[1], d[0])
@@ -59,7 +60,7 @@ def test_obliquely_two_generators_touch_the_base(picture, view):
 
 def test_from_above_and_from_below_it_is_a_circle():
     for view in ("top", "bottom"):
-        drawing = hlr.draw(cone(np.full(COUNT, RADIUS)), view)
+        drawing = hlr.draw(cone(np.full(COUNT, RADIUS)), view, **AT_SIZE)
         t = np.linspace(0, 2 * np.pi, 721)
         circle = np.stack([RADIUS * np.cos(t), RADIUS * np.sin(t), 0 * t], axis=1)
         agrees(drawing, Ink(pieces([on_paper(drawing, circle)]), np.zeros((0, 2, 2))))
@@ -68,7 +69,7 @@ def test_from_above_and_from_below_it_is_a_circle():
 def test_a_pleated_cone_shows_all_its_ridges_from_above():
     n = 200
     points, triangles = cone(np.where(np.arange(n) % 2, RADIUS, RADIUS / 2))
-    drawing = hlr.draw((points, triangles), "top", accuracy=0.01)
+    drawing = hlr.draw((points, triangles), "top", accuracy=0.01, **AT_SIZE)
     rim = points[1:-1]
     wanted = [(points[0], p) for p in rim] + list(zip(rim, np.roll(rim, -1, axis=0), strict=True))
     assert sum(map(length, drawing.lines)) > n * RADIUS / 2

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, covers, expect, wrong_by_rays
 from support.meshes import ring, sharp_edges, split
 
@@ -59,7 +60,7 @@ def test_there_are_as_many_faces_as_the_formula_says(level, faces):
 @pytest.mark.parametrize("level", [1, 2, 3])
 @pytest.mark.parametrize("view", ["front", "top"])
 def test_along_an_axis_it_is_a_carpet_and_nothing_shows_through_the_holes(picture, level, view):
-    drawing = hlr.draw(sponge(level), view, hidden=False)
+    drawing = hlr.draw(sponge(level), view, hidden=False, scale=1.0, smooth=False)
     unit = SIZE / 3**level
     squares = [np.array([[x, y], [x + s, y], [x + s, y + s], [x, y + s]]) * unit for x, y, s in carpet(level)]
     sides = [
@@ -76,7 +77,7 @@ def test_along_an_axis_it_is_a_carpet_and_nothing_shows_through_the_holes(pictur
 @pytest.mark.parametrize("view", ["iso", (3, -1, 2)])
 def test_obliquely_every_edge_is_there_and_rays_agree(picture, level, view):
     points, triangles = sponge(level)
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     covers(drawing, [points[list(edge)] for edge in sharp_edges((points, triangles))], step=0.5)
     judged, wrong = wrong_by_rays(drawing, points, triangles)
     assert judged > 100 * 8**level / 8

@@ -7,6 +7,7 @@ import pytest
 import trimesh
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle
 from support.meshes import BOX_EDGES, box, merged, moved
 
@@ -23,7 +24,7 @@ def test_it_is_drawn_like_the_mirrored_mesh(picture, mirror, view):
         scene.add_geometry(
             trimesh.Trimesh(*mesh, process=False), geom_name=name, node_name=name + "-node", transform=mirror
         )
-    drawing = hlr.draw(scene, view)
+    drawing = hlr.draw(scene, view, **AT_SIZE)
     points, triangles = moved(merged(slab, post), lambda p: p @ mirror[:3, :3].T)
     edges = [*BOX_EDGES, *((i + 8, j + 8) for i, j in BOX_EDGES)]
     agrees(drawing, by_oracle(drawing, points, triangles, edges), step=0.3)

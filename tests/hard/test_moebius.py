@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import defects, expect, of_kind, wrong_by_rays
 from support.measures import length
 from support.meshes import cells
@@ -34,7 +35,7 @@ def strip(n=240, m=9, twists=TWISTS):
 @pytest.mark.parametrize("view", ["iso", "front", (1, 3, -1)])
 def test_rays_agree_and_the_border_is_all_there(picture, twists, view):
     points, triangles = strip(twists=twists)
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     judged, wrong = wrong_by_rays(drawing, points, triangles)
     assert judged >= 5
     assert wrong == 0
@@ -61,6 +62,9 @@ def test_its_one_side_is_reported(twists):
 
 def test_turned_over_it_is_the_same():
     points, triangles = strip()
-    one, other = hlr.draw((points, triangles), "iso"), hlr.draw((points, triangles[:, ::-1]), "iso")
+    one, other = (
+        hlr.draw((points, triangles), "iso", **AT_SIZE),
+        hlr.draw((points, triangles[:, ::-1]), "iso", **AT_SIZE),
+    )
     total = [sum(length(x) for x in d.lines if x.visible) for d in (one, other)]
     assert total[0] == pytest.approx(total[1], rel=1e-3)

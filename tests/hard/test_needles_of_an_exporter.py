@@ -14,6 +14,7 @@ import hlr
 from hlr import _kernel
 from hlr.scene import build
 from hlr.source.precision import coordinate_precision
+from support.at_size import ALL_LINES
 from support.meshes import rotation
 
 HEIGHT, RADIUS = 60.0, 20.0
@@ -58,7 +59,7 @@ def length(lines):
 @pytest.mark.parametrize("size", [0.01, 1.0, 1000.0])
 @pytest.mark.parametrize("off", [0.5, 3.0, 12.0])
 def test_a_shaft_has_its_two_rims(size, off):
-    drawing = hlr.draw(prism(36, size, off=off), "iso", fit=(150, 150))
+    drawing = hlr.draw(prism(36, size, off=off), "iso", fit=(150, 150), **ALL_LINES)
     rim = 36 * 2 * RADIUS * np.sin(np.pi / 36)
     assert length(creases(drawing)) <= 2 * rim * size * 1.001
 
@@ -68,7 +69,9 @@ def test_triangles_turned_over_have_the_same_folds(sides):
     points, triangles = prism(sides)
     turned = triangles.copy()
     turned[::5] = turned[::5, ::-1]
-    one, other = (length(creases(hlr.draw((points, t), "iso", fit=(150, 150)))) for t in (triangles, turned))
+    one, other = (
+        length(creases(hlr.draw((points, t), "iso", fit=(150, 150), **ALL_LINES))) for t in (triangles, turned)
+    )
     # Every upright edge has a needle, and a line too many or too few there is as long as the prism is high.
     assert abs(other - one) < HEIGHT / 4
 
@@ -76,7 +79,7 @@ def test_triangles_turned_over_have_the_same_folds(sides):
 @pytest.mark.parametrize("size", [0.01, 1.0, 1000.0])
 @pytest.mark.parametrize("off", [0.0, 0.5, 3.0, 12.0])
 def test_a_box_keeps_its_twelve_edges(size, off):
-    drawing = hlr.draw(prism(4, size, off=off), "iso", fit=(150, 150), accuracy=0.05)
+    drawing = hlr.draw(prism(4, size, off=off), "iso", fit=(150, 150), accuracy=0.05, **ALL_LINES)
     whole = 8 * RADIUS * np.sqrt(2.0) + 4 * HEIGHT
     assert length(creases(drawing)) == pytest.approx(whole * size, rel=2e-3)
 
@@ -84,7 +87,7 @@ def test_a_box_keeps_its_twelve_edges(size, off):
 def test_without_the_look_at_heights_there_are_stray_lines(monkeypatch, needles):
     monkeypatch.setattr(build, "reliable_normals", lambda mesh, *_: mesh)
     rim = 36 * 2 * RADIUS * np.sin(np.pi / 36)
-    found = length(creases(hlr.draw(prism(36), "iso", fit=(150, 150))))
+    found = length(creases(hlr.draw(prism(36), "iso", fit=(150, 150), **ALL_LINES)))
     assert found > 2.5 * rim if needles == "left" else found <= 2.001 * rim
 
 

@@ -12,6 +12,7 @@ import pytest
 from hard.brep import compound, like, ring, same, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import Ink, expect, ink
 
 RADIUS, HEIGHT = 10.0, 30.0
@@ -36,8 +37,8 @@ def in_sectors(count, turned, low=0.0, high=HEIGHT, inner=0.0, outer=RADIUS):
 def test_a_cylinder_twice_is_drawn_like_one(picture):
     whole = cq.Solid.makeCylinder(RADIUS, HEIGHT)
     for view in ("iso", "front", (0.3, -1, 0.2)):
-        alone = hlr.draw(whole, view)
-        pair = hlr.draw(compound(whole, in_sectors(3, 17.0)), view)
+        alone = hlr.draw(whole, view, **AT_SIZE)
+        pair = hlr.draw(compound(whole, in_sectors(3, 17.0)), view, **AT_SIZE)
         same(alone, pair)
         if view == "iso":
             picture(pair)
@@ -53,7 +54,7 @@ def test_a_tube_around_a_cylinder_of_its_own_bore(picture):
     view = turn((0, -1, 0), (1, 0, 0), -35)
     low, top, wide = 5.0, 9.0, 24.0
     model = compound(cq.Solid.makeCylinder(RADIUS, 16), in_sectors(3, 41.0, low, top, RADIUS, wide))
-    drawing = hlr.draw(model, view)
+    drawing = hlr.draw(model, view, **AT_SIZE)
     seen = [*ring(RADIUS, 16), *ring(wide, top), *ring(wide, low, 180, 360), *ring(RADIUS, top, 200, 340)]
     entry = RADIUS * np.sin(np.radians(NEAR)) * np.tan(np.radians(35))
     seen += [((x, 0, top + entry), (x, 0, 16)) for x in (RADIUS, -RADIUS)]
@@ -74,8 +75,8 @@ def test_a_tube_around_a_cylinder_of_its_own_bore(picture):
 def test_a_cylinder_inside_a_longer_one_shows_its_rims_in_front(view):
     """They lie in the surface of the other: like coplanar faces, neither hides the other's lines."""
     outer = cq.Solid.makeCylinder(RADIUS, HEIGHT)
-    drawing = hlr.draw(compound(outer, in_sectors(2, 23.0, 8, 20)), view)
-    alone = ink(hlr.draw(outer, view))
+    drawing = hlr.draw(compound(outer, in_sectors(2, 23.0, 8, 20)), view, **AT_SIZE)
+    alone = ink(hlr.draw(outer, view, **AT_SIZE))
     front = float(np.degrees(np.arctan2(drawing.view.direction[1], drawing.view.direction[0])))
     seen, unseen, either = [], [], []
     for z in (8, 20):

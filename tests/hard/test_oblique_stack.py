@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, expect
 from support.meshes import BOX_EDGES, as_parts, box, box_lines, merged, moved, rotation
 
@@ -37,8 +38,8 @@ def stack_lines(shrink):
 @pytest.mark.parametrize("shrink", [0.0, 1.5])
 def test_a_turned_stack_is_drawn_like_an_upright_one(picture, how, turn, toward, shrink):
     up = (0, 1, 0) if toward == (0, 0, 1) else (0, 0, 1)
-    drawing = hlr.draw(how(*stack(turn, shrink)), tuple(turn @ toward), up=tuple(turn @ up))
-    upright = hlr.draw(how(*stack(np.eye(3), shrink)), toward, up=up)
+    drawing = hlr.draw(how(*stack(turn, shrink)), tuple(turn @ toward), up=tuple(turn @ up), **AT_SIZE)
+    upright = hlr.draw(how(*stack(np.eye(3), shrink)), toward, up=up, **AT_SIZE)
     edges = [(i + 8 * k, j + 8 * k) for k in range(3) for i, j in BOX_EDGES]
     wanted = by_oracle(upright, *stack_lines(shrink), edges)
     agrees(upright, wanted, step=0.3)
@@ -51,7 +52,7 @@ def test_a_turned_stack_is_drawn_like_an_upright_one(picture, how, turn, toward,
 def test_the_joints_of_a_straight_stack_by_hand(turn):
     # From (1, -1, 1): the sides x = 8 and y = -6 and the top are seen; each joint is visible along the two and hidden
     # along the other two.
-    drawing = hlr.draw(merged(*stack(turn)), tuple(turn @ (1, -1, 1)), up=tuple(turn @ (0, 0, 1)))
+    drawing = hlr.draw(merged(*stack(turn)), tuple(turn @ (1, -1, 1)), up=tuple(turn @ (0, 0, 1)), **AT_SIZE)
     seen, unseen = [], []
     for z in LEVELS[:-1]:
         seen += [((8, -6, z), (8, 6, z)), ((-8, -6, z), (8, -6, z))]

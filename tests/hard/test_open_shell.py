@@ -10,6 +10,7 @@ import pytest
 from hard.brep import kinds, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, defects, expect
 from support.meshes import BOX_EDGES, BOX_QUADS, box, split
 
@@ -36,7 +37,7 @@ VIEWS = ["iso", "front", "bottom", (1, -2, 3), (1, 1, -1), (-0.3, 0.2, 1)]
 @pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize("view", VIEWS)
 def test_a_box_without_lid(view, turned, picture):
-    drawing = hlr.draw(tray(turned), view)
+    drawing = hlr.draw(tray(turned), view, **AT_SIZE)
     points = box(LOW, HIGH)[0]
     triangles = split([quad for i, quad in enumerate(BOX_QUADS) if i != LID])
     agrees(drawing, by_oracle(drawing, points, triangles, BOX_EDGES))
@@ -53,7 +54,7 @@ def test_half_a_pipe_wall_seen_into():
     """A cylindrical wall alone: both rims whole or hidden by the wall itself, no caps."""
     wall = cq.Workplane().circle(10).extrude(20).faces("%CYLINDER").val()
     view = turn((0, -1, 0), (1, 0, 0), -30)
-    drawing = hlr.draw(wall, view)
+    drawing = hlr.draw(wall, view, **AT_SIZE)
     seen = [*ring(10, 20), *ring(10, 0, 180, 360), *(((x, 0, 0), (x, 0, 20)) for x in (10, -10))]
     like(drawing, expect(drawing, seen, ring(10, 0, 0, 180)))
     assert {kind for kind, _ in kinds(drawing)} == {"boundary", "outline"}

@@ -46,7 +46,7 @@ def ink(drawing: hlr.Drawing) -> float:
 
 
 def test_the_sound_part() -> None:
-    drawing = hlr.draw(slotted((0.0, 0.0), (0,)), "back", hidden=False)
+    drawing = hlr.draw(slotted((0.0, 0.0), (0,)), "back", hidden=False, scale=1.0, smooth=False)
     # The box of the bar, and the slot: two straight sides and two half circles.
     assert ink(drawing) == pytest.approx(2 * (100 + 60) + 2 * 24 + 16 * np.pi, abs=0.1)
 
@@ -55,6 +55,8 @@ def test_the_sound_part() -> None:
 @pytest.mark.parametrize("which", [(0,), (1,), (0, 1), (0, 1, 2, 3)])
 @pytest.mark.parametrize("shift", [(0.0, 3.4), (0.0, -3.4)])
 def test_lines_follow_the_curves_in_space(shift: tuple[float, float], which: tuple[int, ...]) -> None:
-    sound, drawing = (hlr.draw(slotted(s, which), "back", hidden=False) for s in ((0.0, 0.0), shift))
+    sound, drawing = (
+        hlr.draw(slotted(s, which), "back", hidden=False, scale=1.0, smooth=False) for s in ((0.0, 0.0), shift)
+    )
     assert ink(drawing) == pytest.approx(ink(sound), abs=0.1)
     assert np.allclose(drawing.bounds, sound.bounds, atol=0.1)

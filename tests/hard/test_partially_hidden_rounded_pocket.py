@@ -12,6 +12,7 @@ import pytest
 from hard.brep import arc, like, walk
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect, of_kind
 
 WIDE, TALL, DEEP = 80.0, 40.0, 20.0
@@ -43,7 +44,7 @@ def frame():
 
 
 def test_from_the_side_of_the_smaller(picture):
-    drawing = hlr.draw(plate(), "front")
+    drawing = hlr.draw(plate(), "front", **AT_SIZE)
     straight, corners = rounded(SMALL, -DEEP / 2)
     behind, behind_corners = rounded(LARGE, 0)
     like(drawing, expect(drawing, frame() + straight + corners, behind + behind_corners))
@@ -55,7 +56,7 @@ def test_from_the_side_of_the_smaller(picture):
 
 def test_from_the_side_of_the_larger():
     """Now the smaller rim is seen on the floor of the larger pocket, and coincides with it above and below."""
-    drawing = hlr.draw(plate(), "back")
+    drawing = hlr.draw(plate(), "back", **AT_SIZE)
     straight, corners = rounded(LARGE, DEEP / 2)
     inner, inner_corners = rounded(SMALL, 0)
     like(drawing, expect(drawing, [*frame(), *straight, *corners, *inner, *inner_corners]))
@@ -67,7 +68,9 @@ def test_tangent_lines_of_a_fillet_partly_behind_a_post(smooth):
     bar = cq.Workplane().box(80, 20, 20).edges("|X and >Z and <Y").fillet(6)
     post = cq.Workplane().box(10, 4, 60).translate((0, -20, 0))
     view = (0, -1, 0.5)
-    drawing = hlr.draw(cq.Workplane(obj=cq.Compound.makeCompound([bar.val(), post.val()])), view, smooth=smooth)
+    drawing = hlr.draw(
+        cq.Workplane(obj=cq.Compound.makeCompound([bar.val(), post.val()])), view, smooth=smooth, scale=1.0, hidden=True
+    )
     tangent = of_kind(drawing, "smooth")
     if not smooth:
         assert not tangent

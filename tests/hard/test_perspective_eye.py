@@ -11,6 +11,7 @@ import pytest
 
 import hlr
 from hlr.drawing.notes import Note
+from support.at_size import AT_SIZE
 from support.expected import Ink, agrees, by_oracle, differences, expect, ink
 from support.meshes import BOX_EDGES, as_parts, box, face, merged, turned_over
 
@@ -33,7 +34,7 @@ def on_plane(pieces, distance):
 @pytest.mark.parametrize("orientation", [turned_over, lambda mesh: mesh])
 def test_inside_a_room_one_sees_the_far_wall_and_four_edges_that_come_nearer(picture, orientation):
     room = orientation(box((-10, -20, -8), (10, 20, 8)))
-    drawing = hlr.draw(room, perspective=looking((0, -5, 0), (0, 5, 0)))
+    drawing = hlr.draw(room, perspective=looking((0, -5, 0), (0, 5, 0)), **AT_SIZE)
     # The far wall is 25 away; the four edges run out from its corners until the frame cuts them at the top.
     x, z = 10 / 25, 8 / 25
     out = TALL / z
@@ -47,8 +48,8 @@ def test_inside_a_room_one_sees_the_far_wall_and_four_edges_that_come_nearer(pic
 @pytest.mark.parametrize("how", [merged, as_parts])
 def test_what_lies_behind_the_eye_is_not_there(how):
     camera = looking((1, 0, 3), (0, 20, 1))
-    with_it = hlr.draw(how(AHEAD, BEHIND), perspective=camera)
-    without = hlr.draw(AHEAD, perspective=camera)
+    with_it = hlr.draw(how(AHEAD, BEHIND), perspective=camera, **AT_SIZE)
+    without = hlr.draw(AHEAD, perspective=camera, **AT_SIZE)
     assert not differences(ink(without), ink(with_it), without.accuracy.used)
     agrees(with_it, by_oracle(with_it, *AHEAD, BOX_EDGES))
 
@@ -60,7 +61,7 @@ def test_an_eye_inside_the_bounding_box(picture):
         box((20, -4, -3), (26, 2, 3)), box((-4, 20, -3), (2, 26, 3)), box((9, 15, -6), (30, 30, 2))
     )
     assert (points.min(axis=0) < 0).all() and (points.max(axis=0) > 0).all()
-    drawing = hlr.draw((points, triangles), perspective=looking((0, 0, 0), (10, 10, 0), 100))
+    drawing = hlr.draw((points, triangles), perspective=looking((0, 0, 0), (10, 10, 0), 100), **AT_SIZE)
     edges = [(i + 8 * k, j + 8 * k) for k in range(3) for i, j in BOX_EDGES]
     agrees(drawing, by_oracle(drawing, points, triangles, edges), step=0.3)
     picture(drawing, "among")
@@ -69,7 +70,7 @@ def test_an_eye_inside_the_bounding_box(picture):
 @pytest.mark.parametrize("fov", [30.0, 60.0, 100.0])
 def test_a_floor_that_runs_under_the_eye_and_on_behind_it(fov):
     floor = face((-10, -30, -5), (10, -30, -5), (10, 30, -5), (-10, 30, -5))
-    drawing = hlr.draw(floor, perspective=looking((0, 0, 0), (0, 10, 0), fov))
+    drawing = hlr.draw(floor, perspective=looking((0, 0, 0), (0, 10, 0), fov), **AT_SIZE)
     tall = np.tan(np.radians(fov / 2))
     wide = tall * 4 / 3
     # Its sides come from the far corners at (10, 5) / 30 straight away from the vanishing point, to the frame.
@@ -82,7 +83,7 @@ def test_a_floor_that_runs_under_the_eye_and_on_behind_it(fov):
 @pytest.mark.parametrize("off", [0.0, 1e-12, 1e-9, -1e-9])
 def test_an_eye_in_the_plane_of_a_face_sees_it_as_a_line(off):
     points, triangles = box((-10, -10, -10), (10, 10, 10))
-    drawing = hlr.draw((points, triangles), perspective=looking((10 + off, -60, 3), (10 + off, 0, 3)))
+    drawing = hlr.draw((points, triangles), perspective=looking((10 + off, -60, 3), (10 + off, 0, 3)), **AT_SIZE)
     agrees(drawing, by_oracle(drawing, points, triangles, BOX_EDGES))
     on_face = [line for line in drawing.lines if np.allclose(line.points3[:, 0], 10)]
     assert all(np.ptp(line.points[:, 0]) < 0.02 for line in on_face)
@@ -91,7 +92,7 @@ def test_an_eye_in_the_plane_of_a_face_sees_it_as_a_line(off):
 @pytest.mark.parametrize("distance", [0.5, 0.05, 0.02])
 def test_an_eye_close_to_a_wall_sees_past_its_edge_only(distance):
     wall, block = face((-30, 0, -30), (5, 0, -30), (5, 0, 30), (-30, 0, 30)), box((-8, 10, -3), (12, 16, 3))
-    drawing = hlr.draw(as_parts(wall, block), perspective=looking((5, -distance, 0), (5, 10, 0), 60))
+    drawing = hlr.draw(as_parts(wall, block), perspective=looking((5, -distance, 0), (5, 10, 0), 60), **AT_SIZE)
     seen = [line for line in drawing.lines if line.visible and line.part == 1]
     # The eye stands before the wall's border: to its right all is seen, to its left nothing.
     assert seen
@@ -103,11 +104,11 @@ def test_an_eye_close_to_a_wall_sees_past_its_edge_only(distance):
 
 def test_an_eye_at_its_target_is_refused_in_words():
     with pytest.raises(hlr.ViewError, match="eye and target are one point"):
-        hlr.draw(AHEAD, perspective=looking((0, 20, 0), (0, 20, 0)))
+        hlr.draw(AHEAD, perspective=looking((0, 20, 0), (0, 20, 0)), **AT_SIZE)
 
 
 def test_an_eye_that_sees_nothing_says_so():
-    drawing = hlr.draw(AHEAD, perspective=looking((0, 0, 0), (0, -10, 0)))
+    drawing = hlr.draw(AHEAD, perspective=looking((0, 0, 0), (0, -10, 0)), **AT_SIZE)
     assert drawing.lines == ()
     assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view."),)
 
@@ -116,8 +117,8 @@ def test_from_far_away_perspective_becomes_parallel():
     points, triangles = AHEAD
     centre = (points[0] + points[-1]) / 2
     far = centre + np.array([1, -1, 1]) * 1e5
-    one = hlr.draw((points, triangles), perspective=looking(tuple(far), tuple(centre), 0.01))
-    other = hlr.draw((points, triangles), "iso")
+    one = hlr.draw((points, triangles), perspective=looking(tuple(far), tuple(centre), 0.01), **AT_SIZE)
+    other = hlr.draw((points, triangles), "iso", **AT_SIZE)
     shift = expect(other, [(centre, centre)]).visible[0, 0]
     there = ink(one)
     there = Ink(there.visible + shift, there.hidden + shift)

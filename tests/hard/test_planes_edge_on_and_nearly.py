@@ -12,6 +12,7 @@ import pytest
 from hard.brep import like, once, turn, walk
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 ROOF = [(0, 0), (40, 0), (40, 10), (0, 30)]
@@ -48,7 +49,7 @@ def expected(drawing):
 @pytest.mark.parametrize("sense", [1, -1])
 def test_along_the_roof(degrees, sense, picture):
     view = turn([sense * c for c in ALONG], (0, 1, 0), degrees)
-    drawing = hlr.draw(prism(), view)
+    drawing = hlr.draw(prism(), view, **AT_SIZE)
     like(drawing, expected(drawing))
     if (degrees, sense) == (1e-9, -1):
         picture(drawing)
@@ -60,8 +61,8 @@ def test_a_box_of_which_five_faces_are_edge_on_or_away(off, tilt):
     """One rectangle is all that is seen, whichever of the sides turns a billionth toward the viewer."""
     box = cq.Workplane().box(30, 20, 10).val().rotate((0, 0, 0), (1, 2, 3), tilt)
     view, up = (turn(v, (1, 2, 3), tilt) for v in ((off[0], -1, off[1]), (0, 0, 1)))
-    drawing = hlr.draw(box, view, up=up)
+    drawing = hlr.draw(box, view, up=up, **AT_SIZE)
     rectangle = [(x, -10, z) for x, z in ((-15, -5), (15, -5), (15, 5), (-15, 5), (-15, -5))]
-    flat = hlr.draw(cq.Workplane().box(30, 20, 10), "front")
+    flat = hlr.draw(cq.Workplane().box(30, 20, 10), "front", **AT_SIZE)
     like(drawing, expect(flat, walk(rectangle)))
     once(drawing)

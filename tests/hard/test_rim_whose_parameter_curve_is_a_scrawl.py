@@ -18,6 +18,7 @@ import pytest
 import hlr
 from hlr.drawing.notes import Note
 from hlr.source import open_source
+from support.at_size import ALL_LINES, AT_SIZE
 from support.brep_shapes import scrawled_cylinder
 
 NOTE = Note("faces-mended", 'Part "part": 1 of 3 faces was meshed by OpenCASCADE (face 0).')
@@ -25,7 +26,10 @@ EFFECT = "rescue of faces"
 
 
 def test_it_is_drawn_like_a_sound_one():
-    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3), "iso"), hlr.draw(scrawled_cylinder()[0], "iso")
+    sound, drawing = (
+        hlr.draw(cq.Workplane().cylinder(10, 3), "iso", **AT_SIZE),
+        hlr.draw(scrawled_cylinder()[0], "iso", **AT_SIZE),
+    )
     assert drawing.notes == (NOTE,) and sound.notes == ()
 
     def told(drawing):
@@ -46,7 +50,7 @@ def test_it_becomes_a_closed_mesh_on_its_surface():
 
 @pytest.mark.slow
 def test_what_was_rescued_is_counted_and_told():
-    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3)), hlr.draw(scrawled_cylinder()[0])
+    sound, drawing = hlr.draw(cq.Workplane().cylinder(10, 3), **AT_SIZE), hlr.draw(scrawled_cylinder()[0], **AT_SIZE)
     assert [drawing.counters[name] for name in ("rescued_faces", "lost_faces")] == [1, 0]
     assert [sound.counters[name] for name in ("rescued_faces", "lost_faces")] == [0, 0]
     (row,) = (d for d in drawing.plan if d.name == EFFECT)
@@ -56,12 +60,12 @@ def test_what_was_rescued_is_counted_and_told():
     assert not row.on and row.reason == "the kernel has meshed every face"
     assert hlr.info(scrawled_cylinder()[0]).notes == (NOTE,)
     # Once, though its scale is found only after a first mesh, at which it was rescued, too.
-    assert hlr.draw(scrawled_cylinder()[0], fit=(20, 20)).counters["rescued_faces"] == 1
+    assert hlr.draw(scrawled_cylinder()[0], fit=(20, 20), **ALL_LINES).counters["rescued_faces"] == 1
 
 
 def test_it_is_a_remark_and_no_warning():
     assert not NOTE.is_warning
-    assert hlr.draw(scrawled_cylinder()[0], strict=True).notes == (NOTE,)
+    assert hlr.draw(scrawled_cylinder()[0], strict=True, **AT_SIZE).notes == (NOTE,)
 
 
 @pytest.mark.slow
@@ -78,7 +82,7 @@ def test_the_caller_s_shape_stays_as_it_is():
         return [(p.X(), p.Y()) for p in values]
 
     before = curves()
-    hlr.draw(solid)
+    hlr.draw(solid, **AT_SIZE)
     assert curves() == before
     assert [BRep_Tool.Triangulation_s(face.wrapped, TopLoc_Location()) for face in solid.Faces()] == [None] * 3
 

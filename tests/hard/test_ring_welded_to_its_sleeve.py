@@ -15,6 +15,7 @@ import pytest
 import hlr
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.saving import render
+from support.at_size import AT_SIZE
 from support.referee import exchange, referee, reference
 
 SIDES = 24
@@ -50,7 +51,7 @@ def mesh() -> tuple[np.ndarray, np.ndarray]:
 @pytest.mark.parametrize("view", ["iso", "iso-sw", "iso-ne", "iso-nw", (0.3, -0.8, 0.6)])
 def test_the_rim_is_seen_where_it_lies_on_the_sleeve(view: object, picture: Callable[[Drawing], None]) -> None:
     points, triangles = mesh()
-    drawing = hlr.draw((points, triangles), view)
+    drawing = hlr.draw((points, triangles), view, **AT_SIZE)
     judged = referee.Referee(reference.from_arrays(points, triangles)).judge(
         "ring", "hlr", exchange.parse(render(drawing, "json"))
     )

@@ -12,6 +12,7 @@ import pytest
 from hard.brep import box_edges, compound, faultless, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 RADIUS, LOW, TOP = 6.0, -12.0, 14.0
@@ -35,7 +36,7 @@ radius beside the generator."""
 @pytest.mark.parametrize("degrees", [0, 35, 70])
 def test_by_hand(turned, degrees, picture):
     view = turn((0, -1, 0), (1, 0, 0), -degrees)
-    drawing = hlr.draw(model(turned), view)
+    drawing = hlr.draw(model(turned), view, **AT_SIZE)
     seen, unseen = box_edges((-HALF, -HALF, -DEEP), (HALF, HALF, DEEP), view)
     seen += ring(RADIUS, TOP)
     either = []

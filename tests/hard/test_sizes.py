@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import ALL_LINES, AT_SIZE
 from support.expected import agrees, by_oracle, defects, differences, ink, on_paper
 from support.meshes import BOX_EDGES, as_parts, box, merged, moved
 
@@ -23,9 +24,9 @@ FIT = (60.0, 60.0)
 @pytest.mark.parametrize("view", ["iso", (1, -2, 0.5)])
 def test_any_size_gives_the_same_drawing(picture, size, view):
     points, triangles = SHAPE
-    drawing = hlr.draw((points * size, triangles), view, fit=FIT)
+    drawing = hlr.draw((points * size, triangles), view, fit=FIT, **ALL_LINES)
     agrees(drawing, by_oracle(drawing, points * size, triangles, EDGES), step=0.5, without=("intersection",))
-    plain = ink(hlr.draw((points, triangles), view, fit=FIT))
+    plain = ink(hlr.draw((points, triangles), view, fit=FIT, **ALL_LINES))
     assert not differences(plain, ink(drawing), drawing.accuracy.used)
     if size == 1.0 and view == "iso":
         picture(drawing)
@@ -36,7 +37,7 @@ def test_any_size_gives_the_same_drawing(picture, size, view):
 @pytest.mark.parametrize("view", ["iso", (1, -2, 0.5)])
 def test_the_extremes_that_are_accepted(size, view):
     points, triangles = SHAPE
-    drawing = hlr.draw((points * size, triangles), view, fit=FIT)
+    drawing = hlr.draw((points * size, triangles), view, fit=FIT, **ALL_LINES)
     agrees(drawing, by_oracle(drawing, points * size, triangles, EDGES), step=0.5, without=("intersection",))
 
 
@@ -63,8 +64,8 @@ def test_sizes_beyond_all_reason_are_refused_in_words(size, reason):
 def test_a_small_part_far_from_the_origin(away, view):
     # At 1e9 a double has steps of 1.2e-7 left, still far below the accuracy.
     points, triangles = moved(SHAPE, lambda p: p * 0.5 + [away, -away, away / 2])
-    drawing = hlr.draw((points, triangles), view, scale=20)
-    near = hlr.draw((points - points.mean(axis=0), triangles), view, scale=20)
+    drawing = hlr.draw((points, triangles), view, scale=20, **ALL_LINES)
+    near = hlr.draw((points - points.mean(axis=0), triangles), view, scale=20, **ALL_LINES)
     shift = on_paper(drawing, [points.mean(axis=0)])[0]
     there, here = ink(drawing), ink(near)
     here = type(here)(here.visible + shift, here.hidden + shift)
@@ -75,22 +76,22 @@ def test_a_small_part_far_from_the_origin(away, view):
 def test_a_huge_and_a_tiny_part_in_one_scene():
     # 1 km and 0.01 mm: on one sheet the tiny one is nothing, however the sheet is scaled; drawn alone it is all there.
     huge, tiny = box((0, 0, 0), (1e6, 1e6, 1e6)), box((-0.01, -0.01, 0), (0, 0, 0.01))
-    drawing = hlr.draw(as_parts(huge, tiny), "iso", fit=(200, 200))
+    drawing = hlr.draw(as_parts(huge, tiny), "iso", fit=(200, 200), **ALL_LINES)
     agrees(drawing, by_oracle(drawing, *huge, BOX_EDGES), step=2.0)
     assert {line.part for line in drawing.lines} == {0}
-    alone = hlr.draw(tiny, "iso", fit=(200, 200))
+    alone = hlr.draw(tiny, "iso", fit=(200, 200), **ALL_LINES)
     agrees(alone, by_oracle(alone, *tiny, BOX_EDGES), step=2.0)
 
 
 def test_a_tiny_part_beside_a_huge_one_at_a_scale_that_would_show_it_is_refused_in_words():
     huge, tiny = box((0, 0, 0), (1e6, 1e6, 1e6)), box((-0.01, -0.01, 0), (0, 0, 0.01))
     with pytest.raises(hlr.OptionError, match=r"accuracy 0\.05 mm is too fine for a drawing of .* mm: give at least"):
-        hlr.draw(as_parts(huge, tiny), "iso", scale=1000)
+        hlr.draw(as_parts(huge, tiny), "iso", scale=1000, **ALL_LINES)
 
 
 def test_one_flat_dimension_a_million_times_thinner():
     points, triangles = box((0, 0, 0), (100, 60, 1e-4))
     for view in ("iso", (0.1, 0.2, 1), "front", "top"):
-        drawing = hlr.draw((points, triangles), view)
+        drawing = hlr.draw((points, triangles), view, **AT_SIZE)
         agrees(drawing, by_oracle(drawing, points, triangles, BOX_EDGES), step=0.5)
         assert np.isfinite(np.concatenate([line.points3 for line in drawing.lines])).all()

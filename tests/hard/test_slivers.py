@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, expect
 from support.meshes import as_parts, box, box_lines, grid, moved, ring, rotation
 
@@ -32,7 +33,7 @@ TURNS = [np.eye(3), rotation((1, 2, 3), 0.7), rotation((3, -1, 1), 2.0)]
 def test_a_plate_of_slivers_hides_what_lies_behind_and_has_no_creases(picture, turn, toward):
     low, high = (10, 6, -9), (60, 16, -5)
     model = as_parts(*(moved(m, lambda p: p @ turn.T) for m in (plate(), box(low, high))))
-    drawing = hlr.draw(model, tuple(turn @ toward), up=tuple(turn @ (0, 1, 0)))
+    drawing = hlr.draw(model, tuple(turn @ toward), up=tuple(turn @ (0, 1, 0)), **AT_SIZE)
     sides = [tuple(turn @ p for p in side) for side in ring(CORNERS)]
     lines = [tuple(turn @ p for p in line) for line in box_lines(low, high)]
     if toward == (0.9, 0.1, 0.2):
@@ -48,7 +49,7 @@ def test_a_plate_of_slivers_hides_what_lies_behind_and_has_no_creases(picture, t
 @pytest.mark.parametrize("turn", TURNS)
 def test_a_single_sliver_is_a_line(turn):
     points = np.array([(0, 0, 0), (100, 0, 0), (50, WIDTH, 0.0)]) @ turn.T
-    drawing = hlr.draw((points, [[0, 1, 2]]), tuple(turn @ (0, 0.1, 1)))
+    drawing = hlr.draw((points, [[0, 1, 2]]), tuple(turn @ (0, 0.1, 1)), **AT_SIZE)
     agrees(drawing, expect(drawing, [(points[0], points[1])]))
 
 
@@ -59,7 +60,7 @@ def test_a_fan_of_slivers(count):
     points = np.concatenate([[(0, 50, 0)], np.stack([xs, 0 * xs, 0 * xs], axis=1)])
     fan = (points, np.array([[0, i, i + 1] for i in range(1, len(points) - 1)]))
     low, high = (5, 5, -9), (30, 12, -5)
-    drawing = hlr.draw(as_parts(fan, box(low, high)), "top")
+    drawing = hlr.draw(as_parts(fan, box(low, high)), "top", **AT_SIZE)
     agrees(
         drawing,
         expect(drawing, ring([(0, 50, 0), (0, 0, 0), (100, 0, 0)]), box_lines(low, high)),

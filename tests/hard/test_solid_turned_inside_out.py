@@ -10,6 +10,7 @@ import pytest
 from hard.brep import faultless, same
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import defects
 
 VIEWS = ["iso", "front", (0.3, -1, -0.4)]
@@ -43,8 +44,8 @@ def one_face_turned():
 @pytest.mark.parametrize("view", VIEWS)
 @pytest.mark.parametrize("broken", [inverted, one_face_turned])
 def test_it_is_drawn_like_the_sound_one(view, broken, picture):
-    drawing = hlr.draw(broken(), view)
-    same(hlr.draw(model(), view), drawing)
+    drawing = hlr.draw(broken(), view, **AT_SIZE)
+    same(hlr.draw(model(), view, **AT_SIZE), drawing)
     if view == "iso" and broken is inverted:
         picture(drawing, twice=1.0)
 

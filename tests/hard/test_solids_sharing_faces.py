@@ -11,6 +11,7 @@ import pytest
 from hard.brep import box_edges, kinds, like
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import defects, expect
 
 LEFT = ((0, 0, 0), (10, 10, 10))
@@ -39,7 +40,7 @@ def test_there_is_one_common_face():
 
 @pytest.mark.parametrize("view", [VIEW, "front"])
 def test_each_edge_once(view, picture):
-    drawing = hlr.draw(shared(), view)
+    drawing = hlr.draw(shared(), view, **AT_SIZE)
     direction = drawing.view.direction
     seen, unseen = box_edges(*LEFT, direction)
     more, hidden = box_edges(*RIGHT, direction)

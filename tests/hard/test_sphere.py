@@ -11,6 +11,7 @@ import pytest
 from hard.brep import arc, kinds, like
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 RADIUS = 10.0
@@ -26,7 +27,7 @@ def great_circle(drawing):
 @pytest.mark.slow
 @pytest.mark.parametrize("view", VIEWS)
 def test_only_a_great_circle(picture, view):
-    drawing = hlr.draw(cq.Workplane().sphere(RADIUS).translate(CENTRE), view)
+    drawing = hlr.draw(cq.Workplane().sphere(RADIUS).translate(CENTRE), view, **AT_SIZE)
     like(drawing, great_circle(drawing))
     assert kinds(drawing) == {("outline", True)}
     if view == "iso":
@@ -35,5 +36,5 @@ def test_only_a_great_circle(picture, view):
 
 def test_its_own_seam_along_the_outline():
     """The seam of a whole sphere is half of its outline from the front: drawn once."""
-    drawing = hlr.draw(cq.Workplane().sphere(RADIUS).translate(CENTRE), "front", seam=True)
+    drawing = hlr.draw(cq.Workplane().sphere(RADIUS).translate(CENTRE), "front", seam=True, **AT_SIZE)
     like(drawing, great_circle(drawing))

@@ -12,6 +12,7 @@ import pytest
 from hard.brep import Rays, arc, kinds, like, ring
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect, of_kind
 
 MAJOR, MINOR = 3.0, 5.0
@@ -24,14 +25,14 @@ def spindle():
 
 
 def test_along_its_axis_one_circle_and_the_lemon_hidden(picture):
-    drawing = hlr.draw(spindle(), "top")
+    drawing = hlr.draw(spindle(), "top", **AT_SIZE)
     like(drawing, expect(drawing, ring(MAJOR + MINOR), ring(MINOR - MAJOR)))
     picture(drawing)
 
 
 def test_from_the_side_the_lemon_is_hidden():
     """Seen in its plane: a stadium, its two inner half circles hidden, which run on to the dimples on the axis."""
-    drawing = hlr.draw(spindle(), "front")
+    drawing = hlr.draw(spindle(), "front", **AT_SIZE)
     seen, unseen = [((-MAJOR, 0, s * MINOR), (MAJOR, 0, s * MINOR)) for s in (1, -1)], []
     for s in (1, -1):
         seen += arc((s * MAJOR, 0, 0), (s * MINOR, 0, 0), (0, 0, MINOR), -90, 90)
@@ -45,7 +46,7 @@ def test_from_the_side_the_lemon_is_hidden():
 def test_by_rays(view):
     """What is missing is not asked: the referee's mesh has sharp edges about its poles, which the solid has not."""
     rays = Rays(spindle())
-    drawing = hlr.draw(spindle(), view, accuracy=rays.accuracy)
+    drawing = hlr.draw(spindle(), view, accuracy=rays.accuracy, **AT_SIZE)
     assert rays.wrong(drawing) == 0
     assert kinds(drawing) >= {("outline", True), ("outline", False)}
     for line in of_kind(drawing, "outline", True):

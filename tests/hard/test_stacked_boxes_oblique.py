@@ -11,6 +11,7 @@ import pytest
 from hard.brep import box_edges, compound, kinds, like, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 LOWER = ((-20, -15, -10), (20, 15, 0))
@@ -25,7 +26,7 @@ def box(low, high):
 
 def drawn(model, axis, angle, view, up=(0, 0, 1)):
     turned = model.rotate((0, 0, 0), axis, angle)
-    return hlr.draw(turned, turn(view, axis, angle), up=turn(up, axis, angle))
+    return hlr.draw(turned, turn(view, axis, angle), up=turn(up, axis, angle), **AT_SIZE)
 
 
 @pytest.mark.parametrize(("axis", "angle"), TURNS)

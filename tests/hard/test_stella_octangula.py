@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, by_oracle, expect
 from support.meshes import as_parts, merged, ring
 
@@ -22,7 +23,7 @@ STAR = merged((ONE, FACES), (-ONE, FACES[:, ::-1]))
 
 @pytest.mark.parametrize("view", ["front", "right", "top"])
 def test_along_an_axis_it_is_a_square_with_both_diagonals(picture, view):
-    drawing = hlr.draw(STAR, view)
+    drawing = hlr.draw(STAR, view, **AT_SIZE)
     v = [
         np.asarray(drawing.view.right) * x * A + np.asarray(drawing.view.up) * y * A
         for x, y in ((1, 1), (1, -1), (-1, -1), (-1, 1))
@@ -42,7 +43,7 @@ def test_edges_are_seen_outside_the_other_tetrahedron_only(picture, how, view):
         "parts": as_parts((ONE, FACES), (-ONE, FACES[:, ::-1])),
         "turned over": (points, triangles[:, ::-1]),
     }[how]
-    drawing = hlr.draw(model, view)
+    drawing = hlr.draw(model, view, **AT_SIZE)
     agrees(drawing, by_oracle(drawing, points, triangles, EDGES), without=("intersection",))
     if view == (1, -2, 0.7) and how == "mesh":
         picture(drawing, "oblique")
@@ -50,7 +51,7 @@ def test_edges_are_seen_outside_the_other_tetrahedron_only(picture, how, view):
 
 def test_three_edges_meet_the_eye_whole_and_the_rest_in_halves():
     # An edge is cut in its middle, where it meets one of the other tetrahedron, or not at all.
-    drawing = hlr.draw(STAR, (1, -2, 0.7))
+    drawing = hlr.draw(STAR, (1, -2, 0.7), **AT_SIZE)
     ends = {tuple(p) for line in drawing.lines for p in np.abs(line.points3[[0, -1]]).round(6).tolist()}
     assert (A, A, A) in ends
     assert {e for e in ends if sorted(e) == [0, 0, A]}

@@ -14,6 +14,7 @@ from OCP.gp import gp_Pnt
 
 import hlr
 from hlr.source.cad.occt_collections import new_collection
+from support.at_size import ALL_LINES, AT_SIZE
 
 LONG, WIDE = 100.0, 20.0
 FLAT = [0.0] * 9
@@ -69,7 +70,7 @@ def ridge(drawing, size=1.0):
 @pytest.mark.slow
 @pytest.mark.parametrize("size", [1.0, 0.01, 1000.0])
 def test_sharp_between_places_where_it_is_tangent(size, picture):
-    drawing = hlr.draw(sheet(WAVY, size), "iso", fit=(150, 150))
+    drawing = hlr.draw(sheet(WAVY, size), "iso", fit=(150, 150), **ALL_LINES)
     assert ridge(drawing, size) == [("sharp", 0.0, LONG)]
     if size == 1.0:
         picture(drawing)
@@ -83,7 +84,7 @@ def test_sharp_as_far_as_there_is_an_angle(accuracy, smooth):
     knots = np.concatenate([[0.0] * 3, np.linspace(0.0, 1.0, 7), [1.0] * 3])
     height = sum(h * _basis(knots, i, 3, x) for i, h in enumerate(HALF))
     along = LONG * x[np.flatnonzero(np.abs(np.arctan2(height, WIDE)) <= 0.01)[-1]]
-    drawing = hlr.draw(sheet(HALF), "iso", accuracy=accuracy, smooth=smooth)
+    drawing = hlr.draw(sheet(HALF), "iso", accuracy=accuracy, smooth=smooth, scale=1.0, hidden=True)
     *rest, (kind, begin, end) = ridge(drawing)
     assert (kind, end) == ("sharp", LONG) and begin == pytest.approx(along, abs=0.05)
     assert rest == ([("smooth", 0.0, begin)] if smooth else [])
@@ -102,7 +103,7 @@ def _basis(knots, i, degree, x):
 
 @pytest.mark.parametrize(("heights", "expected"), [(FLAT, []), (BELOW, [("sharp", 0.0, LONG)])])
 def test_of_one_kind_throughout(heights, expected):
-    assert ridge(hlr.draw(sheet(heights), "iso")) == expected
+    assert ridge(hlr.draw(sheet(heights), "iso", **AT_SIZE)) == expected
 
 
 def test_the_callers_shape_keeps_its_vertices():
@@ -115,5 +116,5 @@ def test_the_callers_shape_keeps_its_vertices():
         found = new_collection("shape_map")
         TopExp.MapShapes_s(shape, TopAbs_ShapeEnum.TopAbs_VERTEX, found)
         counts.append(found.Extent())
-        hlr.draw(shape, "iso")
+        hlr.draw(shape, "iso", **AT_SIZE)
     assert counts[0] == counts[1]

@@ -15,6 +15,7 @@ import pytest
 from hard.brep import compound, faultless, like, walk
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 POLES = np.array([[0, 0], [0.02, 0.0], [0.5, 12], [100, 30]], float)
@@ -64,7 +65,7 @@ def wall():
 
 
 def test_the_edge_is_cut_where_the_wall_begins(picture):
-    drawing = hlr.draw(compound(solid(), wall()), "front")
+    drawing = hlr.draw(compound(solid(), wall()), "front", **AT_SIZE)
     t0, t1 = (parameter(x) for x in WALL)
 
     def between(a, b):
@@ -79,7 +80,7 @@ def test_the_edge_is_cut_where_the_wall_begins(picture):
 
 
 def test_the_cut_is_there_in_the_model_too():
-    drawing = hlr.draw(compound(solid(), wall()), "front")
+    drawing = hlr.draw(compound(solid(), wall()), "front", **AT_SIZE)
     curve = [line for line in drawing.lines if line.part == 0 and np.ptp(line.points3[:, 2]) > 1 and line.visible]
     near = 2 * drawing.accuracy.used
     for x in WALL:

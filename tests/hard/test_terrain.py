@@ -11,6 +11,7 @@ import pytest
 from hard.brep import faultless, kinds
 
 import hlr
+from support.at_size import AT_SIZE
 from support.brep_shapes import terrain
 from support.expected import defects, of_kind
 
@@ -26,7 +27,7 @@ def test_by_rays(views):
 def test_outlines_lie_where_the_surface_is_seen_edge_on(picture):
     """Each point's normal, by the B-spline itself, is square to the view but for half the turn of one chord."""
     face = terrain()
-    drawing = hlr.draw(face, (-1, -0.4, 0.25))
+    drawing = hlr.draw(face, (-1, -0.4, 0.25), **AT_SIZE)
     found = of_kind(drawing, "outline")
     assert found
     direction = cq.Vector(*drawing.view.direction)
@@ -38,6 +39,6 @@ def test_outlines_lie_where_the_surface_is_seen_edge_on(picture):
 
 
 def test_from_above_only_its_border():
-    assert {line.kind for line in hlr.draw(terrain(), "top").lines} == {"boundary"}
+    assert {line.kind for line in hlr.draw(terrain(), "top", **AT_SIZE).lines} == {"boundary"}
     (defect,) = defects(terrain())
     assert defect.startswith("open: ")

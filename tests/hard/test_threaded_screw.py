@@ -13,6 +13,7 @@ import pytest
 from hard.brep import faultless
 
 import hlr
+from support.at_size import ALL_LINES
 from support.referee import reference
 
 UNDER_THE_HEAD = 16
@@ -44,7 +45,7 @@ def test_it_is_as_large_on_paper_as_the_model():
     """The outermost line is the outline of the thread or the head, and ends where the solid does."""
     points = reference.from_shape(reference.read_shape(SCREW), 2000).points
     for view, axes in (("front", [0, 2]), ("top", [0, 1])):
-        drawing = hlr.draw(SCREW, view, scale=2)
+        drawing = hlr.draw(SCREW, view, scale=2, **ALL_LINES)
         x0, y0, x1, y1 = drawing.bounds
         width, height = 2 * np.ptp(points[:, axes], axis=0)
         assert (x1 - x0, y1 - y0) == pytest.approx((width, height), abs=0.05)
@@ -52,4 +53,4 @@ def test_it_is_as_large_on_paper_as_the_model():
 
 @pytest.mark.slow
 def test_picture(picture):
-    picture(hlr.draw(SCREW, "iso", fit=(40, 40), accuracy=0.1), twice=20.0, step=1.0)
+    picture(hlr.draw(SCREW, "iso", fit=(40, 40), accuracy=0.1, **ALL_LINES), twice=20.0, step=1.0)

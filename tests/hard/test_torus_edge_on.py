@@ -11,6 +11,7 @@ import pytest
 from hard.brep import arc, kinds, like, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect
 
 MAJOR, MINOR = 20.0, 5.0
@@ -22,7 +23,7 @@ def test_a_stadium_and_two_hidden_half_circles(degrees, picture):
     """Turned about its axis too: the seams lie elsewhere, the drawing is the same."""
     view = turn((0, -1, 0), (0, 0, 1), degrees)
     side = turn((1, 0, 0), (0, 0, 1), degrees)
-    drawing = hlr.draw(cq.Solid.makeTorus(MAJOR, MINOR), view)
+    drawing = hlr.draw(cq.Solid.makeTorus(MAJOR, MINOR), view, **AT_SIZE)
     seen, unseen = [], []
     for s in (1, -1):
         centre, u = [s * MAJOR * c for c in side], [s * MINOR * c for c in side]
@@ -41,6 +42,6 @@ def test_a_stadium_and_two_hidden_half_circles(degrees, picture):
 
 
 def test_along_its_axis_two_circles():
-    drawing = hlr.draw(cq.Solid.makeTorus(MAJOR, MINOR), "top")
+    drawing = hlr.draw(cq.Solid.makeTorus(MAJOR, MINOR), "top", **AT_SIZE)
     circles = [piece for r in (MAJOR - MINOR, MAJOR + MINOR) for piece in arc((0, 0, 0), (r, 0, 0), (0, r, 0))]
     like(drawing, expect(drawing, circles))

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import Ink, agrees, doubled, pieces, wrong_by_rays
 from support.meshes import circle, torus
 
@@ -25,7 +26,7 @@ def half(side, start, end):
 @pytest.mark.slow
 @pytest.mark.parametrize("turn", [0.0, 1e-12, 1e-9, 1e-6])
 def test_edge_on_it_is_a_stadium_with_two_hidden_half_circles(picture, turn):
-    drawing = hlr.draw(torus(MAJOR, MINOR, N, M), (turn, -1, turn))
+    drawing = hlr.draw(torus(MAJOR, MINOR, N, M), (turn, -1, turn), **AT_SIZE)
     flat = [np.array([[-MAJOR, z], [MAJOR, z]]) for z in (-MINOR, MINOR)]
     quarter = np.pi / 2
     seen = pieces([*flat, half(1, -quarter, quarter), half(-1, quarter, 3 * quarter)])
@@ -36,7 +37,7 @@ def test_edge_on_it_is_a_stadium_with_two_hidden_half_circles(picture, turn):
 
 
 def test_from_above_it_is_two_circles():
-    drawing = hlr.draw(torus(MAJOR, MINOR, N, M), "top")
+    drawing = hlr.draw(torus(MAJOR, MINOR, N, M), "top", **AT_SIZE)
     agrees(drawing, Ink(pieces([circle(MAJOR + MINOR, N), circle(MAJOR - MINOR, N)]), np.zeros((0, 2, 2))))
 
 
@@ -45,7 +46,7 @@ def test_from_above_it_is_two_circles():
 def test_obliquely_the_inner_outline_has_cusps_and_rays_agree(picture, height):
     # Koenderink (1984): a contour ends where the line of sight is asymptotic; beyond that it is hidden by its own lip.
     points, triangles = torus(MAJOR, MINOR, N, M)
-    drawing = hlr.draw((points, triangles), (0.3, -1, height))
+    drawing = hlr.draw((points, triangles), (0.3, -1, height), **AT_SIZE)
     judged, wrong = wrong_by_rays(drawing, points, triangles)
     assert judged >= 15
     assert wrong == 0
@@ -55,4 +56,4 @@ def test_obliquely_the_inner_outline_has_cusps_and_rays_agree(picture, height):
 
 @pytest.mark.xfail(strict=True, reason="on the hollow side the contour of a mesh runs to and fro along the facets")
 def test_no_outline_runs_back_over_itself():
-    assert doubled(hlr.draw(torus(MAJOR, MINOR, N, M), (0.3, -1, 0.3))) == 0.0
+    assert doubled(hlr.draw(torus(MAJOR, MINOR, N, M), (0.3, -1, 0.3), **AT_SIZE)) == 0.0

@@ -28,7 +28,9 @@ def torn():
 def test_it_is_missing_or_whole():
     """If ever the outline is closed for it, all of it must be there."""
     box = cq.Workplane().box(2, 2, 2).val()
-    drawing = hlr.draw(cq.Workplane(obj=cq.Compound.makeCompound([box, torn()])), "top", hidden=False)
+    drawing = hlr.draw(
+        cq.Workplane(obj=cq.Compound.makeCompound([box, torn()])), "top", hidden=False, scale=1.0, smooth=False
+    )
     if drawing.counters["lost_faces"]:
         assert NOTE in drawing.notes
         assert {line.part for line in drawing.lines} == {0}
@@ -39,7 +41,7 @@ def test_it_is_missing_or_whole():
 
 def test_nothing_but_it_is_refused_or_drawn():
     try:
-        drawing = hlr.draw(torn(), "top", hidden=False)
+        drawing = hlr.draw(torn(), "top", hidden=False, scale=1.0, smooth=False)
     except hlr.SourceError as error:
         assert "none of its faces could be meshed" in str(error)
     else:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import by_oracle, defects, ink, wrong_by_rays
 from support.referee import reference
 
@@ -22,7 +23,7 @@ SOUP = Path(__file__).parents[1] / "data" / "soup.stl"
 def test_each_edge_by_the_oracle(view):
     """How much is seen: where an edge pierces a triangle at a small angle, contact tolerance moves the place."""
     model = reference.from_mesh_file(SOUP)
-    drawing = hlr.draw((model.points, model.triangles), view, accuracy=model.accuracy)
+    drawing = hlr.draw((model.points, model.triangles), view, accuracy=model.accuracy, **AT_SIZE)
     edges = [(int(t[i]), int(t[i - 1])) for t in model.triangles for i in range(3)]
     right = by_oracle(drawing, model.points, model.triangles, edges).lengths()
     drawn = ink(drawing, ["intersection"]).lengths()
@@ -35,7 +36,7 @@ def test_each_edge_by_the_oracle(view):
 
 @pytest.mark.slow
 def test_picture(picture):
-    drawing = hlr.draw(SOUP, "iso", fit=(60, 60), hidden=False, accuracy=0.1)
+    drawing = hlr.draw(SOUP, "iso", fit=(60, 60), hidden=False, accuracy=0.1, smooth=False)
     picture(drawing, twice=1.0)
 
 

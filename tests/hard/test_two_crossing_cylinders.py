@@ -12,6 +12,7 @@ import pytest
 from hard.brep import compound, faultless, like
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import expect, of_kind
 
 RADIUS, HALF = 8.0, 25.0
@@ -25,7 +26,7 @@ def crossing(other=RADIUS):
 
 def test_generators_end_where_they_enter(picture):
     """From the front both outlines are seen, as far as the crossing; within they lie inside the other cylinder."""
-    drawing = hlr.draw(crossing(), "front")
+    drawing = hlr.draw(crossing(), "front", **AT_SIZE)
     seen, unseen = [], []
     for s in (-RADIUS, RADIUS):
         for end in (-HALF, HALF):
@@ -46,7 +47,7 @@ def test_by_rays(other):
 
 
 def test_the_ellipses_are_drawn():
-    drawing = hlr.draw(crossing(), "front")
+    drawing = hlr.draw(crossing(), "front", **AT_SIZE)
     found = of_kind(drawing, "intersection", visible=True)
     points = np.concatenate([line.points3 for line in found])
     near = 3 * drawing.accuracy.used

@@ -10,6 +10,7 @@ import pytest
 from hard.brep import box_edges, like
 
 import hlr
+from support.at_size import ALL_LINES, AT_SIZE
 from support.expected import expect
 
 INCH = 25.4
@@ -60,7 +61,7 @@ def test_an_inch_is_25_4_mm(tmp_path, unit, name, suffix, picture):
     text = path.read_text()
     if suffix == ".step" and name == "INCH":
         assert "INCH" in text and "25.4" in text
-    drawing = hlr.draw(path, "iso")
+    drawing = hlr.draw(path, "iso", **AT_SIZE)
     seen, unseen = box_edges((-INCH / 2, -INCH, -INCH / 4), (INCH / 2, INCH, INCH / 4), drawing.view.direction)
     like(drawing, expect(drawing, seen, unseen))
     if (suffix, name) == (".step", "INCH"):
@@ -69,5 +70,5 @@ def test_an_inch_is_25_4_mm(tmp_path, unit, name, suffix, picture):
 
 def test_the_scale_is_of_millimetres(tmp_path, unit):
     unit("INCH")
-    x0, y0, x1, y1 = hlr.draw(write(tmp_path / "block.step"), "front", scale=0.5).bounds
+    x0, y0, x1, y1 = hlr.draw(write(tmp_path / "block.step"), "front", scale=0.5, **ALL_LINES).bounds
     assert (x1 - x0, y1 - y0) == pytest.approx((INCH / 2, INCH / 4), abs=1e-3)

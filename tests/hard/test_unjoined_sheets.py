@@ -11,6 +11,7 @@ import pytest
 from hard.brep import box_edges, compound, faultless, kinds, like, ring, turn
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import defects, expect
 
 
@@ -29,7 +30,7 @@ def half_walls():
 
 @pytest.mark.parametrize("view", ["iso", "front", (1, -2, 1.5), (-1, 0.4, -0.5)])
 def test_six_squares_are_drawn_like_a_box(view, picture):
-    drawing = hlr.draw(apart(cq.Workplane().box(30, 20, 10).val()), view)
+    drawing = hlr.draw(apart(cq.Workplane().box(30, 20, 10).val()), view, **AT_SIZE)
     like(drawing, expect(drawing, *box_edges((-15, -10, -5), (15, 10, 5), drawing.view.direction)))
     assert {kind for kind, _ in kinds(drawing)} == {"boundary"}
     if view == "iso":
@@ -40,7 +41,7 @@ def test_two_half_walls_meet_in_one_line():
     """Turned so that one of the joints is in front, the other behind."""
     view = turn(turn((0, -1, 0), (0, 0, 1), 90), (0, 1, 0), -30)
     assert view[0] > 0 and view[2] > 0
-    drawing = hlr.draw(half_walls(), view)
+    drawing = hlr.draw(half_walls(), view, **AT_SIZE)
     seen = [*ring(10, 20), *ring(10, 0, -90, 90), ((10, 0, 0), (10, 0, 20))]
     seen += [((0, y, 0), (0, y, 20)) for y in (10, -10)]
     # The joint behind is seen through the mouth: as far down as the rim in front of it allows.

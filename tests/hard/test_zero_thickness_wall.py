@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.expected import agrees, expect
 from support.meshes import BOX_QUADS, as_parts, box, box_lines, merged, moved, ring, rotation, split
 
@@ -31,11 +32,11 @@ def flat_box():
 def test_it_hides_what_is_behind_it_and_not_itself(picture, how, turn, wall):
     place = lambda lines: [tuple(turn @ p for p in line) for line in lines]  # noqa: E731
     model = how(*(moved(m, lambda p: p @ turn.T) for m in (wall, box(LOW, HIGH))))
-    drawing = hlr.draw(model, tuple(turn @ (0.1, -1, 0.2)), up=tuple(turn @ (0, 0, 1)))
+    drawing = hlr.draw(model, tuple(turn @ (0.1, -1, 0.2)), up=tuple(turn @ (0, 0, 1)), **AT_SIZE)
     agrees(drawing, expect(drawing, place(ring(CORNERS)), place(box_lines(LOW, HIGH))))
     if turn is TURNS[0] and how is merged:
         picture(drawing)
     # From the other side the block stands before it, and covers nothing of its border.
-    back = hlr.draw(model, tuple(turn @ (0, 1, 0)), up=tuple(turn @ (0, 0, 1)))
+    back = hlr.draw(model, tuple(turn @ (0, 1, 0)), up=tuple(turn @ (0, 0, 1)), **AT_SIZE)
     front = [line for line in box_lines(LOW, HIGH) if line[0][1] == line[1][1] == HIGH[1]]
     agrees(back, expect(back, place([*ring(CORNERS), *front])))

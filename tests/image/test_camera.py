@@ -13,6 +13,7 @@ from hlr.request.check import checked
 from hlr.request.directions import NAMED
 from hlr.request.options import Options, Perspective
 from hlr.source.model import Frame
+from support.at_size import AT_SIZE
 
 BOUNDS = np.array([[-5.0, -10.0, -15.0], [5.0, 10.0, 15.0]])
 Y_UP = Frame(1000.0, ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)))
@@ -20,7 +21,7 @@ H, T, S = math.sqrt(0.5), math.sqrt(1 / 3), math.sqrt(1 / 6)
 
 
 def camera(view, frame=None, bounds=BOUNDS, **options) -> Camera:
-    return resolve(view, Options(**options), frame or Frame(), bounds)
+    return resolve(view, Options(**AT_SIZE | options), frame or Frame(), bounds)
 
 
 @pytest.mark.parametrize(
@@ -200,7 +201,7 @@ def test_with_an_eye_the_direction_is_from_target_to_eye():
 )
 def test_perspectives_that_are_none(perspective, error):
     with pytest.raises(error) as caught:
-        resolve("front", checked(Options(perspective=perspective)), Frame(), BOUNDS)
+        resolve("front", checked(Options(perspective=perspective, **AT_SIZE)), Frame(), BOUNDS)
     assert isinstance(caught.value, HlrError)
     assert "\n" not in str(caught.value)
 

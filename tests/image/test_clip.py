@@ -17,6 +17,7 @@ from hlr.image.image import image_of
 from hlr.scene.build import build
 from hlr.source import open_source
 from hlr.tables.line_classes import INTERIOR
+from support.at_size import ALL_LINES, AT_SIZE
 from support.invariants import check
 from support.measures import counts, placed, samples, straight
 from support.models import box, parts, sheet
@@ -43,7 +44,7 @@ def test_planes_only_for_perspective_and_a_frame_only_for_a_given_eye():
     bounds = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
 
     def count(perspective):
-        camera = resolve("iso", Options(perspective=perspective), open_source(box((2, 2, 2))).frame, bounds)
+        camera = resolve("iso", Options(perspective=perspective, **AT_SIZE), open_source(box((2, 2, 2))).frame, bounds)
         return len(planes(camera, 4 / 3))
 
     assert count(None) == 0
@@ -119,7 +120,7 @@ def test_no_line_runs_across_what_the_frame_cut_away():
     import cadquery as cq
 
     eye = Perspective(eye=(0, 0, 150), target=(0, 0, 1), fov=60.0)
-    drawing = hlr.draw(cq.Workplane().cylinder(2, 100), "top", perspective=eye)
+    drawing = hlr.draw(cq.Workplane().cylinder(2, 100), "top", perspective=eye, **AT_SIZE)
     for line in drawing.lines:
         # Each is an arc of one of both rims: nowhere near the middle.
         assert np.hypot(*samples(segments_of(drawing, line), 1.0).T).min() > 95
@@ -169,7 +170,7 @@ SCENES = {
 
 
 def room(**camera):
-    return hlr.draw(box((100, 100, 100)), "front", perspective=Perspective(**camera))
+    return hlr.draw(box((100, 100, 100)), "front", perspective=Perspective(**camera), **AT_SIZE)
 
 
 def test_a_room_is_seen_from_within():
@@ -185,7 +186,7 @@ def test_a_room_is_seen_from_within():
 
 def test_a_column_in_a_room_hides_what_lies_behind_it():
     model = parts(box((100, 100, 100)), box((4, 4, 100), (0, 0, 0)))
-    drawing = hlr.draw(model, "front", perspective=Perspective(eye=(0, -40, 0), target=(0, 0, 0), fov=90.0))
+    drawing = hlr.draw(model, "front", perspective=Perspective(eye=(0, -40, 0), target=(0, 0, 0), fov=90.0), **AT_SIZE)
     far = [line for line in drawing.lines if line.part == 0 and np.allclose(line.points3[:, 1:], (50, 50))]
     assert [line.visible for line in far] == [True, False, True]
     # The column's front corners are 38 away, the wall 90.
@@ -196,33 +197,33 @@ def test_a_column_in_a_room_hides_what_lies_behind_it():
 def test_what_lies_behind_the_eye_is_not_drawn():
     one = box((10, 10, 10))
     camera = Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=60.0)
-    alone = hlr.draw(one, "front", perspective=camera)
-    more = hlr.draw(parts(one, box((10, 10, 10), (0, -300, 0))), "front", perspective=camera)
+    alone = hlr.draw(one, "front", perspective=camera, **AT_SIZE)
+    more = hlr.draw(parts(one, box((10, 10, 10), (0, -300, 0))), "front", perspective=camera, **AT_SIZE)
     assert straight(more) == straight(alone)
     assert more.counters["clipping_planes"] >= 1
 
 
 def test_the_field_of_view_crops_only_from_a_given_eye():
-    whole = hlr.draw(box((10, 20, 30)), "front", perspective=Perspective(fov=5.0))
+    whole = hlr.draw(box((10, 20, 30)), "front", perspective=Perspective(fov=5.0), **AT_SIZE)
     assert whole.counters["clipping_planes"] == 0
     assert counts(whole)[("sharp", True)] == 4
     eye = Perspective(eye=(0, -100, 0), target=(0, 0, 0), fov=10.0)
-    cropped = hlr.draw(box((10, 20, 30)), "front", perspective=eye)
+    cropped = hlr.draw(box((10, 20, 30)), "front", perspective=eye, **AT_SIZE)
     half = 100 * math.tan(math.radians(5))
     height = cropped.bounds[3]
     assert height == pytest.approx(2 * half)
     for line in cropped.lines:
         assert (np.abs(placed(cropped, line)[:, 1]) <= half + 1e-9).all()
     # 4 : 3, or as what it is fitted into.
-    wide = hlr.draw(box((500, 20, 3)), "front", perspective=eye)
+    wide = hlr.draw(box((500, 20, 3)), "front", perspective=eye, **AT_SIZE)
     assert wide.bounds[2] == pytest.approx(2 * half * 4 / 3)
-    square = hlr.draw(box((500, 20, 3)), "front", perspective=eye, fit=(70.0, 70.0))
+    square = hlr.draw(box((500, 20, 3)), "front", perspective=eye, fit=(70.0, 70.0), **ALL_LINES)
     assert square.bounds[2] / square.scale == pytest.approx(2 * half)
 
 
 def test_without_an_eye_and_nothing_behind_it_all_of_the_model_is_drawn():
     mesh = trimesh.creation.icosphere(2, 10)
-    drawing = hlr.draw(mesh, "iso", perspective=Perspective(fov=120.0), crease=1.0)
+    drawing = hlr.draw(mesh, "iso", perspective=Perspective(fov=120.0), crease=1.0, **AT_SIZE)
     assert drawing.counters["clipping_planes"] == 0
     assert drawing.notes == ()
 
@@ -233,6 +234,7 @@ def test_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
         parts(box((10, 10, 10), (0, 100, 0)), box((100, 100, 100), (0, 0, -200))),
         "front",
         perspective=Perspective(eye=(0, -50, 0), target=(0, 100, 0), fov=60.0),
+        **AT_SIZE,
     )
     assert counts(drawing)[("sharp", True)] >= 4
 
@@ -240,14 +242,16 @@ def test_a_corner_in_the_plane_of_the_eye_is_no_obstacle():
 @pytest.mark.parametrize("beside", [1e-6, 1e-9, 1e-12])
 def test_a_corner_close_to_the_plane_of_the_eye_spoils_nothing(beside):
     model = box((100, 100, 100))
-    far = hlr.draw(model, "front", perspective=Perspective(eye=(0, -49, 20), target=(0, 0, 20), fov=100.0))
-    near = hlr.draw(model, "front", perspective=Perspective(eye=(0, -50 + beside, 20), target=(0, 0, 20), fov=100.0))
+    far = hlr.draw(model, "front", perspective=Perspective(eye=(0, -49, 20), target=(0, 0, 20), fov=100.0), **AT_SIZE)
+    near = hlr.draw(
+        model, "front", perspective=Perspective(eye=(0, -50 + beside, 20), target=(0, 0, 20), fov=100.0), **AT_SIZE
+    )
     assert counts(near) == counts(far)
 
 
 def test_an_eye_that_sees_nothing_says_so():
     away = Perspective(eye=(0, -100, 0), target=(0, -200, 0), fov=40.0)
-    drawing = hlr.draw(box((10, 10, 10)), "front", perspective=away)
+    drawing = hlr.draw(box((10, 10, 10)), "front", perspective=away, **AT_SIZE)
     assert drawing.lines == ()
     assert drawing.notes == (Note("nothing-in-view", "nothing of the model lies in this view."),)
     assert drawing.bounds == (0, 0, 0, 0)

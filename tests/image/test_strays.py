@@ -5,6 +5,7 @@ import pytest
 import trimesh
 
 import hlr
+from support.at_size import ALL_LINES
 
 
 def scene(centres, size=2.0):
@@ -20,7 +21,7 @@ GRID = [(x, y, 0.0) for x in range(0, 12, 3) for y in range(0, 12, 3)]
 
 
 def stray(centres, view="iso", **options):
-    notes = hlr.draw(scene(centres), view, scale=2.0, **options).notes
+    notes = hlr.draw(scene(centres), view, scale=2.0, **ALL_LINES | options).notes
     return [note.text for note in notes if note.code == "stray-parts"]
 
 
@@ -60,12 +61,12 @@ def test_a_large_plate_under_small_parts_is_no_stray():
     plate = trimesh.creation.box((300, 300, 1))
     plate.apply_translation((0, 0, -2))
     found.add_geometry(plate, geom_name="plate", node_name="plate")
-    assert not [note for note in hlr.draw(found, scale=2.0).notes if note.code == "stray-parts"]
+    assert not [note for note in hlr.draw(found, scale=2.0, **ALL_LINES).notes if note.code == "stray-parts"]
 
 
 def test_it_is_a_remark_and_previews_have_it_too():
     far = scene([*GRID, (200.0, 0.0, 0.0)])
-    assert hlr.draw(far, scale=2.0, strict=True).notes
+    assert hlr.draw(far, scale=2.0, strict=True, **ALL_LINES).notes
     assert [note.code for note in hlr.preview(far, size=(20, 20), strict=True).notes] == ["stray-parts"]
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import ALL_LINES, AT_SIZE
 from support.measures import counts, drawn_twice, length, placed, straight
 from support.models import box, parts, sheet, solids
 
@@ -29,7 +30,7 @@ def rectangle(x0, y0, x1, y1, visible=True):
     [("front", 10, 30), ("back", 10, 30), ("left", 20, 30), ("right", 20, 30), ("top", 10, 20), ("bottom", 10, 20)],
 )
 def test_a_box_along_an_axis_is_four_lines_and_hides_nothing(kind, view, width, height):
-    drawing = hlr.draw(boxes(kind, ((10, 20, 30), (0, 0, 0))), view)
+    drawing = hlr.draw(boxes(kind, ((10, 20, 30), (0, 0, 0))), view, **AT_SIZE)
     assert len(drawing.lines) == 4
     assert straight(drawing) == rectangle(-width / 2, -height / 2, width / 2, height / 2)
 
@@ -38,7 +39,7 @@ def test_a_box_along_an_axis_is_four_lines_and_hides_nothing(kind, view, width, 
 @pytest.mark.parametrize("view", ["iso", "iso-sw", "iso-ne", "iso-nw", (3, -1, 2)])
 @pytest.mark.parametrize("scale", [1.0, 0.5])
 def test_a_box_seen_on_a_corner_shows_nine_edges_and_hides_three(kind, view, scale):
-    drawing = hlr.draw(boxes(kind, ((10, 20, 30), (1, 2, 3))), view, scale=scale)
+    drawing = hlr.draw(boxes(kind, ((10, 20, 30), (1, 2, 3))), view, scale=scale, **ALL_LINES)
     assert counts(drawing) == {("sharp", True): 9, ("sharp", False): 3}
     d = np.asarray(drawing.view.direction)
     # A length seen under an angle to the view direction shrinks by its sine.
@@ -53,25 +54,27 @@ def test_a_box_seen_on_a_corner_shows_nine_edges_and_hides_three(kind, view, sca
 
 @BREP_AND_MESH
 def test_a_bar_behind_a_box_is_split_at_the_box(kind):
-    drawing = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 30, 0))), "front")
+    drawing = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 30, 0))), "front", **AT_SIZE)
     expected = rectangle(-10, -10, 10, 10)
     for z in (-2, 2):
         expected |= {seg(-20, z, -10, z): 1, seg(-10, z, 10, z, False): 1, seg(10, z, 20, z): 1}
     expected |= {seg(-20, -2, -20, 2): 1, seg(20, -2, 20, 2): 1}
     assert straight(drawing) == expected
-    only = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 30, 0))), "front", hidden=False)
+    only = hlr.draw(
+        boxes(kind, ((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 30, 0))), "front", hidden=False, scale=1.0, smooth=False
+    )
     assert straight(only) == {piece: n for piece, n in expected.items() if piece[2]}
 
 
 @BREP_AND_MESH
 def test_a_box_wholly_behind_another_is_hidden(kind):
-    drawing = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((4, 4, 4), (1, 30, 2))), "front")
+    drawing = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((4, 4, 4), (1, 30, 2))), "front", **AT_SIZE)
     assert straight(drawing) == rectangle(-10, -10, 10, 10) | rectangle(-1, 0, 3, 4, False)
 
 
 @BREP_AND_MESH
 def test_a_bar_through_a_box_is_split_where_it_enters(kind):
-    drawing = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 0, 0))), "iso")
+    drawing = hlr.draw(boxes(kind, ((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 0, 0))), "iso", **AT_SIZE)
     right, up = np.asarray(drawing.view.right), np.asarray(drawing.view.up)
 
     def at(x, y, z):
@@ -92,29 +95,29 @@ def test_a_bar_through_a_box_is_split_where_it_enters(kind):
 @BREP_AND_MESH
 def test_boxes_on_top_of_one_another(kind):
     stack = boxes(kind, ((10, 10, 10), (0, 0, 5)), ((10, 10, 10), (0, 0, 15)))
-    front = hlr.draw(stack, "front")
+    front = hlr.draw(stack, "front", **AT_SIZE)
     sides = {seg(x, z, x, z + 10): 1 for x in (-5, 5) for z in (0, 10)}
     assert straight(front) == sides | {seg(-5, z, 5, z): 1 for z in (0, 10, 20)}
-    iso = hlr.draw(stack, "iso")
+    iso = hlr.draw(stack, "iso", **AT_SIZE)
     # The joint is there once, on both visible sides, and hidden once on the two others.
     joint = [line for line in iso.lines if np.allclose(line.points3[:, 2], 10)]
     assert sorted(line.visible for line in joint) == [False, False, True, True]
     assert drawn_twice(iso) == 0
-    assert straight(hlr.draw(stack, "top")) == rectangle(-5, -5, 5, 5)
+    assert straight(hlr.draw(stack, "top", **AT_SIZE)) == rectangle(-5, -5, 5, 5)
 
 
 @BREP_AND_MESH
 def test_boxes_side_by_side_sharing_part_of_a_face(kind):
     pair = boxes(kind, ((10, 10, 10), (0, 0, 0)), ((10, 6, 6), (10, 0, 0)))
-    front = hlr.draw(pair, "front")
+    front = hlr.draw(pair, "front", **AT_SIZE)
     assert straight(front) == rectangle(-5, -5, 5, 5) | {
         seg(5, -3, 15, -3): 1,
         seg(5, 3, 15, 3): 1,
         seg(15, -3, 15, 3): 1,
     }
-    from_left = hlr.draw(pair, "left")
+    from_left = hlr.draw(pair, "left", **AT_SIZE)
     assert straight(from_left) == rectangle(-5, -5, 5, 5) | rectangle(-3, -3, 3, 3, False)
-    from_right = hlr.draw(pair, "right")
+    from_right = hlr.draw(pair, "right", **AT_SIZE)
     assert straight(from_right) == rectangle(-5, -5, 5, 5) | rectangle(-3, -3, 3, 3)
 
 
@@ -122,9 +125,9 @@ def test_boxes_side_by_side_sharing_part_of_a_face(kind):
 def test_a_box_standing_on_a_plate(kind):
     model = boxes(kind, ((40, 40, 4), (0, 0, -2)), ((10, 10, 10), (0, 0, 5)))
     plate, foot = rectangle(-20, -20, 20, 20), (-5, -5, 5, 5)
-    assert straight(hlr.draw(model, "top")) == plate | rectangle(*foot)
-    assert straight(hlr.draw(model, "bottom")) == plate | rectangle(*foot, False)
-    iso = hlr.draw(model, "iso")
+    assert straight(hlr.draw(model, "top", **AT_SIZE)) == plate | rectangle(*foot)
+    assert straight(hlr.draw(model, "bottom", **AT_SIZE)) == plate | rectangle(*foot, False)
+    iso = hlr.draw(model, "iso", **AT_SIZE)
     base = [line for line in iso.lines if line.part == 1 and np.allclose(line.points3[:, 2], 0)]
     assert sorted(line.visible for line in base) == [False, False, True, True]
     assert sum(length(line) for line in base) == pytest.approx(4 * 10 * np.sqrt(2 / 3), rel=1e-6)
@@ -140,8 +143,8 @@ def under_a_sheet(kind, size, **options):
         model = boxes(kind, block, ((size, size, 0.1), (0, 0, 0.05)))
     h = size / 2
     outer, inner = rectangle(-h, -h, h, h), rectangle(-h / 2, -h / 2, h / 2, h / 2, False)
-    assert straight(hlr.draw(model, "bottom", **options)) == outer | rectangle(-h / 2, -h / 2, h / 2, h / 2)
-    assert straight(hlr.draw(model, "top", **options)) == outer | inner
+    assert straight(hlr.draw(model, "bottom", **AT_SIZE | options)) == outer | rectangle(-h / 2, -h / 2, h / 2, h / 2)
+    assert straight(hlr.draw(model, "top", **AT_SIZE | options)) == outer | inner
 
 
 @pytest.mark.parametrize("kind", ["brep", "mesh", "open"])
@@ -160,21 +163,21 @@ def test_a_thin_sheet_over_a_curved_part_hides_it_at_the_default_accuracy():
 
     disc = cq.Workplane().cylinder(5, 50).translate((0, 0, -2.5))
     cover = cq.Workplane().box(120, 120, 0.1).translate((0, 0, 0.05))
-    drawing = hlr.draw(cq.Assembly().add(disc, name="disc").add(cover, name="sheet"), "top")
+    drawing = hlr.draw(cq.Assembly().add(disc, name="disc").add(cover, name="sheet"), "top", **AT_SIZE)
     assert counts(drawing) == {("sharp", True): 4, ("sharp", False): 1}
 
 
 @BREP_AND_MESH
 def test_nothing_is_drawn_twice_where_equal_boxes_coincide(kind):
     one = ((10, 10, 10), (0, 0, 0))
-    twins = hlr.draw(boxes(kind, one, one), "iso")
-    assert straight(twins) == straight(hlr.draw(boxes(kind, one), "iso"))
+    twins = hlr.draw(boxes(kind, one, one), "iso", **AT_SIZE)
+    assert straight(twins) == straight(hlr.draw(boxes(kind, one), "iso", **AT_SIZE))
 
 
 def test_lines_know_their_part_and_edge():
     import cadquery as cq
 
-    drawing = hlr.draw(solids(((10, 10, 10), (0, 0, 0)), ((4, 4, 4), (20, 0, 0))), "iso")
+    drawing = hlr.draw(solids(((10, 10, 10), (0, 0, 0)), ((4, 4, 4), (20, 0, 0))), "iso", **AT_SIZE)
     assert [part.name for part in drawing.parts] == ["part0", "part1"]
     for number, centre in ((0, 0), (1, 20)):
         mine = [line for line in drawing.lines if line.part == number]
@@ -191,12 +194,12 @@ def test_lines_know_their_part_and_edge():
             edge = cq.Edge(index.FindKey(line.edge + 1))
             middle = line.points3.mean(axis=0)
             assert edge.distance(cq.Vertex.makeVertex(*middle.tolist())) < 1e-6
-    mesh = hlr.draw(box((1, 1, 1)), "iso", scale=10)
+    mesh = hlr.draw(box((1, 1, 1)), "iso", scale=10, **ALL_LINES)
     assert {line.edge for line in mesh.lines} == {None} == {line.face for line in mesh.lines}
 
 
 def test_lines_are_sorted_and_the_lower_left_corner_is_the_origin():
-    drawing = hlr.draw(solids(((10, 10, 10), (0, 0, 0)), ((4, 4, 4), (20, 0, 0))), "iso")
+    drawing = hlr.draw(solids(((10, 10, 10), (0, 0, 0)), ((4, 4, 4), (20, 0, 0))), "iso", **AT_SIZE)
     keys = [(line.part, line.edge) for line in drawing.lines]
     assert keys == sorted(keys)
     assert drawing.bounds[:2] == (0.0, 0.0)
@@ -205,5 +208,7 @@ def test_lines_are_sorted_and_the_lower_left_corner_is_the_origin():
 
 
 def test_the_measures_notice():
-    drawing = hlr.draw(parts(box((10, 10, 10)), box((10, 10, 10), (0, 0, 0.02))), "front", hidden=True)
+    drawing = hlr.draw(
+        parts(box((10, 10, 10)), box((10, 10, 10), (0, 0, 0.02))), "front", hidden=True, scale=1.0, smooth=False
+    )
     assert drawn_twice(drawing, width=0.05) == pytest.approx(20, abs=0.1)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.measures import distances, drawn_twice, segments
 from support.models import box, parts, solids
 
@@ -66,7 +67,7 @@ def test_boxes_on_a_lattice(kind, seed):
     boxes = crowd(seed)
     sizes = [(tuple(high - low), tuple((low + high) / 2)) for low, high in boxes]
     model = solids(*sizes) if kind == "brep" else parts(*(box(*s) for s in sizes))
-    for drawing in hlr.draw_views(model, VIEWS, hlr.Options(accuracy=0.004)):
+    for drawing in hlr.draw_views(model, VIEWS, hlr.Options(accuracy=0.004, **AT_SIZE)):
         view = drawing.view
         for visible, wrong in ((True, 9), (False, 0)):
             chosen = [line.points3 for line in drawing.lines if line.visible == visible]
@@ -82,7 +83,7 @@ def test_boxes_on_a_lattice(kind, seed):
 
 def test_the_rays_notice():
     boxes = np.array([[[0, 0, 0], [10, 10, 10]], [[0, 20, 0], [10, 30, 10]]], float)
-    view = hlr.draw(box((1, 1, 1)), "front").view
+    view = hlr.draw(box((1, 1, 1)), "front", **AT_SIZE).view
     behind, before = np.array([[5.0, 20.0, 5.0]]), np.array([[5.0, 0.0, 5.0]])
     assert rays(behind, view, boxes).tolist() == [9]
     assert rays(before, view, boxes).tolist() == [0]

@@ -14,6 +14,7 @@ import hlr
 from hlr.drawing.curve import Arc, Bezier, arc_bounds, bezier_bounds, raised
 from hlr.drawing.saving import render
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 from support.true_curves import DENSE, distance, measured, on_paper, samples, true_curves
 
 cq = pytest.importorskip("cadquery")
@@ -55,7 +56,7 @@ EXACT = {"circle": Arc, "arc": Arc, "ellipse": Arc, "parabola": Bezier, "spline"
 def test_conics_and_splines_in_random_views(name: str, perspective: Any) -> None:
     sheet = edge_sheet(conics()[name])
     true = true_curves(open_source(sheet))
-    options = hlr.Options(perspective=perspective)
+    options = hlr.Options(perspective=perspective, **AT_SIZE)
     for drawing in hlr.draw_views(sheet, [tuple(v) for v in RANDOM_VIEWS], options):
         off, _, forms, _ = measured(drawing, true)
         # What is exact is off only by how finely the measure samples, or, drawn as a straight line, by a twentieth.
@@ -67,15 +68,15 @@ def test_conics_and_splines_in_random_views(name: str, perspective: Any) -> None
 
 
 def test_degrees_say_which_curves_are_exact() -> None:
-    parabola = hlr.draw(edge_sheet(conics()["parabola"]), (1, 2, 3))
+    parabola = hlr.draw(edge_sheet(conics()["parabola"]), (1, 2, 3), **AT_SIZE)
     assert {line.curve.degree for line in parabola.lines if line.curve} == {2}
-    spline = hlr.draw(edge_sheet(conics()["spline"]), (1, 2, 3))
+    spline = hlr.draw(edge_sheet(conics()["spline"]), (1, 2, 3), **AT_SIZE)
     assert {line.curve.degree for line in spline.lines if line.curve} == {3}
 
 
 def test_pieces_are_intervals_of_one_curve() -> None:
     """The rim of a cylinder, half of it hidden: two arcs of one ellipse that meet."""
-    drawing = hlr.draw(cq.Workplane().cylinder(20, 10), "iso")
+    drawing = hlr.draw(cq.Workplane().cylinder(20, 10), "iso", **AT_SIZE)
     rim = [line for line in drawing.lines if isinstance(line.curve, Arc) and line.points3[:, 2].max() < 0]
     assert {line.visible for line in rim} == {True, False}
     a, b = (line.curve for line in rim)
@@ -87,13 +88,13 @@ def test_pieces_are_intervals_of_one_curve() -> None:
 
 def test_a_circle_from_above_is_whole_and_edge_on_a_straight_line() -> None:
     body = cq.Workplane().circle(7).extrude(2)
-    (line,) = [line for line in hlr.draw(body, "top").lines if line.visible]
+    (line,) = [line for line in hlr.draw(body, "top", **AT_SIZE).lines if line.visible]
     assert isinstance(line.curve, Arc) and line.curve.whole
     assert line.curve.radii == pytest.approx((7.0, 7.0), abs=1e-12)
-    drawing = hlr.draw(body, "front")
+    drawing = hlr.draw(body, "front", **AT_SIZE)
     assert drawing.bounds == pytest.approx((0.0, 0.0, 14.0, 2.0), abs=1e-9)
     assert all(line.curve is None for line in drawing.lines)
-    assert b"<circle" in render(hlr.draw(body, "top"), "svg")
+    assert b"<circle" in render(hlr.draw(body, "top", **AT_SIZE), "svg")
 
 
 def test_a_mirrored_and_moved_part_draws_its_own_curves() -> None:
@@ -101,7 +102,7 @@ def test_a_mirrored_and_moved_part_draws_its_own_curves() -> None:
     shape = body.val().mirror("YZ").moved(cq.Location(cq.Vector(30, -5, 2), cq.Vector(1, 2, 3), 70))
     assembly = cq.Assembly().add(shape, name="m").add(shape, name="n", loc=cq.Location(cq.Vector(0, 0, 9)))
     true = true_curves(open_source(assembly))
-    for drawing in hlr.draw_views(assembly, ["iso", "front"]):
+    for drawing in hlr.draw_views(assembly, ["iso", "front"], hlr.Options(**AT_SIZE)):
         off, _, forms, _ = measured(drawing, true)
         assert off < 0.05 and forms["Arc"] > 6
 
@@ -110,7 +111,10 @@ def test_a_mirrored_and_moved_part_draws_its_own_curves() -> None:
 @pytest.mark.parametrize("name", ["nist_ctc_01_asme1_ap242-e1.stp", "as1-oc-214.stp"])
 def test_real_files(name: str) -> None:
     true = true_curves(open_source(DATA / name))
-    drawings = [hlr.draw(DATA / name), hlr.draw(DATA / name, (3, -2, 1), perspective=hlr.Perspective())]
+    drawings = [
+        hlr.draw(DATA / name, **AT_SIZE),
+        hlr.draw(DATA / name, (3, -2, 1), perspective=hlr.Perspective(), **AT_SIZE),
+    ]
     for drawing in drawings:
         off, polylines, _, where = measured(drawing, true)
         assert off < 0.5, where
@@ -119,7 +123,7 @@ def test_real_files(name: str) -> None:
 
 def test_a_drawing_off_by_half_an_accuracy_is_noticed() -> None:
     body = cq.Workplane().cylinder(20, 10)
-    drawing = hlr.draw(body, "iso")
+    drawing = hlr.draw(body, "iso", **AT_SIZE)
     line = next(line for line in drawing.lines if isinstance(line.curve, Arc))
     path = on_paper(drawing, true_curves(open_source(body))(drawing.parts[line.part].name, line.edge))
     accuracy = drawing.accuracy.used
@@ -128,7 +132,7 @@ def test_a_drawing_off_by_half_an_accuracy_is_noticed() -> None:
 
 
 def test_points_run_along_the_curve() -> None:
-    drawing = hlr.draw(DATA / "nist_ctc_01_asme1_ap242-e1.stp")
+    drawing = hlr.draw(DATA / "nist_ctc_01_asme1_ap242-e1.stp", **AT_SIZE)
     for line in drawing.lines:
         if line.curve is not None:
             assert distance(line.points, samples(line)) <= drawing.accuracy.used
@@ -141,7 +145,7 @@ def test_t_junctions_close() -> None:
     plate = cq.Workplane("XZ").rect(60, 40).circle(12).extrude(-3)
     pin = cq.Workplane("XZ", origin=(9, -30, 0)).circle(8).extrude(10)
     both = cq.Assembly().add(plate, name="plate").add(pin, name="pin")
-    drawing = hlr.draw(both, (0.2, -1, 0.3))
+    drawing = hlr.draw(both, (0.2, -1, 0.3), **AT_SIZE)
     near = [samples(line, DENSE) for line in drawing.lines if line.visible and drawing.parts[line.part].name == "pin"]
     ends = {True: set(), False: set()}
     for line in drawing.lines:
@@ -158,7 +162,7 @@ def test_a_line_hidden_in_between_is_one_line_interrupted() -> None:
     """The two visible ends of an edge that passes behind a bar lie on it, and so does the hidden piece between them."""
     board = cq.Workplane("XZ").rect(60, 40).extrude(-3)
     bar = cq.Workplane("XZ", origin=(0, -30, 22)).circle(5).extrude(10)
-    drawing = hlr.draw(cq.Assembly().add(board, name="board").add(bar, name="bar"), (0.15, -1, 0.1))
+    drawing = hlr.draw(cq.Assembly().add(board, name="board").add(bar, name="bar"), (0.15, -1, 0.1), **AT_SIZE)
     whole: dict[int, list[Any]] = {}
     for line in drawing.lines:
         if drawing.parts[line.part].name == "board":
@@ -174,7 +178,7 @@ def test_a_line_hidden_in_between_is_one_line_interrupted() -> None:
 
 
 def test_json_holds_the_curves() -> None:
-    drawing = hlr.draw(DATA / "nist_ctc_01_asme1_ap242-e1.stp")
+    drawing = hlr.draw(DATA / "nist_ctc_01_asme1_ap242-e1.stp", **AT_SIZE)
     lines = json.loads(render(drawing, "json"))["lines"]
     assert len(lines) == len(drawing.lines)
     accuracy = drawing.accuracy.used
@@ -216,5 +220,5 @@ def test_boxes_of_curves_are_exact() -> None:
 
 
 def test_any_number_of_threads_draws_the_same() -> None:
-    one, two = (render(hlr.draw(DATA / "as1-oc-214.stp", threads=n), "svg") for n in (1, 3))
+    one, two = (render(hlr.draw(DATA / "as1-oc-214.stp", threads=n, **AT_SIZE), "svg") for n in (1, 3))
     assert one == two

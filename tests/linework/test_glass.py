@@ -8,6 +8,7 @@ import trimesh
 
 import hlr
 from hlr.errors import OptionError
+from support.at_size import AT_SIZE
 
 
 def lamp(opacity: int = 90) -> trimesh.Scene:
@@ -25,15 +26,15 @@ def seen(drawing: hlr.Drawing, name: str) -> int:
 
 
 def test_glass_hides_and_a_remark_says_so() -> None:
-    drawing = hlr.draw(lamp())
+    drawing = hlr.draw(lamp(), **AT_SIZE)
     assert seen(drawing, "bulb") == 0 and seen(drawing, "glass") == 9
     (note,) = [note for note in drawing.notes if note.code == "glass-hides"]
     assert not note.is_warning and str(note).startswith('Part "glass" is transparent and hides')
-    hlr.draw(lamp(), strict=True)
+    hlr.draw(lamp(), strict=True, **AT_SIZE)
 
 
 def test_it_is_seen_through_where_that_is_asked_for() -> None:
-    drawing = hlr.draw(lamp(), (1, -2, 0.7), see_through=True)
+    drawing = hlr.draw(lamp(), (1, -2, 0.7), see_through=True, **AT_SIZE)
     # The bulb hides its own back, and of the glass what lies behind it; of the glass all twelve edges are seen.
     assert seen(drawing, "bulb") == 9 and seen(drawing, "glass") >= 12
     assert not drawing.notes
@@ -42,10 +43,10 @@ def test_it_is_seen_through_where_that_is_asked_for() -> None:
 
 
 def test_without_glass_nothing_changes() -> None:
-    plain, asked = hlr.draw(lamp(255)), hlr.draw(lamp(255), see_through=True)
+    plain, asked = hlr.draw(lamp(255), **AT_SIZE), hlr.draw(lamp(255), see_through=True, **AT_SIZE)
     assert plain.lines == asked.lines and not plain.notes and not asked.notes
 
 
 def test_a_report_cannot_judge_it() -> None:
     with pytest.raises(OptionError, match="report measures what all parts hide"):
-        hlr.draw(lamp(), see_through=True, report=True)
+        hlr.draw(lamp(), see_through=True, report=True, **AT_SIZE)

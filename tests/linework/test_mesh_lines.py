@@ -12,6 +12,7 @@ import trimesh
 import hlr
 from hlr.drawing.curve import Arc, Bezier
 from hlr.drawing.saving import render
+from support.at_size import AT_SIZE
 from support.measures import apart, distances, length, placed, samples
 
 ACCURACY = 0.2
@@ -48,7 +49,7 @@ def turns(points: np.ndarray) -> np.ndarray:
 @pytest.fixture(scope="module")
 def smooth() -> tuple[trimesh.Trimesh, hlr.Drawing]:
     mesh = blob()
-    return mesh, hlr.draw(mesh, (3, 2, 1), accuracy=ACCURACY)
+    return mesh, hlr.draw(mesh, (3, 2, 1), accuracy=ACCURACY, **AT_SIZE)
 
 
 @pytest.mark.slow
@@ -70,7 +71,7 @@ def test_all_of_a_contour_is_drawn() -> None:
     """Of a convex mesh: one loop, from which the line is nowhere far, nor it from the line."""
     mesh = trimesh.creation.icosphere(subdivisions=4, radius=RADIUS)
     mesh.vertices = mesh.vertices * (1.0, 0.8, 0.6)
-    drawing = hlr.draw(mesh, (3, 2, 1), accuracy=ACCURACY)
+    drawing = hlr.draw(mesh, (3, 2, 1), accuracy=ACCURACY, **AT_SIZE)
     (line,) = drawing.lines
     assert apart(pieces(placed(drawing, line)), contour(mesh, drawing), 0.1) < 0.9 * ACCURACY
 
@@ -102,7 +103,7 @@ def test_a_closed_contour_closes_smoothly(smooth: tuple[trimesh.Trimesh, hlr.Dra
 
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective()])
 def test_the_points_in_space_are_where_the_line_is(perspective: Any) -> None:
-    drawing = hlr.draw(blob(), (3, 2, 1), accuracy=ACCURACY, perspective=perspective)
+    drawing = hlr.draw(blob(), (3, 2, 1), accuracy=ACCURACY, perspective=perspective, **AT_SIZE)
     view = drawing.view
     for line in drawing.lines:
         away = line.points3 - np.asarray(view.eye or (0.0, 0.0, 0.0))
@@ -114,7 +115,7 @@ def test_the_points_in_space_are_where_the_line_is(perspective: Any) -> None:
 
 def test_ends_stay_where_they_are() -> None:
     mesh = trimesh.creation.torus(15.0, 5.0, major_sections=90, minor_sections=40)
-    drawing = hlr.draw(mesh, (3, 2, 0.6), accuracy=ACCURACY)
+    drawing = hlr.draw(mesh, (3, 2, 0.6), accuracy=ACCURACY, **AT_SIZE)
     raw = contour(mesh, drawing)
     broken = [line for line in drawing.lines if (line.points[0] != line.points[-1]).any()]
     assert {line.visible for line in broken} == {True, False}
@@ -126,7 +127,7 @@ def test_ends_stay_where_they_are() -> None:
 
 
 def test_the_same_bytes_with_any_number_of_threads() -> None:
-    one, two = (hlr.draw(blob(), (3, 2, 1), circles=True, threads=n) for n in (1, 2))
+    one, two = (hlr.draw(blob(), (3, 2, 1), circles=True, threads=n, **AT_SIZE) for n in (1, 2))
     assert render(one, "svg") == render(two, "svg")
 
 
@@ -142,7 +143,7 @@ def test_a_ridge_goes_on_past_valleys_that_end_on_it() -> None:
         (10, 10, -14),
     ]
     faces = [(0, 1, 3), (1, 4, 3), (1, 2, 4), (0, 5, 1), (5, 6, 1), (6, 7, 1), (7, 2, 1)]
-    drawing = hlr.draw((np.array(points, float), np.array(faces)), "top", hidden=False)
+    drawing = hlr.draw((np.array(points, float), np.array(faces)), "top", hidden=False, scale=1.0, smooth=False)
     sharp = [line for line in drawing.lines if line.kind == "sharp"]
     assert len(sharp) == 4
     ridge = max(sharp, key=length)
@@ -152,7 +153,7 @@ def test_a_ridge_goes_on_past_valleys_that_end_on_it() -> None:
 
 
 def test_a_box_keeps_its_twelve_edges() -> None:
-    assert len(hlr.draw(trimesh.creation.box((1, 2, 3)), (3, 2, 1)).lines) == 12
+    assert len(hlr.draw(trimesh.creation.box((1, 2, 3)), (3, 2, 1), **AT_SIZE).lines) == 12
 
 
 def prism(ring: np.ndarray, height: float = 30.0) -> trimesh.Trimesh:
@@ -181,20 +182,20 @@ def arcs(drawing: hlr.Drawing) -> list[hlr.Line]:
 
 @pytest.mark.parametrize("n", [6, 8, 12])
 def test_a_nut_is_no_circle(n: int) -> None:
-    assert not arcs(hlr.draw(prism(ring(regular(n))), "iso", circles=True))
+    assert not arcs(hlr.draw(prism(ring(regular(n))), "iso", circles=True, **AT_SIZE))
     # Nor is it one when creases are hardly drawn, unless it has more corners than an octagon.
-    assert bool(arcs(hlr.draw(prism(ring(regular(n))), "iso", circles=True, crease=80))) == (n > 8)
+    assert bool(arcs(hlr.draw(prism(ring(regular(n))), "iso", circles=True, crease=80, **AT_SIZE))) == (n > 8)
 
 
 def test_where_edges_are_drawn_at_every_corner_there_is_no_circle() -> None:
-    assert not arcs(hlr.draw(prism(ring(regular(16))), "iso", circles=True, crease=20))
+    assert not arcs(hlr.draw(prism(ring(regular(16))), "iso", circles=True, crease=20, **AT_SIZE))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("perspective", [None, hlr.Perspective()])
 @pytest.mark.parametrize("n", [13, 16, 64])
 def test_a_rim_is_a_circle(n: int, perspective: Any) -> None:
-    drawing = hlr.draw(prism(ring(regular(n))), "iso", circles=True, perspective=perspective)
+    drawing = hlr.draw(prism(ring(regular(n))), "iso", circles=True, perspective=perspective, **AT_SIZE)
     rims = arcs(drawing)
     assert [line.kind for line in drawing.lines].count("sharp") == len(rims) == 3
     for line in rims:
@@ -212,25 +213,25 @@ def test_a_rim_is_a_circle(n: int, perspective: Any) -> None:
 
 
 def test_circles_are_drawn_only_where_they_are_asked_for() -> None:
-    assert not arcs(hlr.draw(prism(ring(regular(64))), "iso"))
+    assert not arcs(hlr.draw(prism(ring(regular(64))), "iso", **AT_SIZE))
     with pytest.raises(hlr.HlrError, match="circles is yes or no"):
-        hlr.draw(prism(ring(regular(64))), "iso", circles="all")
+        hlr.draw(prism(ring(regular(64))), "iso", circles="all", **AT_SIZE)
 
 
 def test_what_is_not_quite_a_circle_is_none() -> None:
     flat = np.linspace(0.0, 2 * np.pi - math.radians(25), 70)
-    assert not arcs(hlr.draw(prism(ring(flat)), "iso", circles=True)), "a shaft with a flat"
-    assert not arcs(hlr.draw(prism(ring(regular(64)) * (1.0, 0.98)), "iso", circles=True)), "an ellipse"
+    assert not arcs(hlr.draw(prism(ring(flat)), "iso", circles=True, **AT_SIZE)), "a shaft with a flat"
+    assert not arcs(hlr.draw(prism(ring(regular(64)) * (1.0, 0.98)), "iso", circles=True, **AT_SIZE)), "an ellipse"
     dented = ring(regular(64))
     dented[7] *= 1.0 - 0.1 / RADIUS
-    assert not arcs(hlr.draw(prism(dented), "iso", circles=True)), "a vertex off by two accuracies"
-    assert arcs(hlr.draw(prism(dented), "iso", circles=True, accuracy=0.2))
+    assert not arcs(hlr.draw(prism(dented), "iso", circles=True, **AT_SIZE)), "a vertex off by two accuracies"
+    assert arcs(hlr.draw(prism(dented), "iso", circles=True, accuracy=0.2, **AT_SIZE))
 
 
 def test_an_open_rim_is_an_arc() -> None:
     """A quarter of a cylinder: each rim is an arc between corners, beside two straight lines."""
     quarter = np.concatenate([ring(np.linspace(0.0, 0.5 * np.pi, 17)), [[0.0, 0.0]]]) - 8.0
-    lines = hlr.draw(prism(quarter), (1, 1, 3), circles=True, hidden=False).lines
+    lines = hlr.draw(prism(quarter), (1, 1, 3), circles=True, hidden=False, scale=1.0, smooth=False).lines
     found = [line for line in lines if isinstance(line.curve, Arc)]
     assert len(found) == 2
     for line in found:

@@ -23,6 +23,7 @@ from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import Planner
 from hlr.scene.build import build
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 
 cq = pytest.importorskip("cadquery")
 
@@ -62,7 +63,7 @@ def offset():
 def traced(shape, view, perspective, finer=1.0):
     """The scene with its outlines, the camera, the tolerances. finer: the mesh than these ask for."""
     source = open_source(shape)
-    options = hlr.Options(perspective=perspective)
+    options = hlr.Options(perspective=perspective, **AT_SIZE)
     bounds = source.bounds()
     camera = resolve(view, options, source.frame, bounds)
     tolerances = derive(0.02, 1.0, 0.0, brep=True)
@@ -126,8 +127,8 @@ def count(drawing):
 def test_spheres_have_one_outline_and_cylinders_two(camera):
     sphere, cylinder = cq.Workplane().sphere(10), cq.Solid.makeCylinder(5, 20)
     for view in VIEWS:
-        assert count(hlr.draw(sphere, view, perspective=camera)) == (1, 0)
-        found = hlr.draw(cylinder, view, perspective=camera)
+        assert count(hlr.draw(sphere, view, perspective=camera, **AT_SIZE)) == (1, 0)
+        found = hlr.draw(cylinder, view, perspective=camera, **AT_SIZE)
         assert count(found) == (2, 0)
         assert all(len(line.points) == 2 for line in found.lines if line.kind == "outline")
 
@@ -137,7 +138,7 @@ def test_cones_have_two_outlines_or_none():
     slope = 20 / 10
     for view in VIEWS:
         outside = np.hypot(view[0], view[1]) * slope > abs(view[2])
-        found = hlr.draw(cq.Solid.makeCone(10, 0, 20), view)
+        found = hlr.draw(cq.Solid.makeCone(10, 0, 20), view, **AT_SIZE)
         assert sum(count(found)) == (2 if outside else 0)
 
 
@@ -176,7 +177,7 @@ def test_the_outline_goes_on_over_smooth_borders():
 @pytest.mark.parametrize("view", ["front", "top", "right"])
 def test_a_fillet_tangent_to_a_plane_seen_edge_on_has_one_line(view):
     body = cq.Workplane().box(20, 30, 10).edges().fillet(2)
-    drawing = hlr.draw(body, view)
+    drawing = hlr.draw(body, view, **AT_SIZE)
     assert count(drawing)[1] == 0
     ink = sum(float(np.hypot(*np.diff(line.points, axis=0).T).sum()) for line in drawing.lines)
     width, height = drawing.bounds[2:]
@@ -207,7 +208,7 @@ def test_between_its_points_too_a_curve_follows_the_surface(shape, view, camera)
 def test_a_sphere_is_drawn_as_one_ellipse(camera):
     """Of a sphere beside the centre of a perspective view an ellipse is seen, the longer the farther."""
     box = cq.Workplane().box(1, 1, 1).translate((60, 0, 0))
-    drawing = hlr.draw(cq.Workplane().sphere(10).add(box), "front", perspective=camera)
+    drawing = hlr.draw(cq.Workplane().sphere(10).add(box), "front", perspective=camera, **AT_SIZE)
     (line,) = (line for line in drawing.lines if line.kind == "outline")
     assert isinstance(line.curve, Arc)
     assert line.curve.whole
@@ -227,14 +228,14 @@ def test_a_sphere_is_drawn_as_one_ellipse(camera):
 
 
 def test_a_torus_seen_along_its_axis_is_two_circles():
-    drawing = hlr.draw(torus(), "top")
+    drawing = hlr.draw(torus(), "top", **AT_SIZE)
     assert sorted(line.curve.radii[0] for line in drawing.lines) == pytest.approx([14, 26], rel=1e-12)
     assert all(line.curve.whole for line in drawing.lines)
 
 
 def test_a_fold_along_an_edge_has_the_curve_of_the_edge():
     """Fillets of a box seen from the front: quarter circles about known centres, though all are outlines."""
-    drawing = hlr.draw(cq.Workplane().box(20, 30, 10).edges().fillet(2), "front")
+    drawing = hlr.draw(cq.Workplane().box(20, 30, 10).edges().fillet(2), "front", **AT_SIZE)
     arcs = [line.curve for line in drawing.lines if line.curve is not None]
     assert len(arcs) == 4
     assert all(isinstance(arc, Arc) for arc in arcs)
@@ -247,7 +248,7 @@ def test_a_rim_seen_along_its_wall_is_hidden_by_what_lies_on_it():
     """The wall of the hole is edge-on: it tells nothing of its rim, most of which lies under the box."""
     plate = cq.Workplane().box(20, 20, 4).faces(">Z").workplane().hole(6)
     box = cq.Workplane(origin=(2, 0, 2)).rect(8, 14).extrude(5)
-    drawing = hlr.draw(cq.Assembly().add(plate, name="plate").add(box, name="box"), "top")
+    drawing = hlr.draw(cq.Assembly().add(plate, name="plate").add(box, name="box"), "top", **AT_SIZE)
     rim = [line for line in drawing.lines if isinstance(line.curve, Arc)]
     turn = {v: sum(float(np.ptp(line.curve.angles)) for line in rim if line.visible is v) for v in (True, False)}
     # The box covers x > -2 of a circle of radius 3.
@@ -257,7 +258,7 @@ def test_a_rim_seen_along_its_wall_is_hidden_by_what_lies_on_it():
 
 def test_outlines_reach_the_rims_they_end_on():
     """They touch there, and coincide with the rim before that: each ends at the place farthest to its side."""
-    drawing = hlr.draw(cq.Workplane().circle(10).extrude(20), "iso")
+    drawing = hlr.draw(cq.Workplane().circle(10).extrude(20), "iso", **AT_SIZE)
     ends = [line.points[k] + drawing.origin for line in drawing.lines if line.kind == "outline" for k in (0, -1)]
     right, up = np.array(drawing.view.right), np.array(drawing.view.up)
     places = [

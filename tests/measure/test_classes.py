@@ -16,6 +16,7 @@ from hlr.lab.measure.meshes import mesh_errors
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import written
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 
 ACCURACY = 0.05
 
@@ -27,12 +28,12 @@ def model():
 
 @pytest.fixture(scope="module")
 def drawing(model):
-    return hlr.draw(model, "iso", accuracy=ACCURACY)
+    return hlr.draw(model, "iso", accuracy=ACCURACY, **AT_SIZE)
 
 
 @pytest.fixture(scope="module")
 def finer(model):
-    return hlr.draw(model, "iso", accuracy=ACCURACY / 4)
+    return hlr.draw(model, "iso", accuracy=ACCURACY / 4, **AT_SIZE)
 
 
 def judged(model, drawing, finer, lines):
@@ -126,7 +127,7 @@ def test_a_mesh_is_measured_against_its_own_edges():
     import trimesh
 
     ball = trimesh.creation.icosphere(subdivisions=4, radius=20.0)
-    drawing = hlr.draw(ball, "front", accuracy=ACCURACY)
+    drawing = hlr.draw(ball, "front", accuracy=ACCURACY, **AT_SIZE)
     assert 0.0 < measured(ball, drawing).meshes.worst <= ACCURACY
     spoiled = replace(drawing, lines=tuple(moved(x, (0.4, 0.0)) for x in drawing.lines))
     assert measured(ball, spoiled).meshes.worst > 2.0 * ACCURACY
@@ -160,7 +161,7 @@ def test_what_is_written_is_what_is_drawn(drawing, cubic):
 def test_a_triangle_seen_edge_on_may_fold_at_any_of_its_edges():
     """Flanks of these gears are seen edge-on: rounding says how they are turned, and not the same in the drawing."""
     gears = open_source(Path(__file__).parents[1] / "data" / "cube_gears.3mf")
-    drawing = hlr.draw(gears, "iso", accuracy=0.05)
+    drawing = hlr.draw(gears, "iso", accuracy=0.05, **AT_SIZE)
     off, _ = mesh_errors(gears, drawing, written(drawing), Paper.of(drawing), 0)
     assert len(off) > 2000 and off.max() <= 0.05
 
@@ -172,7 +173,7 @@ def test_intersections_are_measured_where_the_surfaces_cross():
     ball = cq.Workplane("XY").sphere(15.0)
     drum = cq.Workplane("XY").circle(9.0).extrude(40.0).translate((4, 3, -20))
     model = open_source(cq.Assembly().add(ball, name="ball").add(drum, name="drum"))
-    drawing = hlr.draw(model, "iso", accuracy=ACCURACY)
+    drawing = hlr.draw(model, "iso", accuracy=ACCURACY, **AT_SIZE)
     reached = measured(model, drawing, samples=500).intersections
     assert reached.count >= 2 and reached.worst <= ACCURACY and "ball" in reached.where
     off = replace(

@@ -16,6 +16,8 @@ from pathlib import Path
 
 from peers.referee import files, random_views
 
+from support.at_size import ALL_LINES
+
 SHEET = (277.0, 190.0)
 """Millimetres: at full size a hammer of 39 metres would have millions of triangles."""
 
@@ -36,7 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print("| --- | --- | --- | --- | --- | --- |")
     for path in files(given.paths):
         try:
-            drawings = hlr.draw_views(path, list(views), hlr.Options(fit=SHEET))
+            drawings = hlr.draw_views(path, list(views), hlr.Options(fit=SHEET, **ALL_LINES))
         except HlrError as error:
             print(f"| {path.name} | | | | | refused: {error} |", flush=True)
             continue

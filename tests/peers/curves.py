@@ -14,6 +14,7 @@ from pathlib import Path
 import hlr
 from hlr.drawing.saving import render
 from hlr.source import open_source
+from support.at_size import ALL_LINES
 from support.true_curves import measured, true_curves
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
@@ -50,8 +51,10 @@ def main() -> None:
             continue
         try:
             source = open_source(path)
-            drawings = hlr.draw_views(path, ["iso"], hlr.Options(fit=SHEET))
-            drawings += hlr.draw_views(path, [(3, -2, 1.5)], hlr.Options(fit=SHEET, perspective=hlr.Perspective()))
+            drawings = hlr.draw_views(path, ["iso"], hlr.Options(fit=SHEET, **ALL_LINES))
+            drawings += hlr.draw_views(
+                path, [(3, -2, 1.5)], hlr.Options(fit=SHEET, perspective=hlr.Perspective(), **ALL_LINES)
+            )
         except hlr.HlrError as error:
             print(f"| {path.name} | {error} |")
             continue

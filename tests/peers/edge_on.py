@@ -12,6 +12,7 @@ from collections.abc import Sequence
 
 import hlr
 from support import sheets
+from support.at_size import AT_SIZE
 from support.edge_on import Truth
 
 
@@ -34,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             wrong = judged = seen = broken = 0
             told: list[str] = []
             for label, view in views:
-                drawing = hlr.draw(shape, view, accuracy=accuracy)
+                drawing = hlr.draw(shape, view, accuracy=accuracy, **AT_SIZE)
                 found = truth.judge(drawing)
                 worst, total = max(worst, found.worst), total + found.total
                 wrong, judged, seen = wrong + len(found.wrong), judged + found.judged, seen + found.seen

@@ -26,12 +26,13 @@ from hlr.request.options import Options
 from hlr.scene.build import build
 from hlr.source import open_source
 from hlr.source.cad.shapes import sub_shapes
+from support.at_size import ALL_LINES
 
 ENDINGS = (".stp", ".step", ".igs", ".iges", ".brep")
 SHEET = (277, 190)
 VIEWS: tuple[tuple[Any, Options], ...] = (
-    ("iso", Options(fit=SHEET)),
-    ((3, -2, 1.5), Options(fit=SHEET, perspective=hlr.Perspective())),
+    ("iso", Options(fit=SHEET, **ALL_LINES)),
+    ((3, -2, 1.5), Options(fit=SHEET, perspective=hlr.Perspective(), **ALL_LINES)),
 )
 
 

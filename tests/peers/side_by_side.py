@@ -24,6 +24,7 @@ import numpy as np
 
 import hlr
 from hlr.drawing.drawing import Drawing
+from support.at_size import ALL_LINES
 from support.ink import flat
 from support.programs import environment
 
@@ -106,7 +107,7 @@ def main() -> None:
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
     for path in given.files:
-        drawing = hlr.draw(path, given.view, fit=SHEET)
+        drawing = hlr.draw(path, given.view, fit=SHEET, **ALL_LINES)
         panel, origin = ours(drawing), np.array(drawing.origin)
         panels = [theirs(path, drawing, method, given.limit) for method in ("exact", "poly")]
         points = np.concatenate([points for _, points in panel.lines])

@@ -8,6 +8,7 @@ import pytest
 from peers import models, referee
 
 import hlr
+from support.at_size import AT_SIZE
 from support.referee import exchange, reference
 from support.referee.judge import RayCaster, judge, offenders
 
@@ -38,7 +39,7 @@ def test_perspective(name: str, tmp_path: Path) -> None:
     path = models.save(name, tmp_path)
     model = reference.load(path, QUICK)
     for fov in (30.0, 90.0):
-        options = Options(accuracy=model.accuracy, perspective=Perspective(fov=fov))
+        options = Options(accuracy=model.accuracy, perspective=Perspective(fov=fov), **AT_SIZE)
         (drawing,) = hlr.draw_views(path, ["iso"], options)
         document = exchange.parse(render(drawing, "json"))
         assert document.camera.eye is not None

@@ -15,6 +15,7 @@ from peers import models, referee
 import hlr
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.saving import render
+from support.at_size import AT_SIZE
 from support.referee import exchange, reference
 from support.referee.judge import RayCaster
 from support.referee.seen import look
@@ -62,7 +63,7 @@ def bracket(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, referee.Ref
     """A file, its referee, and the document of its isometric drawing."""
     path = models.save("bracket", tmp_path_factory.mktemp("bracket"))
     model = reference.load(path, QUICK)
-    drawing = hlr.draw(path, "iso", accuracy=model.accuracy)
+    drawing = hlr.draw(path, "iso", accuracy=model.accuracy, **AT_SIZE)
     return path, referee.Referee(model, referee.curves_of(path), PIXELS), json.loads(render(drawing, "json"))
 
 
@@ -137,7 +138,9 @@ def test_a_drawing_made_without_a_face_is_refused(bracket: Any) -> None:
     shape = models.MODELS["bracket"]()
     without = BRepTools_ReShape()
     without.Remove(shape.faces(">Z").val().wrapped)
-    drawing = hlr.draw(without.Apply(shape.val().wrapped), "iso", accuracy=reference.load(path, QUICK).accuracy)
+    drawing = hlr.draw(
+        without.Apply(shape.val().wrapped), "iso", accuracy=reference.load(path, QUICK).accuracy, **AT_SIZE
+    )
     found = judging.judge("bracket", "hlr", exchange.parse(render(drawing, "json")))
     assert found.row.bad, found.row
 

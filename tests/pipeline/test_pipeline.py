@@ -16,6 +16,7 @@ import hlr
 from hlr import Options, Perspective, StrictError
 from hlr.drawing.saving import render
 from hlr.pipeline import session
+from support.at_size import ALL_LINES, AT_SIZE
 from support.measures import apart, counts, placed, segments, straight
 from support.models import box, parts, rotation, solids
 from support.programs import environment
@@ -43,7 +44,7 @@ PARALLEL = [(model, camera) for model in MODELS for camera in ("parallel", "half
 @pytest.mark.parametrize(("model", "camera"), [*PARALLEL, ("ball", "perspective"), ("ball", "eye"), ("mesh", "eye")])
 def test_points_on_paper_are_points_of_the_model(model, camera):
     views = VIEWS[:1] if camera == "eye" else VIEWS
-    for drawing in hlr.draw_views(MODELS[model](), views, Options(**CAMERAS[camera])):
+    for drawing in hlr.draw_views(MODELS[model](), views, Options(**AT_SIZE | CAMERAS[camera])):
         assert drawing.lines
         expect_projected(drawing)
 
@@ -83,7 +84,7 @@ def expect_projected(drawing):
 
 
 def test_a_file_in_metres_with_y_up(tmp_path):
-    front, top = hlr.draw_views(glb(tmp_path), ["front", "top"], Options(scale=0.01))
+    front, top = hlr.draw_views(glb(tmp_path), ["front", "top"], Options(scale=0.01, **ALL_LINES))
     document = json.loads(render(front, "json"))
     assert document["model"] == {"unit": 1000, "up_axis": [[1, 0, 0], [0, 0, -1], [0, 1, 0]]}
     # 1 m wide and 3 m high, at 1:100; from above 1 m by 2 m.
@@ -122,22 +123,22 @@ def test_several_views_read_and_mesh_once(monkeypatch):
 
     monkeypatch.setattr(session, "open_selected", opening)
     monkeypatch.setattr(session, "build", building)
-    drawings = hlr.draw_views(bracket(), ["front", "top", "right", "iso"])
+    drawings = hlr.draw_views(bracket(), ["front", "top", "right", "iso"], hlr.Options(**AT_SIZE))
     assert [d.view.name for d in drawings] == ["front", "top", "right", "iso"]
     assert seen == {"open": 1, "mesh": 1, "build": 1}
 
 
 def test_views_drawn_together_are_those_drawn_alone():
     for model in (bracket(), MODELS["mesh"]()):
-        options = Options(accuracy=0.02)
+        options = Options(accuracy=0.02, **AT_SIZE)
         for view, drawing in zip(VIEWS, hlr.draw_views(model, VIEWS, options), strict=True):
-            assert bare(drawing, "json") == bare(hlr.draw(model, view, accuracy=0.02), "json")
+            assert bare(drawing, "json") == bare(hlr.draw(model, view, accuracy=0.02, **AT_SIZE), "json")
 
 
 @pytest.mark.parametrize("model", MODELS)
 def test_any_number_of_threads_gives_the_same_bytes(model):
     for view in ("iso", (2.0, 1.0, -3.0)):
-        drawings = [hlr.draw(MODELS[model](), view, threads=n, smooth=True) for n in (1, 2, 4)]
+        drawings = [hlr.draw(MODELS[model](), view, threads=n, smooth=True, scale=1.0, hidden=True) for n in (1, 2, 4)]
         for kind in FORMATS:
             assert len({bare(drawing, kind) for drawing in drawings}) == 1
 
@@ -145,7 +146,7 @@ def test_any_number_of_threads_gives_the_same_bytes(model):
 @pytest.mark.parametrize("model", ["bracket", "clash", "ball"])
 def test_the_same_object_drawn_twice_is_the_same_drawing(model):
     thing = MODELS[model]()
-    assert bare(hlr.draw(thing), "json") == bare(hlr.draw(thing), "json")
+    assert bare(hlr.draw(thing, **AT_SIZE), "json") == bare(hlr.draw(thing, **AT_SIZE), "json")
 
 
 PROGRAM = """
@@ -164,7 +165,7 @@ def test_another_process_gives_the_same_bytes():
     done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment())
     here = []
     for name, make in MODELS.items():
-        for drawing in hlr.draw_views(make(), VIEWS):
+        for drawing in hlr.draw_views(make(), VIEWS, hlr.Options(**AT_SIZE)):
             here.append(" ".join([name, *(hashlib.sha256(bare(drawing, kind)).hexdigest() for kind in FORMATS)]))
     assert done.stdout.splitlines() == here
 
@@ -178,7 +179,7 @@ def crowd(order):
 @pytest.mark.parametrize("order", [(3, 2, 1, 0), (1, 3, 0, 2), (2, 0, 3, 1)])
 @pytest.mark.parametrize("view", VIEWS)
 def test_the_order_of_parts_does_not_matter(order, view):
-    one, other = hlr.draw(crowd(range(4))[0], view), hlr.draw(crowd(order)[0], view)
+    one, other = hlr.draw(crowd(range(4))[0], view, **AT_SIZE), hlr.draw(crowd(order)[0], view, **AT_SIZE)
     assert straight(one) == straight(other)
 
     def owned(drawing, names):
@@ -198,17 +199,17 @@ def test_the_order_of_parts_does_not_matter(order, view):
 @pytest.mark.parametrize("view", VIEWS)
 def test_what_stands_behind_or_beside_changes_no_visible_line(view):
     base = [((20, 20, 20), (0, 0, 0)), ((40, 4, 4), (0, 0, 0))]
-    alone = hlr.draw(parts(*(box(*b) for b in base)), view, accuracy=0.02)
+    alone = hlr.draw(parts(*(box(*b) for b in base)), view, accuracy=0.02, **AT_SIZE)
     d = np.asarray(alone.view.direction)
     right = np.asarray(alone.view.right)
     behind = box((6, 6, 6), tuple(-60 * d))
     beside = box((6, 6, 6), tuple(90 * right))
-    after = hlr.draw(parts(*(box(*b) for b in base), behind), view, accuracy=0.02)
+    after = hlr.draw(parts(*(box(*b) for b in base), behind), view, accuracy=0.02, **AT_SIZE)
     # The grid of integers is laid anew for the larger scene: equal but for rounding. Intersection lines lie on surfaces
     # up to that rounding, and where they dive behind one is known to within a tolerance of a fiftieth of the accuracy.
     near = 0.02 / 50
     assert apart(segments(after, True), segments(alone, True)) < near
-    after = hlr.draw(parts(*(box(*b) for b in base), beside), view, accuracy=0.02)
+    after = hlr.draw(parts(*(box(*b) for b in base), beside), view, accuracy=0.02, **AT_SIZE)
     for visible in (True, False):
         mine = segments(after, visible)
         mine = mine[(np.abs(mine[:, :, 0]) < 60).all(axis=1)]
@@ -216,8 +217,8 @@ def test_what_stands_behind_or_beside_changes_no_visible_line(view):
 
 
 def test_what_stands_before_hides():
-    alone = hlr.draw(solids(((20, 20, 20), (0, 0, 0))), "front")
-    covered = hlr.draw(solids(((20, 20, 20), (0, 0, 0)), ((60, 1, 60), (0, -30, 0))), "front")
+    alone = hlr.draw(solids(((20, 20, 20), (0, 0, 0))), "front", **AT_SIZE)
+    covered = hlr.draw(solids(((20, 20, 20), (0, 0, 0)), ((60, 1, 60), (0, -30, 0))), "front", **AT_SIZE)
     assert {k[:2] for k in straight(covered, False)} == {k[:2] for k in straight(alone, True)}
 
 
@@ -226,34 +227,34 @@ def test_what_stands_before_hides():
 def test_model_and_camera_turned_together_give_the_same_picture(axis, angle):
     turn = rotation(axis, angle)
     meshes = [box((20, 20, 20)), box((40, 4, 4), (0, 1, 2)), box((9, 8, 7), (5, -14, 9))]
-    still = hlr.draw(parts(*meshes), (3, -2, 1.5), up=(0, 0, 1))
+    still = hlr.draw(parts(*meshes), (3, -2, 1.5), up=(0, 0, 1), **AT_SIZE)
     for mesh in meshes:
         mesh.vertices = mesh.vertices @ turn.T
-    turned = hlr.draw(parts(*meshes), tuple(turn @ (3, -2, 1.5)), up=tuple(turn @ (0, 0, 1)))
+    turned = hlr.draw(parts(*meshes), tuple(turn @ (3, -2, 1.5)), up=tuple(turn @ (0, 0, 1)), **AT_SIZE)
     for visible in (True, False):
         assert apart(segments(still, visible), segments(turned, visible)) < still.accuracy.used
 
 
 def test_moving_the_model_moves_only_the_origin():
     meshes = [box((20, 20, 20)), box((40, 4, 4), (0, 1, 2))]
-    still = hlr.draw(parts(*meshes), "iso")
+    still = hlr.draw(parts(*meshes), "iso", **AT_SIZE)
     for mesh in meshes:
         mesh.apply_translation((1024.0, -512.0, 256.0))
-    moved = hlr.draw(parts(*meshes), "iso")
+    moved = hlr.draw(parts(*meshes), "iso", **AT_SIZE)
     assert counts(moved) == counts(still)
     for a, b in zip(still.lines, moved.lines, strict=True):
         assert a.points == pytest.approx(b.points, abs=1e-6)
 
 
 def test_hidden_lines_can_be_left_out():
-    with_, without = (hlr.draw(clash(), "iso", hidden=h) for h in (True, False))
+    with_, without = (hlr.draw(clash(), "iso", hidden=h, scale=1.0, smooth=False) for h in (True, False))
     assert straight(without) == straight(with_, True)
     assert all(line.visible for line in without.lines)
 
 
 def test_times_and_progress():
     told = []
-    drawing = hlr.draw(bracket(), "iso", progress=lambda stage, done: told.append((stage, done)))
+    drawing = hlr.draw(bracket(), "iso", progress=lambda stage, done: told.append((stage, done)), **AT_SIZE)
     stages = ("source", "tessellate", "scene", "plan", "visibility", "linework")
     assert set(drawing.timings) == {*stages, "total"}
     assert drawing.timings["total"] == pytest.approx(sum(drawing.timings[s] for s in stages))
@@ -269,7 +270,7 @@ def test_times_and_progress():
 
 
 def test_saving_and_reading_back(tmp_path):
-    drawing = hlr.draw(bracket(), "iso")
+    drawing = hlr.draw(bracket(), "iso", **AT_SIZE)
     for kind in FORMATS:
         path = drawing.save(tmp_path / f"part.{kind}")
         assert path.read_bytes()[:1] in (b"{", b"<", b"%")
@@ -282,19 +283,19 @@ def test_saving_and_reading_back(tmp_path):
 def test_strict_turns_a_warning_into_an_error():
     opened = box((10, 10, 10))
     opened.update_faces(opened.face_normals[:, 2] < 0.5)
-    assert hlr.draw(opened, "front").notes
+    assert hlr.draw(opened, "front", **AT_SIZE).notes
     with pytest.raises(StrictError, match="is drawn as it is: open"):
-        hlr.draw(opened, "front", strict=True)
-    hlr.draw(box((10, 10, 10)), "front", strict=True)
+        hlr.draw(opened, "front", strict=True, **AT_SIZE)
+    hlr.draw(box((10, 10, 10)), "front", strict=True, **AT_SIZE)
 
 
 def test_strict_minds_every_view(monkeypatch):
     # 3 mm seen from the front, 9 mm seen from above. The remark about that stands for a warning.
     monkeypatch.setattr("hlr.drawing.notes.REMARKS", frozenset())
     model = box((2, 9, 2))
-    assert not hlr.draw(model, "top").notes
+    assert not hlr.draw(model, "top", **AT_SIZE).notes
     with pytest.raises(StrictError):
-        hlr.draw_views(model, ["top", "front"], Options(strict=True))
+        hlr.draw_views(model, ["top", "front"], Options(strict=True, **AT_SIZE))
 
 
 def test_info_of_a_model():
@@ -313,7 +314,7 @@ def test_info_of_a_model():
 def test_each_part_keeps_its_name_color_and_place():
     red = cq.Color(1, 0, 0)
     model = cq.Assembly().add(cq.Workplane().box(1, 1, 1), name="pin", color=red, loc=cq.Location((5, 6, 7)))
-    (part,) = hlr.draw(model, "front", scale=20.0).parts
+    (part,) = hlr.draw(model, "front", scale=20.0, **ALL_LINES).parts
     assert part.name == "pin"
     assert part.color == pytest.approx((1, 0, 0))
     assert part.transform[:3, 3] == pytest.approx((5, 6, 7))

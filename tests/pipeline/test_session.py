@@ -11,6 +11,7 @@ from hlr.image.image import Image
 from hlr.pipeline import session as sessions
 from hlr.pipeline.session import Session, refuse_warnings
 from hlr.scene.scene import Scene
+from support.at_size import ALL_LINES, AT_SIZE
 
 
 def box():
@@ -39,7 +40,7 @@ def stages(monkeypatch):
 
 
 def test_no_stage_runs_before_it_is_needed(stages):
-    session = Session(box(), ["front"], Options())
+    session = Session(box(), ["front"], Options(**AT_SIZE))
     assert stages == ["open_selected"]
     assert session.bounds.tolist() == [[-5.0, -10.0, -15.0], [5.0, 10.0, 15.0]]
     (draft,) = session.drafts()
@@ -56,9 +57,9 @@ def test_no_stage_runs_before_it_is_needed(stages):
     ("call", "last"),
     [
         (hlr.info, "build"),
-        (lambda thing: hlr.plan_views(thing, ["iso", "top"]), "decide"),
+        (lambda thing: hlr.plan_views(thing, ["iso", "top"], hlr.Options(**AT_SIZE)), "decide"),
         (lambda thing: hlr.preview(thing, edges=False, size=(40, 30)), "outlined"),
-        (lambda thing: hlr.draw_views(thing, ["iso", "top"]), "finished"),
+        (lambda thing: hlr.draw_views(thing, ["iso", "top"], hlr.Options(**AT_SIZE)), "finished"),
         (lambda thing: hlr.methods(thing, limit=0.01, methods=["z-buffer"], size=(40, 30)), "build"),
     ],
     ids=["info", "plan", "preview", "draw", "methods"],
@@ -71,13 +72,13 @@ def test_each_use_opens_and_builds_once_and_stops_where_it_likes(stages, call, l
 
 def test_progress_tells_the_stages_in_order():
     told = []
-    session = Session(box(), ["front"], Options(), lambda stage, done: told.append(stage))
+    session = Session(box(), ["front"], Options(**AT_SIZE), lambda stage, done: told.append(stage))
     session.drafts()
     assert list(dict.fromkeys(told)) == ["source", "tessellate", "scene"]
 
 
 def test_an_image_is_no_scene_and_leaves_its_scene_as_it_was():
-    session = Session(cylinder(), ["front", "top"], Options())
+    session = Session(cylinder(), ["front", "top"], Options(**AT_SIZE))
     front, top = session.drafts()
     points = session.scene.points.copy()
     shown = session.shown(front)
@@ -93,10 +94,10 @@ def test_outlines_that_the_scale_had_to_know_are_not_traced_again(monkeypatch):
 
     traced, real = [], _kernel.silhouettes
     monkeypatch.setattr(_kernel, "silhouettes", lambda *given, **named: traced.append(1) or real(*given, **named))
-    hlr.draw(cylinder(), "front")
+    hlr.draw(cylinder(), "front", **AT_SIZE)
     assert len(traced) == 1
     # Seen from the front its outlines do not reach beyond its rims: the first scale was the true one.
-    session = Session(cylinder(), ["front"], Options(fit=(100.0, 100.0), accuracy=0.05))
+    session = Session(cylinder(), ["front"], Options(fit=(100.0, 100.0), accuracy=0.05, **ALL_LINES))
     first = session.placements[0].tolerances.deflection
     (draft,) = session.drafts()
     before = len(traced)

@@ -16,6 +16,7 @@ from hlr import Options
 from hlr.errors import OptionError
 from hlr.pipeline import within
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 
 DATA = Path(__file__).parents[1] / "data"
 AS1 = DATA / "as1-oc-214.stp"
@@ -26,7 +27,7 @@ class World:
 
     def __init__(self, monkeypatch, cost, stop_at=None, meshing=0.5):
         self.now, self.asked = 0.0, []
-        cheap = hlr.draw(box(), "iso", accuracy=0.5)
+        cheap = hlr.draw(box(), "iso", accuracy=0.5, **AT_SIZE)
 
         def drawn(opened, views, options, progress):
             accuracy = options.accuracy
@@ -47,7 +48,9 @@ class World:
 
     def draw(self, seconds, **options):
         finished = []
-        (drawing,) = within.draw_within(box(), ["iso"], Options(within=seconds, **options), None, finished.append)
+        (drawing,) = within.draw_within(
+            box(), ["iso"], Options(within=seconds, **AT_SIZE | options), None, finished.append
+        )
         assert finished[-1] == [drawing]
         return drawing
 
@@ -127,8 +130,8 @@ def test_what_is_finished_survives_an_interruption(monkeypatch):
 
 
 def test_the_result_is_that_of_its_accuracy():
-    drawing = hlr.draw(box(), "iso", within=60.0, accuracy=0.1)
-    plain = hlr.draw(box(), "iso", accuracy=0.1)
+    drawing = hlr.draw(box(), "iso", within=60.0, accuracy=0.1, **AT_SIZE)
+    plain = hlr.draw(box(), "iso", accuracy=0.1, **AT_SIZE)
     assert [x.points.tolist() for x in drawing.lines] == [x.points.tolist() for x in plain.lines]
 
 
@@ -137,14 +140,14 @@ def test_the_model_is_read_once(monkeypatch):
 
     opened = []
     monkeypatch.setattr(drawings, "open_selected", lambda s, _: opened.append(s) or open_source(s))
-    hlr.draw(box(), within=30.0, accuracy=0.2)
+    hlr.draw(box(), within=30.0, accuracy=0.2, **AT_SIZE)
     assert len(opened) == 1
 
 
 @pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), "soon"])
 def test_no_time_is_refused(seconds):
     with pytest.raises(OptionError, match="seconds"):
-        hlr.draw(box(), within=seconds)
+        hlr.draw(box(), within=seconds, **AT_SIZE)
 
 
 def command(*arguments):

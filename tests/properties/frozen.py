@@ -15,6 +15,7 @@ import numpy as np
 from hlr import Drawing, Options
 from hlr.source import open_source
 from hlr.source.model import Frame, PartInfo, PartMesh, Tessellation
+from support.at_size import AT_SIZE
 from support.stand_ins import draw_source
 
 BREP = ("step", "iges", "brep", "script", "object")
@@ -76,4 +77,4 @@ def freeze(thing: Any, fineness: float) -> Frozen:
 
 def draw(model: Frozen, view: str | Sequence[float], accuracy: float, **options: Any) -> Drawing:
     """The accuracy is always given: by default it follows from the model's upright box, which turning changes."""
-    return draw_source(model, view, Options(accuracy=accuracy, **options))
+    return draw_source(model, view, Options(accuracy=accuracy, **AT_SIZE | options))

@@ -20,6 +20,7 @@ from hlr.pipeline.draw import draw_views
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import PLAN, SCENE, Decision, Decisions, Effect, Facts, Planner, everything_on, explained
 from hlr.visibility.segments import solve
+from support.at_size import AT_SIZE
 from support.brep_shapes import scrawled_cylinder
 from support.models import box, parts, rotation, sheet, solids
 
@@ -96,7 +97,7 @@ def test_every_effect_of_the_scene_has_its_scenes():
 @pytest.mark.parametrize("name", SCENES)
 def test_a_scene_that_calls_for_it_and_one_that_does_not(name):
     (calls, its), (not_, other) = SCENES[name]
-    on, off = hlr.draw(calls(), **its), hlr.draw(not_(), **other)
+    on, off = hlr.draw(calls(), **AT_SIZE | its), hlr.draw(not_(), **AT_SIZE | other)
     assert decided(on)[name].on
     # What may only touch may turn out not to.
     assert any(decided(on)[name].counts.values()) or name in ("contact tolerance", "piercing search")
@@ -122,7 +123,7 @@ def test_what_is_asked_for_is_on_and_nothing_else(name):
     asked = cq.Assembly().add(model).add(cq.Workplane().box(30, 3, 3))
     off = {option: False for option in ASKED[name]}
     for options, on in ((ASKED[name], True), (off, False)):
-        found = decided(hlr.draw(asked, (2, -1, 1), **options))[name]
+        found = decided(hlr.draw(asked, (2, -1, 1), **AT_SIZE | options))[name]
         assert (found.on, found.origin) == (on, "asked")
         assert any(found.counts.values()) == on
 
@@ -130,12 +131,12 @@ def test_what_is_asked_for_is_on_and_nothing_else(name):
 def test_circles_of_meshes():
     rod = trimesh.creation.cylinder(10, 20, sections=48)
     for circles in (True, False):
-        found = decided(hlr.draw(rod, circles=circles))["circles of meshes"]
+        found = decided(hlr.draw(rod, circles=circles, **AT_SIZE))["circles of meshes"]
         assert found.on == circles and any(found.counts.values()) == circles
 
 
 def test_readers():
-    mesh, brep = decided(hlr.draw(box((9, 8, 7)))), decided(hlr.draw(cq.Workplane().box(9, 8, 7)))
+    mesh, brep = decided(hlr.draw(box((9, 8, 7)), **AT_SIZE)), decided(hlr.draw(cq.Workplane().box(9, 8, 7), **AT_SIZE))
     for one, other, reader in ((mesh, brep, "mesh reader"), (brep, mesh, "B-rep reader")):
         assert one[reader].on and any(one[reader].counts.values())
         assert not other[reader].on and not any(other[reader].counts.values())
@@ -152,9 +153,9 @@ def exact(drawing):
 
 def expect_neutral(make, views=("iso",), **options):
     """Forced on, what the plan left off changes nothing. Returns the drawings."""
-    plain = hlr.draw_views(make(), views, Options(**options))
+    plain = hlr.draw_views(make(), views, Options(**AT_SIZE | options))
     with everything_on():
-        forced = hlr.draw_views(make(), views, Options(**options))
+        forced = hlr.draw_views(make(), views, Options(**AT_SIZE | options))
     for one, other in zip(plain, forced, strict=True):
         assert exact(one) == exact(other)
         assert all(d.on for d in other.plan if d.origin == SCENE)
@@ -204,7 +205,9 @@ def test_straight_edges_that_a_file_writes_as_splines():
     splines = cq.Shape.cast(BRepBuilderAPI_NurbsConvert(box.wrapped).Shape())
     (drawing,) = expect_neutral(lambda: splines, [(1, -2, 1.5)])
     assert decided(drawing)["exact curves"].counts["curves_sought"] == 0
-    assert [x.points.tolist() for x in drawing.lines] == [x.points.tolist() for x in hlr.draw(box, (1, -2, 1.5)).lines]
+    assert [x.points.tolist() for x in drawing.lines] == [
+        x.points.tolist() for x in hlr.draw(box, (1, -2, 1.5), **AT_SIZE).lines
+    ]
 
 
 directions = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda a: np.linalg.norm(a) > 0.1)
@@ -260,7 +263,7 @@ def both(model, view, name):
 
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(session, "solve", solving)
-        draw_views(model, [view])
+        draw_views(model, [view], hlr.Options(**AT_SIZE))
     return out
 
 
@@ -271,7 +274,7 @@ def expect_same_pieces(one, other):
 
 def test_a_body_that_is_convex_but_for_a_notch_is_searched():
     notched = cq.Workplane().box(20, 20, 20).faces(">Z").workplane().rect(4, 4).cutBlind(-1)
-    found = decided(hlr.draw(notched))["crossing search"]
+    found = decided(hlr.draw(notched, **AT_SIZE))["crossing search"]
     assert found.on and found.counts["crossing_tests"] > 0
 
 
@@ -299,7 +302,7 @@ def test_views_drawn_together_trace_outlines_once(monkeypatch):
     calls = []
     real = _kernel.silhouettes
     monkeypatch.setattr(_kernel, "silhouettes", lambda *a, **k: calls.append(1) or real(*a, **k))
-    hlr.draw_views(ball(), ["front", "iso", "top"])
+    hlr.draw_views(ball(), ["front", "iso", "top"], hlr.Options(**AT_SIZE))
     assert len(calls) == 3
 
 
@@ -335,7 +338,7 @@ def test_the_table_for_people():
 
 @pytest.mark.slow
 def test_planned_without_drawing_as_when_drawn():
-    for options in (Options(), Options(fit=(100, 80), hidden=False, perspective=Perspective())):
+    for options in (Options(**AT_SIZE), Options(fit=(100, 80), hidden=False, perspective=Perspective(), smooth=False)):
         planned = hlr.plan_views(DATA / "as1-oc-214.stp", ["iso", "front"], options)
         drawn = hlr.draw_views(DATA / "as1-oc-214.stp", ["iso", "front"], options)
         for plan, drawing in zip(planned, drawn, strict=True):
@@ -346,7 +349,7 @@ def test_planned_without_drawing_as_when_drawn():
 
 
 def test_json_carries_the_plan():
-    document = json.loads(render(hlr.draw(box((9, 8, 7))), "json"))
+    document = json.loads(render(hlr.draw(box((9, 8, 7)), **AT_SIZE), "json"))
     hidden = next(d for d in document["plan"] if d["effect"] == "hidden lines")
     assert hidden == {
         "effect": "hidden lines",
@@ -370,7 +373,9 @@ def test_effects_of_a_preview():
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["as1-oc-214.stp", "nist_ctc_01_asme1_ap242-e1.stp", "cube_gears.3mf"])
 def test_visible_lines_are_the_same_without_the_hidden_ones(name):
-    with_, without = (hlr.draw(DATA / name, (1, -2, 1.5), hidden=hidden) for hidden in (True, False))
+    with_, without = (
+        hlr.draw(DATA / name, (1, -2, 1.5), hidden=hidden, scale=1.0, smooth=False) for hidden in (True, False)
+    )
     visible = [line for line in with_.lines if line.visible]
     assert len(visible) == len(without.lines)
     for one, other in zip(visible, without.lines, strict=True):
@@ -382,7 +387,7 @@ def test_visible_lines_are_the_same_without_the_hidden_ones(name):
 
 
 def test_decisions_become_records_when_they_are_looked_at():
-    planner = Planner(drawing_effects(), hlr.Options())
+    planner = Planner(drawing_effects(), hlr.Options(**AT_SIZE))
     planner.on("outlines", Facts(curved=2))
     planner.spent("outlines", outlines=3)
     late = Decisions(planner, {"outlines": 3})

@@ -16,6 +16,7 @@ from scene.crossings import CROSSING, THROUGH, TOUCHING, bent, bore, eight, over
 import hlr
 from hlr.drawing.notes import Note
 from hlr.drawing.saving import render
+from support.at_size import ALL_LINES, AT_SIZE
 from support.expected import differences, doubled, expect, ink, of_kind
 from support.meshes import as_parts
 from support.models import box, parts, solids
@@ -40,7 +41,7 @@ def met(drawing, visible=None):
 
 @pytest.mark.parametrize("model", [post, lambda: parts(*(box(*b) for b in CROSSING))], ids=["brep", "mesh"])
 def test_a_post_in_a_block(model):
-    drawing = hlr.draw(model(), VIEW)
+    drawing = hlr.draw(model(), VIEW, **AT_SIZE)
     front, right, back, left = ring(10)
     drawn = ink(replace(drawing, lines=tuple(met(drawing))))
     wanted = expect(drawing, [front, right], [back, left, *ring(-10)])
@@ -56,14 +57,14 @@ def test_a_post_in_a_block(model):
 
 def test_openings_seen_along_the_post_lie_under_its_outline():
     """From above all four corners of both rectangles fall on the post's own edges: nothing is drawn twice."""
-    drawing = hlr.draw(post(), "top")
+    drawing = hlr.draw(post(), "top", **AT_SIZE)
     assert not met(drawing)
 
 
 @pytest.mark.parametrize("accuracy", [0.2, 0.02])
 def test_parts_in_the_other_order(accuracy):
-    one = hlr.draw(solids(*CROSSING), VIEW, accuracy=accuracy)
-    other = hlr.draw(solids(*CROSSING[::-1]), VIEW, accuracy=accuracy)
+    one = hlr.draw(solids(*CROSSING), VIEW, accuracy=accuracy, **AT_SIZE)
+    other = hlr.draw(solids(*CROSSING[::-1]), VIEW, accuracy=accuracy, **AT_SIZE)
     assert met(other) and {(line.part, line.other) for line in met(other)} == {(0, 1)}
     assert not differences(ink(one), ink(other), accuracy)
 
@@ -72,18 +73,20 @@ def test_parts_in_the_other_order(accuracy):
 @pytest.mark.parametrize("accuracy", [0.5, 0.05, 0.01])
 @pytest.mark.parametrize("name", ["shaft in its bore, turned", "stack", "oblique stack", "coplanar", "ball on a plate"])
 def test_what_touches_has_none(name, accuracy):
-    for drawing in hlr.draw_views(TOUCHING[name](), ["iso", "front", VIEW], hlr.Options(accuracy=accuracy)):
+    for drawing in hlr.draw_views(TOUCHING[name](), ["iso", "front", VIEW], hlr.Options(accuracy=accuracy, **AT_SIZE)):
         assert drawing.lines and not met(drawing) and not drawing.notes
 
 
 def test_two_tessellations_have_none():
-    for drawing in hlr.draw_views(as_parts(tube(64, 0), tube(90, 0.37)), ["iso", "front", VIEW]):
+    for drawing in hlr.draw_views(
+        as_parts(tube(64, 0), tube(90, 0.37)), ["iso", "front", VIEW], hlr.Options(**AT_SIZE)
+    ):
         assert drawing.lines and not met(drawing)
 
 
 @pytest.mark.parametrize("scale", [0.1, 1, 20])
 def test_a_bore_has_none_at_any_scale(scale):
-    assert not met(hlr.draw(bore(17), "iso", scale=scale))
+    assert not met(hlr.draw(bore(17), "iso", scale=scale, **ALL_LINES))
 
 
 # Without them.
@@ -91,7 +94,7 @@ def test_a_bore_has_none_at_any_scale(scale):
 
 @pytest.mark.parametrize("model", [post, eight], ids=["two parts", "through itself"])
 def test_they_can_be_left_out(model):
-    with_, without = (hlr.draw(model(), VIEW, intersections=on) for on in (True, False))
+    with_, without = (hlr.draw(model(), VIEW, intersections=on, **AT_SIZE) for on in (True, False))
     assert met(with_) and not met(without)
     # The rest stays, but for what lies under intersection lines.
     rest = [line for line in with_.lines if line.kind != "intersection"]
@@ -102,7 +105,7 @@ def test_they_can_be_left_out(model):
 
 
 def test_hidden_ones_go_with_hidden_lines():
-    drawing = hlr.draw(post(), VIEW, hidden=False)
+    drawing = hlr.draw(post(), VIEW, hidden=False, scale=1.0, smooth=False)
     assert met(drawing, True) and not met(drawing, False)
 
 
@@ -123,7 +126,7 @@ def test_on_the_command_line(tmp_path):
 
 
 def test_json_names_both_parts():
-    drawing = hlr.draw(post(), VIEW)
+    drawing = hlr.draw(post(), VIEW, **AT_SIZE)
     lines = json.loads(render(drawing, "json"))["lines"]
     assert len(lines) == len(drawing.lines)
     for line in lines:
@@ -133,7 +136,7 @@ def test_json_names_both_parts():
 
 
 def test_svg_names_both_parts():
-    svg = render(hlr.draw(post(), VIEW), "svg")
+    svg = render(hlr.draw(post(), VIEW, **AT_SIZE), "svg")
     svg = svg.decode() if isinstance(svg, bytes) else svg
     seen, unseen = (
         re.findall(r'<g class="intersection">\n(.*?</g>)\n</g>', svg[a:b], re.S)
@@ -148,7 +151,7 @@ def test_svg_names_both_parts():
 
 
 def test_a_part_that_meets_itself_is_named_twice():
-    drawing = hlr.draw(eight(), VIEW)
+    drawing = hlr.draw(eight(), VIEW, **AT_SIZE)
     assert {(line.part, line.other) for line in met(drawing)} == {(0, 0)}
     assert drawing.notes == (Note("defects", f'Part "part" is drawn as it is: {THROUGH}.'),)
 
@@ -163,7 +166,7 @@ def test_a_part_that_meets_itself_is_named_twice():
 @pytest.mark.parametrize("model", [post, lambda: parts(*(box(*b) for b in CROSSING))], ids=["brep", "mesh"])
 def test_in_perspective_they_are_cut_with_everything_else(model, eye, target):
     camera = hlr.Perspective(eye=eye, target=target, fov=50)
-    drawing = hlr.draw(model(), "iso", perspective=camera)
+    drawing = hlr.draw(model(), "iso", perspective=camera, **AT_SIZE)
     wanted = [np.asarray(edge, float) for edge in ring(10) + ring(-10)]
     assert met(drawing, True)
     for line in met(drawing):
@@ -197,27 +200,27 @@ def distance(p, a, b):
 
 def test_notes_reach_the_drawing():
     many = parts(box((9, 9, 9)), *(bent(0).apply_translation((20 * k, 0, 0)) for k in range(1, 8)))
-    drawing = hlr.draw(many, "iso")
+    drawing = hlr.draw(many, "iso", **AT_SIZE)
     assert len(drawing.notes) == 6
     assert drawing.notes[0] == Note("defects", 'Part "part1" is drawn as it is: open: 3 border edges.')
     assert drawing.notes[-1] == Note("more-defects", "2 more parts have defects: see hlr info.")
     with pytest.raises(hlr.StrictError, match="part1"):
-        hlr.draw(many, "iso", strict=True)
+        hlr.draw(many, "iso", strict=True, **AT_SIZE)
 
 
 def test_a_compound_of_overlapping_boxes_draws_its_seam():
     """A hexagon, behind one of the boxes; half of it is seen from the side."""
-    drawing = hlr.draw(cq.Compound.makeCompound(overlapping_boxes()), (1, 1, 1))
+    drawing = hlr.draw(cq.Compound.makeCompound(overlapping_boxes()), (1, 1, 1), **AT_SIZE)
     (line,) = met(drawing)
     assert not line.visible and np.array_equal(line.points3[0], line.points3[-1]) and len(line.points3) == 7
     assert not drawing.notes
-    assert met(hlr.draw(cq.Compound.makeCompound(overlapping_boxes()), (1, -1, 0.3)), True)
+    assert met(hlr.draw(cq.Compound.makeCompound(overlapping_boxes()), (1, -1, 0.3), **AT_SIZE), True)
 
 
 @pytest.mark.parametrize("view", ["iso", (2, -3, -1), "top", "bottom"])
 def test_where_parts_that_cross_share_a_plane_no_line_is_drawn_twice(view):
     """Two bars through one another on one floor: there the lines of intersection are edges of the bars."""
-    drawing = hlr.draw(solids(((30, 8, 6), (0, 0, 3)), ((8, 30, 10), (0, 0, 5))), view)
+    drawing = hlr.draw(solids(((30, 8, 6), (0, 0, 3)), ((8, 30, 10), (0, 0, 5))), view, **AT_SIZE)
     assert drawing.lines and doubled(drawing) == 0
     for line in met(drawing):
         assert {*np.round(np.abs(line.points3[:, 0]), 2)} <= {4.0}
@@ -225,5 +228,5 @@ def test_where_parts_that_cross_share_a_plane_no_line_is_drawn_twice(view):
 
 def test_a_spindle_torus_is_drawn_without_a_tangle():
     for accuracy in (None, 0.1, 0.02):
-        drawing = hlr.draw(cq.Solid.makeTorus(3, 5), (0.3, -1, 0.2), accuracy=accuracy)
+        drawing = hlr.draw(cq.Solid.makeTorus(3, 5), (0.3, -1, 0.2), accuracy=accuracy, **AT_SIZE)
         assert not met(drawing)

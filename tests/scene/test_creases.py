@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 from support.meshes import rotation
 
 
@@ -40,7 +41,7 @@ def ridge(folds: list[float]) -> tuple[np.ndarray, np.ndarray]:
 
 def sharp(source: object, **options: object) -> float:
     """Millimetres of creases."""
-    drawing = hlr.draw(source, "iso", **options)
+    drawing = hlr.draw(source, "iso", **AT_SIZE | options)
     steps = (np.diff(line.points3, axis=0) for line in drawing.lines if line.kind == "sharp")
     return sum(float(np.sqrt((step**2).sum(axis=1)).sum()) for step in steps)
 

@@ -11,6 +11,7 @@ import trimesh
 
 import hlr
 from hlr import _kernel
+from support.at_size import AT_SIZE
 from support.meshes import merged
 
 RADIUS, LENGTH = 50.0, 100.0
@@ -30,12 +31,12 @@ def sheet(first: float, last: float, along: int, around: int, off: float = 0.0) 
 
 
 def kinds(mesh: Mesh, **options: object) -> Counter[str]:
-    return Counter(line.kind for line in hlr.draw(mesh, (1, -0.5, 1), **options).lines)
+    return Counter(line.kind for line in hlr.draw(mesh, (1, -0.5, 1), **AT_SIZE | options).lines)
 
 
 def drawn(mesh: Mesh, **options: object) -> float:
     """Millimetres of borders, in the model."""
-    found = hlr.draw(mesh, (1, -0.5, 1), **options)
+    found = hlr.draw(mesh, (1, -0.5, 1), **AT_SIZE | options)
     steps = [np.diff(line.points3, axis=0) for line in found.lines if line.kind == "boundary"]
     return sum(float(np.sqrt((step**2).sum(axis=1)).sum()) for step in steps)
 

@@ -11,6 +11,7 @@ import trimesh
 import hlr
 from hlr.drawing.saving import render as written
 from hlr.errors import OptionError
+from support.at_size import ALL_LINES, AT_SIZE
 
 CUBE = np.array([[x, y, z] for x in (0, 20) for y in (0, 20) for z in (0, 20)], float)
 SIDES = np.array(
@@ -20,7 +21,7 @@ SIDES = np.array(
 
 
 def cube(view="iso", **options):
-    return hlr.draw((CUBE, SIDES), view=view, fill=True, **options)
+    return hlr.draw((CUBE, SIDES), view=view, fill=True, **AT_SIZE | options)
 
 
 def area(drawing, face):
@@ -52,7 +53,7 @@ def test_the_lamp_is_at_the_viewers_shoulder():
 
 def test_a_face_keeps_its_hole():
     ring = trimesh.creation.annulus(4, 10, 3, sections=16)
-    drawing = hlr.draw(ring, view="top", fill=True)
+    drawing = hlr.draw(ring, view="top", fill=True, **AT_SIZE)
     assert len(drawing.fill.part) == 1
     assert drawing.fill.faces.tolist() == [0, 2]
     outer, inner = (8.0 * r * r * np.sin(np.pi / 8) for r in (10, 4))
@@ -65,7 +66,7 @@ def test_near_faces_are_painted_over_far_ones():
     box = np.array([[x, y, z] for x in (0, 8) for y in (0, 8) for z in (0, 8)], float)
     points = np.concatenate([CUBE, box + [6, -12, 6], box + [30, 0, 0]])
     faces = np.concatenate([SIDES, SIDES + 8, SIDES + 16])
-    drawing = hlr.draw((points, faces), view="front", fill=True, hidden=False)
+    drawing = hlr.draw((points, faces), view="front", fill=True, hidden=False, scale=1.0, smooth=False)
     page = pypdfium2.PdfDocument(io.BytesIO(written(drawing, "pdf")))[0]
     picture = np.asarray(page.render(scale=4 * 25.4 / 72).to_pil().convert("L"))
     # Between the lines there is no white: no gap within a face, nor where one ends over another.
@@ -82,7 +83,7 @@ def test_svg_and_pdf_carry_the_faces():
     assert len(re.findall(r'<path d="[^"]*" data-part=', group)) == 3
     assert len(set(re.findall(r'fill="(#[0-9a-f]{6})" stroke="\1"', group))) == 3
     assert b"Fill" in written(drawing, "pdf")
-    plain = hlr.draw((CUBE, SIDES))
+    plain = hlr.draw((CUBE, SIDES), **AT_SIZE)
     assert plain.fill is None and b'id="fill"' not in written(plain, "svg")
     # The lines are the same ones.
     assert svg.replace(group, "") == written(plain, "svg").decode()
@@ -97,7 +98,7 @@ def test_the_same_bytes_each_time():
 def test_parts_keep_their_colours(tmp_path):
     red = trimesh.creation.box((4, 4, 4))
     scene = trimesh.Scene([red, red.copy().apply_translation((9, 0, 0))])
-    drawing = hlr.draw(scene, fill=True)
+    drawing = hlr.draw(scene, fill=True, **AT_SIZE)
     assert set(drawing.fill.part.tolist()) == {0, 1}
     assert len(drawing.fill.part) == 6
 
@@ -107,12 +108,12 @@ def test_perspective_and_what_stands_behind_the_eye():
     camera = hlr.Perspective(eye=(60, -50, 40), target=(10, 10, 10))
     assert len(cube(perspective=camera).fill.part) == 3
     inside = hlr.Perspective(eye=(10, 10, 10), target=(10, 30, 10), fov=100.0)
-    assert len(hlr.draw((CUBE, SIDES[:, ::-1]), fill=True, perspective=inside).fill.part) >= 1
+    assert len(hlr.draw((CUBE, SIDES[:, ::-1]), fill=True, perspective=inside, **AT_SIZE).fill.part) >= 1
 
 
 def test_fill_is_yes_or_no():
     with pytest.raises(OptionError, match="fill is yes or no"):
-        hlr.draw((CUBE, SIDES), fill="yes")
+        hlr.draw((CUBE, SIDES), fill="yes", **AT_SIZE)
 
 
 def painted(drawing, at, dots=8):
@@ -143,7 +144,7 @@ def test_each_face_has_its_own_colour():
     colours = np.array([(200, 30, 30), (30, 200, 30), (30, 30, 200), (200, 200, 30), (200, 30, 200), (30, 200, 200)])
     mesh.visual.face_colors = np.column_stack([np.repeat(colours, 2, axis=0), np.full(12, 255)]).astype(np.uint8)
     for view in ("front", "back", "left", "right", "top", "bottom"):
-        drawing = hlr.draw(mesh, view=view, fill=True)
+        drawing = hlr.draw(mesh, view=view, fill=True, **AT_SIZE)
         assert painted(drawing, middle(drawing)) == pytest.approx(shown(mesh, view=view), abs=2)
 
 
@@ -154,7 +155,7 @@ def test_glass_shows_what_it_contains_and_keeps_its_opacity():
     glass = trimesh.Trimesh(CUBE, SIDES, process=False)
     glass.visual.face_colors = np.tile(np.array((40, 90, 220, 90), np.uint8), (12, 1))
     scene = trimesh.Scene([glass, inside])
-    drawing = hlr.draw(scene, view="front", fill=True)
+    drawing = hlr.draw(scene, view="front", fill=True, **AT_SIZE)
     seen = painted(drawing, middle(drawing))
     assert seen[0] > 1.2 * seen[2]
     assert seen == pytest.approx(shown(scene, view="front"), abs=2)
@@ -170,7 +171,7 @@ def test_a_cylinder_is_one_area_with_a_gradient():
     import cadquery as cq
 
     shaft = cq.Workplane("YZ").circle(5).extrude(40)
-    drawing = hlr.draw(shaft, view="front", fill=True)
+    drawing = hlr.draw(shaft, view="front", fill=True, **AT_SIZE)
     filled = drawing.fill
     assert len(filled.part) == len(filled.gradients) == 1 and filled.gradient.tolist() == [0]
     gradient = filled.gradients[0]
@@ -187,7 +188,7 @@ def test_a_cylinder_is_one_area_with_a_gradient():
 
 def test_bands_of_light_are_narrow_and_leave_no_gap():
     ball = trimesh.creation.icosphere(4, 20.0)
-    drawing = hlr.draw(ball, fill=True)
+    drawing = hlr.draw(ball, fill=True, **AT_SIZE)
     tones = np.sort(drawing.fill.colors[:, 0].astype(int))
     assert len(tones) > 20 and np.diff(tones).max() <= 5
     # Each is what is at least as light as itself: all lie within the first.
@@ -206,7 +207,13 @@ def test_a_hundred_sheets_through_one_another_take_bounded_time(turn):
     faces = (np.array([(0, 1, 2), (0, 2, 3)])[None] + 4 * np.arange(120)[:, None, None]).reshape(-1, 3)
     begin = time.process_time()
     drawing = hlr.draw(
-        (corners, faces), view=(1, 1, 1 + turn), fill=True, hidden=False, intersections=False, fit=(90, 90)
+        (corners, faces),
+        view=(1, 1, 1 + turn),
+        fill=True,
+        hidden=False,
+        intersections=False,
+        fit=(90, 90),
+        smooth=False,
     )
     (row,) = [d for d in drawing.plan if d.name == "fill"]
     assert row.on and "looked up every 0.05 mm" in row.reason
@@ -219,7 +226,7 @@ def test_where_two_sheets_pass_through_one_another_the_border_is_exact():
     one = np.array([(-10, -10, -10), (10, -10, -10), (10, 10, 10), (-10, 10, 10)], float)
     two = np.array([(-10, 10, -10), (10, 10, -10), (10, -10, 10), (-10, -10, 10)], float)
     faces = np.array([(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)])
-    drawing = hlr.draw((np.concatenate([one, two]), faces), view="front", fill=True)
+    drawing = hlr.draw((np.concatenate([one, two]), faces), view="front", fill=True, **AT_SIZE)
     # From the front the nearer halves are seen: the lower one of the first, the upper one of the second.
     assert sorted(area(drawing, k) for k in range(len(drawing.fill.part))) == pytest.approx([200, 200], rel=1e-4)
 
@@ -229,7 +236,7 @@ def test_corners_lie_where_the_model_has_them():
     rng = np.random.default_rng(2)
     for _ in range(5):
         way = rng.normal(size=3)
-        drawing = hlr.draw((CUBE, SIDES), view=tuple(way), fill=True)
+        drawing = hlr.draw((CUBE, SIDES), view=tuple(way), fill=True, **AT_SIZE)
         ends = np.concatenate([line.points[[0, -1]] for line in drawing.lines])
         apart = np.linalg.norm(drawing.fill.points[:, None] - ends[None], axis=2).min(axis=1)
         assert apart.max() < 0.05 and np.median(apart) < 1e-3
@@ -238,7 +245,7 @@ def test_corners_lie_where_the_model_has_them():
 def test_a_gradient_in_the_files():
     import cadquery as cq
 
-    drawing = hlr.draw(cq.Workplane().cylinder(20, 5), view="iso", fill=True)
+    drawing = hlr.draw(cq.Workplane().cylinder(20, 5), view="iso", fill=True, **AT_SIZE)
     svg = written(drawing, "svg").decode()
     assert svg.count("<linearGradient") == len(drawing.fill.gradients) == 1
     assert 'fill="url(#gradient-0)" stroke="url(#gradient-0)"' in svg
@@ -254,7 +261,7 @@ def test_glass_that_stands_on_a_floor_has_an_even_bottom():
     assembly.add(cq.Workplane().circle(30).extrude(-0.5), name="floor", color=cq.Color(0.9, 0.9, 0.8, 1.0))
     case = cq.Workplane().box(20, 20, 20, centered=(True, True, False))
     assembly.add(case, name="case", color=cq.Color(0.6, 0.7, 0.9, 0.35))
-    filled = hlr.draw(assembly, fill=True, scale=2).fill
+    filled = hlr.draw(assembly, fill=True, scale=2, **ALL_LINES).fill
     # The floor alone and through two walls, its rim, and the glass before nothing.
     assert len(filled.loops) - 1 < 16
 
@@ -267,7 +274,7 @@ def test_a_cone_has_no_bands(top):
     import pypdfium2
 
     cone = cq.Workplane().add(cq.Solid.makeCone(30, top, 60))
-    drawing = hlr.draw(cone, fill=True, hidden=False)
+    drawing = hlr.draw(cone, fill=True, hidden=False, scale=1.0, smooth=False)
     shown = hlr.preview(cone, antialias=False, size=(900, 900), background="transparent").pixels
     page = pypdfium2.PdfDocument(io.BytesIO(written(drawing, "pdf")))[0]
     picture = np.asarray(page.render(scale=4 * 25.4 / 72).to_pil().convert("RGB")).astype(int)[:, :, 0]

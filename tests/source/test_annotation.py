@@ -8,6 +8,7 @@ from cadquery import exporters
 
 import hlr
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 
 BODY, SHEET = 6, 1
 """Faces."""
@@ -72,12 +73,12 @@ def test_left_out_with_a_remark(tmp_path, extra):
 def test_drawing_preview_plan_and_info_agree(tmp_path):
     path = written(tmp_path / "part.step", cq.Workplane().box(10, 8, 4).val(), sheet(), extra=hidden("shell"))
     for asked, parts in (({}, 1), ({"annotations": True}, 2)):
-        drawing = hlr.draw(path, strict=True, **asked) if not asked else hlr.draw(path, **asked)
+        drawing = hlr.draw(path, strict=True, **AT_SIZE | asked) if not asked else hlr.draw(path, **AT_SIZE | asked)
         assert len(drawing.parts) == len(hlr.preview(path, size=(20, 20), **asked).parts) == parts
         assert len(hlr.info(path, **asked).parts) == parts
         assert ("annotation-left-out" in [note.code for note in drawing.notes]) == (parts == 1)
     with pytest.raises(hlr.OptionError, match="annotations is yes or no"):
-        hlr.draw(path, annotations="yes")
+        hlr.draw(path, annotations="yes", **AT_SIZE)
 
 
 def test_sheets_that_nothing_hides_are_drawn(tmp_path):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import hlr
+from support.at_size import AT_SIZE
 
 
 def face(sound, turned=(), with_curves=True):
@@ -54,7 +55,7 @@ SHAPES = {"plate": plate, "sleeve": sleeve, "ball": ball}
 @pytest.mark.parametrize("name", SHAPES)
 def test_it_is_drawn_as_it_is_meant(name, turned):
     sound = SHAPES[name]()
-    right, wrong = hlr.draw(face(sound), "iso"), hlr.draw(face(sound, turned), "iso")
+    right, wrong = hlr.draw(face(sound), "iso", **AT_SIZE), hlr.draw(face(sound, turned), "iso", **AT_SIZE)
     assert not [note for note in right.notes if note.code == "loops-turned"]
     (note,) = [note for note in wrong.notes if note.code == "loops-turned"]
     assert "1 of 1 faces has" in note.text and "wrong way round (face 0)" in note.text
@@ -62,7 +63,7 @@ def test_it_is_drawn_as_it_is_meant(name, turned):
 
 
 def test_poles_without_curves_in_the_parameter_plane_are_no_crash():
-    notes = hlr.draw([face(ball(), with_curves=False), cq.Workplane().box(1, 1, 1)], "iso").notes
+    notes = hlr.draw([face(ball(), with_curves=False), cq.Workplane().box(1, 1, 1)], "iso", **AT_SIZE).notes
     assert "not-meshed" in {note.code for note in notes}
 
 

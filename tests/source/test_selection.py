@@ -8,6 +8,7 @@ import hlr
 from hlr import OptionError, Options
 from hlr.source import open_source
 from hlr.source.selection import matches, open_selected
+from support.at_size import AT_SIZE
 
 
 def mesh_scene():
@@ -47,7 +48,7 @@ def test_what_a_pattern_means(name, pattern, is_meant):
 
 
 def parts(source, **options):
-    return [part.name for part in hlr.draw(source, **options).parts]
+    return [part.name for part in hlr.draw(source, **AT_SIZE | options).parts]
 
 
 @pytest.mark.parametrize("kind", ["mesh", "brep"])
@@ -65,13 +66,13 @@ def test_only_and_hide(kind):
 @pytest.mark.parametrize("kind", ["mesh", "brep"])
 def test_what_is_left_is_drawn_as_if_it_were_alone(kind):
     source = mesh_scene() if kind == "mesh" else assembly()
-    alone = open_selected(source, Options(only=("nut",)))
+    alone = open_selected(source, Options(only=("nut",), **AT_SIZE))
     low, high = open_source(source).bounds()
     assert (np.ptp(alone.bounds(), axis=0) < high - low).any()
     (mesh,) = alone.mesh(0.1, 0.3).parts
     assert mesh.name == "nut" and len(mesh.triangles)
     assert list(alone.appearances()) == ["nut"]
-    nut = hlr.draw(source, only=("nut",), report=kind == "brep")
+    nut = hlr.draw(source, only=("nut",), report=kind == "brep", **AT_SIZE)
     if kind == "brep":
         assert nut.reached is not None
         assert {line.part for line in nut.lines} == {0}
@@ -82,9 +83,12 @@ def test_what_is_left_is_drawn_as_if_it_were_alone(kind):
 def test_it_holds_for_every_kind_of_picture():
     scene = mesh_scene()
     assert [part.name for part in hlr.preview(scene, size=(20, 20), hide=("nut",)).parts] == ["bolt", "plate"]
-    for options in (Options(hide=("nut",), within=5.0), Options(hide=("nut",), within=5.0, report=True)):
+    for options in (
+        Options(hide=("nut",), within=5.0, **AT_SIZE),
+        Options(hide=("nut",), within=5.0, report=True, **AT_SIZE),
+    ):
         assert [part.name for part in hlr.draw_views(scene, ["iso"], options)[0].parts] == ["bolt", "plate"]
-    (plan,) = hlr.plan_views(scene, ["iso"], Options(only=("nut",)))
+    (plan,) = hlr.plan_views(scene, ["iso"], Options(only=("nut",), **AT_SIZE))
     crossing = next(d for d in plan.decisions if d.name == "crossing search")
     assert not crossing.on  # a box alone is convex
 
@@ -103,4 +107,4 @@ def test_it_holds_for_every_kind_of_picture():
 )
 def test_refusals(options, words):
     with pytest.raises(OptionError, match=words):
-        hlr.draw(mesh_scene(), **options)
+        hlr.draw(mesh_scene(), **AT_SIZE | options)

@@ -10,6 +10,7 @@ import pytest
 from hlr.source import open_source
 from hlr.source.model import PartMesh, SurfaceParameters
 from hlr.tables.line_classes import EdgeClass
+from support.at_size import AT_SIZE
 from support.brep_shapes import scrawled_cylinder
 
 cq = pytest.importorskip("cadquery")
@@ -273,7 +274,7 @@ def test_the_triangles_that_a_caller_s_shape_brings_stay(name, meshed):
     before = carried(owner.wrapped)
     inside = values(before)
     assert bool(inside) == meshed
-    drawing = hlr.draw(owner, "iso", accuracy=0.01)
+    drawing = hlr.draw(owner, "iso", accuracy=0.01, **AT_SIZE)
     hlr.info(owner)
     assert drawing.counters["triangles"] > 100 and drawing.counters["rescued_faces"] == (name == "to be rescued")
     after = carried(owner.wrapped)

@@ -7,6 +7,7 @@ from hlr.lab.study.watch import Watch
 from hlr.lab.study.zbuffer import hidden_lines
 from hlr.pipeline.session import Session
 from hlr.request.options import Options
+from support.at_size import AT_SIZE
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
 QUADS = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -22,7 +23,7 @@ def boxes(*places):
 
 
 def drawn(model, view, pixels):
-    options = Options(accuracy=0.01)
+    options = Options(accuracy=0.01, **AT_SIZE)
     session = Session(model, [view], options)
     draft = session.drafts()[0]
     return hidden_lines(draft.image, session.plan(draft, draft.image).role, pixels, Watch())

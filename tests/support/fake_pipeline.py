@@ -45,7 +45,7 @@ ASKED = []
 """What draw_views was called with, last call last."""
 
 
-def draw_views(source, views, options, progress=None):
+def draw_views(source, views, options, progress=None, noted=None):
     ASKED.append((source, views, options))
     stem = Path(source).stem
     if progress is not None:

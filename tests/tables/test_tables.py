@@ -18,6 +18,7 @@ from hlr.source.model import Frame, PartInfo, PartMesh, Tessellation
 from hlr.tables.line_classes import LINE_CLASSES, EdgeClass, Kind, LineClass, by_number, names, optional
 from hlr.tables.readers import READERS, Reader
 from hlr.tables.writers import WRITERS, Writer
+from support.at_size import AT_SIZE
 from support.programs import environment
 
 CORNERS = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float64)
@@ -98,7 +99,7 @@ LINE_CLASS = LineClass(
     place=6,
     border=True,
     option="smooth",
-    by_default=False,
+    by_default=None,
     counter="weld_lines",
     width_mm=0.7,
     hidden_width_mm=0.35,
@@ -150,30 +151,30 @@ def test_rows_of_line_classes_say_what_the_types_and_options_say():
 
 
 def test_a_reader_is_a_row(added):
-    drawing = hlr.draw(added)
+    drawing = hlr.draw(added, **AT_SIZE)
     assert (drawing.source, len(drawing.lines)) == ("cube.dummy", 11)
     model = hlr.info(added)
     assert (model.kind, model.parts[0].faces, model.parts[0].edges, model.parts[0].closed) == ("dummy", 6, 12, True)
     assert hlr.preview(added, size=(64, 64)).pixels.min() < 255
-    reading = {d.name: d for d in hlr.plan_views(added, ["iso"])[0].decisions}
+    reading = {d.name: d for d in hlr.plan_views(added, ["iso"], hlr.Options(**AT_SIZE))[0].decisions}
     assert reading["B-rep reader"].reason == "the source is a DUMMY file"
     assert reading["B-rep reader"].on and not reading["mesh reader"].on
 
 
 def test_a_file_of_a_new_reader_is_a_model_that_no_drawing_overwrites(added):
     with pytest.raises(hlr.WriteError, match="it is a model"):
-        hlr.draw(added).save(added, "svg")
+        hlr.draw(added, **AT_SIZE).save(added, "svg")
 
 
 def test_the_ending_is_named_where_another_cannot_be_read(added):
     other = added.with_suffix(".xyz")
     other.write_text("20")
     with pytest.raises(hlr.SourceError, match=r" \.dummy\."):
-        hlr.draw(other)
+        hlr.draw(other, **AT_SIZE)
 
 
 def test_a_writer_is_a_row(added):
-    drawing = hlr.draw(added)
+    drawing = hlr.draw(added, **AT_SIZE)
     path = drawing.save(added.with_suffix(".txt"))
     assert path.read_text() == "".join(f"{line.kind} {line.visible}\n" for line in drawing.lines)
     file = io.BytesIO()
@@ -184,18 +185,18 @@ def test_a_writer_is_a_row(added):
 
 
 def test_a_line_class_is_a_row(added):
-    without, drawing = hlr.draw(added), hlr.draw(added, smooth=True)
+    without, drawing = hlr.draw(added, **AT_SIZE), hlr.draw(added, smooth=True, scale=1.0, hidden=True)
     assert {line.kind for line in without.lines} == {"sharp"}
     assert [line.edge for line in drawing.lines if line.kind == "weld"] == [WELDED]
     assert (without.counters["weld_lines"], drawing.counters["weld_lines"]) == (0, 1)
     (decision,) = (d for d in drawing.plan if d.name == "welds")
     assert (decision.on, decision.reason, dict(decision.counts)) == (True, "asked for", {"weld_lines": 1})
-    (planned,) = (d for d in hlr.plan_views(added, ["iso"])[0].decisions if d.name == "welds")
+    (planned,) = (d for d in hlr.plan_views(added, ["iso"], hlr.Options(**AT_SIZE))[0].decisions if d.name == "welds")
     assert (planned.on, planned.reason) == (False, "not asked for")
 
 
 def test_a_line_class_goes_through_every_file(added):
-    drawing = hlr.draw(added, smooth=True)
+    drawing = hlr.draw(added, smooth=True, scale=1.0, hidden=True)
     loaded = hlr.load(drawing.save(added.with_suffix(".json")))
     assert loaded == drawing
     assert [line["class"] for line in json.loads(drawing.to_json())["lines"]].count("weld") == 1
@@ -208,7 +209,7 @@ def test_a_line_class_goes_through_every_file(added):
 
 
 def test_hidden_lines_of_a_class_have_its_width_and_dash(added):
-    drawing = hlr.draw(added, view=(-1, -1, -1), smooth=True)
+    drawing = hlr.draw(added, view=(-1, -1, -1), smooth=True, scale=1.0, hidden=True)
     assert [line.visible for line in drawing.lines if line.kind == "weld"] == [False]
     svg = drawing.to_svg()
     assert '<g class="weld" stroke-width=".35">' in svg
@@ -219,7 +220,7 @@ def test_hidden_lines_of_a_class_have_its_width_and_dash(added):
 
 def test_a_class_that_nobody_has_to_ask_for_is_always_drawn(added, monkeypatch):
     monkeypatch.setitem(LINE_CLASSES, "weld", replace(LINE_CLASS, option=None, by_default=True))
-    drawing = hlr.draw(added)
+    drawing = hlr.draw(added, **AT_SIZE)
     assert drawing.counters["weld_lines"] == 1
     (decision,) = (d for d in drawing.plan if d.name == "welds")
     assert (decision.on, decision.reason) == (True, "drawn in every drawing")
@@ -251,11 +252,11 @@ def test_help_texts_name_all_rows(added):
 
 def test_any_object_that_follows_the_protocol_is_drawn():
     """No row: the kind is unknown, so it counts as a mesh."""
-    drawing = hlr.draw(Cube(20.0), smooth=True)
+    drawing = hlr.draw(Cube(20.0), smooth=True, scale=1.0, hidden=True)
     assert len(drawing.lines) == 12
     assert hlr.info(Cube(20.0)).parts[0].edges == 12
     assert hlr.preview(Cube(20.0), size=(64, 64)).pixels.min() < 255
-    (plan,) = hlr.plan_views(Cube(20.0), ["iso"])
+    (plan,) = hlr.plan_views(Cube(20.0), ["iso"], hlr.Options(**AT_SIZE))
     assert next(d.reason for d in plan.decisions if d.name == "mesh reader") == "the source is a mesh (dummy)"
 
 
@@ -264,7 +265,7 @@ def test_what_stands_for_a_source_is_one():
         def __getattr__(self, name):
             return getattr(Cube(20.0), name)
 
-    assert len(hlr.draw(Proxy()).lines) == 12
+    assert len(hlr.draw(Proxy(), **AT_SIZE).lines) == 12
 
 
 def test_what_is_nearly_a_source_is_told_what_it_lacks():
@@ -275,15 +276,15 @@ def test_what_is_nearly_a_source_is_told_what_it_lacks():
         )  # fmt: skip
 
     with pytest.raises(hlr.SourceError, match=r"type Half .* it lacks transparent and appearances\."):
-        hlr.draw(Half())
+        hlr.draw(Half(), **AT_SIZE)
 
 
 def test_an_object_in_memory_is_a_row(monkeypatch):
     reader = Reader("a dummy object", "dummy", f"{HERE}:open_size", fits=f"{HERE}:is_size")
     monkeypatch.setitem(READERS, reader.title, reader)
-    assert len(hlr.draw(Size(20.0)).lines) == 12
+    assert len(hlr.draw(Size(20.0), **AT_SIZE).lines) == 12
     with pytest.raises(hlr.SourceError, match=r"\(vertices, faces\), a dummy object or the name of a file\."):
-        hlr.draw(object())
+        hlr.draw(object(), **AT_SIZE)
 
 
 class Size(float):
@@ -301,7 +302,7 @@ def open_size(thing):
 def test_a_package_that_a_reader_needs_is_named_where_it_is_missing(added, monkeypatch):
     monkeypatch.setitem(READERS, "DUMMY", replace(READER, entry=f"{HERE}:open_with_library", needs="no_such_library"))
     with pytest.raises(hlr.SourceError, match=r"cube\.dummy cannot be read: .* no_such_library; install it"):
-        hlr.draw(added)
+        hlr.draw(added, **AT_SIZE)
 
 
 def open_with_library(path):

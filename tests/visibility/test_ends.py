@@ -8,6 +8,7 @@ import pytest
 import hlr
 from hlr.lab.measure import measured
 from hlr.source import open_source
+from support.at_size import AT_SIZE
 
 ACCURACY = 0.5
 """Coarse: a chord of the rim below is 6 mm long, twelve accuracies."""
@@ -17,7 +18,7 @@ VIEW = (0, -1, 0.6)
 
 def keeps(model, view=VIEW):
     source = open_source(model)
-    drawing = hlr.draw(source, view, accuracy=ACCURACY)
+    drawing = hlr.draw(source, view, accuracy=ACCURACY, **AT_SIZE)
     reached = measured(source, drawing, samples=4000)
     assert reached.labels.longest <= ACCURACY, reached.labels
     assert reached.changes.worst <= ACCURACY

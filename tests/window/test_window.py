@@ -18,6 +18,7 @@ from hlr.drawing.line import Bounds, Line
 from hlr.window.fill import cut_fill
 from hlr.window.frame import Frame
 from hlr.window.lines import cut_lines
+from support.at_size import AT_SIZE
 from support.models import box
 
 FLAT = DrawnView("top", "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
@@ -69,12 +70,12 @@ CAMERAS = [{}, {"perspective": hlr.Perspective(fov=70.0)}]
 @pytest.mark.parametrize("options", CAMERAS)
 @pytest.mark.parametrize("across", [0, 1])
 def test_two_windows_side_by_side_make_the_whole(options, across):
-    whole = hlr.draw(housing(), smooth=True, **options)
+    whole = hlr.draw(housing(), **AT_SIZE | {"smooth": True} | options)
     low, high = np.array(whole.bounds[:2]), np.array(whole.bounds[2:])
     middle = low[across] + 0.37 * (high - low)[across]
     first, second = [*low, *high], [*low, *high]
     first[2 + across] = second[across] = middle
-    halves = [hlr.draw(housing(), smooth=True, window=tuple(w), **options) for w in (first, second)]
+    halves = [hlr.draw(housing(), window=tuple(w), **AT_SIZE | {"smooth": True} | options) for w in (first, second)]
     total = sum((lengths(half) for half in halves), Counter())
     assert total == tolerant(lengths(whole)) and all(half.lines for half in halves)
     for half, window in zip(halves, (first, second), strict=True):
@@ -108,9 +109,11 @@ def expect_ends_of_curves(each):
 @pytest.mark.slow
 @pytest.mark.parametrize("options", CAMERAS)
 def test_points_in_the_model_are_those_that_are_seen(options):
-    whole = hlr.draw(housing(), **options)
+    whole = hlr.draw(housing(), **AT_SIZE | options)
     b = whole.bounds
-    cut = hlr.draw(housing(), window=(0.3 * b.width, 0.3 * b.height, 0.6 * b.width, 0.6 * b.height), **options)
+    cut = hlr.draw(
+        housing(), window=(0.3 * b.width, 0.3 * b.height, 0.6 * b.width, 0.6 * b.height), **AT_SIZE | options
+    )
     view, off = cut.view, {}
     for drawing in (whole, cut):
         worst = 0.0
@@ -128,7 +131,7 @@ def test_what_lies_outside_still_hides():
     # A large plate before a small box: no edge of the plate is in the window, and still it hides the box.
     plate = cq.Workplane().box(60, 60, 2).translate(RAISED)
     model = cq.Assembly().add(plate, name="plate").add(cq.Workplane().box(10, 10, 10), name="box")
-    found = hlr.draw(model, "top", window=(20, 20, 40, 40))
+    found = hlr.draw(model, "top", window=(20, 20, 40, 40), **AT_SIZE)
     assert {found.parts[each.part].name for each in found.lines} == {"box"}
     assert found.hidden and not found.visible
 
@@ -240,13 +243,15 @@ def test_no_seam_is_left_where_there_is_no_face():
 
 @pytest.mark.slow
 def test_fill_and_its_gradients_are_cut():
-    whole = hlr.draw(housing(), fill=True, hidden=False)
+    whole = hlr.draw(housing(), fill=True, hidden=False, scale=1.0, smooth=False)
     b = whole.bounds
-    cut = hlr.draw(housing(), fill=True, hidden=False, window=(0.0, 0.0, 0.5 * b.width, b.height))
+    cut = hlr.draw(
+        housing(), fill=True, hidden=False, window=(0.0, 0.0, 0.5 * b.width, b.height), scale=1.0, smooth=False
+    )
     assert 0 < len(cut.fill.part) <= len(whole.fill.part) and cut.fill.points[:, 0].max() == 0.5 * b.width
     assert set(cut.fill.gradient.tolist()) - {-1} == set(range(len(cut.fill.gradients)))
     # A window within a face shows no line, and that is no reason for a warning.
-    inside = hlr.draw(box((30, 30, 30)), "top", fill=True, window=(10, 10, 20, 20))
+    inside = hlr.draw(box((30, 30, 30)), "top", fill=True, window=(10, 10, 20, 20), **AT_SIZE)
     assert not inside.lines and len(inside.fill.part) == 1 and not [n for n in inside.notes if n.is_warning]
 
 
@@ -259,31 +264,36 @@ def effect(plan):
 
 def test_nothing_is_done_where_nothing_crosses_the_window():
     model = housing()
-    whole = hlr.draw(model)
+    whole = hlr.draw(model, **AT_SIZE)
     b = whole.bounds
     assert not effect(whole.plan).on and effect(whole.plan).reason == "no window was asked for"
     for window, sides in (((-1, -1, b.x1 + 1, b.y1 + 1), 0), ((0, 0, b.width / 2, b.height / 2), 2)):
-        drawn, (plan,) = hlr.draw(model, window=window), hlr.plan_views(model, ["iso"], hlr.Options(window=window))
+        drawn, (plan,) = (
+            hlr.draw(model, window=window, **AT_SIZE),
+            hlr.plan_views(model, ["iso"], hlr.Options(window=window, **AT_SIZE)),
+        )
         for found in (effect(drawn.plan), effect(plan.decisions)):
             assert found.on == (sides > 0) and ("2 sides" if sides else "all lies within the window") in found.reason
         assert (effect(drawn.plan).counts["window_cuts"] > 0) == (sides > 0)
         if not sides:
-            assert drawn.lines == whole.lines and drawn.page == Bounds(*window)
+            assert drawn.lines == whole.lines and drawn.area == Bounds(*window) and drawn.page is None
 
 
 def test_the_page_is_the_window_and_json_holds_it():
-    drawn = hlr.draw(housing(), window=(10, 5, 30, 45))
+    drawn = hlr.draw(housing(), window=(10, 5, 30, 45), **AT_SIZE)
     svg = drawn.to_svg()
     assert 'width="31mm" height="51mm"' in svg and 'viewBox="4.5 -50.5 31 51"' in svg
     document = json.loads(drawn.to_json())
-    assert document["window"] == [10, 5, 30, 45] and "window" not in json.loads(hlr.draw(housing()).to_json())
+    assert document["window"] == [10, 5, 30, 45] and "window" not in json.loads(
+        hlr.draw(housing(), **AT_SIZE).to_json()
+    )
     again = hlr.load(io.BytesIO(drawn.to_json().encode()))
     assert again == drawn and again.window == Bounds(10, 5, 30, 45) and again.to_svg() == svg
-    assert drawn != hlr.draw(housing(), window=(10, 5, 30, 46))
+    assert drawn != hlr.draw(housing(), window=(10, 5, 30, 46), **AT_SIZE)
 
 
 def test_a_window_that_shows_nothing_is_drawn_empty_with_a_note():
-    drawn = hlr.draw(box((10, 10, 10)), "top", window=(100, 100, 140, 130))
+    drawn = hlr.draw(box((10, 10, 10)), "top", window=(100, 100, 140, 130), **AT_SIZE)
     (note,) = [n for n in drawn.notes if n.code == "nothing-in-view"]
     assert note.text == (
         "nothing of the drawing lies in the window 100,100,140,130: without it the drawing is 0,0,10,10 "
@@ -291,7 +301,7 @@ def test_a_window_that_shows_nothing_is_drawn_empty_with_a_note():
     )
     assert drawn.lines == () and 'width="51mm" height="41mm"' in drawn.to_svg() and drawn.to_pdf()
     with pytest.raises(hlr.StrictError):
-        hlr.draw(box((10, 10, 10)), "top", window=(100, 100, 140, 130), strict=True)
+        hlr.draw(box((10, 10, 10)), "top", window=(100, 100, 140, 130), strict=True, **AT_SIZE)
 
 
 @pytest.mark.parametrize(
@@ -310,12 +320,12 @@ def test_a_window_that_shows_nothing_is_drawn_empty_with_a_note():
 )
 def test_windows_that_are_none_are_refused(window, why):
     with pytest.raises(hlr.OptionError, match=why):
-        hlr.draw(box((10, 10, 10)), window=window)
+        hlr.draw(box((10, 10, 10)), window=window, **AT_SIZE)
 
 
 def test_what_was_reached_is_that_of_the_whole_drawing():
     model = box((10, 10, 10))
-    whole, cut = hlr.draw(model, report=True), hlr.draw(model, report=True, window=(0, 0, 8, 8))
+    whole, cut = hlr.draw(model, report=True, **AT_SIZE), hlr.draw(model, report=True, window=(0, 0, 8, 8), **AT_SIZE)
     assert cut.reached == whole.reached and cut.window is not None and len(cut.lines) < len(whole.lines)
 
 

@@ -74,7 +74,7 @@ def test_the_page_holds_what_bulges_beyond_the_points():
     half = arc((0, 0), 10, 10, (0, math.pi))
     assert np.ptp(half.points[:, 1]) < 1e-9
     page = strokes(drawing([half]))
-    assert (page.bottom, page.height) == (-5500, 10000 + 2 * 5500)
+    assert (page.bottom, page.height) == (-5.5, 10.0 + 2 * 5.5)
 
 
 def test_pdf_has_cubic_curves_for_everything():

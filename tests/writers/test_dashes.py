@@ -13,6 +13,7 @@ import hlr
 from hlr.drawing.curve import Arc
 from hlr.writers.pdf import pdf
 from hlr.writers.svg import svg
+from support.at_size import AT_SIZE
 from support.drawings import drawing, line
 
 NS = {"s": "http://www.w3.org/2000/svg"}
@@ -120,7 +121,7 @@ def test_dashes_of_a_model_are_the_same_in_svg_and_pdf():
     part = cq.Workplane().box(60, 40, 20).edges("|Z").fillet(6).faces(">Z").workplane().cboreHole(8, 14, 5)
     part = part.cut(cq.Workplane("XZ").center(0, 2).circle(4).extrude(80, both=True))
     for view in ("iso", "front", (3.0, -1.0, 0.4)):
-        made = hlr.draw(part, view=view)
+        made = hlr.draw(part, view=view, **AT_SIZE)
         assert assert_same_places(made) > 5
 
 

@@ -11,6 +11,7 @@ import trimesh
 import hlr
 from hlr.drawing.curve import Arc, Bezier
 from hlr.writers.loading import loads
+from support.at_size import ALL_LINES, AT_SIZE
 from support.drawings import sample
 
 cq = pytest.importorskip("cadquery")
@@ -31,15 +32,15 @@ def inch_mesh():
 
 DRAWINGS = {
     "the sample": sample,
-    "a part": lambda: hlr.draw(part(), "iso", smooth=True, seam=True),
-    "a perspective": lambda: hlr.draw(part(), "front", perspective=hlr.Perspective(eye=(90, -80, 70))),
-    "a mesh in inches": lambda: hlr.draw(inch_mesh(), (1, 2, 3), scale=0.3),
-    "what was reached": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", report=True),
-    "within a time": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", within=20.0),
-    "filled faces": lambda: hlr.draw(trimesh.creation.box((10, 20, 30)), "iso", fill=True),
-    "filled curves": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", fill=True),
+    "a part": lambda: hlr.draw(part(), "iso", smooth=True, seam=True, scale=1.0, hidden=True),
+    "a perspective": lambda: hlr.draw(part(), "front", perspective=hlr.Perspective(eye=(90, -80, 70)), **AT_SIZE),
+    "a mesh in inches": lambda: hlr.draw(inch_mesh(), (1, 2, 3), scale=0.3, **ALL_LINES),
+    "what was reached": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", report=True, **AT_SIZE),
+    "within a time": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", within=20.0, **AT_SIZE),
+    "filled faces": lambda: hlr.draw(trimesh.creation.box((10, 20, 30)), "iso", fill=True, **AT_SIZE),
+    "filled curves": lambda: hlr.draw(cq.Workplane().cylinder(9, 5), "iso", fill=True, **AT_SIZE),
     "nothing at all": lambda: hlr.draw(
-        trimesh.creation.box((9, 9, 9)), perspective=hlr.Perspective((0, -99, 0), (0, -200, 0), 40)
+        trimesh.creation.box((9, 9, 9)), perspective=hlr.Perspective((0, -99, 0), (0, -200, 0), 40), **AT_SIZE
     ),
 }
 

@@ -78,9 +78,9 @@ def test_a_layer_with_nothing_left_is_no_layer():
 
 def test_the_page_is_the_drawing_and_a_margin():
     page = strokes(drawing([line([[-10, 20], [30, 50]])]))
-    assert np.array([page.left, page.bottom, page.width, page.height]).tolist() == [-15500, 14500, 51000, 41000]
+    assert np.array([page.left, page.bottom, page.width, page.height]).tolist() == [-15.5, 14.5, 51.0, 41.0]
 
 
 def test_an_empty_drawing_is_an_empty_page():
     page = strokes(drawing([]))
-    assert (page.layers, page.width, page.height) == ((), 11000, 11000)
+    assert (page.layers, page.width, page.height) == ((), 11.0, 11.0)

@@ -50,7 +50,7 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
     """
     if not drawing.lines:
         return Written(np.zeros((0, 2)), np.zeros(0, np.int64))
-    places = places_of(drawing, drawing.page)
+    places = places_of(drawing, drawing.area)
     rows = rows_of(drawing.lines, places, drawing.accuracy.used, cubic)
     accuracy = drawing.accuracy.used
     at = np.asarray(rows.points * 10.0**-places, np.float64)

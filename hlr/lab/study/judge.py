@@ -48,7 +48,7 @@ class LineJudge:
         """
         true, threads = self._true, self._threads
         # Line classes that are drawn by default are required; the others may be drawn or left out.
-        required = where(lambda row: row.by_default)[true.kind]
+        required = where(lambda row: row.by_default is True)[true.kind]
         allowed_seen = true.segments(true.visible)
         allowed_all = true.segments()
         seen, weight = _samples(drawn, drawn.visible)

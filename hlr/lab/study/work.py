@@ -76,7 +76,9 @@ REPEAT = 0.5
 
 def _options(job: Job, **others: Any) -> Options:
     return Options(
-        scale=job.scale or 1.0,
+        hidden=True,
+        smooth=False,
+        scale=job.scale if job.scale or job.fit else 1.0,
         fit=None if job.scale else job.fit,
         only=tuple(job.only),
         hide=tuple(job.hide),
