@@ -43,6 +43,7 @@ def tell_early(notes: Iterable[Note], strict: bool = False, quiet: bool = False)
 def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
     """A summary of the drawings as JSON: one entry for each file."""
     import json
+    from dataclasses import asdict
 
     from hlr.writers.json import accuracies
 
@@ -53,6 +54,7 @@ def summary(drawings: Sequence[Drawing], targets: Targets) -> bytes:
             "source": drawing.source,
             "view": drawing.view.name,
             "scale": drawing.scale,
+            "page": None if drawing.page is None else asdict(drawing.page),
             "accuracy": accuracies(drawing),
             "lines": _counts(drawing),
             "notes": [note.as_dict() for note in drawing.notes],
@@ -102,8 +104,9 @@ def written(drawing: Drawing, targets: Sequence[object]) -> str:
     seconds = drawing.timings.get("total", 0.0)
     where = ", ".join(str(target) for target in targets)
     reached = f", accuracy {drawing.accuracy.used:.3g} mm" if drawing.accuracy.within is not None else ""
+    page = "" if drawing.page is None else f" on {drawing.page.name}"
     return (
-        f"{where}: {drawing.view.name}, {ratio(drawing.scale)}, {counts['visible']} visible and "
+        f"{where}: {drawing.view.name}, {ratio(drawing.scale)}{page}, {counts['visible']} visible and "
         f"{counts['hidden']} hidden lines{reached}, {seconds:.1f} s"
     )
 

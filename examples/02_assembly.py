@@ -7,5 +7,5 @@ import hlr
 here = Path(__file__).parent
 model = here / "models" / "as1-oc-214.stp"
 
-drawing = hlr.draw(model)
+drawing = hlr.draw(model, hidden=True)
 drawing.save(here / "assembly.svg")

@@ -16,5 +16,5 @@ link = fillet((eye + arm).edges().filter_by(Axis.Z), 10) + fork
 link -= Cylinder(15, 40, align=low)
 link -= Pos(115, 0, 20) * (Rot(90, 0, 0) * Cylinder(10, 60) + Pos(10, 0, 0) * Box(60, 28, 60))
 
-drawing = hlr.draw(link, view=(1, -1.8, 1.1), fit=(170, 130))
+drawing = hlr.draw(link, view=(1, -1.8, 1.1), fit=(170, 130), hidden=True)
 drawing.save(here / "build123d.svg")

@@ -27,7 +27,7 @@ class Arc(ByValue):
     angles   (2,) t at the start and at the end, radians; the arc runs backward where the second is less
 
     >>> import hlr
-    >>> (hole,) = [line.curve for line in hlr.draw("part.step", view="top").visible if line.curve]
+    >>> (hole,) = [line.curve for line in hlr.draw("part.step", view="top", scale=1).visible if line.curve]
     >>> hole, hole.whole
     (<Arc about (15, 10), radius 4, 360 degrees>, True)
     """

@@ -19,7 +19,7 @@ class Bounds(NamedTuple):
     """A rectangle on paper, millimetres, y up.
 
     >>> import hlr
-    >>> bounds = hlr.draw("part.step", view="top").bounds
+    >>> bounds = hlr.draw("part.step", view="top", scale=1).bounds
     >>> bounds.width, bounds.height
     (30.0, 20.0)
     """

@@ -95,8 +95,8 @@ def _sized(sides: Sequence[float]) -> Paper:
     name = f"{width:g}x{height:g}"
     if not (min(width, height) > 2.0 * MARGIN and max(width, height) <= LARGEST_SIDE):
         raise ValueError(
-            f"a page of {name} mm cannot be drawn on: it has margins of {MARGIN:g} mm, so give more than "
-            f"{2.0 * MARGIN:g} mm a side, and {LARGEST_SIDE:g} at most"
+            f"a page of {name} mm cannot be drawn on: inside margins of {MARGIN:g} mm there has to be room, so give "
+            f"sides of more than {2.0 * MARGIN:g} mm, and {LARGEST_SIDE:.0f} at most"
         )
     return Paper(name, width, height)
 

@@ -154,7 +154,7 @@ import hashlib, sys
 import hlr
 from pipeline.models import FORMATS, MODELS, VIEWS, bare
 for name in MODELS:
-    for drawing in hlr.draw_views(MODELS[name](), VIEWS):
+    for drawing in hlr.draw_views(MODELS[name](), VIEWS, hlr.Options(scale=1.0, hidden=True, smooth=False)):
         print(name, *(hashlib.sha256(bare(drawing, kind)).hexdigest() for kind in FORMATS))
 """
 

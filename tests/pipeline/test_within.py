@@ -29,7 +29,7 @@ class World:
         self.now, self.asked = 0.0, []
         cheap = hlr.draw(box(), "iso", accuracy=0.5, **AT_SIZE)
 
-        def drawn(opened, views, options, progress):
+        def drawn(opened, views, options, progress, noted=None):
             accuracy = options.accuracy
             self.asked.append(accuracy)
             if accuracy == stop_at:
@@ -97,7 +97,7 @@ def test_a_first_stage_of_next_to_nothing_tells_nothing(monkeypatch):
     world = World(monkeypatch, linear(0.1), meshing=1e-4)
     tick = within.draw_views
 
-    def slow_to_begin(opened, views, options, progress):
+    def slow_to_begin(opened, views, options, progress, noted=None):
         def late(stage, done):
             world.now += 0.01 if stage == "scene" else 0.0
             progress(stage, done)

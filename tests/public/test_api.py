@@ -75,7 +75,7 @@ hlr.lab.methods.render
 
 REFUSED = {
     'hlr.draw("a.step", hiden=False)': 'Unexpected keyword argument "hiden"',
-    'hlr.draw("a.step", hidden="no")': 'incompatible type "str"; expected "bool"',
+    'hlr.draw("a.step", hidden="no")': 'incompatible type "str"; expected "bool | None"',
     'hlr.draw("a.step", accuracy="fine")': 'incompatible type "str"; expected "float | None"',
     'hlr.draw("a.step", "frnt")': "expected \\\"Literal['front'",
     'hlr.preview("a.step", colour=1)': 'Unexpected keyword argument "colour"',

@@ -20,7 +20,7 @@ from hlr.pipeline.draw import draw_views
 from hlr.request.drawing_effects import drawing_effects
 from hlr.request.effect import PLAN, SCENE, Decision, Decisions, Effect, Facts, Planner, everything_on, explained
 from hlr.visibility.segments import solve
-from support.at_size import AT_SIZE
+from support.at_size import ALL_LINES, AT_SIZE
 from support.brep_shapes import scrawled_cylinder
 from support.models import box, parts, rotation, sheet, solids
 
@@ -153,9 +153,10 @@ def exact(drawing):
 
 def expect_neutral(make, views=("iso",), **options):
     """Forced on, what the plan left off changes nothing. Returns the drawings."""
-    plain = hlr.draw_views(make(), views, Options(**AT_SIZE | options))
+    wish = (ALL_LINES if "fit" in options else AT_SIZE) | options
+    plain = hlr.draw_views(make(), views, Options(**wish))
     with everything_on():
-        forced = hlr.draw_views(make(), views, Options(**AT_SIZE | options))
+        forced = hlr.draw_views(make(), views, Options(**wish))
     for one, other in zip(plain, forced, strict=True):
         assert exact(one) == exact(other)
         assert all(d.on for d in other.plan if d.origin == SCENE)

@@ -62,6 +62,9 @@ def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | s
 
     accuracy = drawing.accuracy.used / fineness
     options = replace(request.options, accuracy=accuracy, fill=False, strict=False, report=False)
+    if options.fit is None:
+        # At the same scale, though outlines that are known better might fit the page at another.
+        options = replace(options, scale=drawing.scale, page=None)
     try:
         (found,) = draw_views(opened, [request.view], options)
     except (HlrError, MemoryError) as error:
