@@ -117,7 +117,7 @@ def told(plan: Plan, number: int, outcome: Outcome) -> str:
     title = plan.jobs[number].title
     if outcome.failure is not None:
         return f"{title}: failed: {' '.join(outcome.failure.message.split())}"
-    warnings = sum(note["warning"] for drawing in outcome.drawings for note in drawing["notes"])
+    warnings = len({note["text"] for drawing in outcome.drawings for note in drawing["notes"] if note["warning"]})
     told = f", {warnings} warning{'s' if warnings > 1 else ''}" if warnings else ""
     views = len(outcome.drawings)
     return f"{title}: {views} view{'s' if views > 1 else ''}, {outcome.seconds:.1f} s{told}"

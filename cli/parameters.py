@@ -94,6 +94,28 @@ class Window(click.ParamType[tuple[float, float, float, float]]):
         self.fail(f"{value!r} is not four numbers such as 0,0,100,80", param, ctx)
 
 
+class ScriptParameter(click.ParamType[tuple[str, bool | int | float | str]]):
+    """A variable of a script, and its value: a number, true or false; anything else is a text, as is "20" in quotes."""
+
+    name = "NAME=VALUE"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[str, bool | int | float | str]:
+        """The name and the value."""
+        name, equals, text = (part.strip() for part in str(value).partition("="))
+        if not equals or not name.isidentifier():
+            self.fail(f"{value!r} is not a name and a value such as size=20", param, ctx)
+        if text.lower() in ("true", "false"):
+            return name, text.lower() == "true"
+        if len(text) > 1 and text[0] == text[-1] and text[0] in "'\"":
+            return name, text[1:-1]
+        number = number_of(text)
+        if number is None:
+            return name, text
+        return name, int(text) if re.fullmatch(r"[+-]?\d{1,18}", text) else number
+
+
 class Duration(click.ParamType[float]):
     """A time: 2s, 500ms, 1min; a number alone is seconds."""
 

@@ -11,7 +11,7 @@ from hlr.errors import OptionError
 from hlr.request.directions import EYE
 from hlr.tables.readers import file_titles
 
-from .parameters import Scale, Size, Vector, Vector3, ViewName, Window
+from .parameters import Scale, ScriptParameter, Size, Vector, Vector3, ViewName, Window
 
 if TYPE_CHECKING:
     from hlr.request.options import Perspective, View
@@ -81,6 +81,23 @@ NO_CACHE = click.option(
     help=f"{_CACHED}: read the file again, and do not keep it in the cache.",
 )
 
+
+def _as_table(
+    _ctx: click.Context, _parameter: click.Parameter, given: tuple[tuple[str, Any], ...]
+) -> dict[str, Any] | None:
+    return dict(given) or None
+
+
+PARAMETERS = click.option(
+    "--param",
+    "parameters",
+    type=ScriptParameter(),
+    metavar="NAME=VALUE",
+    multiple=True,
+    callback=_as_table,
+    help="Scripts: set a variable that the script sets to a plain value. May be repeated.",
+)
+
 CHOICE = (
     click.option(
         "--only",
@@ -90,6 +107,7 @@ CHOICE = (
     ),
     click.option("--hide", metavar="PART", multiple=True, help="Leave these parts out. May be repeated."),
     click.option("--var", metavar="NAME", help="Scripts: the variable to draw, instead of what the script shows."),
+    PARAMETERS,
     ANNOTATIONS,
     NO_CACHE,
 )

@@ -19,7 +19,19 @@ from ..parameters import Duration, Vector3
 from ..streams import Output, result_only
 from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
-from ..view_options import CAMERA, CARE, CHOICE, RUN, SIZE, VIEW, WINDOW, Command, names_of, options, perspective_of
+from ..view_options import (
+    CAMERA,
+    CARE,
+    CHOICE,
+    RUN,
+    SIZE,
+    VIEW,
+    WINDOW,
+    Command,
+    names_of,
+    options,
+    perspective_of,
+)
 
 if TYPE_CHECKING:
     from hlr.drawing.drawing import Drawing

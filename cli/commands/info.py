@@ -12,7 +12,7 @@ from ..meter import meter
 from ..streams import result_only
 from ..telling import tell_notes
 from ..verb import Verb
-from ..view_options import ANNOTATIONS, NO_CACHE
+from ..view_options import ANNOTATIONS, NO_CACHE, PARAMETERS
 
 if TYPE_CHECKING:
     from hlr.drawing.model_info import ModelInfo, PartReport
@@ -31,11 +31,12 @@ _LONGEST_NAME = 40
     help="Meshes: angle between two triangles from which there is an edge. Default: 30.",
 )
 @click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
+@PARAMETERS
 @ANNOTATIONS
 @NO_CACHE
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")
-def info(source: str, crease: float, var: str | None, annotations: bool, as_json: bool, quiet: bool) -> None:
+def info(source: str, as_json: bool, quiet: bool, **chosen: Any) -> None:
     """List the parts of SOURCE, and their defects.
 
     closed: every edge has a face on both sides, and all faces are oriented alike.
@@ -46,8 +47,7 @@ def info(source: str, crease: float, var: str | None, annotations: bool, as_json
         with meter(quiet) as progress:
             import hlr
 
-            chosen = {} if var is None else {"var": var}
-            model = hlr.info(source, crease=crease, progress=progress, annotations=annotations, **chosen)
+            model = hlr.info(source, progress=progress, **chosen)
         if as_json:
             import json
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from hlr.common.types import Progress
 from hlr.drawing.model_info import ModelInfo, PartReport
 from hlr.pipeline.session import Session
-from hlr.request.check import check_crease
-from hlr.request.options import Options
+from hlr.request.check import checked
+from hlr.request.options import Options, Parameter
 
 
 def info(
@@ -17,6 +18,7 @@ def info(
     crease: float = 30.0,
     progress: Progress | None = None,
     var: str | None = None,
+    parameters: Mapping[str, Parameter] | None = None,
     annotations: bool = False,
 ) -> ModelInfo:
     """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size.
@@ -25,6 +27,7 @@ def info(
     crease       degrees: where a mesh without B-rep folds more than this, an edge is counted
     progress     as of `hlr.draw`
     var          the variable of a script, instead of what it shows
+    parameters   values for variables of a script, as of `hlr.Options`
     annotations  count the faces of annotation in STEP files as well
 
     Raises SourceError, OptionError.
@@ -35,8 +38,9 @@ def info(
     >>> part.name, part.solids, part.faces, part.edges, part.closed, part.defects
     ('part', 1, 7, 15, True, ())
     """
-    check_crease(crease)
-    session = Session(source, [], Options(crease=crease, var=var, annotations=annotations), progress)
+    session = Session(
+        source, [], checked(Options(crease=crease, var=var, parameters=parameters, annotations=annotations)), progress
+    )
     source, scene = session.source, session.scene_by_size()
     solids = {i.name: i.solids for i in source.infos()}
     parts = tuple(

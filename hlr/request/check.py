@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from numbers import Integral, Real
 from typing import Any, Protocol, cast
 
@@ -50,6 +50,8 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
             raise OptionError(f"{name} needs a list of names or patterns of parts, not {patterns!r}")
     if options.var is not None and not isinstance(options.var, str):
         raise OptionError(f"var needs the name of a variable, not {options.var!r}")
+    if options.parameters is not None:
+        _parameters(options.parameters)
     check_crease(options.crease)
     if options.up is not None and not _is_vector(options.up, 3):
         raise OptionError(f"up needs three finite numbers, such as 0,0,1, not {options.up!r}")
@@ -126,6 +128,14 @@ class CameraOptions(Protocol):
     @property
     def perspective(self) -> Perspective | None:
         """None: orthographic."""
+
+
+def _parameters(values: Any) -> None:
+    if not isinstance(values, Mapping) or not all(isinstance(name, str) for name in values):
+        raise OptionError(f"parameters needs names with values, such as {{'size': 20}}, not {values!r}")
+    for name, value in values.items():
+        if not isinstance(value, bool | str) and not (_is_real(value) and math.isfinite(value)):
+            raise OptionError(f"the parameter {name} needs a number, a text, True or False, not {value!r}")
 
 
 def _window(window: Any) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Literal, TypedDict
 
 Vector = tuple[float, float, float]
@@ -15,6 +15,9 @@ ViewName = Literal[
 
 View = ViewName | Sequence[float]
 """A named view or a direction from the object toward the viewer."""
+
+Parameter = bool | int | float | str
+"""A value for a variable of a script."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +67,7 @@ class Options:
     only, hide   patterns of parts: only those are drawn, or all but those; letters of any case, * and ? as in file
                  names; a name without its number means all of that name, that of an assembly all that is in it
     var          the variable of a script to draw, instead of what it shows
+    parameters   values for variables of a script that it sets to plain numbers, texts, True or False: {"size": 20}
     annotations  draw the faces of annotation in STEP files: those that the file hides, or calls supplemental geometry
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
     within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
@@ -96,6 +100,7 @@ class Options:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+    parameters: Mapping[str, Parameter] | None = field(default=None, hash=False)
     annotations: bool = False
 
 
@@ -121,6 +126,7 @@ class Wishes(TypedDict, total=False):
     only: tuple[str, ...]
     hide: tuple[str, ...]
     var: str | None
+    parameters: Mapping[str, Parameter] | None
     annotations: bool
     strict: bool
     report: bool

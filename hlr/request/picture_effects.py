@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from numbers import Integral
 from typing import Any, TypedDict
 
@@ -12,7 +12,7 @@ import numpy as np
 from hlr.errors import OptionError
 from hlr.request.check import checked
 from hlr.request.effect import ASKED, SCENE, Effect, Facts, Planner
-from hlr.request.options import Options, Perspective, Vector
+from hlr.request.options import Options, Parameter, Perspective, Vector
 
 MOST_PIXELS_A_SIDE = 16384
 MOST_PIXELS = 100_000_000
@@ -58,7 +58,7 @@ class PreviewOptions:
     smooth       with edges: also tangent edges, thin; None: in pictorial views
     crease       degrees: a mesh without B-rep is smooth where it folds less than this
     accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
-    up, perspective, threads, strict, only, hide, var, annotations   as of a drawing (`Options`)
+    up, perspective, threads, strict, only, hide, var, parameters, annotations   as of a drawing (`Options`)
 
     >>> import hlr
     >>> options = hlr.PreviewOptions(size=(320, 240), background="transparent", shadows=True)
@@ -85,6 +85,7 @@ class PreviewOptions:
     only: tuple[str, ...] = ()
     hide: tuple[str, ...] = ()
     var: str | None = None
+    parameters: Mapping[str, Parameter] | None = field(default=None, hash=False)
     annotations: bool = False
     look: str = "shaded"
 
@@ -110,6 +111,7 @@ class PreviewWishes(TypedDict, total=False):
     only: tuple[str, ...]
     hide: tuple[str, ...]
     var: str | None
+    parameters: Mapping[str, Parameter] | None
     annotations: bool
     strict: bool
     look: str
@@ -273,5 +275,6 @@ def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale
         only=options.only,
         hide=options.hide,
         var=options.var,
+        parameters=options.parameters,
         annotations=options.annotations,
     )

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from hlr.errors import OptionError, SourceError
+from hlr.request.options import Parameter
 from hlr.source.model import Source, missing_of_source
 from hlr.tables.entry import listed
 from hlr.tables.readers import READERS, Reader, endings, of_ending, what_to_pass
@@ -17,7 +19,12 @@ if TYPE_CHECKING:
 __all__ = ["open_source"]
 
 
-def open_source(thing: Any, var: str | None = None, annotations: bool = False) -> Source:
+def open_source(
+    thing: Any,
+    var: str | None = None,
+    annotations: bool = False,
+    parameters: Mapping[str, Parameter] | None = None,
+) -> Source:
     """Open anything that can be drawn, with the reader of `hlr.tables.readers` that accepts it.
 
     Args:
@@ -26,22 +33,22 @@ def open_source(thing: Any, var: str | None = None, annotations: bool = False) -
             and stays as it is.
         var: the variable of a script to draw, instead of what it shows.
         annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
+        parameters: values for variables of a script.
 
     Raises:
         SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
-        OptionError: var is given, and the script has no such variable, or `thing` is no script.
+        OptionError: var or a parameter is given, and the script has no such variable, or `thing` is no script.
     """
     if isinstance(thing, str | os.PathLike):
-        return _open_path(Path(os.fspath(thing)), var, annotations)
+        return _open_path(Path(os.fspath(thing)), {"var": var, "parameters": parameters or None}, annotations)
     missing = missing_of_source(thing)
     if not missing:
         opened: Source = thing
         return opened
-    if var is not None:
-        raise OptionError("var names a variable of a script, and an object is no script: leave it out.")
+    _only_of_scripts({"var": var, "parameters": parameters or None}, (), "an object")
     reader = next((reader for reader in READERS.values() if reader.opens(thing)), None)
     if reader is not None:
-        return _opened(reader, thing, type(thing).__name__, var, annotations)
+        return _opened(reader, thing, type(thing).__name__)
     raise SourceError(f"An object of type {type(thing).__name__} cannot be drawn: {_cure(missing)}.")
 
 
@@ -56,7 +63,7 @@ FEW = 4
 """An object that lacks at most this many members of the protocol is taken for an incomplete source."""
 
 
-def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
+def _open_path(path: Path, of_script: Mapping[str, Any], annotations: bool) -> Source:
     from hlr.source.file_checks import check_readable
 
     reader = of_ending(path.suffix)
@@ -64,22 +71,32 @@ def _open_path(path: Path, var: str | None, annotations: bool) -> Source:
     if reader is None:
         ending = f'the ending "{path.suffix}"' if path.suffix else "no ending"
         raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {' '.join(endings())}.")
-    if var is not None and "var" not in reader.takes:
-        raise OptionError(f"var names a variable of a script, and {path.name} is no script: leave it out.")
+    _only_of_scripts(of_script, reader.takes, path.name)
+    given = {**of_script, "annotations": annotations}
     if not reader.cached:
-        return _opened(reader, path, path.name, var, annotations)
+        return _opened(reader, path, path.name, **given)
     from hlr.source.cad.cached_files import read_through_cache
 
     matter = annotations and "annotations" in reader.takes
     return read_through_cache(
-        path, reader.kind, matter, lambda: cast("BrepSource", _opened(reader, path, path.name, var, annotations))
+        path, reader.kind, matter, lambda: cast("BrepSource", _opened(reader, path, path.name, **given))
     )
 
 
-def _opened(reader: Reader, thing: Any, name: str, var: str | None, annotations: bool) -> Source:
+def _only_of_scripts(given: Mapping[str, Any], takes: tuple[str, ...], what: str) -> None:
+    """Raise OptionError where something is given that only scripts take. takes: what the reader does."""
+    for name, value in given.items():
+        if value is not None and name not in takes:
+            raise OptionError(f"{_OF_SCRIPTS[name]} of a script, and {what} is no script: leave it out.")
+
+
+_OF_SCRIPTS = {"var": "var names a variable", "parameters": "parameters are variables"}
+
+
+def _opened(reader: Reader, thing: Any, name: str, **given: Any) -> Source:
     """What the reader opens; a package that it needs and does not find is an error in one sentence."""
     try:
-        source: Source = reader.open(thing, kind=reader.kind, var=var, annotations=annotations)
+        source: Source = reader.open(thing, kind=reader.kind, **given)
     except ModuleNotFoundError as error:
         if not reader.needs or error.name != reader.needs:
             raise

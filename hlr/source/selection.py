@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from fnmatch import fnmatchcase
 from typing import Any, Protocol
 
 from hlr.errors import OptionError
+from hlr.request.options import Parameter
 from hlr.source import open_source
 from hlr.source.model import Source
 
@@ -32,6 +33,10 @@ class PartSelection(Protocol):
         """Variable of a script."""
 
     @property
+    def parameters(self) -> Mapping[str, Parameter] | None:
+        """Values for variables of a script."""
+
+    @property
     def annotations(self) -> bool:
         """Whether faces of annotation are read as well."""
 
@@ -43,7 +48,7 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
         SourceError: it cannot be opened.
         OptionError: a pattern matches no part, or no part is left.
     """
-    source = open_source(thing, options.var, options.annotations)
+    source = open_source(thing, options.var, options.annotations, options.parameters)
     only, hide = tuple(options.only), tuple(options.hide)
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source

@@ -29,8 +29,8 @@ class Reader:
     entry     "module:function": opens a file, given by its path, or an object. The module is imported when it is used
     endings   of the files that it reads, in small letters; none for objects in memory
     fits      "module:function": of objects in memory, whether it opens this one
-    takes     what the entry is given besides, by name: kind; var, the variable of a script; annotations, whether faces
-              of annotation are read
+    takes     what the entry is given besides, by name: kind; var and parameters, of a script; annotations, whether
+              faces of annotation are read
     brep      sources have surfaces and edges, not only triangles
     noun      one such source, for people: "a STEP file"
     cached    what was read is kept, and is not read again (of a `hlr.source.cad.brep_source.BrepSource` alone)
@@ -85,7 +85,7 @@ READERS: dict[str, Reader] = {
             "script",
             "hlr.source.cad.script:open_script",
             (".py",),
-            takes=("var",),
+            takes=("var", "parameters"),
             brep=True,
             noun="a script",
             crash=BROKEN_SCRIPT,

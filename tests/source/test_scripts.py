@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from hlr.errors import SourceError
+from hlr.errors import OptionError, SourceError
 from hlr.source import open_source
 
 pytest.importorskip("cadquery")
@@ -180,3 +180,51 @@ def test_an_assembly_has_the_colour_it_is_shown_in_where_it_has_none(script):
     )
     looks = open_source(script(CQ + text)).appearances()
     assert looks["own"].whole == (0, 1, 0, 0.5) and looks["none"].whole == (1, 0, 0, 1)
+
+
+SIZED = """
+size = 10
+height: float = 2.5
+label = "A"
+rounded = False
+double = 2 * size
+def f():
+    size = 1
+import cadquery as cq
+result = cq.Workplane().box(size, double, height if label == "A" else 7)
+"""
+
+
+def sized(path, **parameters):
+    source = open_source(path, parameters=parameters)
+    low, high = source.bounds()
+    return [round(float(x), 6) for x in high - low]
+
+
+def test_parameters_replace_plain_values_of_a_script(script):
+    path = script(SIZED)
+    assert sized(path) == [10, 20, 2.5]
+    assert sized(path, size=4) == [4, 8, 2.5]
+    assert sized(path, size=4.5, height=3, label="B", rounded=True) == [4.5, 9, 7]
+
+
+@pytest.mark.parametrize(
+    ("parameters", "message"),
+    [
+        ({"sise": 3}, "has no parameter sise: did you mean size"),
+        ({"double": 3}, "has no parameter double: its parameters are size, height, label, rounded|did you mean"),
+        ({"size": "3"}, "the parameter size of model.py is a number, such as 10, not '3'"),
+        ({"size": True}, "is a number, such as 10, not True"),
+        ({"rounded": 1}, "is True or False, such as False, not 1"),
+        ({"label": 1}, "is a text, such as 'A', not 1"),
+    ],
+)
+def test_a_parameter_that_a_script_has_not_is_refused(script, parameters, message):
+    with pytest.raises(OptionError, match=message):
+        open_source(script(SIZED), parameters=parameters)
+
+
+def test_only_scripts_have_parameters(tmp_path):
+    (tmp_path / "a.off").write_text("OFF")
+    with pytest.raises(OptionError, match=r"parameters are variables of a script, and a\.off is no script"):
+        open_source(tmp_path / "a.off", parameters={"size": 1})

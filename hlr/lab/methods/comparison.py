@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hlr.common.types import Progress
@@ -15,7 +15,7 @@ from hlr.lab.methods.testbed import COUNTS, polygons
 from hlr.lab.methods.timing import TRIALS, Scenery, Timing, Trial, label, measure
 from hlr.lab.methods.viewport import SCREEN, Screen, checked_size, viewport
 from hlr.request.check import checked, checked_views
-from hlr.request.options import Options, View
+from hlr.request.options import Options, Parameter, View
 
 MOST = 10_000_000
 """Polygons of a scene: more do not fit into memory."""
@@ -33,6 +33,7 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     only: Sequence[str] = (),
     hide: Sequence[str] = (),
     var: str | None = None,
+    parameters: Mapping[str, Parameter] | None = None,
     annotations: bool = False,
     progress: Progress | None = None,
 ) -> list[Timing]:
@@ -44,7 +45,7 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     limit   seconds of processor time for each method and scene
     methods names of the methods to time: "method", or "method, variant"; None: all
 
-    only, hide, var, annotations  which parts of the source, as of a drawing (`hlr.Options`)
+    only, hide, var, parameters, annotations  which parts of the source, as of a drawing (`hlr.Options`)
 
     Raises OptionError, SourceError, ViewError.
 
@@ -53,9 +54,11 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     >>> timing.method, timing.count, timing.seconds > 0
     ('z-buffer', 10, True)
     """
-    chosen = checked(Options(only=tuple(only), hide=tuple(hide), var=var, annotations=annotations))
-    if source is None and (only or hide or var is not None or annotations):
-        raise OptionError("only, hide, var and annotations choose parts of a model: name one")
+    chosen = checked(
+        Options(only=tuple(only), hide=tuple(hide), var=var, parameters=parameters, annotations=annotations)
+    )
+    if source is None and (only or hide or var is not None or parameters or annotations):
+        raise OptionError("only, hide, var, parameters and annotations choose parts of a model: name one")
     size = checked_size(size)
     if not limit > 0.0:
         raise OptionError(f"a limit of {limit!r} seconds leaves no time: give a positive number")

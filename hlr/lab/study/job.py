@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from hlr.request.options import View
+from hlr.request.options import Parameter, View
 
 ACCURACIES = (2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
 """Millimetres on paper."""
@@ -41,7 +41,7 @@ class Job:
     folder    where lines are kept for the judge; name: their file name
     runs      how often a contestant draws; fewer if that would take too long
     limit     seconds of processor time for all runs together
-    only, hide, var, annotations   which parts, as for a drawing (`hlr.Options`)
+    only, hide, var, parameters, annotations   which parts, as for a drawing (`hlr.Options`)
     """
 
     work: str
@@ -57,6 +57,7 @@ class Job:
     only: Sequence[str] = ()
     hide: Sequence[str] = ()
     var: str | None = None
+    parameters: Mapping[str, Parameter] | None = None
     annotations: bool = False
 
     def as_dict(self) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +11,7 @@ from hlr.common.types import Progress
 from hlr.errors import OptionError, SourceError
 from hlr.lab.study.job import ACCURACIES, EXACT, HLR, PIXELS, POLY, PREDICATES, ZBUFFER, Job, Point, point_of
 from hlr.lab.study.process import answer
-from hlr.request.options import View
+from hlr.request.options import Parameter, View
 
 A4 = (277.0, 190.0)
 """Millimetres: a landscape sheet with its margins."""
@@ -75,6 +75,7 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     only: Sequence[str] = (),
     hide: Sequence[str] = (),
     var: str | None = None,
+    parameters: Mapping[str, Parameter] | None = None,
     annotations: bool = False,
     into: Study | None = None,
     progress: Progress | None = None,
@@ -82,7 +83,7 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     """Measure all points, each `runs` times in a process of its own.
 
     scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: processor seconds for each point.
-    only, hide, var, annotations: which parts, as for a drawing (`hlr.Options`).
+    only, hide, var, parameters, annotations: which parts, as for a drawing (`hlr.Options`).
     into: a Study that is filled step by step, so that finished results survive an interruption.
 
     Raises OptionError, and SourceError where the model cannot be drawn at all.
@@ -94,7 +95,13 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     told = progress or (lambda _stage, _done: None)
     with tempfile.TemporaryDirectory(prefix="hlr-study-") as folder:
         # Without a given scale the first look finds the largest that fits; all later points use it.
-        chosen: dict[str, Any] = {"only": tuple(only), "hide": tuple(hide), "var": var, "annotations": annotations}
+        chosen: dict[str, Any] = {
+            "only": tuple(only),
+            "hide": tuple(hide),
+            "var": var,
+            "parameters": parameters,
+            "annotations": annotations,
+        }
         first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit, **chosen)
         told("look", 0.0)
         out.look = answer(first)

@@ -83,6 +83,7 @@ def _options(job: Job, **others: Any) -> Options:
         only=tuple(job.only),
         hide=tuple(job.hide),
         var=job.var,
+        parameters=job.parameters,
         annotations=job.annotations,
         **others,
     )

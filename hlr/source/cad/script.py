@@ -17,16 +17,19 @@ from __future__ import annotations
 import os
 import sys
 import traceback
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from hlr.drawing.notes import Note
 from hlr.errors import OptionError, SourceError
+from hlr.request.options import Parameter
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.colors import ColorOpacity, color_from_options
 from hlr.source.cad.objects import is_shape_like, to_leaves
 from hlr.source.cad.occt_import import import_failure_message, load_occt
 from hlr.source.cad.parts import Leaf
+from hlr.source.cad.script_parameters import compiled
 from hlr.source.cad.source_builder import build_source
 
 _RESULT_VARIABLE = "result"
@@ -37,15 +40,17 @@ Shown = tuple[Any, str, ColorOpacity]
 _NO_COLOR: ColorOpacity = (None, 1.0)
 
 
-def open_script(path: Path, var: str | None = None) -> BrepSource:
+def open_script(path: Path, var: str | None = None, parameters: Mapping[str, Parameter] | None = None) -> BrepSource:
     """Run a script; its parts are the objects that it shows, or the variable named `var`.
+
+    parameters: values for variables of the script, as `hlr.source.cad.script_parameters` says.
 
     Raises:
         SourceError: the script fails (line and exception are named), or shows nothing.
-        OptionError: it has no such variable, or that is no shape.
+        OptionError: it has no such variable, or that is no shape; it has no such parameter, or one of another kind.
     """
     shown: list[Shown] = []
-    values = _run(path, shown)
+    values = _run(path, shown, parameters or {})
     load_occt()
     chosen, why = _objects_to_draw(path, shown, values, var)
     leaves: list[Leaf] = []
@@ -124,7 +129,7 @@ class _Variables(dict[str, Any]):
         super().__setitem__(name, value)
 
 
-def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
+def _run(path: Path, shown: list[Shown], parameters: Mapping[str, Parameter]) -> dict[str, Any]:
     def show_object(obj: Any, name: str | None = None, options: Any = None, *_: Any, **more: Any) -> None:
         shown.append((obj, str(name or ""), color_from_options(options if isinstance(options, dict) else more)))
 
@@ -153,8 +158,9 @@ def _run(path: Path, shown: list[Shown]) -> dict[str, Any]:
     sys.argv = [str(path)]
     try:
         os.chdir(folder)
-        code = compile(path.read_bytes(), str(path), "exec")
-        exec(code, values)
+        exec(compiled(path, parameters), values)
+    except OptionError:
+        raise
     except SyntaxError as error:
         raise SourceError(f"{path.name}, line {error.lineno}: SyntaxError: {error.msg}.") from None
     except SystemExit as error:

@@ -1,0 +1,36 @@
+"""One job of a script, in this process."""
+
+import sys
+
+import pytest
+
+from hlr.batch.carry_out import carry_out
+from hlr.batch.manifest import manifest_of
+from hlr.batch.plan import plan
+
+pytest.importorskip("cadquery")
+
+SCRIPT = "import cadquery as cq\nimport sizes\nsize = 10\nresult = cq.Workplane().box(size, sizes.width, 5)\n"
+
+
+@pytest.mark.slow
+def test_the_variants_of_a_script_and_what_they_import(tmp_path):
+    (tmp_path / "part.py").write_text(SCRIPT)
+    (tmp_path / "sizes.py").write_text("width = 20\n")
+    found = manifest_of({"files": "part.py", "views": "top", "parameters": {"size": [10, 30]}}, tmp_path)
+    outcomes = [carry_out(job) for job in plan(found, tmp_path / "out").jobs]
+    assert [outcome.drawings[0]["width_mm"] for outcome in outcomes] == pytest.approx([10.0, 30.0])
+    assert [outcome.depends for outcome in outcomes] == [("sizes.py",), ("sizes.py",)]
+    assert "sizes" not in sys.modules and outcomes[0].contents[0][0] != outcomes[1].contents[0][0]
+    # What is imported is what is there now.
+    (tmp_path / "sizes.py").write_text("width = 200\n")
+    (again,) = (carry_out(job) for job in plan(found, tmp_path / "out").jobs[:1])
+    assert again.drawings[0]["height_mm"] == pytest.approx(200.0)
+
+
+def test_files_that_a_step_file_refers_to_are_told(tmp_path):
+    from hlr.batch.carry_out import _references
+
+    (tmp_path / "bolt.stp").touch()
+    (tmp_path / "all.step").write_text("#1=DOCUMENT_FILE('bolt.stp','',$,#2,'',$);\n#3=DOCUMENT_FILE( 'gone.stp' ,'')")
+    assert _references(tmp_path / "all.step") == [tmp_path / "bolt.stp"]
