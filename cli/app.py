@@ -7,9 +7,8 @@ from typing import Any
 
 import click
 
-from hlr.tables.entry import listed
 from hlr.tables.readers import file_titles
-from hlr.tables.writers import PICTURE, WRITERS, titles
+from hlr.tables.writers import titles
 
 VERBS = {
     "draw": f"Draw a model as {titles('or')}.",
@@ -59,7 +58,7 @@ _HELP = f"""Hidden-line drawings of CAD models.
   hlr preview motor.step -o motor.png --edges
   hlr info motor.step
 
-Reads {file_titles()}. Writes {listed((*map(str.upper, WRITERS), PICTURE.name.upper()), "and")}.
+Reads {file_titles()}. Writes {titles("and")}.
 """
 
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from hlr.request.effect import Decision
     from hlr.request.options import Options, Perspective, View, ViewName, Wishes
     from hlr.request.picture_effects import PreviewOptions, PreviewWishes
+    from hlr.request.style import LineRule, Style
     from hlr.tables.line_classes import Kind
     from hlr.writers.loading import load
 
@@ -46,6 +47,7 @@ _HOME = {
     "HlrError": "hlr.errors",
     "Kind": "hlr.tables.line_classes",
     "Line": "hlr.drawing.line",
+    "LineRule": "hlr.request.style",
     "ModelInfo": "hlr.drawing.model_info",
     "Note": "hlr.drawing.notes",
     "NoteCode": "hlr.drawing.notes",
@@ -58,6 +60,7 @@ _HOME = {
     "PreviewWishes": "hlr.request.picture_effects",
     "SourceError": "hlr.errors",
     "StrictError": "hlr.errors",
+    "Style": "hlr.request.style",
     "View": "hlr.request.options",
     "ViewError": "hlr.errors",
     "ViewName": "hlr.request.options",
@@ -91,6 +94,7 @@ __all__ = [
     "HlrError",
     "Kind",
     "Line",
+    "LineRule",
     "ModelInfo",
     "Note",
     "NoteCode",
@@ -103,6 +107,7 @@ __all__ = [
     "PreviewWishes",
     "SourceError",
     "StrictError",
+    "Style",
     "View",
     "ViewError",
     "ViewName",

@@ -17,6 +17,7 @@ from ..guard import start
 from ..meter import meter
 from ..parameters import Duration, Vector3
 from ..streams import Output, result_only
+from ..style_options import STYLE, style_from
 from ..telling import summary, tell_early, tell_notes, tell_plan, tell_report, tell_written, written
 from ..verb import Verb
 from ..view_options import (
@@ -95,7 +96,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     help="Draw coarsely first, then finer while time lasts: 2s, 500ms, 1min. Not finer than --accuracy.",
 )
 @click.option("--report", is_flag=True, help="Measure the accuracy that was reached; takes longer than the drawing.")
-@options(*CAMERA, *RUN)
+@options(*CAMERA, *STYLE, *RUN)
 @click.option("--format", type=click.Choice(list(WRITERS)), help="Format, where the name does not say it.")
 @click.option("--explain", is_flag=True, help="Print which steps were needed, why, and what they cost.")
 @click.option("--json", "as_json", is_flag=True, help="Print a summary as JSON.")
@@ -123,7 +124,8 @@ def draw(
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
-    request = request_of(**chosen)
+    style = style_from(chosen)
+    request = request_of(style=style, **chosen)
     targets = targets_of(outputs, source, names, format, as_json)
 
     start(source)

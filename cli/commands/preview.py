@@ -99,8 +99,8 @@ def preview(
 def _options(
     *, perspective: bool, eye: Vector3 | None, target: Vector3 | None, fov: float | None, **others: Any
 ) -> PreviewOptions:
+    from hlr.common.colors import parse_color
     from hlr.request.picture_effects import PreviewOptions, check_size
-    from hlr.writers.png import parse_color
 
     check_size(others["size"])
     parse_color(others["background"])

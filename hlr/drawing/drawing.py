@@ -16,12 +16,14 @@ from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
 from hlr.drawing.saving import render, write
 from hlr.drawing.scale import ratio
+from hlr.request.style import Style
 
 if TYPE_CHECKING:
     from hlr.drawing.reached import Reached
     from hlr.drawing.saving import Format
     from hlr.request.effect import Decision
     from hlr.request.options import Request
+    from hlr.request.style_file import StyleLike
 
 Projection = Literal["orthographic", "perspective"]
 
@@ -97,6 +99,7 @@ class Drawing(ByValue):
     plan      for each effect whether it was on, why, and what it cost
     window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
     page      the page, and where the drawing lies on it; None: the file is as large as the drawing or its window
+    style     how it looks, in SVG, PDF and PNG
     reading   how a CAD file was obtained, for people: read, or taken from the cache; not written to files
 
     >>> import hlr
@@ -127,6 +130,7 @@ class Drawing(ByValue):
     plan: Sequence[Decision] = ()
     window: Bounds | None = None
     page: Page | None = None
+    style: Style = field(default_factory=Style)
     reading: str = field(default="", compare=False)
 
     def __repr__(self) -> str:
@@ -159,15 +163,32 @@ class Drawing(ByValue):
             return self.page.bounds
         return self.bounds if self.window is None else self.window
 
+    def with_style(self, style: StyleLike) -> Drawing:
+        """The same lines in another style; nothing is computed again.
+
+        style: as of `hlr.draw`. Colours of the parts as fills show where the drawing was made with them, or with
+        `fill`. Raises OptionError for a style that does not exist or says what is not allowed.
+
+        >>> import hlr
+        >>> drawing = hlr.draw("part.step")
+        >>> drawing.with_style("blueprint").save("blue.svg").name
+        'blue.svg'
+        >>> drawing.with_style({"visible": {"color": "navy"}, "background": "none"}).style.background is None
+        True
+        """
+        from hlr.request.style_file import style_of
+
+        return replace(self, style=style_of(style))
+
     @overload
     def save(self, file: str | os.PathLike[str], format: Format | None = None) -> Path: ...
     @overload
     def save(self, file: IO[bytes], format: Format) -> None: ...
     def save(self, file: Any, format: Any = None) -> Path | None:
-        """Write SVG, PDF or JSON into a file or a binary file object.
+        """Write SVG, PDF, PNG or JSON into a file or a binary file object.
 
         file    a path, whose ending names the format, or a file object that is open for bytes
-        format  svg, pdf or json: needed for a file object; of a path it overrides the ending
+        format  svg, pdf, png or json: needed for a file object; of a path it overrides the ending
 
         Returns the path, or None for a file object. Raises WriteError, in one sentence, where the format is unknown or
         the file cannot be written.
@@ -181,6 +202,13 @@ class Drawing(ByValue):
     def to_pdf(self) -> bytes:
         """The content of the PDF file. Raises WriteError where a point is not finite."""
         return render(self, "pdf")
+
+    def to_png(self) -> bytes:
+        """The content of the PNG file, in the size or resolution of the style.
+
+        Raises WriteError where a point is not finite, or there would be too many pixels.
+        """
+        return render(self, "png")
 
     def to_json(self) -> str:
         """The text of the exchange format, which `hlr.load` reads. Raises WriteError where a point is not finite."""

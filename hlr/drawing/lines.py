@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.values import LateRecords
@@ -52,6 +54,37 @@ def held(lines: Sequence[Line]) -> _kernel.Lines:
         _starts([numbers for _, numbers in curves]),
         np.concatenate([np.zeros(0), *(numbers for _, numbers in curves)]),
     )
+
+
+def divided(lines: Sequence[Line], sets: npt.NDArray[np.int64], count: int) -> list[_kernel.Lines]:
+    """The lines of each of `count` sets, in their order; sets (parts,): the set of each part."""
+    whole = held(lines)
+    if count == 1:
+        return [whole]
+    columns = whole.columns()
+    own = sets[columns["ties"][:, 0]] if len(whole) else np.zeros(0, np.int64)
+    order = np.argsort(own, kind="stable")
+    ends = np.searchsorted(own[order], np.arange(count + 1))
+    for name in ("kind", "visible", "ties", "form"):
+        columns[name] = columns[name][order]
+    for name, ragged in (("offsets", ("points", "points3")), ("data_offsets", ("data",))):
+        offsets = columns[name].astype(np.int64)
+        lengths = np.diff(offsets)[order]
+        columns[name] = np.concatenate([[0], np.cumsum(lengths)])
+        rows = np.arange(columns[name][-1]) + np.repeat(offsets[:-1][order] - columns[name][:-1], lengths)
+        for array in ragged:
+            columns[array] = columns[array][rows]
+    return [_cut(columns, first, last) for first, last in pairwise(ends.tolist())]
+
+
+def _cut(columns: dict[str, Any], first: int, last: int) -> _kernel.Lines:
+    """The lines from `first` up to `last`."""
+    out = {name: columns[name][first:last] for name in ("kind", "visible", "ties", "form")}
+    for name, ragged in (("offsets", ("points", "points3")), ("data_offsets", ("data",))):
+        offsets = columns[name][first : last + 1]
+        out[name] = (offsets - offsets[0]).astype(np.int32)
+        out |= {array: columns[array][offsets[0] : offsets[-1]] for array in ragged}
+    return _kernel.Lines(**out)
 
 
 def bounds_of(lines: Sequence[Line]) -> Bounds:

@@ -22,6 +22,7 @@ from hlr.image.placement import Placement
 from hlr.linework.lines import Linework
 from hlr.request.effect import Decisions, Planner
 from hlr.request.options import Options, Request
+from hlr.request.style_file import style_of
 from hlr.scene.scene import Scene
 from hlr.source.model import Source
 from hlr.tables.line_classes import by_number, counted
@@ -114,6 +115,7 @@ def finished(
         plan=Decisions(planner, counters),
         window=window,
         page=page,
+        style=style_of(options.style),
         reading=getattr(source, "reading", ""),
     )
 

@@ -10,9 +10,11 @@ from typing import Any
 
 from hlr import _kernel
 from hlr.common.clock import lap
+from hlr.common.colors import parse_color
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart
 from hlr.drawing.notes import Note
+from hlr.drawing.pens import usual_pens
 from hlr.drawing.picture import Picture
 from hlr.image.camera import Camera
 from hlr.image.image import image_of
@@ -33,14 +35,13 @@ from hlr.request.picture_effects import (
     decide_effects,
     line_options,
 )
+from hlr.request.styles import STYLES
 from hlr.scene.scene import Scene
 from hlr.shading.lens import depth_step, frame_scale, lens
 from hlr.shading.lines import cues, pieces, pieces_by_depth
 from hlr.shading.picture import Pixels, before_the_eye, empty_picture, first_faces, maps, shaded_picture
 from hlr.shading.scene import shaded_scene
 from hlr.source.model import Source
-from hlr.tables.line_classes import LINE_CLASSES
-from hlr.writers.png import parse_color
 
 MARGIN = 0.04
 """Empty margin around the model, as a share of the picture's smaller side."""
@@ -131,7 +132,8 @@ def _ink(
     pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tuple[int, int, int, int]], threads: int
 ) -> None:
     """Draw the lines over a picture, in place: in one ink, or in one ink per depth level, the farthest level first."""
-    widths = [LINE_CLASSES[line.kind].width_mm for line in drawing.lines]
+    pens = usual_pens(STYLES["iso"])
+    widths = [pens.pen(line.kind, True).width for line in drawing.lines]
     for wide in sorted(set(widths)):
         lines = [line for line, own in zip(drawing.lines, widths, strict=True) if own == wide]
         levels = [pieces(lines, drawing.origin, PIXELS_PER_MM, eye.centre)]

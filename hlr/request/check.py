@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from numbers import Integral, Real
 from typing import Any, Protocol, cast
 
@@ -13,6 +14,7 @@ from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
 from hlr.request.drawing_effects import BY_VIEW
 from hlr.request.options import Options, Perspective, Vector, View
+from hlr.request.style_file import style_of
 from hlr.tables.sheets import papers
 
 MOST_THREADS = 1024
@@ -26,7 +28,10 @@ NARROWEST, WIDEST = 0.01, 170.0
 
 
 def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for each option
-    """The same options, checked: types, ranges, contradictions. Raises OptionError that says what is allowed."""
+    """The same options, checked: types, ranges, contradictions. Raises OptionError that says what is allowed.
+
+    A style that was named is then a `Style`; faces are painted where it wants their parts' colours.
+    """
     for name in (*BY_VIEW, *SWITCHES):
         value = getattr(options, name)
         if value is None and name in BY_VIEW:
@@ -60,7 +65,11 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
         raise OptionError(f"{threads!r} threads cannot work: give 0 for all cores, or a number up to {MOST_THREADS}")
     if options.perspective is not None:
         _perspective(options.perspective)
-    return options
+    style = style_of(options.style)
+    fill = options.fill or style.part_colors == "fills"
+    if options.style in (None, style) and options.fill == fill:
+        return options
+    return replace(options, style=style, fill=fill)
 
 
 def _check_size(options: Options) -> None:

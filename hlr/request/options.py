@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, TypedDict
 
+from hlr.request.style_file import StyleLike
+
 Vector = tuple[float, float, float]
 
 ViewName = Literal[
@@ -62,6 +64,8 @@ class Options:
     perspective  None: orthographic
     see_through  parts that their file says are transparent hide nothing; else they hide like all others
     fill         paint what is seen of the faces, shaded, under the lines (SVG and PDF)
+    style        how the drawing looks: the name of a built-in style (iso, asme, thin, dark, blueprint), the path of a
+                 TOML file, the same tables as a dictionary, or a `Style`
     threads      0: all cores
     strict       warnings are errors
     only, hide   patterns of parts: only those are drawn, or all but those; letters of any case, * and ? as in file
@@ -102,6 +106,7 @@ class Options:
     var: str | None = None
     parameters: Mapping[str, Parameter] | None = field(default=None, hash=False)
     annotations: bool = False
+    style: StyleLike | None = None
 
 
 class Wishes(TypedDict, total=False):
@@ -128,6 +133,7 @@ class Wishes(TypedDict, total=False):
     var: str | None
     parameters: Mapping[str, Parameter] | None
     annotations: bool
+    style: StyleLike | None
     strict: bool
     report: bool
     within: float | None

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from fnmatch import fnmatchcase
 from typing import Any, Protocol
 
 from hlr.errors import OptionError
 from hlr.request.options import Parameter
+from hlr.request.part_names import matches
 from hlr.source import open_source
 from hlr.source.model import Source
 
@@ -69,17 +68,6 @@ def _matching(patterns: Sequence[str], names: Sequence[str], option: str) -> set
             raise OptionError(f'{option} "{pattern}" matches no part: {_suggestion(pattern, names)}.')
         found |= some
     return found
-
-
-def matches(name: str, pattern: str) -> bool:
-    """Whether a pattern matches the name of a part. Case does not count; * ? and [abc] are wildcards, as in file names.
-
-    The pattern may stand for the whole name, the name without its number (bolt for bolt:2), or an assembly of the part.
-    """
-    name, pattern = name.lower(), pattern.lower()
-    steps = name.split("/")
-    candidates = [name, re.sub(r"(:loose)?(:\d+)?$", "", name), *("/".join(steps[:i]) for i in range(1, len(steps)))]
-    return any(candidate == pattern or fnmatchcase(candidate, pattern) for candidate in candidates)
 
 
 def _suggestion(pattern: str, names: Sequence[str]) -> str:

@@ -1,5 +1,7 @@
 """Line classes: why a line is drawn. Each class is one row of a table, which every stage reads.
 
+How wide its lines are, and in what colour, the style says (`hlr.request.style`).
+
 A new class is a new row. Meshes, the scene and the kernel carry its number. The kernel treats all classes alike, but
 for the few that it creates or looks for itself (`kernel/linework/src/lines/drawn.rs`).
 """
@@ -33,12 +35,6 @@ class EdgeClass(IntEnum):
 INTERIOR = 255
 """In place of a class: the edge of a triangle inside a face, of which no line is drawn."""
 
-WIDE_MM, NARROW_MM = 0.5, 0.25
-"""Widths of ISO 128, line group 0.5."""
-
-DASH = (12.0, 3.0)
-"""Dash and gap of hidden lines, in multiples of the line width (ISO 128)."""
-
 
 @dataclass(frozen=True, slots=True)
 class LineClass:
@@ -56,9 +52,6 @@ class LineClass:
     by_default       whether they are drawn where the option is not given; None: in pictorial views only
     help             of that option on the command line
     counter          of such lines among a drawing's counters, and with it a row in the table of effects; None: neither
-    width_mm         of visible lines
-    hidden_width_mm  of hidden lines
-    dash             dash and gap of hidden lines, in multiples of their width
     occt             which result of OpenCASCADE's HLRBRep such lines belong to: sharp, smooth, sewn or outline
     """
 
@@ -73,9 +66,6 @@ class LineClass:
     by_default: bool | None = True
     help: str = ""
     counter: str | None = None
-    width_mm: float = WIDE_MM
-    hidden_width_mm: float = NARROW_MM
-    dash: tuple[float, float] = DASH
     occt: str = "sharp"
 
     def drawn(self, options: object) -> bool:
@@ -99,7 +89,6 @@ LINE_CLASSES: dict[str, LineClass] = {
             by_default=None,
             help="Tangent edges, thin. Default: in pictorial views only.",
             counter="smooth_lines",
-            width_mm=NARROW_MM,
             occt="smooth",
         ),
         LineClass(
@@ -113,7 +102,6 @@ LINE_CLASSES: dict[str, LineClass] = {
             by_default=False,
             help="Also the seams of closed surfaces.",
             counter="seam_lines",
-            width_mm=NARROW_MM,
             occt="sewn",
         ),
         LineClass(EdgeClass.BOUNDARY, "boundary", "borders", rank=1, place=2, border=True),

@@ -30,6 +30,7 @@ WRITERS = {
     for writer in (
         Writer("svg", "hlr.writers.svg:svg"),
         Writer("pdf", "hlr.writers.pdf:pdf"),
+        Writer("png", "hlr.writers.drawing_png:drawing_png"),
         Writer("json", "hlr.writers.json:document"),
     )
 }

@@ -13,15 +13,31 @@ from itertools import groupby, pairwise
 
 import numpy as np
 
+from hlr.common.colors import hex_of, rgb_of
 from hlr.common.distinct import distinct
+from hlr.drawing.drawing import Drawing
 from hlr.drawing.fill import Fill, Gradient
+from hlr.drawing.pens import part_color
 from hlr.errors import WriteError
 from hlr.writers.number import NOT_FINITE, grid, number
 
 SEAM = 0.2
 """Width of the stroke around a face, millimetres: three quarters of a pixel of a screen at 1:1."""
 
+DEFAULT = "#b3bdc9"
+"""Of parts whose model names no colour."""
+
 Loops = list[list[tuple[str, str]]]
+
+
+def painted(drawing: Drawing, fill: Fill) -> Fill:
+    """The fill in the colours that the drawing's style asks for: shaded, or each part flat in its own."""
+    if drawing.style.part_colors != "fills":
+        return fill
+    own = [part_color(part) or DEFAULT for part in drawing.parts]
+    flat = np.array([rgb_of(color) for color in own], np.uint8).reshape(-1, 3)[fill.part]
+    colors = np.concatenate([flat, fill.colors[:, 3:]], axis=1)
+    return replace(fill, colors=colors, gradient=np.full_like(fill.gradient, -1), gradients=())
 
 
 def faces(fill: Fill, places: int) -> Iterator[tuple[int, Loops]]:
@@ -55,7 +71,7 @@ def svg_group(fill: Fill, places: int) -> list[str]:
     colors, gradient, parts = fill.colors.tolist(), fill.gradient.tolist(), fill.part.tolist()
 
     def paint(k: int) -> str:
-        color = _hex(colors[k]) if gradient[k] < 0 else f"url(#gradient-{gradient[k]})"
+        color = hex_of(colors[k]) if gradient[k] < 0 else f"url(#gradient-{gradient[k]})"
         opacity = colors[k][3]
         # Transparent faces have no stroke: where it overlapped the fill, they would be less transparent.
         rest = f' stroke="{color}"' if opacity == 255 else f' fill-opacity="{number(opacity / 255.0, 3)}" stroke="none"'
@@ -76,15 +92,11 @@ def _svg_gradient(k: int, gradient: Gradient, places: int) -> str:
         number(float(v), places + 1) for v in (gradient.start[0], -gradient.start[1], gradient.end[0], -gradient.end[1])
     )
     stops = "".join(
-        f'<stop offset="{number(share, 4)}" stop-color="{_hex(color)}"/>'
+        f'<stop offset="{number(share, 4)}" stop-color="{hex_of(color)}"/>'
         for share, color in zip(gradient.shares.tolist(), gradient.colors.tolist(), strict=True)
     )
     place = f'x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"'
     return f'<linearGradient id="gradient-{k}" gradientUnits="userSpaceOnUse" {place}>{stops}</linearGradient>\n'
-
-
-def _hex(color: list[int]) -> str:
-    return f"#{color[0]:02x}{color[1]:02x}{color[2]:02x}"
 
 
 def pdf_content(fill: Fill, places: int) -> bytes:
@@ -102,8 +114,6 @@ def pdf_content(fill: Fill, places: int) -> bytes:
         for loop in loops:
             out.append(" ".join(f"{x} {y} {'l' if j else 'm'}" for j, (x, y) in enumerate(loop)) + " h\n")
         out.append("B*\n" if opaque else "f*\nQ\n")
-    # Lines are black.
-    out.append("0 g 0 G\n")
     return "".join(out).encode("ascii")
 
 

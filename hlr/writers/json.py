@@ -14,6 +14,7 @@ from hlr.drawing.curve import Arc, Curve
 from hlr.drawing.drawing import Drawing, DrawnView
 from hlr.drawing.line import Line
 from hlr.errors import WriteError
+from hlr.request.style import Style
 from hlr.writers.number import NOT_FINITE
 
 FORMAT = "hlr-drawing"
@@ -42,6 +43,8 @@ def document(drawing: Drawing) -> bytes:
         "counters": dict(drawing.counters),
         "timings": {**drawing.timings, **_effects(drawing)},
     }
+    if drawing.style != Style():
+        tail = {"style": asdict(drawing.style), **tail}
     if drawing.fill is not None:
         tail = {"fill": _record(drawing.fill), **tail}
     listed = ",\n".join(_dump(part) for part in parts)

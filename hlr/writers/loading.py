@@ -16,8 +16,9 @@ from hlr.drawing.fill import Fill
 from hlr.drawing.line import Bounds, Line
 from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
-from hlr.errors import SourceError
+from hlr.errors import OptionError, SourceError
 from hlr.request.effect import Decision
+from hlr.request.style import LineRule, Style
 from hlr.tables.line_classes import LINE_CLASSES, Kind, names
 from hlr.writers.json import FORMAT, VERSION
 from hlr.writers.revive import array, revived
@@ -103,6 +104,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         timings=revived(Mapping[str, float], timings, "timings"),
         fill=revived(Fill | None, document.get("fill"), "fill"),
         reached=_reached(document["accuracy"].get("reached"), accuracy),
+        style=_style(document.get("style", {})),
         window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
         page=revived(Page | None, document.get("page"), "page"),
         plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(document["plan"])),
@@ -151,6 +153,15 @@ def _curve(entry: dict[str, Any], what: str) -> Curve:
     if entry["type"] != "bezier" or degree not in (2, 3) or len(points) <= degree or len(points) % degree != 1:
         raise ValueError(f"{what} should be an arc, or a chain of Bezier curves of degree 2 or 3")
     return Bezier(degree, points)
+
+
+def _style(values: dict[str, Any]) -> Style:
+    """The style as it was written, field by field; the records check themselves."""
+    try:
+        lines = {"lines": tuple(LineRule(**rule) for rule in values["lines"])} if "lines" in values else {}
+        return Style(**{**values, **lines})
+    except OptionError as error:
+        raise ValueError(f"style: {error}") from None
 
 
 def _reached(entry: dict[str, Any] | None, accuracy: Accuracy) -> Reached | None:

@@ -12,25 +12,12 @@ from typing import Any
 import numpy as np
 
 from hlr.drawing.picture import Picture
-from hlr.errors import OptionError, WriteError
+from hlr.errors import WriteError
 
 NOTHING = 65535
 """In a depth map: nothing is seen there."""
 
 FARTHEST = 65534
-
-
-def parse_color(text: str) -> tuple[int, int, int, int]:
-    """Red, green, blue, opacity, 0 to 255, of a CSS colour name, #rrggbb or transparent; raises OptionError."""
-    if text.strip().lower() in ("transparent", "none"):
-        return (0, 0, 0, 0)
-    image_color = _pillow("ImageColor")
-    try:
-        found = image_color.getcolor(text.strip(), "RGBA")
-    except ValueError:
-        raise OptionError(f"{text!r} is no colour: give a CSS name such as white, #rrggbb, or transparent") from None
-    red, green, blue, opacity = found
-    return (int(red), int(green), int(blue), int(opacity))
 
 
 def picture_png(picture: Picture) -> bytes:
@@ -69,31 +56,33 @@ def ids_png(picture: Picture) -> bytes:
 
 
 def _encoded(picture: Picture, pixels: Any, more: dict[str, str]) -> bytes:
-    from importlib.metadata import version
-
-    image_module, plugin = _pillow("Image"), _pillow("PngImagePlugin")
     view = picture.view
-    direction = ",".join(f"{c:.6g}" for c in view.direction)
     told = {
-        "Software": f"hlr {version('hlr-drawing')}",
         "Source": picture.source,
         "View": view.name,
         "Projection": view.projection,
-        "Direction": direction,
+        "Direction": ",".join(f"{c:.6g}" for c in view.direction),
         "Scale": f"{picture.scale:.9g} pixels per millimetre",
         **more,
     }
     if view.eye is not None and view.fov is not None:
         told["Eye"] = ",".join(f"{c:.9g}" for c in view.eye)
         told["Field of view"] = f"{view.fov:.6g} degrees"
-    info = plugin.PngInfo()
-    for key, value in told.items():
+    return encoded(_pillow("Image").fromarray(pixels), told)
+
+
+def encoded(image: Any, told: dict[str, str], dpi: float | None = None) -> bytes:
+    """An image of Pillow as PNG. told: its text chunks; dpi: pixels per inch."""
+    from importlib.metadata import version
+
+    info = _pillow("PngImagePlugin").PngInfo()
+    for key, value in {"Software": f"hlr {version('hlr-drawing')}", **told}.items():
         if value.isascii():
             info.add_text(key, value, zip=len(value) > 1000)
         else:
             info.add_itxt(key, value, zip=len(value) > 1000)
     out = io.BytesIO()
-    image_module.fromarray(pixels).save(out, "PNG", pnginfo=info)
+    image.save(out, "PNG", pnginfo=info, **({} if dpi is None else {"dpi": (dpi, dpi)}))
     return out.getvalue()
 
 

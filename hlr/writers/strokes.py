@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,10 +17,14 @@ import numpy.typing as npt
 from hlr import _kernel
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
-from hlr.drawing.lines import held
+from hlr.drawing.lines import divided, held
+from hlr.drawing.pens import Pen, PenSet, pens_of
 from hlr.errors import WriteError
-from hlr.tables.line_classes import LINE_CLASSES, WIDE_MM, by_number
-from hlr.writers import number, style
+from hlr.tables.line_classes import LINE_CLASSES, LineClass, by_number
+from hlr.writers import number
+
+MARGIN = 5.5
+"""Empty border around the drawing, millimetres."""
 
 START, LINE, CONTROL, QUADRATIC, CUBIC, ARC, WHOLE = range(7)
 """What a row of a stroke is: where it starts; a straight line to here; a control point of the curve that the next
@@ -29,6 +33,39 @@ QUADRATIC or CUBIC row ends; the end of an arc; the centre of a whole circle or 
 
 PAGE_PLACES = 3
 """Decimals of millimetres that the size of a page may have."""
+
+
+@dataclass(frozen=True, slots=True)
+class Inked:
+    """A layer and its pen: the strokes of one line class and visibility, of all parts or those of one set.
+
+    seen  the visible layers of the same parts, from which dashed lines may go on
+    """
+
+    layer: _kernel.Layer
+    row: LineClass
+    pens: PenSet
+    seen: tuple[_kernel.Layer, ...] = ()
+
+    @property
+    def visible(self) -> bool:
+        """Whether its lines are visible."""
+        return self.layer.visible
+
+    @property
+    def pen(self) -> Pen:
+        """What it is drawn with."""
+        return self.pens.pen(self.row.name, self.visible)
+
+    def svg(self) -> bytes:
+        """Its elements, with their dashes."""
+        dash = self.pen.dash
+        return self.layer.svg(dash, [] if dash is None else self.seen)
+
+    def pdf(self) -> bytes:
+        """Its painted paths, with their dashes."""
+        dash = self.pen.dash
+        return self.layer.pdf(dash, [] if dash is None else self.seen)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,25 +80,17 @@ class Strokes:
     bottom: float
     width: float
     height: float
-    layers: tuple[_kernel.Layer, ...]
+    inked: tuple[Inked, ...]
 
     @property
     def side_places(self) -> int:
         """Decimals of the page's width and height: a sheet has its exact size, however coarse the drawing is."""
         return max(self.places, PAGE_PLACES)
 
-    def svg(self, layer: _kernel.Layer) -> bytes:
-        """The elements of a layer, with its dashes."""
-        return layer.svg(*self._dashes(layer))
-
-    def pdf(self, layer: _kernel.Layer) -> bytes:
-        """The painted paths of a layer, with its dashes."""
-        return layer.pdf(*self._dashes(layer))
-
-    def _dashes(self, layer: _kernel.Layer) -> tuple[tuple[float, float] | None, list[_kernel.Layer]]:
-        """The dashes, and the layers that dashed lines may go on from."""
-        pattern = style.dash(by_number()[layer.kind], layer.visible)
-        return pattern, [] if pattern is None else [other for other in self.layers if other.visible]
+    @property
+    def layers(self) -> tuple[_kernel.Layer, ...]:
+        """The layers alone."""
+        return tuple(inked.layer for inked in self.inked)
 
 
 def places_of(drawing: Drawing, bounds: tuple[float, float, float, float]) -> int:
@@ -72,24 +101,46 @@ def places_of(drawing: Drawing, bounds: tuple[float, float, float, float]) -> in
 def strokes(drawing: Drawing, *, cubic: bool = False) -> Strokes:
     """Sort and join the lines of a drawing: hidden layers first, so that visible lines lie on top.
 
+    Where its style has the layers by part, all lines of a part stand together, and the same holds within it.
+
     cubic: arcs and quadratic curves become cubic ones, for formats that know no others. Raises WriteError where a point
     is not finite.
     """
     x0, y0, x1, y1 = bounds = drawing.area
-    accuracy, places = drawing.accuracy.used, places_of(drawing, bounds)
-    order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
-    try:
-        layers = held(drawing.lines).layers(order, places, accuracy, cubic)
-    except ValueError:
-        raise WriteError(number.NOT_FINITE) from None
+    places = places_of(drawing, bounds)
+    found = [inked for pens, lines in _sets(drawing) for inked in _inked(drawing, pens, lines, places, cubic)]
+    if drawing.style.layers == "class":
+        found.sort(key=lambda inked: (inked.visible, inked.row.place))
     if drawing.page is not None:
-        return Strokes(places, x0, y0, drawing.page.width, drawing.page.height, tuple(layers))
+        return Strokes(places, x0, y0, drawing.page.width, drawing.page.height, tuple(found))
     step = 10.0**places
     unit = 10.0**-places
-    border = math.ceil((style.MARGIN + WIDE_MM) * 10**places)
+    border = math.ceil(MARGIN * 10**places)
     left, bottom = round(x0 * step) - border, round(y0 * step) - border
     right, top = round(x1 * step) + border, round(y1 * step) + border
-    return Strokes(places, left * unit, bottom * unit, (right - left) * unit, (top - bottom) * unit, tuple(layers))
+    return Strokes(places, left * unit, bottom * unit, (right - left) * unit, (top - bottom) * unit, tuple(found))
+
+
+def _sets(drawing: Drawing) -> list[tuple[PenSet, _kernel.Lines]]:
+    """The lines of parts that are drawn alike, or of each part where the style has a layer for each."""
+    sets = pens_of(drawing)
+    if drawing.style.layers == "part":
+        alone = [replace(one, parts=(part,)) for one in sets for part in one.parts]
+        sets = sorted(alone, key=lambda one: one.parts)
+    own = np.zeros(len(drawing.parts), np.int64)
+    for n, one in enumerate(sets):
+        own[list(one.parts)] = n
+    return list(zip(sets, divided(drawing.lines, own, len(sets)), strict=True))
+
+
+def _inked(drawing: Drawing, pens: PenSet, lines: _kernel.Lines, places: int, cubic: bool) -> list[Inked]:
+    order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
+    try:
+        layers = lines.layers(order, places, drawing.accuracy.used, cubic)
+    except ValueError:
+        raise WriteError(number.NOT_FINITE) from None
+    seen, rows = tuple(layer for layer in layers if layer.visible), by_number()
+    return [Inked(layer, rows[layer.kind], pens, seen) for layer in layers]
 
 
 @dataclass(slots=True)

@@ -1,11 +1,15 @@
 """SVG: real millimetres, one group per visibility, line class and part, the edge on every path.
 
-Widths and dashes are presentation attributes on the groups. They work in every program that reads SVG, and any CSS
-rule overrides them, because they rank below all selectors:
+Visibilities and line classes are layers in Inkscape; where the style has the layers by part, parts are the outermost.
+Widths, colours and dashes are presentation attributes on the groups. They work in every program that reads SVG, and any
+CSS rule overrides them, because they rank below all selectors:
 
     #hidden { display: none }
     #visible .outline { stroke-width: .7 }
     [data-part="3"] { stroke: crimson }
+
+With layers by part there are many hidden groups, which have the class `hidden` and no id. The background is that of the
+root element, so it is nothing that a cutter would cut.
 
 Coordinates are those of the drawing in millimetres with y turned down, so x and -y of a path are the `points` of the
 exchange format.
@@ -14,14 +18,16 @@ exchange format.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from hlr.drawing.drawing import Drawing
+from hlr.drawing.lines import held
+from hlr.drawing.pens import Pen, part_color
 from hlr.drawing.scale import ratio
-from hlr.tables.line_classes import by_number
-from hlr.writers import style
+from hlr.errors import counted
 from hlr.writers.number import number
-from hlr.writers.strokes import strokes
+from hlr.writers.strokes import Inked, strokes
 
 # Characters that XML 1.0 cannot carry, escaped or not.
 _SPECIAL = re.compile("[^ -~]|[&<>\"']")
@@ -33,38 +39,95 @@ def svg(drawing: Drawing) -> bytes:
     page = strokes(drawing)
     width, height = (number(side, page.side_places) for side in (page.width, page.height))
     corner = f"{number(page.left, page.places)} {number(-page.bottom - page.height, page.places)}"
+    background = drawing.style.background
+    root = {"stroke": "#000000", "stroke-linecap": "round"}
+    paper = "" if background is None else f' style="background:{background}"'
     out = [
         '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
-        f'viewBox="{corner} {width} {height}" fill="none" stroke="#000" '
-        'stroke-linecap="round" stroke-linejoin="round">\n',
+        '<svg xmlns="http://www.w3.org/2000/svg" '
+        'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
+        f'width="{width}mm" height="{height}mm" viewBox="{corner} {width} {height}" fill="none" '
+        f'{_attributes(root)} stroke-linejoin="round"{paper}>\n',
         f"<title>{_escaped(title(drawing))}</title>\n",
+        f"<desc>{_escaped(description(drawing))}</desc>\n",
         _metadata(drawing),
     ]
     if drawing.fill is not None:
-        from hlr.writers.fill import svg_group
+        from hlr.writers.fill import painted, svg_group
 
-        out.extend(svg_group(drawing.fill, page.places))
+        out.extend(svg_group(painted(drawing, drawing.fill), page.places))
     text = ["".join(out).encode("utf-8")]
-    for visible, layers in groupby(page.layers, lambda layer: layer.visible):
-        usual = style.group_width(visible)
-        # Round caps would lengthen each dash by the line width.
-        cap = "" if visible else ' stroke-linecap="butt"'
-        name = "visible" if visible else "hidden"
-        text.append(f'<g id="{name}" stroke-width="{number(usual)}"{cap}>\n'.encode("ascii"))
-        for layer in layers:
-            row = by_number()[layer.kind]
-            wide = style.width(row, visible)
-            own = "" if wide == usual else f' stroke-width="{number(wide)}"'
-            text += [f'<g class="{row.name}"{own}>\n'.encode("ascii"), page.svg(layer), b"</g>\n"]
-        text.append(b"</g>\n")
+    if drawing.style.layers == "class":
+        text += _lines(page.inked, root, ids=True)
+    else:
+        for pens, of_part in groupby(page.inked, lambda inked: inked.pens):
+            (index,) = pens.parts
+            label = _layer(f"part-{index}", drawing.parts[index].name)
+            text.append(f'<g data-part="{index}" {label}>\n'.encode())
+            text += [*_lines(of_part, root, ids=False), b"</g>\n"]
     text.append(b"</svg>\n")
     return b"".join(text)
+
+
+Attributes = dict[str, str]
+
+
+def _lines(inked: Iterable[Inked], root: Attributes, ids: bool) -> Iterator[bytes]:
+    """The groups of hidden and visible lines; root: what holds around them. ids: each has its id as well."""
+    for visible, of_visibility in groupby(inked, lambda each: each.visible):
+        layers = list(of_visibility)
+        name = "visible" if visible else "hidden"
+        usual = _ink(layers[0].pens.pen(None, visible))
+        own_id = f'id="{name}" ' if ids else ""
+        yield f'<g {own_id}class="{name}" {_layer(None, name.title())}{_changed(usual, root)}>\n'.encode()
+        for row, of_class in groupby(layers, lambda each: each.row):
+            sets = list(of_class)
+            first = _ink(sets[0].pen)
+            label = _layer(None, f"{name.title()} {row.name}")
+            yield f'<g class="{row.name}" {label}{_changed(first, usual)}>\n'.encode()
+            for one in sets:
+                # Parts with pens of their own: the class once more, so that a rule for it holds for them too.
+                changed = _changed(_ink(one.pen), first)
+                yield f'<g class="{row.name}"{changed}>\n'.encode() if changed else b""
+                yield one.svg()
+                yield b"</g>\n" if changed else b""
+            yield b"</g>\n"
+        yield b"</g>\n"
+
+
+def _ink(pen: Pen) -> Attributes:
+    return {"stroke": pen.color, "stroke-width": number(pen.width), "stroke-linecap": pen.cap}
+
+
+def _changed(own: Attributes, around: Attributes) -> str:
+    """The attributes that differ from those of the group around."""
+    changed = {name: value for name, value in own.items() if around.get(name) != value}
+    return f" {_attributes(changed)}" if changed else ""
+
+
+def _attributes(values: Attributes) -> str:
+    return " ".join(f'{name}="{value}"' for name, value in values.items())
+
+
+def _layer(name: str | None, label: str) -> str:
+    """What makes a group a layer in Inkscape."""
+    own = "" if name is None else f'id="{name}" '
+    return f'{own}inkscape:groupmode="layer" inkscape:label={_quoted(label)}'
 
 
 def title(drawing: Drawing) -> str:
     """What the drawing shows, in one line: "motor.step, iso, 1:2"."""
     return f"{drawing.source}, {drawing.view.name}, {ratio(drawing.scale)}"
+
+
+def description(drawing: Drawing) -> str:
+    """What a reader who does not see the drawing is told."""
+    seen = held(drawing.lines).visible()
+    visible, hidden = int(seen.sum()), int(len(seen) - seen.sum())
+    return (
+        f"Hidden-line drawing of {drawing.source}: view {drawing.view.name}, {drawing.view.projection}, scale "
+        f"{ratio(drawing.scale)}, {counted(visible, 'visible line')} and {counted(hidden, 'hidden line')}."
+    )
 
 
 def _metadata(drawing: Drawing) -> str:
@@ -93,7 +156,8 @@ def _metadata(drawing: Drawing) -> str:
     )
     parts = []
     for index, part in enumerate(drawing.parts):
-        color = f' color="{_hex(part.color)}"' if part.color is not None else ""
+        own = part_color(part)
+        color = "" if own is None else f' color="{own}"'
         parts.append(f'<part index="{index}" name={_quoted(part.name)}{color}/>\n')
     errors = " ".join(f'{key}="{value}"' for key, value in reached(drawing).items())
     measured = f"<reached {errors}/>\n" if errors else ""
@@ -117,10 +181,6 @@ def reached(drawing: Drawing) -> dict[str, str]:
 
 def _vector(values: tuple[float, ...]) -> str:
     return " ".join(f"{value + 0.0:.9g}" for value in values)
-
-
-def _hex(color: tuple[float, float, float]) -> str:
-    return "#" + "".join(f"{round(255 * min(1.0, max(0.0, channel))):02x}" for channel in color)
 
 
 def _clean(text: str) -> str:

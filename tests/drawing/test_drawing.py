@@ -130,8 +130,8 @@ def closed():
 @pytest.mark.parametrize(
     ("file", "format", "message"),
     [
-        (io.BytesIO(), None, "a file object has no ending that names the format: give format='svg', 'pdf' or 'json'"),
-        (io.BytesIO(), "dxf", "unknown format 'dxf'; use svg, pdf or json"),
+        (io.BytesIO(), None, "no ending that names the format: give format='svg', 'pdf', 'png' or 'json'"),
+        (io.BytesIO(), "dxf", "unknown format 'dxf'; use svg, pdf, png or json"),
         (io.StringIO(), "svg", "cannot write into the StringIO: it takes text, not bytes; open it with mode 'wb'"),
         (closed(), "svg", "cannot write into the BytesIO: I/O operation on closed file"),
         (Short(), "svg", "it took 1 of"),

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hlr.drawing.pens import WIDE_MM
 from hlr.errors import OptionError, ViewError
 from hlr.image.camera import resolve
 from hlr.image.image import image_of
@@ -21,7 +22,7 @@ from hlr.request.effect import Planner
 from hlr.request.options import Options, Perspective
 from hlr.scene.build import build
 from hlr.source import open_source
-from hlr.tables.line_classes import INTERIOR, WIDE_MM, EdgeClass
+from hlr.tables.line_classes import INTERIOR, EdgeClass
 from hlr.visibility.plan import DRAWN, OUTLINE, decide
 from support.models import box, parts
 

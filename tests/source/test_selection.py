@@ -6,8 +6,9 @@ import trimesh
 
 import hlr
 from hlr import OptionError, Options
+from hlr.request.part_names import matches
 from hlr.source import open_source
-from hlr.source.selection import matches, open_selected
+from hlr.source.selection import open_selected
 from support.at_size import AT_SIZE
 
 

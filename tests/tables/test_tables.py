@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import subprocess
 import sys
 import zlib
@@ -101,9 +102,6 @@ LINE_CLASS = LineClass(
     option="smooth",
     by_default=None,
     counter="weld_lines",
-    width_mm=0.7,
-    hidden_width_mm=0.35,
-    dash=(4.0, 2.0),
 )
 
 
@@ -180,7 +178,7 @@ def test_a_writer_is_a_row(added):
     file = io.BytesIO()
     drawing.save(file, "txt")
     assert file.getvalue() == path.read_bytes()
-    with pytest.raises(hlr.WriteError, match=r"svg, \.pdf, \.json or \.txt"):
+    with pytest.raises(hlr.WriteError, match=r"svg, .*\.json or \.txt"):
         drawing.save(added.with_suffix(".xyz"))
 
 
@@ -200,19 +198,23 @@ def test_a_line_class_goes_through_every_file(added):
     loaded = hlr.load(drawing.save(added.with_suffix(".json")))
     assert loaded == drawing
     assert [line["class"] for line in json.loads(drawing.to_json())["lines"]].count("weld") == 1
-    svg = drawing.to_svg()
-    assert svg.index('<g class="weld" stroke-width=".7">') > svg.index('<g class="sharp">')
-    pdf = drawing.to_pdf()
+    heavy = drawing.with_style({"visible": {"weld": {"width": 0.7}}})
+    svg = heavy.to_svg()
+    weld, sharp = (re.search(rf'<g class="{name}" [^>]*>', svg) for name in ("weld", "sharp"))
+    assert 'stroke-width=".7"' in weld[0] and "stroke-width" not in sharp[0]
+    assert weld.start() > sharp.start()
+    pdf = heavy.to_pdf()
     assert b"(Visible weld)" in pdf
     content = zlib.decompress(pdf.partition(b"stream\n")[2])
-    assert b"BDC .7 w " in content
+    assert b"BDC 0 0 0 RG .7 w " in content
 
 
 def test_hidden_lines_of_a_class_have_its_width_and_dash(added):
-    drawing = hlr.draw(added, view=(-1, -1, -1), smooth=True, scale=1.0, hidden=True)
+    look = {"hidden": {"weld": {"width": 0.35, "dash": [4, 2]}}}
+    drawing = hlr.draw(added, view=(-1, -1, -1), smooth=True, scale=1.0, hidden=True, style=look)
     assert [line.visible for line in drawing.lines if line.kind == "weld"] == [False]
     svg = drawing.to_svg()
-    assert '<g class="weld" stroke-width=".35">' in svg
+    assert 'stroke-width=".35"' in re.search(r'<g class="weld" [^>]*>', svg)[0]
     pattern = svg[svg.index('<g class="weld"') :].partition('stroke-dasharray="')[2].partition('"')[0]
     dash, gap = map(float, pattern.replace(",", " ").split()[:2])
     assert dash + gap == pytest.approx((4.0 + 2.0) * 0.35, rel=0.2)
@@ -242,12 +244,12 @@ def test_the_command_knows_all_rows(added):
 def test_help_texts_name_all_rows(added):
     shown = " ".join(command(added, "--help").stdout.split())
     assert "GLB and DUMMY." in shown
-    assert "Draw a model as SVG, PDF, JSON or TXT." in shown
+    assert "Draw a model as SVG, PDF, PNG, JSON or TXT." in shown
     shown = " ".join(command(added, "draw", "--help").stdout.split())
-    assert "[svg|pdf|json|txt]" in shown
-    assert "Where to write: .svg, .pdf, .json or .txt;" in shown
+    assert "[svg|pdf|png|json|txt]" in shown
+    assert "Where to write: .svg, .pdf, .png, .json or .txt;" in shown
     refused = command(added, "draw", "cube.dummy", "-o", "cube.xyz")
-    assert (refused.returncode, "use .svg, .pdf, .json or .txt" in refused.stderr) == (2, True)
+    assert (refused.returncode, "use .svg, .pdf, .png, .json or .txt" in refused.stderr) == (2, True)
 
 
 def test_any_object_that_follows_the_protocol_is_drawn():

@@ -8,8 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from writers import golden
 
-from hlr.tables.line_classes import LINE_CLASSES
-from hlr.writers import style
+from hlr.drawing.pens import usual_pens
+from hlr.request.style import LineRule, Style
 from hlr.writers.svg import svg
 from support.drawings import drawing, line, part, sample
 
@@ -92,14 +92,15 @@ def test_hidden_lines_are_drawn_first_narrow_and_dashed():
     assert {widths[kind] for kind in ("sharp", "outline", "boundary", "intersection")} == {None}
 
 
-def test_widths_are_those_of_the_style(monkeypatch):
-    widths = {"sharp": 0.7, "smooth": 0.13, "outline": 0.35}
-    monkeypatch.setattr(style, "width", lambda kind, visible: widths.get(kind, 0.18) if visible else 0.09)
-    for group in tree(sample()).findall("s:g", NS):
-        for of_kind in group:
-            visible = group.get("id") == "visible"
-            drawn = of_kind.get("stroke-width") or group.get("stroke-width")
-            assert float(drawn) == style.width(LINE_CLASSES[of_kind.get("class")], visible)
+def test_widths_are_those_of_the_style():
+    rules = [LineRule(kind=kind, width=width) for kind, width in (("sharp", 0.7), ("smooth", 0.13), ("outline", 0.35))]
+    made = replace(sample(), style=Style(lines=rules, wide=0.18))
+    pens = usual_pens(made.style)
+    drawn = [(group, of_kind) for group in tree(made).findall("s:g", NS) for of_kind in group]
+    assert len(drawn) == 9
+    for group, of_kind in drawn:
+        width = of_kind.get("stroke-width") or group.get("stroke-width")
+        assert float(width) == pens.pen(of_kind.get("class"), group.get("id") == "visible").width
 
 
 def test_metadata_names_the_source_the_view_and_the_parts():

@@ -61,7 +61,7 @@ def finer_drawing(opened: Any, drawing: Drawing, fineness: float) -> Drawing | s
     from hlr.pipeline.draw import draw_views
 
     accuracy = drawing.accuracy.used / fineness
-    options = replace(request.options, accuracy=accuracy, fill=False, strict=False, report=False)
+    options = replace(request.options, accuracy=accuracy, fill=False, style=None, strict=False, report=False)
     if options.fit is None:
         # At the same scale, though outlines that are known better might fit the page at another.
         options = replace(options, scale=drawing.scale, page=None)
