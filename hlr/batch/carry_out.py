@@ -61,7 +61,7 @@ def _drawn(job: Job, progress: Progress | None) -> Outcome:
     from hlr.drawing.saving import render
     from hlr.public.draw import draw_views
 
-    options = options_of(job.options)
+    options = options_of(job.options, job.root)
     drawings = draw_views(str(Path(job.root, job.source)), cast("list[View]", list(job.views)), options, progress)
     started = perf_counter()
     contents = tuple(tuple(render(drawing, format) for format in job.formats) for drawing in drawings)

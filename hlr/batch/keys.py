@@ -13,6 +13,7 @@ from hashlib import blake2b, file_digest
 from pathlib import Path
 
 from hlr.batch.job import Job
+from hlr.batch.request import files_of
 from hlr.common.packages import bindings, installed
 from hlr.tables.readers import of_ending
 
@@ -30,22 +31,23 @@ class Digests:
     """Digests of files (SHA-256, hexadecimal), each read once until it is forgotten."""
 
     def __init__(self) -> None:
-        self._known: dict[Path, str | None] = {}
+        self._known: dict[str, str | None] = {}
 
     def of(self, path: Path) -> str | None:
         """The digest of a file's content; None where there is no file that can be read."""
-        if path not in self._known:
+        name = os.path.abspath(path)
+        if name not in self._known:
             try:
-                with path.open("rb") as file:
-                    self._known[path] = file_digest(file, "sha256").hexdigest()
+                with open(name, "rb") as file:
+                    self._known[name] = file_digest(file, "sha256").hexdigest()
             except (OSError, ValueError):
-                self._known[path] = None
-        return self._known[path]
+                self._known[name] = None
+        return self._known[name]
 
     def forget(self, paths: Iterable[Path]) -> None:
         """Read these files again when they are asked for."""
         for path in paths:
-            self._known.pop(path, None)
+            self._known.pop(os.path.abspath(path), None)
 
 
 def key_of(job: Job, digests: Digests) -> str | None:
@@ -64,7 +66,10 @@ def key_of(job: Job, digests: Digests) -> str | None:
         "views": job.views,
         "formats": job.formats,
         "options": {name: value for name, value in job.options.items() if name != "threads"},
-        "depends": [[path, digests.of(Path(job.root, path))] for path in job.depends],
+        "depends": [
+            [path, digests.of(Path(job.root, path))]
+            for path in (*job.depends, *files_of(job.options, job.root).values())
+        ],
     }
     text = json.dumps(known, sort_keys=True, default=str)
     return blake2b(text.encode("utf-8", "surrogatepass"), digest_size=20).hexdigest()

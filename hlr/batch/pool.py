@@ -6,8 +6,9 @@ Any object that follows the protocol `Pool` will do: what runs elsewhere gets jo
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
 from typing import Protocol
 
@@ -49,7 +50,10 @@ class LocalPool:
         """As of `Pool`."""
         while len(self._workers) < min(self._most, len(jobs)):
             self._workers.append(Worker(self._said))
-        waiting, left = iter(enumerate(jobs)), len(jobs)
+        # Jobs that run at the same time share the cores; the number of threads changes no byte.
+        threads = max(1, (os.cpu_count() or 1) // max(1, min(self._most, len(jobs))))
+        shared = [replace(job, options={"threads": threads, **job.options}) for job in jobs]
+        waiting, left = iter(enumerate(shared)), len(jobs)
         for worker in self._workers:
             _give(worker, waiting)
         while left:
@@ -70,6 +74,8 @@ class LocalPool:
         """As of `Pool`."""
         for worker in self._workers:
             worker.end()
+        for worker in self._workers:
+            worker.wait()
         self._workers.clear()
 
 

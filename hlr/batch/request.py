@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,8 +13,14 @@ NAMES = tuple(Options.__dataclass_fields__)
 """Of all options that a manifest may give."""
 
 
-def options_of(values: Mapping[str, Any]) -> Options:
+_FILES = ("style",)
+"""Options that may name a file; it is looked for from the root of the batch."""
+
+
+def options_of(values: Mapping[str, Any], root: str) -> Options:
     """The options with these values; arrays become tuples, and a table of `perspective` becomes the camera.
+
+    root: the folder that names of files start from.
 
     Raises OptionError for a camera that has no such field; `check` says whether the values are right.
     """
@@ -25,21 +32,27 @@ def options_of(values: Mapping[str, Any]) -> Options:
             known = ", ".join(Perspective.__dataclass_fields__)
             raise OptionError(f"perspective has no field {unknown[0]!r}: use {known}")
         given["perspective"] = Perspective(**{name: _tuples(value) for name, value in camera.items()})
-    return Options(**given)
+    return Options(**given | {name: os.path.join(root, file) for name, file in files_of(values, root).items()})
 
 
-def check(values: Mapping[str, Any], views: tuple[Any, ...]) -> None:
+def files_of(values: Mapping[str, Any], root: str) -> dict[str, str]:
+    """The files that options name: the name of each option, and the path seen from the root."""
+    named = {name: values[name] for name in _FILES if isinstance(values.get(name), str)}
+    return {name: file for name, file in named.items() if os.path.isfile(os.path.join(root, file))}
+
+
+def check(values: Mapping[str, Any], views: tuple[Any, ...], root: str) -> None:
     """Check options and views as `hlr.draw_views` does, before any work. Raises OptionError, ViewError."""
     from hlr.request.check import checked, checked_views
 
-    checked_views(views, checked(options_of(values)))
+    checked_views(views, checked(options_of(values, root)))
 
 
-def wrong_one(values: Mapping[str, Any]) -> str | None:
+def wrong_one(values: Mapping[str, Any], root: str) -> str | None:
     """The first of these options that is refused by itself; None: only together they are."""
     for name, value in values.items():
         try:
-            check({name: value}, ("iso",))
+            check({name: value}, ("iso",), root)
         except HlrError:
             return name
     return None

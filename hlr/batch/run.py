@@ -141,7 +141,7 @@ def _check_options(manifest: Manifest, jobs: Sequence[Job]) -> None:
         seen.add((job.rule, job.views))
         options = {name: value for name, value in job.options.items() if name != "parameters"}
         try:
-            check(options, job.views)
+            check(options, job.views, job.root)
         except HlrError as error:
-            name = wrong_one(options) or "views"
+            name = wrong_one(options, job.root) or "views"
             raise manifest.error((*job.rule, name), str(error)) from None

@@ -72,11 +72,15 @@ class Worker:
             running.keep_within_limits()
 
     def end(self) -> None:
-        """End it, whatever it does."""
+        """End it, whatever it does: at once where it does a job, and when it is ready where it has none."""
         self._given.put(None)
         process = self._process
-        if process is not None:
+        if process is not None and self._running is not None:
             _kill(process.pid)
+
+    def wait(self) -> None:
+        """Wait until it has ended, though not for long."""
+        self._thread.join(4.0 * _PATIENCE)
 
     def _work(self) -> None:
         while (given := self._given.get()) is not None:

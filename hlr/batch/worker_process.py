@@ -30,6 +30,8 @@ from hlr.batch.carry_out import carry_out
 from hlr.batch.frames import receive, send
 from hlr.batch.job import Job
 from hlr.common.process import claim, debugging, tie_to, without_core_files
+from hlr.tables.entry import called
+from hlr.tables.writers import WRITERS
 
 _FORKS = sys.platform == "linux"
 
@@ -53,11 +55,13 @@ def main() -> None:
             job: Job = receive(reading)
             send(writing, ("at", os.getpid()))
             if _FORKS:
-                import_module("hlr.public.draw")
+                for entry in ("hlr.public.draw:draw_views", *(WRITERS[format].entry for format in job.formats)):
+                    called(entry)  # imports it
                 while _in_child(job, writing, imported):
                     send(writing, ("at", os.getpid()))
             else:
                 send(writing, ("ended", _done(job, writing)))
+    os._exit(0)  # taking down what is imported takes longer than many a drawing
 
 
 def _own_streams() -> tuple[int, int]:
