@@ -37,7 +37,7 @@ def options_of(values: Mapping[str, Any], root: str) -> Options:
 
 def files_of(values: Mapping[str, Any], root: str) -> dict[str, str]:
     """The files that options name: the name of each option, and the path seen from the root."""
-    named = {name: values[name] for name in _FILES if isinstance(values.get(name), str)}
+    named = {name: values[name] for name in _FILES if str(values.get(name, "")).endswith(".toml")}
     return {name: file for name, file in named.items() if os.path.isfile(os.path.join(root, file))}
 
 

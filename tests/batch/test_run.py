@@ -80,6 +80,18 @@ def test_what_a_source_pulls_in_counts(go, tmp_path):
     assert go(**wishes)[1] == ["a.off"]
 
 
+def test_a_file_that_an_option_names_counts(go, tmp_path):
+    look = tmp_path / "look.toml"
+    look.write_text('background = "none"\n')
+    old(tmp_path)
+    wishes = {"files": ["a.off"], "style": "look.toml"}
+    go(**wishes)
+    assert go(**wishes)[1] == []
+    look.write_text('background = "white"\n')
+    old(tmp_path)
+    assert go(**wishes)[1] == ["a.off"]
+
+
 def test_what_changes_while_it_is_drawn_is_drawn_again(go, tmp_path):
     old(tmp_path)
 
