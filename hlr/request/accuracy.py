@@ -89,9 +89,6 @@ CONTACT_PLANAR = 2.5
 gaps and overlaps that are nothing on paper. Ten times the kernel's `FLUSH`, the depth a wall may sink into a face
 without a line of its own: so its edge is seen there from all but the most oblique directions."""
 
-CONTACT_CROSSING = 2.0
-"""Of the deflection: the contact depth of planar parts that meet at a small angle, where intersections are searched."""
-
 CONTACT_SPARE = 1.01
 """Of the contact depth: boxes of parts are grown by this much to find the parts that come near one another."""
 

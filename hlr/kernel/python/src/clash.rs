@@ -16,6 +16,7 @@ use hlr_mesh::scene::Scene;
 use hlr_mesh::tables::Tables;
 use hlr_visibility::clash::contacts::real;
 use hlr_visibility::clash::depth::{Bodies, Depth};
+use hlr_visibility::clash::planes::planes;
 use hlr_visibility::clash::reach::Sheet;
 use hlr_visibility::clash::search::{Clash, Clashes, NO_PLANE, Surfaces};
 use hlr_visibility::clash::weld::weld;
@@ -107,7 +108,9 @@ pub fn crossings<'py>(
         let without_brep: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
         let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
         let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, normals: &facts.normals };
-        let bodies = Bodies { sheet, group, curved: &scene.curved, without_brep: &without_brep, touch, deflection };
+        let planes = planes(&sheet, &plane, &found.found);
+        let (face, planes) = (&plane[..], &planes);
+        let bodies = Bodies { sheet, group, face, planes, without_brep: &without_brep, touch, deflection };
         let depth = |(clash, [a, b]): (&Clash, &[i32; 2])| {
             let ends = [a, b].map(|&end| &points[end as usize]);
             bodies.depth(clash, &[0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2.0))

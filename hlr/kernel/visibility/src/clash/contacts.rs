@@ -73,6 +73,7 @@ fn candidates(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], depth: &[Dept
             clash: found[first],
             depth: Depth {
                 touch: depth[first].touch,
+                level: most(&|i| depth[i].level),
                 beyond: most(&|i| depth[i].beyond),
                 reach: most(&|i| depth[i].reach),
             },
@@ -134,7 +135,7 @@ fn crossing(bodies: &Bodies, all: &[Candidate], nodes: &Nodes, points: &[Vec3], 
         }
         // Rounding makes faces in one plane cross everywhere. That joins lines over any distance, but is nowhere
         // deep.
-        deepest[f] = deepest[f].max(all[i].depth.beyond / all[i].depth.touch + 1.0);
+        deepest[f] = deepest[f].max(all[i].depth.level / all[i].depth.touch);
     }
     for (&i, &f) in slight.iter().zip(&bridge) {
         let size = all[i].segment.groups.iter().map(|&g| width[g]).fold(f64::INFINITY, f64::min);
@@ -181,4 +182,51 @@ fn small(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes, poin
         a == b && !bodies.without_brep[a]
     };
     kept.iter().zip(&figure).map(|(&i, &f)| of_one_solid(i) && extent[f] < SMALL * largest[f]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::reach::Sheet;
+    use super::super::triangle_pair::Meeting;
+    use super::*;
+    use std::collections::HashMap;
+
+    /// Two walls through a floor, and a segment between them in which faces meet at no angle, `level` deep.
+    fn lines(level: f64) -> usize {
+        let points = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+        let (edges, normals) = ([], [[0.0, 0.0, 1.0]; 2]);
+        let sheet = Sheet {
+            points: &points,
+            triangles: &[[0, 1, 2]; 2],
+            edges: &edges,
+            offsets: &[0],
+            incident: &[],
+            normals: &normals,
+        };
+        let (planes, touch) = (HashMap::new(), [1.0; 2]);
+        let without_brep = &[false; 2];
+        let bodies = Bodies {
+            sheet,
+            group: &[0, 1],
+            face: &[0, 1],
+            planes: &planes,
+            without_brep,
+            touch: &touch,
+            deflection: 0.5,
+        };
+        let clash = |sine| Clash { triangles: [0, 1], meeting: Meeting { ends: [[0; 3]; 2], depth: 0.0, sine } };
+        let depth = |level| Depth { touch: 1.0, level, beyond: level - FORGIVEN, reach: 5.0 };
+        let found = [clash(1.0), clash(0.0), clash(1.0)];
+        let depths = [depth(5.0), depth(level), depth(5.0)];
+        real(&bodies, &found, &[[0, 3], [2, 3], [1, 2]], &depths, &points, &[9.0; 2]).0.len()
+    }
+
+    /// Less than the contact depth, as between planar faces.
+    const FORGIVEN: f64 = 0.1;
+
+    #[test]
+    fn a_gap_between_lines_is_closed_where_it_is_deeper_than_rounding() {
+        assert_eq!(lines(0.05), 3);
+        assert_eq!(lines(1e-7), 2);
+    }
 }

@@ -10,7 +10,10 @@
 //! these decide. On B-reps the surface is followed near the crossing (`reach`): a corner far away that lies beyond the
 //! other's plane does not tell how deep the surface goes here.
 
-use super::reach::{Sheet, Vec3, cross, dot, minus};
+use std::collections::HashMap;
+
+use super::planes::Plane;
+use super::reach::{Sheet, Vec3, dot, minus};
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_OF_ONE_SOLID, FLUSH};
 
@@ -21,12 +24,13 @@ pub const SLIGHT_ANGLE: f64 = 0.35;
 const ROUNDING: f64 = 1e-9;
 
 /// What is known of the surfaces. `without_brep`: per group, whether it belongs to a mesh without B-rep. `touch`: per
-/// group, the distance (model units) within which it touches another surface. `curved`: per triangle, whether its face
-/// is not planar, or not known.
+/// group, the distance (model units) within which it touches another surface. `face`: per triangle its planar face, or
+/// NO_PLANE. `planes`: of all planar faces that take part in a clash.
 pub struct Bodies<'a> {
     pub sheet: Sheet<'a>,
     pub group: &'a [i32],
-    pub curved: &'a [bool],
+    pub face: &'a [i32],
+    pub planes: &'a HashMap<i32, Plane>,
     pub without_brep: &'a [bool],
     pub touch: &'a [f64],
     pub deflection: f64,
@@ -37,7 +41,9 @@ pub struct Bodies<'a> {
 pub struct Depth {
     /// Within this distance the two surfaces touch.
     pub touch: f64,
-    /// How much deeper it goes than a contact; negative for a contact.
+    /// How far one surface goes beyond the other on its shallower side, near the crossing.
+    pub level: f64,
+    /// How much deeper that is than a contact; negative for a contact.
     pub beyond: f64,
     /// How far one surface reaches beyond the other; hardly at all where it stands flush on it.
     pub reach: f64,
@@ -69,42 +75,41 @@ impl Bodies<'_> {
 
     /// The depth of a clash. `middle`: the middle of the segment in which the two triangles cross.
     pub fn depth(&self, clash: &Clash, middle: &Vec3) -> Depth {
-        let ([a, b], groups) = (clash.triangles, self.groups(clash));
+        let groups = self.groups(clash);
         let solid = !groups.iter().any(|&g| self.without_brep[g]);
         let mut touch = groups.iter().fold(0.0f64, |most, &g| most.max(self.touch[g]));
         if groups[0] == groups[1] && solid {
             touch *= CONTACT_OF_ONE_SOLID;
         }
-        let (reach, mut level) = self.corners_beyond(clash);
-        // The position of a planar face is exact, so how far a wall goes beyond it is known; not so for a facet.
+        let planes = clash.triangles.map(|t| self.planes.get(&self.face[t as usize]));
+        let across = clash.triangles.map(|t| self.across(t));
+        let (reach, mut level) = self.corners_beyond(clash, &across);
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
-        let known = [a, b].map(|t| steep && !self.curved[t as usize]);
-        let lever = self.lever(clash);
         let mut beyond = f64::INFINITY;
         for k in 0..2 {
-            if known[k] {
-                level[k] *= lever[k];
-            }
             if solid {
-                let here = self.sheet.reach(clash.triangles[k], clash.triangles[1 - k], middle, touch);
-                let told = steep && !known[k] && here.is_finite();
-                level[k] = if told { here } else { level[k].min(here) };
+                let here = self.sheet.reach(&across[k].normal, clash.triangles[1 - k], middle, touch);
+                level[k] = if steep && here.is_finite() { here } else { level[k].min(here) };
             }
-            let forgiven = if known[k] { touch.min(FLUSH * self.deflection) } else { touch };
+            // A planar face has no chord error: how far a wall goes beyond it is known, and another planar face at any
+            // angle.
+            let forgiven = match (planes[k], planes[1 - k]) {
+                (Some(plane), other) if steep || other.is_some() => touch.min(FLUSH * self.deflection + plane.off),
+                _ => touch,
+            };
             beyond = beyond.min(level[k] - forgiven);
         }
-        Depth { touch, beyond, reach }
+        Depth { touch, level: level[0].min(level[1]), beyond, reach }
     }
 
     /// Two measures. First: how far each triangle with its neighbours reaches beyond the other's plane on its shallower
     /// side, the lesser of both. Second, for the plane of each: how far the other triangle reaches beyond it, with only
     /// those neighbours beyond an edge along the crossing that lie in its own plane.
-    fn corners_beyond(&self, clash: &Clash) -> (f64, [f64; 2]) {
+    fn corners_beyond(&self, clash: &Clash, across: &[Plane; 2]) -> (f64, [f64; 2]) {
         let around = clash.triangles.map(|t| self.around(t));
         let (mut every, mut level) = (f64::INFINITY, [0.0; 2]);
         for s in 0..2 {
-            let (normal, other) = (&self.sheet.normals[clash.triangles[s] as usize], &around[1 - s]);
-            let height = |p: &Vec3| dot(&minus(p, &around[s].corners[0]), normal);
+            let (height, other) = (|p: &Vec3| across[s].height(p), &around[1 - s]);
             let (mut own, mut all) = (Span::default(), Span::default());
             other.corners.iter().for_each(|p| own.add(height(p)));
             for k in 0..3 {
@@ -151,22 +156,13 @@ impl Bodies<'_> {
         Around { corners, apex, goes_on, little }
     }
 
-    /// For each triangle a factor of at most 1: how reliable distances from its plane are, as far out as the other
-    /// goes.
-    ///
-    /// Rounded corners tilt the plane of a sliver; the narrower the sliver, the more.
-    fn lever(&self, clash: &Clash) -> [f64; 2] {
-        let size = clash.triangles.map(|t| {
-            let [p, q, r] = self.sheet.triangles[t as usize].map(|v| self.sheet.points[v as usize]);
-            let sides = [minus(&q, &p), minus(&r, &q), minus(&p, &r)];
-            let area = cross(&sides[0], &sides[1]);
-            let longest = sides.iter().map(|s| dot(s, s)).fold(0.0, f64::max);
-            (longest.sqrt(), dot(&area, &area).sqrt())
-        });
-        [0, 1].map(|k| {
-            let lever = size[k].1 / size[k].0 / size[1 - k].0;
-            if lever.is_nan() { 0.0 } else { lever.min(1.0) }
-        })
+    /// The plane of a triangle: that of its whole face where it is planar.
+    fn across(&self, t: u32) -> Plane {
+        let own = || {
+            let corner = self.sheet.triangles[t as usize][0];
+            Plane { origin: self.sheet.points[corner as usize], normal: self.sheet.normals[t as usize], off: 0.0 }
+        };
+        self.planes.get(&self.face[t as usize]).copied().unwrap_or_else(own)
     }
 }
 

@@ -6,6 +6,7 @@
 //! 2. `triangle_pair` the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`          ends that fall on one grid point become one point
 //! 4. `depth`         how deep the surfaces go through each other: touching ones cross as well, by tessellation errors
+//!    `planes`        the planes of planar faces, from which depths are measured
 //!    `reach`         how far a surface goes beyond a triangle that it crosses, near the crossing
 //! 5. `contacts`      which segments are more than a contact
 //!
@@ -16,6 +17,7 @@
 pub mod contacts;
 pub mod depth;
 pub mod height_field;
+pub mod planes;
 pub mod reach;
 pub mod search;
 pub mod tree;

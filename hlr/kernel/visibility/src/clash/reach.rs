@@ -40,11 +40,10 @@ struct Exit {
 }
 
 impl Sheet<'_> {
-    /// How far the surface of triangle `of` goes beyond the plane of triangle `over` on its shallower side, in model
-    /// units, followed up to `most`. Infinite where it cannot be measured.
-    pub fn reach(&self, over: u32, of: u32, at: &Vec3, most: f64) -> f64 {
-        let (up, own) = (self.normals[over as usize], self.normals[of as usize]);
-        let across = cross(&up, &own);
+    /// How far the surface of triangle `of` goes beyond the plane through `at` with the normal `up` on its shallower
+    /// side, in model units, followed up to `most`. Infinite where it cannot be measured.
+    pub fn reach(&self, up: &Vec3, of: u32, at: &Vec3, most: f64) -> f64 {
+        let across = cross(up, &self.normals[of as usize]);
         let sine = dot(&across, &across).sqrt();
         if sine < PARALLEL {
             return f64::INFINITY;
@@ -54,9 +53,9 @@ impl Sheet<'_> {
         let corners = self.corners(of, at);
         let exits: Vec<Exit> = (0..3).filter_map(|side| leave(&corners, side, &section)).collect();
         let [a, b] = exits[..] else { return f64::INFINITY };
-        let (high, low) = if dot(&a.place, &up) > dot(&b.place, &up) { (a, b) } else { (b, a) };
+        let (high, low) = if dot(&a.place, up) > dot(&b.place, up) { (a, b) } else { (b, a) };
         let climb = |exit, up: &Vec3| self.climb((of, exit), at, &section, up, level, most);
-        climb(high, &up).min(climb(low, &up.map(|c| -c)))
+        climb(high, up).min(climb(low, &up.map(|c| -c)))
     }
 
     /// The greatest height of the section that leaves a triangle over the given side.
@@ -142,7 +141,7 @@ mod tests {
         let t = topology::topology(triangles, points.len());
         let normals = topology::normals(points, triangles);
         let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
-        Sheet { points, triangles, edges, offsets, incident, normals: &normals }.reach(0, of, &at, most)
+        Sheet { points, triangles, edges, offsets, incident, normals: &normals }.reach(&normals[0], of, &at, most)
     }
 
     /// The plane z = 0, and a wall through it along x, from z = -low to z = high, cut into `strips` that lean along x;
