@@ -17,13 +17,14 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import combinations
 
+import cadquery as cq
 import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from properties import changes, models
 from properties.assemblies import Piece, assemblies, assembly, corners, drilled, examples, pieces, upright, views
-from properties.frozen import draw
+from properties.frozen import draw, freeze
 from properties.identity import everything, ownerless, renumbered, without
 from properties.ink import expect_same_ink
 
@@ -86,6 +87,14 @@ def test_triangles_of_a_drilled_block(several, view, rng):
 @pytest.mark.parametrize("name", models.EVERY)
 def test_triangles_and_edges_of_a_model(name):
     model = models.model(name)
+    expect_any_order_of_triangles(model, "iso", models.accuracy(model), np.random.default_rng(1))
+
+
+@pytest.mark.slow
+def test_triangles_where_an_outline_goes_on_from_face_to_face():
+    """Both faces at an edge find the place where the outline crosses it, each with its own rounding."""
+    ring = cq.Workplane(obj=cq.Solid.makeTorus(20, 6)).union(cq.Workplane().sphere(15))
+    model = freeze(ring, 200)
     expect_any_order_of_triangles(model, "iso", models.accuracy(model), np.random.default_rng(1))
 
 

@@ -188,17 +188,28 @@ impl Same {
             if length(&sub(&fold.points[0], &fold.points[1])) > gap {
                 continue;
             }
-            // The place of a crossing is on the surface: it stands for a vertex, too.
             let [a, b] = [0, 1].map(|k| same.root(fold.ends[k]));
             if a != b {
+                // The place of a crossing is on the surface: it stands for a vertex, too. Of several the lowest does,
+                // for their numbers follow the order of triangles.
+                let lowest = [a, b]
+                    .into_iter()
+                    .filter_map(|node| same.on_surface(node, crossings))
+                    .min_by(|p, q| in_order(&[*p], &[*q]));
                 let (low, high) = if a < b { (a, b) } else { (b, a) };
                 same.parent.insert(high, low);
-                if let Node::Crossing(c) = low {
-                    same.place.insert(low, crossings[c as usize].place.point);
+                if let Some(place) = lowest {
+                    same.place.insert(low, place);
                 }
             }
         }
         same
+    }
+
+    /// The place of a root on the surface; None for a vertex with which no crossing is one.
+    fn on_surface(&self, root: Node, crossings: &[Crossing]) -> Option<Vector> {
+        let own = || if let Node::Crossing(c) = root { Some(crossings[c as usize].place.point) } else { None };
+        self.place.get(&root).copied().or_else(own)
     }
 
     fn root(&self, mut node: Node) -> Node {
