@@ -35,6 +35,7 @@ class Placement:
     aspect: width to height of the frame; magnified: how much larger than at the target the nearest point is drawn.
     paper: the sheet, the way it lies; None: the page is as large as the drawing.
     settled: the request alone tells the scale, and no sheet has to be laid one way or the other.
+    diagonal: of the drawing, millimetres on paper.
     """
 
     scale: float
@@ -47,6 +48,7 @@ class Placement:
     notes: tuple[Note, ...] = ()
     paper: Paper | None = None
     settled: bool = False
+    diagonal: float = 0.0
 
     def fitted(self, camera: Camera, options: Options, points: Floats, curved: bool) -> Placement:
         """The placement with the size taken from the mesh: points (n, 3) in model coordinates.
@@ -121,7 +123,8 @@ def _sized(
     accuracy = choose(options.accuracy, diagonal)
     tolerances = derive(accuracy, per_model * magnified, diagonal, brep=brep)
     notes = () if options.scale is None else _size_notes(diagonal, scale)
-    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, placed.paper, settled(options))
+    sheet, known = placed.paper, settled(options)
+    return Placement(scale, per_model, tolerances, unit, brep, aspect, magnified, notes, sheet, known, diagonal)
 
 
 def _size_notes(diagonal: float, scale: float) -> tuple[Note, ...]:

@@ -1,9 +1,11 @@
 """The finest drawing that fits into a time: coarse first, then finer while time lasts.
 
-1. The source is opened once. The first pass is COARSE times coarser than the accuracy that a drawing of its size has.
+1. The source is opened once. The first pass is COARSE times coarser than the accuracy that a drawing of its size has,
+   and coarser still on a sheet of metres: its work is bounded by what an A4 sheet shows, whatever the scale.
 2. What the passes took tells how time grows with fineness: as a power of it (time ~ accuracy^-p). The next accuracy is
    the finest of the ladder that this lets finish; where not even the next rung would, the last drawing is the result.
-3. The growth is an estimate: a pass that turns out to take longer is given up between two stages.
+3. The growth is an estimate: a pass that turns out to take longer is given up, while it meshes or between two stages.
+4. Reading the model and the first pass cannot be cut short: where they end too late, a note says what took how long.
 
 ::
 
@@ -21,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import log
+from math import ceil, floor, log, log10
 from time import perf_counter
 from typing import Any
 
@@ -39,10 +41,15 @@ from hlr.tables.readers import is_brep
 
 COARSE = 10.0
 """How much coarser than usual the first drawing is: 0.5 mm, the width of a line, where 0.05 is usual."""
+FIRST_SIZE = 1000.0
+"""The first drawing is no finer than its diagonal over this. On A4 that is less than 0.5 mm."""
+LEAST_STEPS = 100.0
+"""Of several views of different sizes, none is coarser than its own diagonal over this for that reason."""
 FINEST = 0.04
 """Finest accuracy where none is asked for, as a share of the usual one: 0.002 mm, which no printer shows."""
-LADDER = (1.0, 0.4, 0.2, 0.1, 0.04, 0.02, 0.01, 0.004)
-"""Shares of the first accuracy: mostly 0.5, 0.2, 0.1, ... mm. Few rungs, so that chance seldom picks the drawing."""
+LADDER = (1, 2, 5)
+"""Accuracies after the first are these times powers of ten: 0.5, 0.2, 0.1, ... mm. There are few rungs, so that chance
+seldom picks the drawing."""
 
 FIRST_GROWTH = 1.8
 """Exponent p of the growth until two passes have shown it: the steepest that was measured, on a screw with its thread,
@@ -78,11 +85,12 @@ def draw_within(
     """One drawing per view, as fine as `options.within` seconds allow, but not finer than `options.accuracy`.
 
     finished: called with the drawings of each pass as soon as they are there; its time counts.
-    started: when the time began, by `perf_counter`; None: now.
+    started: when the time began, by `perf_counter`; None: now. Loading and reading count from there.
     noted: as of `hlr.pipeline.draw.draw_views`.
 
     Where reading and the first pass take longer than that, the first drawing is the result, and a note states the
-    excess. KeyboardInterrupt before the first drawing is raised; after it, the last finished drawing is the result.
+    excess and where it comes from. KeyboardInterrupt before the first drawing is raised; after it, the last finished
+    drawing is the result.
     Raises what `hlr.pipeline.draw.draw_views` raises.
     """
     started = perf_counter() if started is None else started
@@ -94,6 +102,7 @@ def draw_within(
         return []
     opened = open_selected(source, options)
     first, goal = _range(opened, views, options)
+    read = perf_counter() - started
     guess = FIRST_GROWTH if is_brep(opened.kind) else MESH_GROWTH
     request = replace(options, within=None, report=False)
     best: list[Drawing] = []
@@ -111,25 +120,40 @@ def draw_within(
         best = [replace(x, accuracy=replace(x.accuracy, asked=options.accuracy, within=budget)) for x in best]
         took = perf_counter() - started
         if not passes and took > budget:
-            text = (
-                f"{took - budget:.1f} s over the {budget:g} s asked for: reading the model and the coarsest drawing, "
-                f"of {accuracy:g} mm, took {took:.1f} s"
-            )
-            best = [replace(x, notes=(*x.notes, Note("over-time", text))) for x in best]
+            late = _late(took, read, budget, accuracy)
+            best = [replace(x, notes=(*x.notes, late)) for x in best]
         if finished is not None:
             finished(best)
         now = perf_counter()
         passes.append((accuracy, now - begun, dict(best[-1].timings)))
-        accuracy = _next(passes, first, goal, budget - (now - started), guess)
+        accuracy = _next(passes, goal, budget - (now - started), guess)
     return best
+
+
+def _late(took: float, read: float, budget: float, accuracy: float) -> Note:
+    """The note of a first drawing that ended too late. took, read, budget: seconds, reading among those it took."""
+    text = (
+        f"{took - budget:.1f} s over the {budget:g} s asked for: loading and reading the model, which cannot be cut "
+        f"short, took {read:.1f} s, and the coarsest drawing, of {accuracy:.3g} mm, {took - read:.1f} s"
+    )
+    return Note("over-time", text)
 
 
 def _range(opened: Source, views: list[View], options: Options) -> tuple[float, float]:
     """The first accuracy and the finest one, millimetres on paper."""
-    placements = Session(opened, views, replace(options, accuracy=None)).placements
-    usual = min(placement.tolerances.accuracy for placement in placements)
+    session = Session(opened, views, replace(options, accuracy=None))
+    usual = min(placement.tolerances.accuracy for placement in session.placements)
+    diagonals = [placement.diagonal for placement in session.placements]
+    bounded = min(max(diagonals) / FIRST_SIZE, min(diagonals) / LEAST_STEPS)
     goal = options.accuracy if options.accuracy is not None else FINEST * usual
-    return max(goal, COARSE * usual), goal
+    return max(goal, COARSE * usual, bounded), goal
+
+
+def _rungs(coarsest: float, finest: float) -> list[float]:
+    """The accuracies of the ladder between both, ascending; the finest is among them, the coarsest is not."""
+    powers = range(floor(log10(finest)), ceil(log10(coarsest)))
+    rungs = [float(f"{digit}e{power}") for power in powers for digit in LADDER]
+    return [finest, *(rung for rung in rungs if finest < rung < coarsest)]
 
 
 def _growth(passes: Sequence[tuple[float, float, dict[str, float]]], guess: float) -> float:
@@ -141,16 +165,15 @@ def _growth(passes: Sequence[tuple[float, float, dict[str, float]]], guess: floa
 
 
 def _next(
-    passes: Sequence[tuple[float, float, dict[str, float]]], first: float, goal: float, left: float, guess: float
+    passes: Sequence[tuple[float, float, dict[str, float]]], goal: float, left: float, guess: float
 ) -> float | None:
     """The finest accuracy that can be finished in `left` seconds; None where there is none."""
     accuracy, took, _ = passes[-1]
     if accuracy <= goal or left <= 0.0:
         return None
     finer = float((left * SPARE / took) ** (1.0 / _growth(passes, guess)))
-    rungs = sorted({goal, *(rung * first for rung in LADDER if goal < rung * first < accuracy)})
     finest = accuracy / min(finer, BOLDEST)
-    return next((rung for rung in rungs if finest <= rung < accuracy), None)
+    return next((rung for rung in _rungs(accuracy, goal) if finest <= rung), None)
 
 
 class _Watch:
@@ -177,5 +200,5 @@ class _Watch:
         share = min(self._before.get(stage, 0.0) / self._whole, 1.0) if done == 0.0 else 0.0
         # The later stages grow no faster than meshing, which comes first.
         ends = self._begun + (now - self._begun) / share if share > TELLING else now
-        if ends > self._deadline + 0.05 * (self._deadline - self._begun):
+        if ends > self._deadline:
             raise _TooLong

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from time import perf_counter
 from typing import TYPE_CHECKING, Any, Unpack
 
 from hlr.common.keywords import record_of, shown
@@ -43,6 +44,7 @@ def draw_views(
     options = options or Options()
     if not options.report and options.within is None:
         return drawn_once(source, views, options, progress, noted)  # which checks what is asked for
+    started = perf_counter()
     options = checked(options)
     views = checked_views(views, options)
     opened = open_selected(source, options)
@@ -51,7 +53,7 @@ def draw_views(
     else:
         from hlr.pipeline.within import draw_within
 
-        drawings = draw_within(opened, views, options, progress, noted=noted)
+        drawings = draw_within(opened, views, options, progress, started=started, noted=noted)
     return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
 
 

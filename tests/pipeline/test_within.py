@@ -15,6 +15,7 @@ import hlr
 from hlr import Options
 from hlr.errors import OptionError
 from hlr.pipeline import within
+from hlr.pipeline.session import Session
 from hlr.source import open_source
 from support.at_size import AT_SIZE
 
@@ -119,7 +120,49 @@ def test_the_excess_is_stated(monkeypatch):
     world = World(monkeypatch, linear(5.0))
     drawing = world.draw(2.0)
     assert world.asked == [0.5]
-    assert len(drawing.notes) == 1 and drawing.notes[0].text.startswith("3.0 s over the 2 s")
+    (note,) = drawing.notes
+    assert note.text.startswith("3.0 s over the 2 s") and note.text.endswith("of 0.5 mm, 5.0 s")
+
+
+def test_what_reading_took_counts_and_is_said(monkeypatch):
+    """The command hands over when it was started; a caller of `hlr.draw` has the file opened within the time."""
+    world = World(monkeypatch, linear(0.5))
+    world.now = 4.0
+    (drawing,) = within.draw_within(box(), ["iso"], Options(within=3.0), started=0.0)
+    assert world.asked == [0.5]
+    (note,) = drawing.notes
+    assert (
+        note.text.startswith("1.5 s over the 3 s")
+        and "reading the model, which cannot be cut short, took 4.0 s" in note.text
+    )
+
+
+@pytest.mark.parametrize("scale", [1.0, 30.0, 1000.0])
+def test_the_first_drawing_is_bounded_by_its_size_on_paper(monkeypatch, scale):
+    """No more steps of the accuracy across the model than on an A4 sheet, however large the drawing is."""
+    world = World(monkeypatch, lambda _: 1e-6)
+    world.draw(1.0, scale=scale)
+    (placement,) = Session(open_source(box()), ["iso"], Options(scale=scale)).placements
+    across = placement.diagonal
+    assert 100 * scale < across < 200 * scale
+    assert across / world.asked[0] <= within.FIRST_SIZE * (1 + 1e-9)
+    assert world.asked[0] == pytest.approx(max(0.5, across / within.FIRST_SIZE))
+    # Then down the ladder, as far as ever on a sheet of this size.
+    assert world.asked == sorted(set(world.asked), reverse=True)
+    assert world.asked[-1] == pytest.approx(within.FINEST * 0.05)
+
+
+def test_a_large_view_beside_a_small_one_does_not_make_that_a_blot():
+    """A long bar from its end: an accuracy for the side view alone would be larger than the end."""
+    bar = open_source(box().faces(">X").workplane().rect(20, 20).extrude(100_000))
+    first, _ = within._range(bar, ["left", "front"], Options(scale=1.0, within=1.0))
+    assert first == pytest.approx(1.0)
+
+
+def test_the_ladder_has_accuracies_as_people_name_them():
+    assert within._rungs(0.5, 0.002) == [0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2]
+    assert within._rungs(57.3, 3.0) == [3.0, 5.0, 10.0, 20.0, 50.0]
+    assert within._rungs(0.03, 0.03) == [0.03]
 
 
 def test_what_is_finished_survives_an_interruption(monkeypatch):
