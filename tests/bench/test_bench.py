@@ -8,7 +8,7 @@ from argparse import Namespace
 
 import numpy as np
 import pytest
-from bench import loads, measure, occt, ours, pairs, run, scenes
+from bench import drawings, loads, measure, occt, ours, pairs, run, scenes
 from cadquery import Shape
 
 from hlr.lab.rivals.opencascade import ExactAlgo, PolyAlgo, triangle_count
@@ -73,6 +73,17 @@ def test_pairs_take_turns_and_stop_within_their_budget(monkeypatch) -> None:
 def test_what_is_lost_stands_out() -> None:
     assert [pairs.times(value) for value in (3.14, 1.0, 0.5)] == ["3.1 x", "1.0 x", "**0.50 x**"]
     assert pairs.won([2.0, 0.5, None]) == "Geometric mean of 2 ratios: 1.00; lost: 1."
+
+
+def test_a_drawing_beyond_its_limits_stands_out() -> None:
+    stages = dict.fromkeys(drawings.STAGES.values(), 0.5)
+    row = {"model": "a.step", "view": "iso", "scale": 0.5, "read": 1.0, "seconds": 9.0, "processor": 8.0}
+    row |= {"stages": stages, "memory": 1500.0, "lines": 1234, "notes": ["defects: open", "defects: open too"]}
+    cells = drawings.cells(row)
+    assert len(cells) == len(drawings.HEADINGS)
+    assert "9.0" in cells and "**1500**" in cells and cells[-2:] == ["1,234", "defects"]
+    failed = drawings.cells({"model": "b.step", "view": "iso", "failure": "not in 200 s"})
+    assert len(failed) == len(cells) and failed[-1] == "**not in 200 s**"
 
 
 @pytest.mark.slow

@@ -318,3 +318,12 @@ def test_each_part_keeps_its_name_color_and_place():
     assert part.name == "pin"
     assert part.color == pytest.approx((1, 0, 0))
     assert part.transform[:3, 3] == pytest.approx((5, 6, 7))
+
+
+def test_the_work_is_bounded_by_the_page_and_not_by_the_model():
+    """On the same page a model a thousand times as large has the same triangles, edges and lines."""
+    small, large = (hlr.draw(cq.Workplane("XY").sphere(10 * k).faces(), "front") for k in (1, 1000))
+    assert small.scale == 1000 * large.scale
+    counted = ("triangles", "drawn")
+    assert [small.counters[name] for name in counted] == [large.counters[name] for name in counted]
+    assert len(small.lines) == len(large.lines)
