@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from hlr.drawing.line import Bounds, Line
     from hlr.drawing.model_info import ModelInfo, PartReport
     from hlr.drawing.notes import Note, NoteCode
+    from hlr.drawing.page import Page
     from hlr.drawing.picture import Picture
     from hlr.drawing.saving import Format
     from hlr.errors import HlrError, OptionError, SourceError, StrictError, ViewError, WriteError
@@ -53,6 +54,7 @@ _HOME = {
     "NoteCode": "hlr.drawing.notes",
     "OptionError": "hlr.errors",
     "Options": "hlr.request.options",
+    "Page": "hlr.drawing.page",
     "PartReport": "hlr.drawing.model_info",
     "Perspective": "hlr.request.options",
     "Picture": "hlr.drawing.picture",
@@ -100,6 +102,7 @@ __all__ = [
     "NoteCode",
     "OptionError",
     "Options",
+    "Page",
     "PartReport",
     "Perspective",
     "Picture",

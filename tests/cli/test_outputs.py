@@ -168,3 +168,36 @@ def test_a_small_cube_is_no_reason_for_strict_to_refuse(hlr_real, tmp_path):
     assert result.err.startswith("hlr: note: the drawing is only 2.2 mm large at 1:1") and result.err.count("\n") == 1
     assert hlr.draw(cube(), strict=True, scale=1.0).notes[0].code == "paper-size"
     assert hlr_real("preview", "c.stl", "--strict", "-o", "c.png", "--size", "20x20").code == 0
+
+
+def test_the_command_line_and_python_agree_on_the_page(hlr_real, tmp_path):
+    cube().export(tmp_path / "c.stl")
+    for given, options in (
+        ([], {}),
+        (["--page", "letter"], {"page": "letter"}),
+        (["--page", "300x200", "--scale", "20:1"], {"page": (300.0, 200.0), "scale": 20.0}),
+        (["--fit", "A5-portrait"], {"fit": "A5-portrait"}),
+        (["--hidden", "--no-smooth"], {"hidden": True, "smooth": False}),
+    ):
+        assert hlr_real("draw", "c.stl", "-o", "c.svg", *given)[:1] == (0,)
+        assert (tmp_path / "c.svg").read_text() == hlr.draw(tmp_path / "c.stl", **options).to_svg()
+
+
+@pytest.mark.parametrize("page", ["A9", "A4-up", "15x300", "x", ""])
+def test_a_page_that_does_not_exist_is_refused_in_a_sentence(hlr_real, page):
+    result = hlr_real("draw", "a.step", "--page", page)
+    assert result.code == 2 and result.err.startswith("hlr: ") and result.err.count("\n") == 1 and "page" in result.err
+
+
+def test_the_size_is_told_before_the_model_is_meshed(tmp_path):
+    told = []
+    cube().apply_scale(9000.0).export(tmp_path / "c.stl")
+    (drawing,) = hlr.draw_views(
+        tmp_path / "c.stl",
+        ["front"],
+        Options(scale=1.0),
+        progress=lambda stage, _done: told.append(stage),
+        noted=lambda notes: told.extend(note.code for note in notes),
+    )
+    assert told.index("paper-size") < told.index("scene")
+    assert [note.code for note in drawing.notes] == ["paper-size"]

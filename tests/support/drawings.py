@@ -7,6 +7,7 @@ import numpy as np
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.notes import Note
+from hlr.drawing.page import centred
 
 ISO = DrawnView(
     "iso",
@@ -41,6 +42,12 @@ def drawing(lines, accuracy=0.05, parts=None, **changes):
         lines=tuple(lines),
     )
     return replace(made, **changes)
+
+
+def on_page():
+    """The sample in the middle of an A4 sheet."""
+    made = sample()
+    return replace(made, page=centred("A4", 297.0, 210.0, made.bounds))
 
 
 def sample():

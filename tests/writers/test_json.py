@@ -8,7 +8,7 @@ from writers import golden
 
 from hlr.errors import WriteError
 from hlr.writers.json import document
-from support.drawings import ISO, drawing, line, sample
+from support.drawings import ISO, drawing, line, on_page, sample
 
 
 def read(made):
@@ -20,6 +20,7 @@ def read(made):
 
 def test_golden():
     golden.check("sample.json", document(sample()).decode())
+    golden.check("page.json", document(on_page()).decode())
 
 
 def test_fields_and_their_order():

@@ -8,11 +8,12 @@ from writers import golden
 from writers.pages import MM, content_of, image
 
 from hlr.writers.pdf import pdf
-from support.drawings import drawing, line, part, sample
+from support.drawings import drawing, line, on_page, part, sample
 
 
 def test_golden():
     golden.check("sample.pdf.txt", content_of(pdf(sample())))
+    golden.check("page.pdf.txt", content_of(pdf(on_page())))
 
 
 def test_the_golden_file_notices_a_hundredth_of_a_millimetre():

@@ -11,7 +11,7 @@ from writers import golden
 from hlr.drawing.pens import usual_pens
 from hlr.request.style import LineRule, Style
 from hlr.writers.svg import svg
-from support.drawings import drawing, line, part, sample
+from support.drawings import drawing, line, on_page, part, sample
 
 NS = {"s": "http://www.w3.org/2000/svg", "d": "urn:hlr:drawing:1"}
 TOKEN = re.compile(r"([Mlhvz])|(-?(?:\d+\.?\d*|\.\d+))")
@@ -47,6 +47,7 @@ def points_of(d):
 
 def test_golden():
     golden.check("sample.svg", svg(sample()).decode())
+    golden.check("page.svg", svg(on_page()).decode())
 
 
 def test_the_golden_file_notices_a_hundredth_of_a_millimetre():
