@@ -23,7 +23,7 @@ from itertools import groupby
 
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
-from hlr.drawing.pens import Pen, part_color
+from hlr.drawing.pens import Pen, PenSet, part_color, usual_pens
 from hlr.drawing.scale import ratio
 from hlr.errors import counted
 from hlr.writers.number import number
@@ -58,13 +58,13 @@ def svg(drawing: Drawing) -> bytes:
         out.extend(svg_group(painted(drawing, drawing.fill), page.places))
     text = ["".join(out).encode("utf-8")]
     if drawing.style.layers == "class":
-        text += _lines(page.inked, root, ids=True)
+        text += _lines(page.inked, root, usual_pens(drawing.style, (drawing.area.width, drawing.area.height)), ids=True)
     else:
         for pens, of_part in groupby(page.inked, lambda inked: inked.pens):
             (index,) = pens.parts
             label = _layer(f"part-{index}", drawing.parts[index].name)
             text.append(f'<g data-part="{index}" {label}>\n'.encode())
-            text += [*_lines(of_part, root, ids=False), b"</g>\n"]
+            text += [*_lines(of_part, root, pens, ids=False), b"</g>\n"]
     text.append(b"</svg>\n")
     return b"".join(text)
 
@@ -72,20 +72,21 @@ def svg(drawing: Drawing) -> bytes:
 Attributes = dict[str, str]
 
 
-def _lines(inked: Iterable[Inked], root: Attributes, ids: bool) -> Iterator[bytes]:
-    """The groups of hidden and visible lines; root: what holds around them. ids: each has its id as well."""
+def _lines(inked: Iterable[Inked], root: Attributes, pens: PenSet, ids: bool) -> Iterator[bytes]:
+    """The groups of hidden and visible lines.
+
+    root: what holds around them. pens: those of most parts, which the groups state. ids: each has its id as well.
+    """
     for visible, of_visibility in groupby(inked, lambda each: each.visible):
-        layers = list(of_visibility)
         name = "visible" if visible else "hidden"
-        usual = _ink(layers[0].pens.pen(None, visible))
+        usual = _ink(pens.pen(None, visible))
         own_id = f'id="{name}" ' if ids else ""
         yield f'<g {own_id}class="{name}" {_layer(None, name.title())}{_changed(usual, root)}>\n'.encode()
-        for row, of_class in groupby(layers, lambda each: each.row):
-            sets = list(of_class)
-            first = _ink(sets[0].pen)
+        for row, of_class in groupby(of_visibility, lambda each: each.row):
+            first = _ink(pens.pen(row.name, visible))
             label = _layer(None, f"{name.title()} {row.name}")
             yield f'<g class="{row.name}" {label}{_changed(first, usual)}>\n'.encode()
-            for one in sets:
+            for one in of_class:
                 # Parts with pens of their own: the class once more, so that a rule for it holds for them too.
                 changed = _changed(_ink(one.pen), first)
                 yield f'<g class="{row.name}"{changed}>\n'.encode() if changed else b""
