@@ -46,17 +46,19 @@ SINGLE = ("line_width", "color", "hidden_color", "background", "layers", "part_c
 """The options that override the style, as the command line calls them."""
 
 
-def style_from(chosen: dict[str, Any]) -> Style:
-    """The style of these options, which are taken out of all that were chosen.
+def style_from(chosen: dict[str, Any]) -> Style | None:
+    """The style of these options, which are taken out of all that were chosen; None: nothing was asked for.
 
     It is the one that is named, with the single values in place of its own. Raises OptionError for a style that does
     not exist, or a value that is not allowed.
     """
-    from hlr.request.style_file import overridden, style_of
-
-    named = style_of(chosen.pop("style"))
+    name = chosen.pop("style")
     single = {name: chosen.pop(name) for name in SINGLE}
     given = {name: value for name, value in single.items() if value is not None}
+    if name is None and not given:
+        return None
+    from hlr.request.style_file import overridden, style_of
+
     if "size" in given or "dpi" in given:
         given = {"size": None, "dpi": None, **given}
-    return overridden(named, **given)
+    return overridden(style_of(name), **given)

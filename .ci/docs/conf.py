@@ -44,6 +44,7 @@ hlr/docs/installation
 hlr/docs/command_line
 hlr/docs/batch
 hlr/docs/python
+hlr/docs/styles
 hlr/docs/previews
 hlr/docs/drop_ins
 hlr/docs/accuracy

@@ -77,6 +77,20 @@ def test_every_option_arrives(hlr_command):
     assert options(hlr_command, "--perspective").perspective == Perspective()
 
 
+def test_single_options_override_the_style(hlr_command):
+    from hlr.drawing.pens import usual_pens
+    from hlr.request.styles import STYLES
+
+    assert options(hlr_command, "--style", "dark").style == STYLES["dark"]
+    style = options(
+        hlr_command, "--style", "dark", "--line-width", "0.3", "--color", "Gold", "--hidden-color", "#123",
+        "--background", "none", "--layers", "part", "--part-colors", "lines", "--size", "800x600",
+    ).style  # fmt: skip
+    pens = [usual_pens(style).pen("sharp", visible) for visible in (True, False)]
+    assert [(pen.width, pen.color) for pen in pens] == [(0.3, "#ffd700"), (0.15, "#112233")]
+    assert (style.background, style.layers, style.part_colors, style.size) == (None, "part", "lines", (800, 600))
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -95,7 +109,11 @@ def test_every_option_arrives(hlr_command):
         (["--fov", "180"], "--fov"),
         (["--threads", "-1"], "--threads"),
         (["--nonsense"], "--nonsense"),
-        (["-o", "a.dwg"], "use .svg, .pdf or .json"),
+        (["--style", "darc"], "there is no style 'darc': give iso, asme"),
+        (["--color", '"/><script>'], "color needs a colour such as black"),
+        (["--size", "800x600", "--dpi", "100"], "size and dpi contradict one another"),
+        (["--background", "papier"], "background needs a colour such as white"),
+        (["-o", "a.dwg"], "use .svg, .pdf, "),
         (["-o", "none/a.svg"], "the folder none does not exist"),
         (["-o", "{name}.svg"], "unknown field {name}"),
         (["-o", "a.svg", "--view", "top", "--view", "front"], "put {view} into its name, for example a-{view}.svg"),
