@@ -177,7 +177,7 @@ def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, q
     done = run(plan, kept, pool, show)
     tidy(plan.output)
     report = write(done, digests, os.environ)
-    for line in github(report, os.environ):
+    for line in github(report, plan.manifest.root, os.environ):
         click.echo(line)
     _add_to_summary(plan.output / "summary.md")
     if not quiet:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Mapping
 from hashlib import sha256
+from pathlib import Path
 from typing import Any
 
 from hlr.batch.junit import title
@@ -20,14 +22,19 @@ def _told(found: dict[str, Any]) -> Iterator[tuple[str, str, str, str]]:
             yield "warning", source["source"], title(source), text
 
 
-def github(found: dict[str, Any], environment: Mapping[str, str]) -> list[str]:
-    """Lines for standard output, by which GitHub shows failures and warnings; none elsewhere."""
+def github(found: dict[str, Any], root: Path, environment: Mapping[str, str]) -> list[str]:
+    """Lines for standard output, by which GitHub shows failures and warnings; none elsewhere.
+
+    root: of the batch; GitHub takes paths as seen from the repository.
+    """
     if environment.get("GITHUB_ACTIONS") != "true":
         return []
-    return [
-        f"::{level} file={_property(path)},title={_property(name)}::{_data(message)}"
-        for level, path, name, message in _told(found)
-    ]
+    home = environment.get("GITHUB_WORKSPACE") or os.getcwd()
+    lines = []
+    for level, path, name, message in _told(found):
+        file = Path(os.path.relpath(root / path, home)).as_posix()
+        lines.append(f"::{level} file={_property(file)},title={_property(name)}::{_data(message)}")
+    return lines
 
 
 def code_quality(found: dict[str, Any], environment: Mapping[str, str]) -> bytes | None:

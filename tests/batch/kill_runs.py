@@ -1,4 +1,4 @@
-"""Kills runs of `hlr batch` at random moments, and looks at what they leave.
+"""Kills runs of `hlr batch` at random moments, every other one while it writes, and looks at what they leave.
 
     python tests/batch/kill_runs.py --kills 100
 
@@ -61,7 +61,12 @@ class Scene:
         shutil.rmtree(self.out, ignore_errors=True)
         process = self.start()
         other = self.start() if number % 3 == 0 else None
-        time.sleep(rng.uniform(0.0, longest))
+        if number % 2:
+            time.sleep(rng.uniform(0.0, longest))
+        else:  # while files are written
+            least = rng.randrange(1, 4 * MODELS)
+            while process.poll() is None and len(list(self.out.glob("*.*"))) < least:
+                time.sleep(0.001)
         workers = children(process.pid)
         process.kill()
         process.wait()

@@ -35,13 +35,13 @@ def hlr_batch(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_folder_is_drawn_once(hlr_batch):
+def test_a_folder_is_drawn_once(hlr_batch, tmp_path):
     for number in range(3):
         tetrahedron(hlr_batch.folder / f"{number}.off", number + 1)
     (hlr_batch.folder / "bad.off").write_text("OFF\n")
-    first = hlr_batch("--view", "iso", "-j", "2", GITHUB_ACTIONS="true")
+    first = hlr_batch("--view", "iso", "-j", "2", GITHUB_ACTIONS="true", GITHUB_WORKSPACE=str(tmp_path))
     assert first.returncode == 1 and "3 drawn, 0 unchanged, 1 failed" in first.stderr
-    assert first.stdout.startswith("::error file=bad.off,title=bad.off::bad.off ")
+    assert first.stdout.startswith("::error file=models/bad.off,title=bad.off::bad.off ")
     report = json.loads((hlr_batch.folder / "drawings/manifest.json").read_text())
     assert [source["state"] for source in report["sources"]] == ["drawn", "drawn", "drawn", "failed"]
     (hlr_batch.folder / "bad.off").unlink()
