@@ -51,20 +51,17 @@ class _Layers:
     """The optional content groups of a file, by name. Each has a number, which the page's commands call it by."""
 
     document: pydyf.PDF
-    groups: dict[str, Any] = field(default_factory=dict)
+    numbers: dict[str, int] = field(default_factory=dict)
+    references: list[Any] = field(default_factory=list)
 
     def begin(self, key: str, label: str) -> str:
         """The command that begins content of a layer, which is added if there is none with this key."""
-        if key not in self.groups:
+        if key not in self.numbers:
             group = pydyf.Dictionary({"Type": "/OCG", "Name": pydyf.String(_told(label))})
             self.document.add_object(group)
-            self.groups[key] = group
-        return f"/OC /L{list(self.groups).index(key)} BDC"
-
-    @property
-    def references(self) -> list[Any]:
-        """All groups."""
-        return [group.reference for group in self.groups.values()]
+            self.numbers[key] = len(self.references)
+            self.references.append(group.reference)
+        return f"/OC /L{self.numbers[key]} BDC"
 
 
 def pdf(drawing: Drawing) -> bytes:
@@ -101,7 +98,7 @@ def document(drawing: Drawing, page: Strokes, sheet: Sheet) -> bytes:
     if sheet.user_unit > 1:
         leaf["UserUnit"] = sheet.user_unit
     made.add_page(pydyf.Dictionary(leaf))
-    if layers.groups:
+    if layers.references:
         # The layer list of a viewer reads from the top: visible lines first.
         order = pydyf.Array(layers.references[::-1])
         shown = pydyf.Dictionary(
