@@ -504,6 +504,23 @@ class Lines:
     def circles(self) -> int:
         """How many creases and borders without an edge lie on a curve: those of meshes, on circles."""
 
+    def chosen(self, chosen: Bools) -> Lines:
+        """Those lines that are chosen (n,)."""
+
+    def spacing(self, visible: bool, reach: float, threads: int) -> tuple[Floats, float, float] | None:
+        """How close the lines of one visibility run: None where there are more than 2 km of them.
+
+        (k,) millimetres of ink whose nearest line alongside is i/64 to (i + 1)/64 mm away, up to `reach`; all ink;
+        the side of the square around the smallest line, infinite where there are none. ValueError for a bad length.
+        """
+
+    def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int], threads: int) -> Bytes:
+        """(n,) what becomes of each line: 0 drawn, 1 smaller than the pen, 2 between others closer than the pen.
+
+        pens: widths of hidden and visible lines, millimetres; accuracy: ends within it meet, millimetres; order: line
+        classes, the least important first. ValueError for a bad length.
+        """
+
     def layers(self, order: list[int], places: int, accuracy: float, cubic: bool) -> list[Layer]:
         """Layers of pen strokes, rounded to 10**-places millimetres; hidden ones first, of each the kinds in `order`.
 

@@ -88,6 +88,7 @@ LINES: tuple[Callable[[Command], Command], ...] = (
     is_flag=True,
     help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
 )
+@click.option("--details", is_flag=True, help="Draw also what is too small or too close together for the pen.")
 @options(*CARE)
 @click.option(
     "--within",

@@ -106,7 +106,14 @@ def draw_viewport(
         x, y, z = (o + viewport.focus * d for o, d in zip(viewport.origin, toward, strict=True))
         perspective = Perspective(eye=(x, y, z), target=viewport.origin, fov=WIDEST)
     options = Options(
-        hidden=hidden, smooth=smooth, seam=seam, accuracy=used, up=viewport.up, perspective=perspective, scale=1.0
+        hidden=hidden,
+        smooth=smooth,
+        seam=seam,
+        accuracy=used,
+        up=viewport.up,
+        perspective=perspective,
+        scale=1.0,
+        details=True,
     )
     (drawing,) = draw_views(opened, [viewport.direction], options)
     for note in drawing.notes:

@@ -26,6 +26,9 @@ NoteCode = Literal[
     "glass-hides",
     "depth-coarse",
     "cut-short",
+    "thin-lines",
+    "crowded",
+    "details-left-out",
 ]
 """All codes there are; `CODES` says what each means."""
 
@@ -49,12 +52,17 @@ CODES: dict[NoteCode, str] = {
     "glass-hides": "transparent parts hide what is behind them: `see_through` was not asked for",
     "depth-coarse": "depths of a preview tie that lie a pixel apart or more: the model is very deep",
     "cut-short": "the file ends too early: some of the model may be missing",
+    "thin-lines": "lines are close together and drawn with thinner pens",
+    "crowded": "lines are closer together than twice their width even with the thinnest pens",
+    "details-left-out": "lines that the pen cannot show were left out: too small, or between others that are too close",
 }
 """What each code means. A code keeps its meaning; new ones may be added."""
 
 REMARKS: frozenset[NoteCode] = frozenset(
     {
         "annotation-left-out",
+        "crowded",
+        "details-left-out",
         "faces-mended",
         "free-edges-left-out",
         "glass-hides",
@@ -62,6 +70,7 @@ REMARKS: frozenset[NoteCode] = frozenset(
         "paper-size",
         "script-shape",
         "stray-parts",
+        "thin-lines",
     }
 )
 """Codes of remarks: the drawing is what was asked for. `strict` does not make errors of them."""

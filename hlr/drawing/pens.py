@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 WIDE_MM, LARGE_WIDE_MM = 0.5, 0.7
 """Wide lines of ISO 128, where the style says no other: on sheets up to A2, and on larger ones."""
 
+LINE_GROUPS = ((0.7, 0.35), (0.5, 0.25), (0.35, 0.18), (0.25, 0.13))
+"""Wide and narrow lines of ISO 128, millimetres, the thinnest last."""
+
 A2 = (420.0, 594.0)
 """Millimetres."""
 

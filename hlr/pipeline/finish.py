@@ -19,6 +19,7 @@ from hlr.image.camera import Camera
 from hlr.image.image import Image
 from hlr.image.paper import misfit
 from hlr.image.placement import Placement
+from hlr.linework.legible import legible
 from hlr.linework.lines import Linework
 from hlr.request.effect import Decisions, Planner
 from hlr.request.options import Options, Request
@@ -60,6 +61,11 @@ def finished(
     camera, placement = image.camera, image.placement
     lines, origin = solved.linework.lines, solved.linework.origin
     started = perf_counter()
+    window = None if options.window is None else Bounds(*map(float, options.window))
+    sheet = _sheet(placement, window, lines)
+    accuracy = placement.tolerances.accuracy
+    shown = legible(lines, placement.scale, accuracy, style_of(options.style), sheet, options, planner)
+    lines = shown.lines
     fill: Fill | None = None
     if plan.fill:
         from hlr.shading.fill import filled
@@ -77,14 +83,13 @@ def finished(
         planner.spent("fill", perf_counter() - started)
         planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
     stated = drawn_view(camera)
-    window = None if options.window is None else Bounds(*map(float, options.window))
     frame = None if window is None else Frame(window, stated, placement.per_model)
     lines, fill, empty = cut_at_window(lines, fill, frame, planner)
     empty = empty or _empty(lines, fill)
     page, misfit = (None, ()) if window is not None else page_of(placement, lines)
     lap(clock, "linework", started)
     clock["total"] = sum(clock.values())
-    counters = _counters(solved, lines, fill)
+    counters = {**_counters(solved, lines, fill), "left_out": shown.left_out}
     if not plan.crossings and counters["seeds"]:
         for name in ("crossing search", "piercing search"):
             planner.revised(name, True, "one convex body, but rounded its faces overlap in the image")
@@ -107,7 +112,9 @@ def finished(
         up_axis=source.frame.up,
         parts=tuple(DrawnPart(p.name, p.color, p.transform) for p in image.parts),
         lines=lines,
-        notes=tuple(dict.fromkeys((*source.notes, *scene.notes, *placement.notes, *misfit, *empty, *remarks))),
+        notes=tuple(
+            dict.fromkeys((*source.notes, *scene.notes, *placement.notes, *misfit, *shown.notes, *empty, *remarks))
+        ),
         counters={**counters, **rescued, "clipping_planes": cuts},
         timings=clock,
         fill=fill,
@@ -115,7 +122,7 @@ def finished(
         plan=Decisions(planner, counters),
         window=window,
         page=page,
-        style=style_of(options.style),
+        style=shown.style,
         reading=getattr(source, "reading", ""),
     )
 
@@ -147,6 +154,12 @@ def _counters(solved: Solved, lines: Sequence[Line], fill: Fill | None) -> dict[
         "coloured_faces": faces,
         "gradients": 0 if fill is None else len(fill.gradients),
     }
+
+
+def _sheet(placement: Placement, window: Bounds | None, lines: Sequence[Line]) -> tuple[float, float]:
+    """Width and height of what is drawn on, millimetres."""
+    on = window or placement.paper or bounds_of(lines)
+    return on.width, on.height
 
 
 def page_of(placement: Placement, lines: Sequence[Line]) -> tuple[Page | None, tuple[Note, ...]]:

@@ -13,6 +13,9 @@ from hlr.tables.readers import is_brep, of_kind
 DEEP_GROUPS, DEEP_EDGES = 400, 8000
 """With fewer surfaces or edges the depth pyramid costs more than it saves: measured (`hlr/request/README.md`)."""
 
+LEGIBILITY = "legibility"
+"""The row of what the pen can show."""
+
 Answer = tuple[bool, str]
 
 
@@ -187,6 +190,10 @@ def _exact(f: Facts, _o: Options) -> Answer:
     return f.bent > 0, f"{_count(f.bent, 'line')} may be curved" if f.bent else "every line is straight, or a mesh's"
 
 
+def _legibility(_f: Facts, options: Options) -> Answer:
+    return not options.details, "all details were asked for" if options.details else "not all details were asked for"
+
+
 def _window(f: Facts, options: Options) -> Answer:
     if options.window is None:
         return False, "no window was asked for"
@@ -224,6 +231,7 @@ _BEFORE: tuple[Effect, ...] = (
 _AFTER: tuple[Effect, ...] = (
     _option_effect("circles", "circles of meshes", "circles"),
     Effect("exact curves", SCENE, _exact, ("curves_sought",)),
+    Effect(LEGIBILITY, ASKED, _legibility, ("left_out",)),
     _option_effect("fill", "fill", "filled_faces"),
     Effect("window", ASKED, _window, ("window_cuts",)),
     Effect("colours", ASKED, _colours, ("coloured_faces", "gradients")),

@@ -63,6 +63,8 @@ class Options:
     up           the direction that points up on paper; None: the named view's own, else z (y for views along z)
     perspective  None: orthographic
     see_through  parts that their file says are transparent hide nothing; else they hide like all others
+    details      draw also what the pen cannot show: figures smaller than it, and lines between others that are closer
+                 together than it is wide; and keep its width where lines are crowded
     fill         paint what is seen of the faces, shaded, under the lines (SVG and PDF)
     style        how the drawing looks: the name of a built-in style (iso, asme, thin, dark, blueprint), the path of a
                  TOML file, the same tables as a dictionary, or a `Style`
@@ -96,6 +98,7 @@ class Options:
     up: Vector | None = None
     perspective: Perspective | None = None
     see_through: bool = False
+    details: bool = False
     fill: bool = False
     threads: int = 0
     strict: bool = False
@@ -126,6 +129,7 @@ class Wishes(TypedDict, total=False):
     up: Vector | None
     perspective: Perspective | None
     see_through: bool
+    details: bool
     fill: bool
     threads: int
     only: tuple[str, ...]

@@ -277,4 +277,5 @@ def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale
         var=options.var,
         parameters=options.parameters,
         annotations=options.annotations,
+        details=True,
     )

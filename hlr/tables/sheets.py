@@ -109,6 +109,11 @@ def standard_scale(most: float) -> float:
     return _scale(step)
 
 
+def standard_scale_from(least: float) -> float:
+    """The smallest standard scale that is no smaller than `least`, a positive number."""
+    return 1.0 / standard_scale(1.0 / least)
+
+
 def _scale(step: int) -> float:
     """The standard scales in a row: step 0 is 1:1, 1 is 2:1, -1 is 1:2."""
     power, which = divmod(abs(step), len(STEPS))

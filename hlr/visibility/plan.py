@@ -13,6 +13,7 @@ from hlr.common.types import Floats
 from hlr.image.camera import NEAR
 from hlr.image.image import Image
 from hlr.request.accuracy import CONTACT_SPARE, MOST_LIFT, Tolerances
+from hlr.request.drawing_effects import LEGIBILITY
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options
 from hlr.scene.groups import contact_depths
@@ -93,6 +94,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     for name in ("hidden lines", *(row.title for row in counted()), "circles of meshes", "colours"):
         planner.on(name, view)
     planner.on("back-face culling", facts)
+    planner.on(LEGIBILITY)
     touch = planner.on("contact tolerance", loose)
     sought = int(np.count_nonzero(~straight & (image.chains.index >= 0)))
     sought += 0 if image.silhouettes is None else len(image.silhouettes.curves.kind)

@@ -163,7 +163,7 @@ def test_a_small_cube_is_no_reason_for_strict_to_refuse(hlr_real, tmp_path):
     result = hlr_real("draw", "c.stl", "--strict", "-o", "c.svg")
     assert result.code == 0
     assert result.err == ""
-    result = hlr_real("draw", "c.stl", "--strict", "--scale", "1:1", "-o", "c.svg")
+    result = hlr_real("draw", "c.stl", "--strict", "--scale", "1:1", "--details", "-o", "c.svg")
     assert result.code == 0
     assert result.err.startswith("hlr: note: the drawing is only 2.2 mm large at 1:1") and result.err.count("\n") == 1
     assert hlr.draw(cube(), strict=True, scale=1.0).notes[0].code == "paper-size"

@@ -34,7 +34,7 @@ def plates(count, thickness):
 def test_the_first_plate_hides_all_others(how, thickness):
     count = COUNT if how is merged else 100
     model = how(*plates(count, thickness * ACCURACY))
-    drawing = hlr.draw(model, "right", accuracy=ACCURACY, hidden=False, scale=1.0, smooth=False)
+    drawing = hlr.draw(model, "right", accuracy=ACCURACY, hidden=False, scale=1.0, smooth=False, details=True)
     (first,) = [expect(drawing, [line for line in box_lines((0, 0, 0), (0, 30, HIGH)) if not np.array_equal(*line)])]
     assert differences(first, ink(drawing), ACCURACY) == []
 
@@ -60,7 +60,7 @@ def test_from_the_front_the_edges_lie_one_beside_the_other(picture, thickness):
 @pytest.mark.parametrize("thickness", [0.0, 0.5])
 def test_obliquely_only_steps_at_the_ends_are_seen(how, thickness):
     model = how(*plates(100, thickness * ACCURACY))
-    drawing = hlr.draw(model, (1, 0.01, 0.01), accuracy=ACCURACY, hidden=False, scale=1.0, smooth=False)
+    drawing = hlr.draw(model, (1, 0.01, 0.01), accuracy=ACCURACY, hidden=False, scale=1.0, smooth=False, details=True)
     # Seen 0.01 off their normal, the plates shrink by 0.002 and shift by 0.0005 from one to the next: all are hidden.
     (first,) = [expect(drawing, [line for line in box_lines((0, 0, 0), (0, 30, HIGH)) if not np.array_equal(*line)])]
     assert differences(first, ink(drawing), ACCURACY) == []

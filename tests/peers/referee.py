@@ -81,7 +81,7 @@ def draw_with_hlr(path: Path, views: Sequence[View], model: reference.Reference)
 
     # The reference holds every face of the file, those of annotation too.
     scale, accuracy = SHEET / (model.diagonal * model.unit), SHEET / model.fineness
-    options = Options(hidden=True, scale=scale, accuracy=accuracy, annotations=True, smooth=False)
+    options = Options(hidden=True, scale=scale, accuracy=accuracy, annotations=True, smooth=False, details=True)
     start = time.perf_counter()
     own: list[reference.Reference] = []
     try:

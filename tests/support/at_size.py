@@ -3,5 +3,5 @@
 ALL_LINES = {"hidden": True, "smooth": False}
 """Hidden lines and no tangent edges, whatever the view."""
 
-AT_SIZE = {"scale": 1.0, **ALL_LINES}
-"""The same at 1:1: millimetres on paper are millimetres of the model."""
+AT_SIZE = {"scale": 1.0, "details": True, **ALL_LINES}
+"""The same at 1:1, and every detail: millimetres on paper are millimetres of the model."""

@@ -85,6 +85,7 @@ def _options(job: Job, **others: Any) -> Options:
         var=job.var,
         parameters=job.parameters,
         annotations=job.annotations,
+        details=True,
         **others,
     )
 

@@ -2,5 +2,6 @@
 
 pub mod curves;
 pub mod fit;
+pub mod legible;
 pub mod lines;
 pub mod silhouette;

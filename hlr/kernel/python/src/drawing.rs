@@ -16,6 +16,8 @@ use hlr_linework::curves::layer::{Layer as Inked, layers};
 use hlr_linework::curves::rows::rows_of;
 use hlr_linework::curves::{pdf, svg};
 use hlr_linework::fit::bezier::Chain;
+use hlr_linework::legible::left_out::left_out;
+use hlr_linework::legible::spacing::spacing;
 use hlr_linework::lines::drawing::{Curve, Kind, Line, Lines as Drawn};
 
 const ARC: u8 = 2;
@@ -137,6 +139,45 @@ impl Lines {
         self.0.0.iter().filter(bare).filter(|l| l.curve.is_some()).count()
     }
 
+    /// Those lines that are `chosen`.
+    fn chosen(&self, chosen: PyReadonlyArray1<'_, bool>) -> PyResult<Lines> {
+        let chosen = flat(&chosen, "chosen")?;
+        expect_len("chosen", chosen.len(), self.0.0.len())?;
+        let lines = self.0.0.iter().zip(chosen).filter(|(_, c)| **c).map(|(line, _)| line.clone());
+        Ok(Lines(Shared::new(Drawn(lines.collect()))))
+    }
+
+    /// Ink by its distance to the nearest line alongside, all ink, and the size of the smallest line; None where there
+    /// is too much ink.
+    fn spacing<'py>(
+        &self,
+        py: Python<'py>,
+        visible: bool,
+        reach: f64,
+        threads: usize,
+    ) -> PyResult<Option<(Bound<'py, PyArray1<f64>>, f64, f64)>> {
+        width("reach", reach)?;
+        let found = run(py, threads, self.0.0.len(), |_| spacing(&self.0, visible, reach))?;
+        Ok(found.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest)))
+    }
+
+    /// (n,) the fate of each line: 0 drawn, 1 smaller than the pen, 2 between others.
+    fn left_out<'py>(
+        &self,
+        py: Python<'py>,
+        pens: [f64; 2],
+        accuracy: f64,
+        order: Vec<u8>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        for (name, value) in [("pen", pens[0]), ("pen", pens[1]), ("accuracy", accuracy)] {
+            width(name, value)?;
+        }
+        let order: Vec<Kind> = order.into_iter().map(Kind).collect();
+        let fates = run(py, threads, self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;
+        Ok(fates.into_iter().map(|fate| fate as u8).collect::<Vec<_>>().into_pyarray(py))
+    }
+
     /// The layers of pen strokes, in grid steps of 10^-places millimetres; order: the classes from the first drawn on.
     fn layers(
         &self,
@@ -210,6 +251,13 @@ fn curve(form: u8, data: &[f64]) -> Result<Option<Curve>, &'static str> {
         (0 | 1, []) => Ok(None),
         _ => Err("has numbers of a curve and no form that needs them"),
     }
+}
+
+fn width(name: &str, value: f64) -> PyResult<()> {
+    if value.is_finite() && (1e-3..=1e3).contains(&value) {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!("{name} must be a length between a thousandth and a thousand millimetres")))
 }
 
 fn row_arrays<'py>(py: Python<'py>, rows: &Rows) -> PyResult<Bound<'py, PyDict>> {

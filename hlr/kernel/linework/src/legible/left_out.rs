@@ -1,0 +1,128 @@
+//! Which lines a pen cannot show. Lines of one visibility only are compared.
+//!
+//! A figure, lines that meet at their ends, is too small where it fits a square as wide as the pen.
+//!
+//! Of the others a line is left out where, all along and on both sides, another runs alongside closer than the pen is wide, and
+//! one of these stays: no white paper would have shown between them. The border of such a region has nothing on its
+//! other side and stays, so outlines do not change. Lines that go on from one another stay or go together, so that no
+//! edge gets a gap. Important classes stay first, then long lines, then those at the left and below.
+
+use rayon::prelude::*;
+
+use super::grid::{Grid, NOWHERE, STEPS, Segment, measurable, rounded, segments};
+use super::joints::joined;
+use crate::fit::arc::grow;
+use crate::fit::plane::length;
+use crate::lines::drawing::{Kind, Lines};
+
+/// What becomes of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Fate {
+    Drawn = 0,
+    Small = 1,
+    Between = 2,
+}
+
+/// Places are looked at every so many pens along a line.
+const PIECE: f64 = 0.5;
+
+/// The fate of each line. pens: widths of hidden and of visible lines, millimetres; accuracy: ends within it meet;
+/// order: the classes, the least important first.
+pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) -> Vec<Fate> {
+    let mut fates = vec![Fate::Drawn; lines.0.len()];
+    let all = vec![true; lines.0.len()];
+    let figure = joined(lines, &all, accuracy * STEPS, false);
+    let mut boxes = vec![NOWHERE; lines.0.len()];
+    for (i, line) in lines.0.iter().enumerate() {
+        line.flat.iter().for_each(|p| grow(&mut boxes[figure[i]], &rounded(p)));
+    }
+    for (i, line) in lines.0.iter().enumerate() {
+        let [low, high] = boxes[figure[i]];
+        let pen = pens[usize::from(line.visible)] * STEPS;
+        if (0..2).all(|k| high[k] - low[k] < pen) {
+            fates[i] = Fate::Small;
+        }
+    }
+    if !fates.contains(&Fate::Drawn) {
+        // All of the drawing is smaller than the pen: a dot is better than nothing.
+        return vec![Fate::Drawn; lines.0.len()];
+    }
+    for visible in [false, true] {
+        leave_out_between(lines, visible, pens[usize::from(visible)] * STEPS, accuracy * STEPS, order, &mut fates);
+    }
+    fates
+}
+
+fn leave_out_between(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order: &[Kind], fates: &mut [Fate]) {
+    let looked_at: Vec<bool> =
+        lines.0.iter().zip(fates.iter()).map(|(l, f)| l.visible == visible && *f == Fate::Drawn).collect();
+    let all = segments(lines.0.iter().enumerate().filter(|(i, _)| looked_at[*i]));
+    if !measurable(&all) {
+        return;
+    }
+    let grid = Grid::new(&all, pen);
+    let of: Vec<&[Segment]> = all.chunk_by(|a, b| a.line == b.line).collect();
+    let between: Vec<bool> = of.par_iter().map(|own| everywhere(&grid, own, pen, |_| true, true)).collect();
+    if !between.contains(&true) {
+        return;
+    }
+    let run = joined(lines, &looked_at, tolerance, true);
+    let mut open = vec![true; lines.0.len()];
+    for (own, _) in of.iter().zip(&between).filter(|(_, between)| !**between) {
+        open[run[own[0].line as usize]] = false;
+    }
+    let mut runs: Vec<Vec<&[Segment]>> = vec![Vec::new(); lines.0.len()];
+    for own in of {
+        runs[run[own[0].line as usize]].push(own);
+    }
+    let mut candidates: Vec<(Key, usize)> =
+        (0..runs.len()).filter(|&r| open[r] && !runs[r].is_empty()).map(|r| (key(lines, &runs[r], pen, order), r)).collect();
+    candidates.sort_unstable();
+    // A run is open until it is decided to stay: lines in it cannot stand for others.
+    for (_, r) in candidates {
+        let stays = |line: u32| !open[run[line as usize]];
+        if runs[r].iter().all(|own| everywhere(&grid, own, pen, stays, false)) {
+            runs[r].iter().for_each(|own| fates[own[0].line as usize] = Fate::Between);
+        } else {
+            open[r] = false;
+        }
+    }
+}
+
+/// Whether everywhere along a line one of the `counting` lines lies within a pen: on both sides, or on one.
+fn everywhere(grid: &Grid<'_>, own: &[Segment], pen: f64, counting: impl Fn(u32) -> bool, both: bool) -> bool {
+    own.iter().all(|segment| {
+        segment.places(PIECE * pen).0.all(|place| {
+            let (mut left, mut right) = (false, false);
+            let mut found = false;
+            grid.beside(segment, &place, pen, |offset, other| {
+                if counting(other.line) {
+                    left |= offset > 0.0;
+                    right |= offset < 0.0;
+                    found = if both { left && right } else { left || right };
+                }
+                !found
+            });
+            found
+        })
+    })
+}
+
+/// In which order runs are decided: class, then length in powers of two of the pen, both falling; then place.
+type Key = (usize, i32, [i64; 4]);
+
+fn key(lines: &Lines, run: &[&[Segment]], pen: f64, order: &[Kind]) -> Key {
+    let (mut around, mut long, mut place) = (NOWHERE, 0.0, 0);
+    for own in run {
+        let kind = lines.0[own[0].line as usize].kind;
+        place = place.max(order.iter().position(|k| *k == kind).unwrap_or(0));
+        for segment in *own {
+            long += length(&segment.way());
+            [segment.a, segment.b].iter().for_each(|p| grow(&mut around, p));
+        }
+    }
+    let [[x0, y0], [x1, y1]] = around.map(|p| p.map(|c| c as i64));
+    let doublings = (1..40).filter(|k| long >= pen * f64::from(*k).exp2()).count() as i32;
+    (order.len() - place, -doublings, [x0, y0, x1, y1])
+}

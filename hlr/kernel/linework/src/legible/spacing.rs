@@ -1,0 +1,70 @@
+//! How much ink lies at which distance from another line that runs alongside.
+
+use rayon::prelude::*;
+
+use super::grid::{Grid, NOWHERE, STEPS, Segment, ink, measurable, rounded, segments};
+use crate::fit::arc::grow;
+use crate::fit::plane::Vec2;
+use crate::lines::drawing::Lines;
+
+/// Bins per millimetre of the distance.
+pub const BINS: f64 = 64.0;
+
+/// Longest piece of a line of which one place is looked at, millimetres.
+const PIECE: f64 = 0.5;
+
+/// Nearer than this, a place is crowded with any pen: nothing nearer is sought, so that blots take no longer. Steps.
+const NEAR: f64 = STEPS / BINS;
+
+/// Ink of one visibility by its distance to the nearest line alongside.
+pub struct Spacing {
+    /// Millimetres of ink in each bin of distance; those of `reach` and more are in none.
+    pub bins: Vec<f64>,
+    /// Millimetres of all ink.
+    pub ink: f64,
+    /// The side of the smallest square that holds one of the lines, millimetres.
+    pub smallest: f64,
+}
+
+/// reach: up to which distance is looked, millimetres. None where there is too much ink to be measured.
+pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
+    let all = segments(lines.0.iter().enumerate().filter(|(_, line)| line.visible == visible));
+    if !measurable(&all) {
+        return None;
+    }
+    let chosen = lines.0.iter().filter(|line| line.visible == visible);
+    let smallest = chosen.map(|line| size(&line.flat)).fold(f64::INFINITY, f64::min);
+    let grid = Grid::new(&all, reach * STEPS);
+    let count = (reach * BINS) as usize;
+    let bins = all
+        .par_iter()
+        .with_min_len(256)
+        .fold(|| vec![0u64; count], |mut bins, segment| {
+            add(&grid, segment, reach * STEPS, &mut bins);
+            bins
+        })
+        .reduce(|| vec![0u64; count], |a, b| a.iter().zip(&b).map(|(x, y)| x + y).collect());
+    Some(Spacing { bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(), ink: ink(&all) / STEPS, smallest })
+}
+
+/// The side of the square that holds all points, millimetres.
+fn size(points: &[Vec2]) -> f64 {
+    let mut around = NOWHERE;
+    points.iter().for_each(|p| grow(&mut around, &rounded(p)));
+    (around[1][0] - around[0][0]).max(around[1][1] - around[0][1]) / STEPS
+}
+
+fn add(grid: &Grid<'_>, segment: &Segment, reach: f64, bins: &mut [u64]) {
+    let (places, piece) = segment.places(PIECE * STEPS);
+    for place in places {
+        let mut nearest = reach;
+        grid.beside(segment, &place, reach, |offset, _| {
+            nearest = nearest.min(offset.abs());
+            nearest > NEAR
+        });
+        if let Some(bin) = bins.get_mut((nearest / STEPS * BINS) as usize) {
+            *bin += piece.round() as u64;
+        }
+    }
+}
+

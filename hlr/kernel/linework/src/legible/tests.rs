@@ -1,0 +1,96 @@
+//! Combs, rings and dots: what is left out of them, and how crowded they are.
+
+use super::left_out::{Fate, left_out};
+use super::spacing::spacing;
+use crate::fit::plane::Vec2;
+use crate::lines::drawing::{Kind, Line, Lines};
+
+const PEN: f64 = 0.25;
+const ACCURACY: f64 = 0.05;
+
+fn line(flat: Vec<Vec2>) -> Line {
+    let space = vec![[0.0; 3]; flat.len()];
+    Line { kind: Kind::SHARP, visible: true, part: 0, edge: -1, face: -1, other: -1, flat, space, curve: None }
+}
+
+/// Upright lines, so many pens apart.
+fn comb(count: usize, pens: f64) -> Lines {
+    let tooth = |i: usize| line(vec![[i as f64 * pens * PEN, 0.0], [i as f64 * pens * PEN, 20.0]]);
+    Lines((0..count).map(tooth).collect())
+}
+
+fn fates(lines: &Lines) -> Vec<Fate> {
+    left_out(lines, [PEN, PEN], ACCURACY, &[Kind::SHARP])
+}
+
+fn drawn(lines: &Lines) -> Vec<usize> {
+    (0..lines.0.len()).filter(|&i| fates(lines)[i] == Fate::Drawn).collect()
+}
+
+#[test]
+fn combs_are_thinned_to_more_than_a_pen_and_keep_their_borders() {
+    assert_eq!(drawn(&comb(10, 0.4)), [0, 3, 6, 9]);
+    assert_eq!(drawn(&comb(9, 0.6)), [0, 2, 4, 6, 8]);
+    assert_eq!(drawn(&comb(9, 0.9)), [0, 2, 4, 6, 8]);
+    assert_eq!(drawn(&comb(9, 1.1)).len(), 9);
+    // A thin sheet has two outlines, however thin it is.
+    assert_eq!(drawn(&comb(2, 0.1)).len(), 2);
+}
+
+#[test]
+fn rings_are_thinned_and_the_outermost_stays() {
+    let ring = |r: f64| {
+        let at = |i: i32| [r * (f64::from(i) / 32.0).cos(), r * (f64::from(i) / 32.0).sin()];
+        line((0..=201).map(at).collect())
+    };
+    let rings = Lines((0..10).map(|i| ring(5.0 + 0.6 * PEN * f64::from(i))).collect());
+    let left = drawn(&rings);
+    assert!(left.contains(&0) && left.contains(&9) && (5..=6).contains(&left.len()), "{left:?}");
+}
+
+#[test]
+fn a_figure_smaller_than_the_pen_goes_and_a_chain_of_small_pieces_stays() {
+    let side = 0.8 * PEN;
+    let dot = |x: f64, y: f64| line(vec![[x, y], [x + side, y], [x + side, y + side], [x, y]]);
+    let piece = |i: usize| line(vec![[i as f64 * side, 9.0], [(i + 1) as f64 * side, 9.0]]);
+    let mut lines = comb(1, 1.0);
+    lines.0.push(dot(3.0, 3.0));
+    lines.0.extend((0..40).map(piece));
+    let found = fates(&lines);
+    assert_eq!(found.iter().filter(|f| **f == Fate::Small).count(), 1);
+    assert_eq!(found[1], Fate::Small);
+    // A drawing that is all dot stays.
+    assert_eq!(drawn(&Lines(vec![dot(0.0, 0.0)])), [0]);
+}
+
+#[test]
+fn a_line_that_goes_on_elsewhere_gets_no_gap() {
+    // The middle tooth goes on upward from between its neighbours.
+    let mut lines = comb(3, 0.8);
+    lines.0.push(line(vec![[0.8 * PEN, 20.0], [0.8 * PEN, 40.0]]));
+    assert_eq!(drawn(&lines), [0, 1, 2, 3]);
+}
+
+#[test]
+fn the_order_of_lines_does_not_matter() {
+    let mut lines = comb(40, 0.4);
+    let before: Vec<f64> = drawn(&lines).iter().map(|&i| lines.0[i].flat[0][0]).collect();
+    lines.0.reverse();
+    let mut after: Vec<f64> = drawn(&lines).iter().map(|&i| lines.0[i].flat[0][0]).collect();
+    after.reverse();
+    assert_eq!(before, after);
+}
+
+#[test]
+fn spacing_counts_lines_alongside_and_neither_crossings_nor_what_goes_on() {
+    let found = spacing(&comb(3, 1.0), true, 1.0).expect("little ink");
+    assert_eq!((found.ink, found.bins[16], found.smallest), (60.0, 60.0, 20.0));
+    let cross = Lines(vec![
+        line(vec![[0.0, 0.0], [10.0, 0.0]]),
+        line(vec![[10.0, 0.0], [20.0, 0.0]]),
+        line(vec![[5.0, -5.0], [5.0, 5.0]]),
+    ]);
+    let found = spacing(&cross, true, 1.0).expect("little ink");
+    assert_eq!(found.bins.iter().sum::<f64>(), 0.0);
+    assert!(spacing(&Lines(vec![line(vec![[0.0, 0.0], [1e9, 0.0]])]), true, 1.0).is_none());
+}

@@ -1,0 +1,161 @@
+"""What the pen can show: the line group by how close lines run, and lines left out that would only make a blot.
+
+Twice the width of the pen is the least distance of lines (ISO 128). The rule has three steps.
+
+1. The line group, where the style names no widths. Ink is crowded where a line of the same visibility runs alongside
+   nearer than that, from middle to middle. While more than `CROWDED` of the visible ink is crowded, the next thinner
+   group is taken, at last 0.25/0.13.
+2. What even this pen cannot show is left out (`kernel/linework/src/legible/left_out.rs`).
+3. Where too much is still crowded, a note names the scale at which it would not be.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import ceil
+from time import perf_counter
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.drawing.line import Line
+from hlr.drawing.lines import Lines, held
+from hlr.drawing.notes import Note
+from hlr.drawing.pens import LINE_GROUPS, widths_of
+from hlr.drawing.scale import ratio
+from hlr.request.drawing_effects import LEGIBILITY
+from hlr.request.effect import Planner
+from hlr.request.options import Options
+from hlr.request.style import Style
+from hlr.tables.line_classes import LINE_CLASSES
+from hlr.tables.sheets import standard_scale_from
+
+CROWDED = 0.2
+"""Share of the visible ink that may be crowded. Tangent edges beside the outlines of small fillets alone are a tenth of
+many pictorial views, and no pen separates these."""
+
+APART = 2.0
+"""The least distance of lines, from middle to middle, in widths of the pen."""
+
+BINS_PER_MM = 64
+
+Pens = tuple[float, float]
+"""Widths of wide and narrow lines, millimetres."""
+
+
+@dataclass(frozen=True, slots=True)
+class Legible:
+    """Lines as they are drawn, their style, how many lines were left out, and what is said about it."""
+
+    lines: Sequence[Line]
+    style: Style
+    left_out: int = 0
+    notes: tuple[Note, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Spacing:
+    """How close the lines of one visibility run.
+
+    share (k,): of their ink, the share with a line alongside nearer than 1/64, 2/64 ... mm; smallest: the side of the
+    square around the smallest line, mm
+    """
+
+    share: Floats
+    smallest: float
+
+    def crowded(self, pen: float) -> float:
+        """The share of ink that is crowded with a pen of this width in millimetres."""
+        return float(self.share[_bins(pen) - 1])
+
+    def distance(self) -> float:
+        """Millimetres: all ink but `CROWDED` keeps it."""
+        return float(np.searchsorted(self.share, CROWDED, side="right") + 1) / BINS_PER_MM
+
+    def close(self, pen: float) -> bool:
+        """Whether anything is crowded, or smaller than a pen of this width in millimetres."""
+        return self.crowded(pen) > 0.0 or self.smallest < pen
+
+
+def legible(
+    lines: Sequence[Line],
+    scale: float,
+    accuracy: float,
+    style: Style,
+    sheet: tuple[float, float],
+    options: Options,
+    planner: Planner,
+) -> Legible:
+    """The lines of one view that the pens of a style can show.
+
+    scale: paper to model; accuracy: millimetres on paper, as used; sheet: width and height, millimetres
+    """
+    if not planner.on(LEGIBILITY):
+        return Legible(lines, style)
+    begun = perf_counter()
+    usual = widths_of(style, sheet)
+    seen = _spacing(lines, True, usual[0], options.threads)
+    behind = _spacing(lines, False, usual[1], options.threads)
+    if seen is None or behind is None or not (seen.close(usual[0]) or behind.close(usual[1])):
+        return Legible(lines, style)
+    pens = usual if style.wide or style.narrow else _group(seen, usual)
+    notes = _notes(seen, usual, pens, scale)
+    order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
+    kept = held(lines)
+    fates = kept.left_out((pens[1], pens[0]), accuracy, order, options.threads)
+    out = int(np.count_nonzero(fates))
+    planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
+    if out:
+        lines = Lines(kept.chosen(fates == 0))
+        notes = (_left_out(out, pens), *notes)
+    if pens != usual:
+        style = replace(style, wide=pens[0], narrow=pens[1])
+    return Legible(lines, style, out, notes)
+
+
+def _group(seen: Spacing, usual: Pens) -> Pens:
+    """The first line group, beginning with the usual one, with which little ink is crowded; else the thinnest."""
+    groups = [group for group in LINE_GROUPS if group[0] <= usual[0]]
+    return next((group for group in groups if seen.crowded(group[0]) <= CROWDED), groups[-1])
+
+
+def _bins(pen: float) -> int:
+    """How many bins of distance are crowded with a pen of this width in millimetres."""
+    return ceil(APART * pen * BINS_PER_MM)
+
+
+def _spacing(lines: Sequence[Line], visible: bool, pen: float, threads: int) -> Spacing | None:
+    """None where there is more ink than any page has room for."""
+    found = held(lines).spacing(visible, _bins(pen) / BINS_PER_MM, threads)
+    if found is None:
+        return None
+    bins, ink, smallest = found
+    return Spacing(np.cumsum(bins) / max(ink, 1.0), smallest)
+
+
+def _notes(seen: Spacing, usual: Pens, pens: Pens, scale: float) -> tuple[Note, ...]:
+    notes = []
+    if pens != usual:
+        text = f"the lines are close together: they are drawn {_shown(pens)} mm wide instead of {_shown(usual)}."
+        notes.append(Note("thin-lines", text))
+    crowded = seen.crowded(pens[0])
+    if crowded > CROWDED:
+        better = ratio(standard_scale_from(scale * APART * pens[0] / seen.distance()))
+        text = f"{crowded:.0%} of the lines lie closer to others than twice their width: {better} would separate most."
+        notes.append(Note("crowded", text))
+    return tuple(notes)
+
+
+def _shown(pens: Pens) -> str:
+    return f"{pens[0]:g}/{pens[1]:g}"
+
+
+def _left_out(count: int, pens: Pens) -> Note:
+    what = "1 line is" if count == 1 else f"{count:,} lines are"
+    why = f"smaller than the pen of {pens[0]:g} mm, or between others closer than that"
+    text = f"{what} left out: {why}; details=True, on the command line --details, draws all."
+    return Note("details-left-out", text)
+
+
+__all__ = ["Legible", "legible"]
