@@ -46,6 +46,7 @@ hlr/docs/batch
 hlr/docs/python
 hlr/docs/styles
 hlr/docs/previews
+hlr/docs/dxf
 hlr/docs/drop_ins
 hlr/docs/accuracy
 hlr/docs/limits

@@ -185,10 +185,10 @@ class Drawing(ByValue):
     @overload
     def save(self, file: IO[bytes], format: Format) -> None: ...
     def save(self, file: Any, format: Any = None) -> Path | None:
-        """Write SVG, PDF, PNG or JSON into a file or a binary file object.
+        """Write SVG, PDF, DXF, PNG or JSON into a file or a binary file object.
 
         file    a path, whose ending names the format, or a file object that is open for bytes
-        format  svg, pdf, png or json: needed for a file object; of a path it overrides the ending
+        format  svg, pdf, dxf, png or json: needed for a file object; of a path it overrides the ending
 
         Returns the path, or None for a file object. Raises WriteError, in one sentence, where the format is unknown or
         the file cannot be written.
@@ -202,6 +202,10 @@ class Drawing(ByValue):
     def to_pdf(self) -> bytes:
         """The content of the PDF file. Raises WriteError where a point is not finite."""
         return render(self, "pdf")
+
+    def to_dxf(self) -> bytes:
+        """The content of the DXF file. Raises WriteError where a point is not finite."""
+        return render(self, "dxf")
 
     def to_png(self) -> bytes:
         """The content of the PNG file, in the size or resolution of the style.

@@ -140,11 +140,12 @@ def _records(  # noqa: PLR0913 - one for each array of the kernel
             points[first:last],
             points3[first:last],
             other if other >= 0 else None,
-            _curve(shape, data[of[i] : of[i + 1]]) if shape > STRAIGHT else None,
+            curve_of(shape, data[of[i] : of[i + 1]]) if shape > STRAIGHT else None,
         )
 
 
-def _curve(form: int, numbers: Any) -> Curve:
+def curve_of(form: int, numbers: Any) -> Curve:
+    """The curve of a line of this form, above STRAIGHT, from its numbers."""
     if form == ARC:
         return Arc(numbers[:2], numbers[2:6].reshape(2, 2), numbers[6:8])
     return Bezier(2 if form == QUADRATIC else 3, numbers.reshape(-1, 2))

@@ -13,7 +13,7 @@ from hlr.drawing import files
 from hlr.errors import WriteError
 from hlr.tables.writers import DEPTH, FACES, PICTURE, WRITERS, formats
 
-Format = Literal["svg", "pdf", "png", "json"]
+Format = Literal["svg", "pdf", "dxf", "png", "json"]
 """What a drawing is written as, for type checkers; `hlr.tables.writers.WRITERS` is what there is."""
 
 

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats
+from hlr.drawing.chords import Index, chords
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
-from hlr.lab.sampling import Index, chords
 from hlr.tables.line_classes import LINE_CLASSES, names
 
 

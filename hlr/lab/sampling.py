@@ -10,19 +10,12 @@ A segment is a row (x0, y0, x1, y1), millimetres on paper. Neighbouring samples 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from hlr.common.types import Floats
-from hlr.drawing.curve import Arc, Curve
-
-Index = npt.NDArray[np.int64]
-
-MOST_CHORDS = 20_000
-"""Largest number of chords of one curve."""
+from hlr.drawing.chords import Index, numbered
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,41 +73,6 @@ def polyline(points: Floats, step: float) -> Floats:
     segment, number = numbered(pieces)
     inner = points[segment] + ((number + 1) / pieces[segment])[:, None] * way[segment]
     return np.concatenate([points[:1], inner])
-
-
-def numbered(count: Index) -> tuple[Index, Index]:
-    """For `count` (m,) samples of each of m items in a row: the item (n,) of each sample, and its number (n,) in it."""
-    whose = np.repeat(np.arange(len(count)), count)
-    return whose, np.arange(len(whose)) - np.repeat(np.cumsum(count) - count, count)
-
-
-def chords(curve: Curve, most_off: float) -> Floats:
-    """(n, 2) points along a curve, such that the chords between them are at most `most_off` millimetres off it.
-
-    The chord error of n pieces is |second difference| / 8 n^2.
-    """
-    if isinstance(curve, Arc):
-        start, end = curve.angles
-        count = math.ceil(abs(end - start) * math.sqrt(max(curve.radii) / (8.0 * most_off)))
-        return evenly(curve, min(max(count, 1), MOST_CHORDS) + 1)
-    d = curve.degree
-    pieces = bezier_pieces(curve)
-    p = np.stack([curve.points[k : k + d * (pieces - 1) + 1 : d] for k in range(d + 1)])
-    bend = np.linalg.norm(np.diff(p, n=2, axis=0), axis=2).max(axis=0) * (d * (d - 1))
-    count = np.clip(np.ceil(np.sqrt(bend / (8.0 * most_off))), 1, MOST_CHORDS).astype(np.int64)
-    piece, number = numbered(count)
-    return curve.at(np.append(piece + number / count[piece], float(pieces)))
-
-
-def evenly(curve: Curve, count: int) -> Floats:
-    """(count, 2) points at even steps of a curve's parameter."""
-    first, last = curve.angles if isinstance(curve, Arc) else (0.0, float(bezier_pieces(curve)))
-    return curve.at(np.linspace(first, last, count))
-
-
-def bezier_pieces(curve: Curve) -> int:
-    """The number of Bezier curves in a chain; 1 for an arc."""
-    return 1 if isinstance(curve, Arc) else (len(curve.points) - 1) // curve.degree
 
 
 def _cut(segments: Floats, step: float) -> tuple[Floats, Index]:

@@ -30,6 +30,7 @@ WRITERS = {
     for writer in (
         Writer("svg", "hlr.writers.svg:svg"),
         Writer("pdf", "hlr.writers.pdf:pdf"),
+        Writer("dxf", "hlr.writers.dxf:dxf"),
         Writer("png", "hlr.writers.drawing_png:drawing_png"),
         Writer("json", "hlr.writers.json:document"),
     )
@@ -43,10 +44,10 @@ FACES = Writer("png", "hlr.writers.png:ids_png")
 
 
 def formats(before: str = "", around: str = "") -> str:
-    """All formats of drawings, for people: svg, pdf or json. before: put before each name; around: on both sides."""
+    """All formats of drawings, for people: svg, pdf, dxf or json. before: put before each; around: on both sides."""
     return listed((f"{around}{before}{name}{around}" for name in WRITERS), "or")
 
 
 def titles(last: str) -> str:
-    """All formats of drawings, for help texts: SVG, PDF and JSON. last: the word before the last one."""
+    """All formats of drawings, for help texts: SVG, PDF, DXF and JSON. last: the word before the last one."""
     return listed((name.upper() for name in WRITERS), last)

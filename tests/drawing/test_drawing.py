@@ -94,7 +94,7 @@ def test_a_drawing_cannot_be_changed():
         drawing.lines[0].points3[0] = 7.0
 
 
-@pytest.mark.parametrize("format", ["svg", "pdf", "json"])
+@pytest.mark.parametrize("format", ["svg", "pdf", "dxf", "json"])
 def test_saving_changes_nothing(tmp_path, format):
     drawing = sample()
     before = pickle.dumps(drawing)
@@ -102,7 +102,7 @@ def test_saving_changes_nothing(tmp_path, format):
     assert pickle.dumps(drawing) == before
 
 
-@pytest.mark.parametrize("format", ["svg", "pdf", "json"])
+@pytest.mark.parametrize("format", ["svg", "pdf", "dxf", "json"])
 def test_it_is_written_into_a_path_of_any_kind_and_into_file_objects(tmp_path, format):
     drawing, path = sample(), tmp_path / f"a.{format}"
     assert drawing.save(str(path)) == path
@@ -130,8 +130,8 @@ def closed():
 @pytest.mark.parametrize(
     ("file", "format", "message"),
     [
-        (io.BytesIO(), None, "no ending that names the format: give format='svg', 'pdf', 'png' or 'json'"),
-        (io.BytesIO(), "dxf", "unknown format 'dxf'; use svg, pdf, png or json"),
+        (io.BytesIO(), None, "no ending that names the format: give format='svg', 'pdf', 'dxf', 'png' or 'json'"),
+        (io.BytesIO(), "dwg", "unknown format 'dwg'; use svg, pdf, dxf, png or json"),
         (io.StringIO(), "svg", "cannot write into the StringIO: it takes text, not bytes; open it with mode 'wb'"),
         (closed(), "svg", "cannot write into the BytesIO: I/O operation on closed file"),
         (Short(), "svg", "it took 1 of"),

@@ -80,7 +80,7 @@ REFUSED = {
     'hlr.draw("a.step", "frnt")': "expected \\\"Literal['front'",
     'hlr.preview("a.step", colour=1)': 'Unexpected keyword argument "colour"',
     'hlr.darw("a.step")': 'Module has no attribute "darw"',
-    'drawing.save("a.dxf", "dxf")': "No overload variant",
+    'drawing.save("a.dwg", "dwg")': "No overload variant",
     "drawing.save(io.BytesIO())": "No overload variant",
     'drawing.accuracy["used"]': '"Accuracy" is not indexable',
     "drawing.bounds()": '"Bounds" not callable',

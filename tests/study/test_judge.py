@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from hlr.drawing.chords import chords
 from hlr.drawing.curve import Arc, Bezier
 from hlr.lab.judge import Judge
 from hlr.lab.measure.classes import ModelJudge
 from hlr.lab.polylines import gathered, load
-from hlr.lab.sampling import chords
 from hlr.lab.study.frontier import frontier
 from hlr.lab.study.job import HLR, POLY, Cost, Point
 from hlr.lab.study.judge import LineJudge

@@ -1,9 +1,11 @@
 """Small drawings made by hand."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
+from hlr.drawing.curve import Arc, Bezier
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.notes import Note
@@ -22,6 +24,18 @@ def line(points, kind="sharp", visible=True, *, part=0, edge=None, face=None):
     points = np.array(points, dtype=float)
     points3 = np.column_stack([points, np.zeros(len(points))])
     return Line(kind, visible, part, edge, face, points, points3)
+
+
+def arc(centre, major, minor, angles, turn=0.0, **of):
+    c, s = math.cos(turn), math.sin(turn)
+    axes = np.array([[major * c, major * s], [-minor * s, minor * c]])
+    curve = Arc(np.array(centre, float), axes, np.array(angles, float))
+    return replace(line(curve.at(curve.angles), **of), curve=curve)
+
+
+def bezier(degree, points, **of):
+    curve = Bezier(degree, np.array(points, float))
+    return replace(line(curve.points[[0, -1]], **of), curve=curve)
 
 
 def part(name="box", color=None):

@@ -15,8 +15,9 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from hlr import Drawing, Line
+from hlr.drawing.chords import bezier_pieces, evenly
 from hlr.drawing.curve import Arc
-from hlr.lab.sampling import bezier_pieces, evenly, middles, with_ends
+from hlr.lab.sampling import middles, with_ends
 
 Floats = npt.NDArray[np.float64]
 Bools = npt.NDArray[np.bool_]

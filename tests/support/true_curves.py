@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from hlr.drawing.chords import bezier_pieces, evenly
 from hlr.drawing.curve import Arc
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
-from hlr.lab.sampling import bezier_pieces, evenly
 from hlr.source.cad.shapes import sub_shapes
 from hlr.source.transforms import transform_points
 

@@ -244,12 +244,12 @@ def test_the_command_knows_all_rows(added):
 def test_help_texts_name_all_rows(added):
     shown = " ".join(command(added, "--help").stdout.split())
     assert "GLB and DUMMY." in shown
-    assert "Draw a model as SVG, PDF, PNG, JSON or TXT." in shown
+    assert "Draw a model as SVG, PDF, DXF, PNG, JSON or TXT." in shown
     shown = " ".join(command(added, "draw", "--help").stdout.split())
-    assert "[svg|pdf|png|json|txt]" in shown
-    assert "Where to write: .svg, .pdf, .png, .json or .txt;" in shown
+    assert "[svg|pdf|dxf|png|json|txt]" in shown
+    assert "Where to write: .svg, .pdf, .dxf, .png, .json or .txt;" in shown
     refused = command(added, "draw", "cube.dummy", "-o", "cube.xyz")
-    assert (refused.returncode, "use .svg, .pdf, .png, .json or .txt" in refused.stderr) == (2, True)
+    assert (refused.returncode, "use .svg, .pdf, .dxf, .png, .json or .txt" in refused.stderr) == (2, True)
 
 
 def test_any_object_that_follows_the_protocol_is_drawn():

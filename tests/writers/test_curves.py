@@ -7,23 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from hlr.drawing.curve import Arc, Bezier
 from hlr.writers.pdf import pdf
 from hlr.writers.strokes import strokes
 from hlr.writers.svg import svg
-from support.drawings import drawing, line
-
-
-def arc(centre, major, minor, angles, turn=0.0, **of):
-    c, s = math.cos(turn), math.sin(turn)
-    axes = np.array([[major * c, major * s], [-minor * s, minor * c]])
-    curve = Arc(np.array(centre, float), axes, np.array(angles, float))
-    return replace(line(curve.at(curve.angles), **of), curve=curve)
-
-
-def bezier(degree, points, **of):
-    curve = Bezier(degree, np.array(points, float))
-    return replace(line(curve.points[[0, -1]], **of), curve=curve)
+from support.drawings import arc, bezier, drawing, line
 
 
 def drawn(*lines):

@@ -36,8 +36,8 @@ def test_an_unknown_ending_is_refused(tmp_path, name):
 
 
 def test_an_unknown_format_is_refused():
-    with pytest.raises(WriteError, match="dxf"):
-        render(sample(), "dxf")
+    with pytest.raises(WriteError, match="dwg"):
+        render(sample(), "dwg")
 
 
 def test_the_time_of_writing_is_counted_once():

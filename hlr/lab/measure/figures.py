@@ -6,10 +6,10 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
+from hlr.drawing.chords import Index
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.reached import Errors
 from hlr.lab.measure.written import Written
-from hlr.lab.sampling import Index
 
 
 def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:

@@ -24,13 +24,13 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
+from hlr.drawing.chords import Index
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line
 from hlr.drawing.reached import Errors, errors
 from hlr.errors import HlrError
 from hlr.lab.measure.rays import Caster, contradicted, longest_run, runs
 from hlr.lab.measure.written import Written, written
-from hlr.lab.sampling import Index
 from hlr.request.accuracy import MEASURED_REACH, MEASURED_SAME, MEASURED_SAMPLE
 
 Mask = npt.NDArray[np.bool_]

@@ -25,11 +25,11 @@ from typing import Any
 import numpy as np
 
 from hlr.common.types import Floats
+from hlr.drawing.chords import Index
 from hlr.drawing.drawing import Drawing
 from hlr.lab.measure.edges import TrueEdges
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written, in_model
-from hlr.lab.sampling import Index
 from hlr.request.accuracy import MEASURED_RETRY, MEASURED_STEP
 
 ITERATIONS = 30

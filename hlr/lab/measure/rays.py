@@ -23,12 +23,12 @@ import numpy.typing as npt
 
 from hlr import _kernel
 from hlr.common.types import Floats, Ints
+from hlr.drawing.chords import Index
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.reached import Labels
 from hlr.image.camera import NEAR
 from hlr.lab.measure.paper import Paper
 from hlr.lab.measure.written import Written, in_model
-from hlr.lab.sampling import Index
 from hlr.request.accuracy import ANGLE, MEASURED_CONTACT, MEASURED_SAMPLE, MESH_CONTACT, under
 
 RING = 8

@@ -9,8 +9,9 @@ import numpy as np
 
 from hlr import _kernel
 from hlr.common.types import Floats
+from hlr.drawing.chords import Index, numbered
 from hlr.drawing.drawing import Drawing
-from hlr.lab.sampling import Index, line_middles, numbered
+from hlr.lab.sampling import line_middles
 from hlr.request.accuracy import MEASURED_CHORD
 from hlr.writers.strokes import ARC, CUBIC, LINE, QUADRATIC, WHOLE, Rows, places_of, rows_of
 

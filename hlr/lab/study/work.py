@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr.drawing.chords import bezier_pieces
 from hlr.drawing.drawing import Drawing, DrawnView
 from hlr.drawing.line import Line
 from hlr.drawing.saving import render
@@ -19,7 +20,6 @@ from hlr.image.camera import Camera
 from hlr.image.image import image_of
 from hlr.image.outlines import outlined
 from hlr.lab.polylines import Polylines, drawing_of, load, polylines_of
-from hlr.lab.sampling import bezier_pieces
 from hlr.lab.study.job import EXACT, HLR, POLY, ZBUFFER, Cost, Job, Point
 from hlr.lab.study.watch import Watch
 from hlr.pipeline.draw import draw_views

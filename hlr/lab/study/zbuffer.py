@@ -18,9 +18,9 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
+from hlr.drawing.chords import Index, numbered
 from hlr.image.image import Image
 from hlr.lab.polylines import Polylines
-from hlr.lab.sampling import Index, numbered
 from hlr.lab.study.watch import Watch
 from hlr.shading.lens import lens
 from hlr.shading.scene import shaded_scene

@@ -1,0 +1,114 @@
+"""DXF: millimetres on paper in the drawing's own coordinates, so x and y are the `points` of the exchange format.
+
+ezdxf makes the document: header, layers, linetypes, layouts, hatches. The lines are put into it as text
+(`dxf_entities`), one entity for each line, because ezdxf takes ten times as long for an entity. The same drawing gives
+the same bytes: dates and identifiers are constants, handles are counted.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from threading import Lock
+from typing import TYPE_CHECKING
+
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.line import Bounds
+from hlr.writers.dxf_entities import APPLICATION, Target, entities
+from hlr.writers.dxf_fill import hatch
+from hlr.writers.dxf_layers import CONTRAST, FILL, Layers
+from hlr.writers.dxf_text import clean
+from hlr.writers.fill import painted
+from hlr.writers.strokes import MARGIN
+from hlr.writers.svg import accuracies, reached, title
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as Document
+
+MILLIMETRES, METRIC = 4, 1
+"""Numbers of DXF for the unit, and for the system that it belongs to."""
+
+_ENTITIES = "  0\nSECTION\n  2\nENTITIES\n"
+_END = "  0\nENDSEC\n"
+_CHUNK = 1000
+"""Entities that are encoded at a time."""
+
+_fixed = Lock()
+
+
+def dxf(drawing: Drawing) -> bytes:
+    """The drawing as a DXF file of the version that its style names. Raises WriteError where a point is not finite."""
+    from ezdxf.document import Drawing as Document
+
+    version = drawing.style.dxf
+    with _repeatable():
+        document = Document.new(version)
+        modern, true_colors = version != "R12", version not in ("R12", "R2000")
+        _set_header(document, drawing, modern)
+        places = Layers(document, drawing, modern, true_colors).tags()
+        model = document.modelspace()
+        if drawing.fill is not None and modern:
+            document.layers.add(FILL, color=CONTRAST)
+            hatch(model, painted(drawing, drawing.fill), FILL)
+        first = int(str(document.entitydb.handles), 16)
+        document.entitydb.handles.reset(f"{first + len(drawing.lines):X}")
+        stream = io.StringIO()
+        document.write(stream)
+    head, mark, tail = stream.getvalue().partition(_ENTITIES)
+    there, end, rest = tail.partition(_END)
+    out = [document.encode(head + mark + there)]
+    texts: list[str] = []
+    for text in entities(drawing, Target(places, modern, first, model.layout_key)):
+        texts.append(text)
+        if len(texts) == _CHUNK:
+            out.append(document.encode("".join(texts)))
+            texts.clear()
+    return b"".join([*out, document.encode("".join([*texts, end, rest]))])
+
+
+@contextmanager
+def _repeatable() -> Iterator[None]:
+    """Dates and identifiers are constants. ezdxf has one option for the whole process; it is put back."""
+    import ezdxf
+
+    with _fixed:
+        before = ezdxf.options.write_fixed_meta_data_for_testing
+        ezdxf.options.write_fixed_meta_data_for_testing = True
+        try:
+            yield
+        finally:
+            ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+def _set_header(document: Document, drawing: Drawing, modern: bool) -> None:
+    """Units, extents, page, and what a program shows when it opens the file."""
+    document.header["$LTSCALE"] = 1.0
+    document.appids.add(APPLICATION)
+    bounds, page = drawing.bounds, _page(drawing)
+    model = document.modelspace().dxf
+    model.extmin, model.extmax = (bounds.x0, bounds.y0, 0.0), (bounds.x1, bounds.y1, 0.0)
+    model.limmin, model.limmax = (page.x0, page.y0), (page.x1, page.y1)
+    centre = ((page.x0 + page.x1) / 2.0, (page.y0 + page.y1) / 2.0)
+    document.set_modelspace_vport(max(page.height, page.width), centre)
+    if not modern:
+        document.header["$HANDLING"] = 0
+        return
+    document.units = MILLIMETRES
+    document.header["$MEASUREMENT"] = METRIC
+    document.header["$LWDISPLAY"] = 1
+    paper = document.modelspace().dxf_layout.dxf
+    paper.paper_width, paper.paper_height = page.width, page.height
+    # Plotted: the limits, one millimetre as one.
+    paper.plot_type, paper.plot_paper_units, paper.standard_scale_type = 2, 1, 16
+    told = {"Title": title(drawing), **accuracies(drawing), **{f"reached {k}": v for k, v in reached(drawing).items()}}
+    for name, value in told.items():
+        document.header.custom_vars.append(name, clean(value))
+
+
+def _page(drawing: Drawing) -> Bounds:
+    """The page as SVG and PDF have it."""
+    if drawing.page is not None:
+        return drawing.page.bounds
+    x0, y0, x1, y1 = drawing.area
+    return Bounds(x0 - MARGIN, y0 - MARGIN, x1 + MARGIN, y1 + MARGIN)
