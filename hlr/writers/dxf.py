@@ -88,6 +88,8 @@ def _set_header(document: Document, drawing: Drawing, modern: bool) -> None:
     bounds, page = drawing.bounds, _page(drawing)
     model = document.modelspace().dxf
     model.extmin, model.extmax = (bounds.x0, bounds.y0, 0.0), (bounds.x1, bounds.y1, 0.0)
+    # ezdxf copies them into the header, but for 0, 0, which it takes for none.
+    document.header["$EXTMIN"], document.header["$EXTMAX"] = model.extmin, model.extmax
     model.limmin, model.limmax = (page.x0, page.y0), (page.x1, page.y1)
     centre = ((page.x0 + page.x1) / 2.0, (page.y0 + page.y1) / 2.0)
     document.set_modelspace_vport(max(page.height, page.width), centre)
@@ -97,6 +99,11 @@ def _set_header(document: Document, drawing: Drawing, modern: bool) -> None:
     document.units = MILLIMETRES
     document.header["$MEASUREMENT"] = METRIC
     document.header["$LWDISPLAY"] = 1
+    # Where LibreCAD looks for the scale, the page, and where the drawing lies on it; ezdxf's scale is 0.
+    document.header["$PSVPSCALE"] = 1.0
+    document.header["$PINSBASE"] = (-page.x0, -page.y0, 0.0)
+    sheet = document.active_layout().dxf
+    sheet.limmin, sheet.limmax = (0.0, 0.0), (page.width, page.height)
     paper = document.modelspace().dxf_layout.dxf
     paper.paper_width, paper.paper_height = page.width, page.height
     # Plotted: the limits, one millimetre as one.

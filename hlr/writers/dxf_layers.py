@@ -30,6 +30,9 @@ FILL = "FILL"
 CONTRAST = 7
 """Number of the colour that is black on white and white on black."""
 
+SHORT_DASHED, SHORT_HIDDEN = "DASHED2", "HIDDEN2"
+"""Linetypes. CAD programs have some of these names, nearly as long; LibreCAD draws its own in place of the file's."""
+
 LONGEST, LONGEST_R12 = 255, 31
 """Characters of a name."""
 
@@ -91,7 +94,7 @@ class Layers:
         number, rgb = nearest_color(pen.solid)
         linetype = "CONTINUOUS"
         if pen.dash is not None:
-            linetype = self.dashes.get(pen.dash) or self._linetype(pen.dash, "DASHED" if visible else "HIDDEN")
+            linetype = self.dashes.get(pen.dash) or self._linetype(pen.dash, SHORT_DASHED if visible else SHORT_HIDDEN)
         return Look(number, rgb if self.true_colors else None, linetype, lineweight(pen.width))
 
     def _linetype(self, dash: tuple[float, float], name: str) -> str:

@@ -122,9 +122,9 @@ def test_a_layer_for_each_class_and_visibility(version):
         "VISIBLE_BOUNDARY": (7, "CONTINUOUS"),
         "VISIBLE_OUTLINE": (7, "CONTINUOUS"),
         "VISIBLE_INTERSECTION": (7, "CONTINUOUS"),
-        "HIDDEN_SHARP": (7, "HIDDEN"),
-        "HIDDEN_SMOOTH": (7, "HIDDEN"),
-        "HIDDEN_OUTLINE": (7, "HIDDEN"),
+        "HIDDEN_SHARP": (7, "HIDDEN2"),
+        "HIDDEN_SMOOTH": (7, "HIDDEN2"),
+        "HIDDEN_OUTLINE": (7, "HIDDEN2"),
     }
     assert [entity.dxf.layer for entity in document.modelspace()] == [
         f"{'VISIBLE' if one.visible else 'HIDDEN'}_{one.kind.upper()}" for one in sample().lines
@@ -141,7 +141,7 @@ def test_a_style_says_layers_colours_and_widths():
     assert bolt.rgb == (0x12, 0x34, 0x56) and layers["box"].dxf.lineweight == 70
     first, hidden = document.modelspace()[:2]
     assert not first.dxf.hasattr("lineweight") and not first.dxf.hasattr("linetype")
-    assert (hidden.dxf.color, hidden.dxf.linetype, hidden.dxf.lineweight) == (7, "HIDDEN", 25)
+    assert (hidden.dxf.color, hidden.dxf.linetype, hidden.dxf.lineweight) == (7, "HIDDEN2", 25)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -172,8 +172,14 @@ def test_widths_and_dashes_are_those_of_the_drawing():
     document = read(sample())
     wide = {layer.dxf.name: layer.dxf.lineweight for layer in document.layers}
     assert (wide["VISIBLE_SHARP"], wide["VISIBLE_SMOOTH"], wide["HIDDEN_SHARP"]) == (50, 25, 25)
-    assert document.linetypes.get("HIDDEN").simplified_line_pattern() == (3.0, 0.75)
+    assert document.linetypes.get("HIDDEN2").simplified_line_pattern() == (3.0, 0.75)
     assert document.header["$LTSCALE"] == 1.0 and document.header["$LWDISPLAY"] == 1
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_extents_that_begin_at_the_origin(version):
+    header = read(drawing([line([[0, 0], [30, 20]])]), version).header
+    assert header["$EXTMIN"][:2] == (0, 0) and header["$EXTMAX"][:2] == (30, 20)
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -186,6 +192,8 @@ def test_millimetres_extents_and_page(version):
         assert header["$INSUNITS"] == 4 and header["$MEASUREMENT"] == 1
         paper = document.modelspace().dxf_layout.dxf
         assert (paper.paper_width, paper.paper_height, paper.plot_paper_units) == (51, 41, 1)
+        assert header["$PLIMMIN"][:2] == (0, 0) and header["$PLIMMAX"][:2] == (51, 41)
+        assert header["$PINSBASE"][:2] == (15.5, -14.5) and header["$PSVPSCALE"] == 1
 
 
 @pytest.mark.parametrize("version", VERSIONS)
