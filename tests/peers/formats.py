@@ -133,7 +133,7 @@ def astray(one: Mask, other: Mask) -> tuple[float, Mask]:
 
 def compare(path: Path, out: Path, view: str, page: str) -> dict[tuple[str, str], float]:
     """The shares by pair of programs; pictures go to `out`."""
-    drawing = hlr.draw(str(path), view, page=page, style={"dpi": DPI})
+    drawing = hlr.draw(str(path), view, page=page, style=hlr.Style(dpi=DPI))
     stem = f"{path.stem}-{view}"
     files = {kind: out / f"{stem}.{kind}" for kind in ("png", "svg", "pdf", "dxf")}
     for file in files.values():
