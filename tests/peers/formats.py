@@ -4,8 +4,9 @@
     python -m peers.formats FILE... -o DIR --view front --page A3
 
 SVG is opened by Chromium, PDF by poppler, PNG by Pillow, DXF by ezdxf's own renderer and by LibreCAD; a program that is
-not installed is left out. For every pair the table gives the share of the ink of one that has no ink of the other
-within a line's width. Pictures of each, and of what differs, lie in DIR.
+not installed is left out. LibreCAD prints as large as fits its paper, so only the shape of its ink is compared. For
+every pair the table gives the share of the ink of one that has no ink of the other within a line's width. Pictures of
+each, and of what differs, lie in DIR.
 """
 
 from __future__ import annotations
@@ -105,12 +106,24 @@ def ezdxf(source: Path, picture: Path, size: tuple[int, int]) -> None:
 
 
 def librecad(source: Path, picture: Path, size: tuple[int, int]) -> None:
-    """The DXF as LibreCAD prints it; it centres the drawing on its paper."""
-    paper = "x".join(f"{pixels * 25.4 / DPI:.2f}" for pixels in size)
+    """The DXF as LibreCAD prints it, which is as large as its paper: its ink is brought to the size of the PNG's."""
     with tempfile.TemporaryDirectory() as folder:
-        printed = Path(folder) / "printed.pdf"
-        run(*("xvfb-run", "-a", "librecad", "dxf2pdf", "-k", "-m", f"-p{paper}", f"-o{printed}"), source)
-        poppler(printed, picture, size)
+        copy = Path(shutil.copy(source, folder))
+        run("env", "QT_QPA_PLATFORM=offscreen", "librecad", "dxf2pdf", "--fit", "--monochrome", copy)
+        printed = Path(folder) / "printed.png"
+        poppler(copy.with_suffix(".pdf"), printed, size)
+        with Image.open(printed) as opened:
+            drawn = opened.convert("L").crop(box(ink(printed)))
+    left, top, right, bottom = box(ink(source.with_suffix(".png")))
+    sheet = Image.new("L", size, 255)
+    sheet.paste(drawn.resize((right - left, bottom - top), Image.Resampling.LANCZOS), (left, top))
+    sheet.save(picture)
+
+
+def box(mask: Mask) -> tuple[int, int, int, int]:
+    """Left, top, right and bottom of the ink, pixels."""
+    rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
 
 
 READERS: dict[str, tuple[str, str | None, Callable[[Path, Path, tuple[int, int]], None]]] = {
