@@ -127,7 +127,8 @@ impl<'a> Grid<'a> {
 
     /// Calls `visit` with every cell of a rectangle, until it says false.
     fn cells(&self, low: Vec2, high: Vec2, mut visit: impl FnMut(usize) -> bool) {
-        let column = |x: f64, i: usize, count: usize| (((x - self.low[i]) / self.cell).max(0.0) as usize).min(count - 1);
+        let column =
+            |x: f64, i: usize, count: usize| (((x - self.low[i]) / self.cell).max(0.0) as usize).min(count - 1);
         let (x0, x1) = (column(low[0], 0, self.columns), column(high[0], 0, self.columns));
         for y in column(low[1], 1, self.rows)..=column(high[1], 1, self.rows) {
             if !(x0..=x1).all(|x| visit(y * self.columns + x)) {

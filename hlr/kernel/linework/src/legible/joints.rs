@@ -39,7 +39,10 @@ pub fn joined(lines: &Lines, chosen: &[bool], tolerance: f64, straight: bool) ->
                 continue;
             }
             for (i, a) in found.iter().enumerate() {
-                found[..i].iter().filter(|b| dot(&a.away, &b.away) < -STRAIGHT).for_each(|b| sets.unite(a.line, b.line));
+                found[..i]
+                    .iter()
+                    .filter(|b| dot(&a.away, &b.away) < -STRAIGHT)
+                    .for_each(|b| sets.unite(a.line, b.line));
             }
         }
     }

@@ -76,8 +76,10 @@ fn leave_out_between(lines: &Lines, visible: bool, pen: f64, tolerance: f64, ord
     for own in of {
         runs[run[own[0].line as usize]].push(own);
     }
-    let mut candidates: Vec<(Key, usize)> =
-        (0..runs.len()).filter(|&r| open[r] && !runs[r].is_empty()).map(|r| (key(lines, &runs[r], pen, order), r)).collect();
+    let mut candidates: Vec<(Key, usize)> = (0..runs.len())
+        .filter(|&r| open[r] && !runs[r].is_empty())
+        .map(|r| (key(lines, &runs[r], pen, order), r))
+        .collect();
     candidates.sort_unstable();
     // A run is open until it is decided to stay: lines in it cannot stand for others.
     for (_, r) in candidates {

@@ -39,12 +39,19 @@ pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
     let bins = all
         .par_iter()
         .with_min_len(256)
-        .fold(|| vec![0u64; count], |mut bins, segment| {
-            add(&grid, segment, reach * STEPS, &mut bins);
-            bins
-        })
+        .fold(
+            || vec![0u64; count],
+            |mut bins, segment| {
+                add(&grid, segment, reach * STEPS, &mut bins);
+                bins
+            },
+        )
         .reduce(|| vec![0u64; count], |a, b| a.iter().zip(&b).map(|(x, y)| x + y).collect());
-    Some(Spacing { bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(), ink: ink(&all) / STEPS, smallest })
+    Some(Spacing {
+        bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(),
+        ink: ink(&all) / STEPS,
+        smallest,
+    })
 }
 
 /// The side of the square that holds all points, millimetres.
@@ -67,4 +74,3 @@ fn add(grid: &Grid<'_>, segment: &Segment, reach: f64, bins: &mut [u64]) {
         }
     }
 }
-
