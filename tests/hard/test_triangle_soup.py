@@ -36,7 +36,7 @@ def test_each_edge_by_the_oracle(view):
 
 @pytest.mark.slow
 def test_picture(picture):
-    drawing = hlr.draw(SOUP, "iso", fit=(60, 60), hidden=False, accuracy=0.1, smooth=False)
+    drawing = hlr.draw(SOUP, "iso", fit=(60, 60), hidden=False, accuracy=0.1, smooth=False, details=True)
     picture(drawing, twice=1.0)
 
 

@@ -153,8 +153,9 @@ PROGRAM = """
 import hashlib, sys
 import hlr
 from pipeline.models import FORMATS, MODELS, VIEWS, bare
+from support.at_size import AT_SIZE
 for name in MODELS:
-    for drawing in hlr.draw_views(MODELS[name](), VIEWS, hlr.Options(scale=1.0, hidden=True, smooth=False)):
+    for drawing in hlr.draw_views(MODELS[name](), VIEWS, hlr.Options(**AT_SIZE)):
         print(name, *(hashlib.sha256(bare(drawing, kind)).hexdigest() for kind in FORMATS))
 """
 
