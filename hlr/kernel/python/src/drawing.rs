@@ -20,6 +20,9 @@ use hlr_linework::legible::left_out::left_out;
 use hlr_linework::legible::spacing::spacing;
 use hlr_linework::lines::drawing::{Curve, Kind, Line, Lines as Drawn};
 
+/// Ink by its distance to the nearest line alongside, all ink, and the size of the smallest line.
+type Spacing<'py> = (Bound<'py, PyArray1<f64>>, f64, f64);
+
 const ARC: u8 = 2;
 const QUADRATIC: u8 = 3;
 const CUBIC: u8 = 4;
@@ -155,7 +158,7 @@ impl Lines {
         visible: bool,
         reach: f64,
         threads: usize,
-    ) -> PyResult<Option<(Bound<'py, PyArray1<f64>>, f64, f64)>> {
+    ) -> PyResult<Option<Spacing<'py>>> {
         width("reach", reach)?;
         let found = run(py, threads, self.0.0.len(), |_| spacing(&self.0, visible, reach))?;
         Ok(found.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest)))
