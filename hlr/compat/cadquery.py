@@ -1,4 +1,4 @@
-"""CadQuery: getSVG, exportSVG and exporters.export with hlr's lines; and PDF."""
+"""CadQuery: getSVG, exportSVG, exportDXFProjection and exporters.export with hlr's lines; and PDF."""
 
 from __future__ import annotations
 
@@ -8,12 +8,15 @@ from typing import Any
 
 from hlr.common.types import Floats
 from hlr.compat import viewport
+from hlr.compat.cadquery_dxf import exportDXFProjection
 from hlr.compat.cadquery_options import check_options
 from hlr.compat.cadquery_page import Page, lay_out, to_pdf, to_svg
 from hlr.drawing import files
 from hlr.errors import OptionError
 from hlr.request.accuracy import PIXEL_ACCURACY, SMALL_DRAWING
 from hlr.source.cad.objects import is_shape_like
+
+__all__ = ["export", "exportDXFProjection", "exportSVG", "getSVG"]
 
 WRITERS = {"SVG": to_svg, "PDF": to_pdf}
 
@@ -25,7 +28,7 @@ def getSVG(shape: Any, opts: Mapping[str, Any] | None = None) -> str:
         shape: a CadQuery shape, a Workplane, or whatever else `hlr.draw` takes.
         opts: the keys of CadQuery: width, height (pixels; one may be None and follows from the other), marginLeft,
             marginTop, projectionDir, showAxes, strokeWidth (model units; -1: one pixel), strokeColor, hiddenColor,
-            showHidden, focus.
+            showHidden, focus, and up of its development version.
 
     Raises:
         HlrError: the shape or an option cannot be drawn; the message says why.
@@ -79,7 +82,7 @@ def _page(shape: Any, opts: Mapping[str, Any] | None) -> Page:
     if opts is not None and not isinstance(opts, Mapping):
         raise OptionError(f"opts needs a dictionary, not {opts!r}")
     options = check_options({} if opts is None else opts)
-    view = viewport.viewport_along(options.projectionDir, "projectionDir", options.focus)
+    view = viewport.viewport_along(options.projectionDir, "projectionDir", options.focus, options.up)
 
     def accuracy(bounds: Floats) -> float:
         """A share of a pixel, and less for small pictures."""

@@ -34,6 +34,7 @@ class PictureOptions:
     hiddenColor: Color = (160, 160, 160)  # noqa: N815
     showHidden: bool = True  # noqa: N815
     focus: float | None = None
+    up: tuple[float, float, float] | None = None
 
     def unit_scale(self, width: float, height: float) -> float:
         """Pixels per model unit for a drawing of this width and height in model units; at least one is not 0."""
@@ -81,6 +82,10 @@ def _focus(value: Any, what: str) -> float | None:
     return check_positive(value, what) if value else None
 
 
+def _up(value: Any, what: str) -> tuple[float, float, float] | None:
+    return None if value is None else check_vector(value, what)
+
+
 def _stroke(value: Any, what: str) -> float:
     number = check_number(value, what)
     if number < 0.0 and number != -1.0:
@@ -117,4 +122,5 @@ _CHECKS: dict[str, Callable[[Any, str], Any]] = {
     "hiddenColor": _color,
     "showHidden": _yes_or_no,
     "focus": _focus,
+    "up": _up,
 }

@@ -58,13 +58,14 @@ class ViewportDrawing:
         return [line for line in self.drawing.lines if line.visible == visible and line.kind in wanted]
 
 
-def viewport_along(direction: Any, what: str, focus: float | None = None) -> Viewport:
-    """The projector that OpenCASCADE makes of a direction alone: at the world's origin, with its default up direction.
+def viewport_along(direction: Any, what: str, focus: float | None = None, up: Any = None) -> Viewport:
+    """The projector that OpenCASCADE makes of a direction: at the world's origin, with its default up direction.
 
     Args:
         direction: toward the viewer, three numbers.
         what: name of the argument, for errors.
         focus: model units; None: parallel projection.
+        up: points up in the plane, three numbers; None: OpenCASCADE's default.
 
     Raises:
         OptionError: these are not three finite numbers.
@@ -72,10 +73,12 @@ def viewport_along(direction: Any, what: str, focus: float | None = None) -> Vie
     """
     given = check_vector(direction, what)
     normalized(given, what)
+    if up is not None:
+        return Viewport((0.0, 0.0, 0.0), given, check_vector(up, "up"), focus)
     from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt
 
-    up = gp_Ax2(gp_Pnt(), gp_Dir(*given)).YDirection()
-    return Viewport((0.0, 0.0, 0.0), given, (up.X(), up.Y(), up.Z()), focus)
+    usual = gp_Ax2(gp_Pnt(), gp_Dir(*given)).YDirection()
+    return Viewport((0.0, 0.0, 0.0), given, (usual.X(), usual.Y(), usual.Z()), focus)
 
 
 def draw_viewport(

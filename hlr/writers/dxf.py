@@ -26,8 +26,9 @@ from hlr.writers.svg import accuracies, reached, title
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
-MILLIMETRES, METRIC = 4, 1
-"""Numbers of DXF for the unit, and for the system that it belongs to."""
+MILLIMETRES = 4
+IMPERIAL = (1, 2, 3, 8, 9, 10)
+"""Numbers of DXF for units: inches, feet, miles, microinches, mils, yards are the imperial ones."""
 
 _ENTITIES = "  0\nSECTION\n  2\nENTITIES\n"
 _END = "  0\nENDSEC\n"
@@ -37,15 +38,18 @@ _CHUNK = 1000
 _fixed = Lock()
 
 
-def dxf(drawing: Drawing) -> bytes:
-    """The drawing as a DXF file of the version that its style names. Raises WriteError where a point is not finite."""
+def dxf(drawing: Drawing, unit: int = MILLIMETRES) -> bytes:
+    """The drawing as a DXF file of the version that its style names; unit: the number of the one that the file names.
+
+    Raises WriteError where a point is not finite.
+    """
     from ezdxf.document import Drawing as Document
 
     version = drawing.style.dxf
     with _repeatable():
         document = Document.new(version)
         modern, true_colors = version != "R12", version not in ("R12", "R2000")
-        _set_header(document, drawing, modern)
+        _set_header(document, drawing, modern, unit)
         places = Layers(document, drawing, modern, true_colors).tags()
         model = document.modelspace()
         if drawing.fill is not None and modern:
@@ -81,7 +85,7 @@ def _repeatable() -> Iterator[None]:
             ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
-def _set_header(document: Document, drawing: Drawing, modern: bool) -> None:
+def _set_header(document: Document, drawing: Drawing, modern: bool, unit: int) -> None:
     """Units, extents, page, and what a program shows when it opens the file."""
     document.header["$LTSCALE"] = 1.0
     document.appids.add(APPLICATION)
@@ -96,8 +100,8 @@ def _set_header(document: Document, drawing: Drawing, modern: bool) -> None:
     if not modern:
         document.header["$HANDLING"] = 0
         return
-    document.units = MILLIMETRES
-    document.header["$MEASUREMENT"] = METRIC
+    document.units = unit
+    document.header["$MEASUREMENT"] = 0 if unit in IMPERIAL else 1
     document.header["$LWDISPLAY"] = 1
     # Where LibreCAD looks for the scale, the page, and where the drawing lies on it; ezdxf's scale is 0.
     document.header["$PSVPSCALE"] = 1.0

@@ -2,7 +2,9 @@
 
 import math
 
+import ezdxf
 import pytest
+from ezdxf import bbox
 
 from hlr.compat.build123d import project_to_viewport
 from hlr.errors import HlrError, OptionError, SourceError, ViewError
@@ -112,9 +114,6 @@ def test_a_builder_is_what_it_has_built():
 
 
 def test_the_exporters_take_them(tmp_path):
-    ezdxf = pytest.importorskip("ezdxf")
-    from ezdxf import bbox
-
     visible, hidden = project_to_viewport(turned(), (100, -80, 70))
     dxf = bd.ExportDXF()
     dxf.add_layer("hidden", line_type=bd.LineType.ISO_DASH)
@@ -129,6 +128,32 @@ def test_the_exporters_take_them(tmp_path):
     svg.add_shape(hidden, layer="hidden")
     svg.write(str(tmp_path / "a.svg"))
     assert (tmp_path / "a.svg").read_text().count("<") > 10
+
+
+def test_the_drawing_of_the_tutorial(tmp_path):
+    """As build123d's tutorial has it: both kinds of line on layers of their own, by either exporter."""
+    with bd.BuildPart() as block:
+        bd.Box(80, 60, 20)
+        bd.fillet(block.edges().filter_by(bd.Axis.Z), 8)
+        with bd.GridLocations(60, 40, 2, 2):
+            bd.CounterBoreHole(3, 6, 6)
+    kinds = {}
+    origin = (-100, -50, 30)
+    projected = {"ours": project_to_viewport(block.part, origin), "theirs": block.part.project_to_viewport(origin)}
+    for name, (visible, hidden) in projected.items():
+        longest = max(*bd.Compound(children=visible + hidden).bounding_box().size)
+        exporters = {"svg": bd.ExportSVG(scale=100 / longest, margin=5), "dxf": bd.ExportDXF()}
+        for ending, exporter in exporters.items():
+            exporter.add_layer("Visible")
+            exporter.add_layer("Hidden", line_type=bd.LineType.ISO_DOT)
+            exporter.add_shape(visible, layer="Visible")
+            exporter.add_shape(hidden, layer="Hidden")
+            exporter.write(str(tmp_path / f"{name}.{ending}"))
+        model = ezdxf.readfile(tmp_path / f"{name}.dxf").modelspace()
+        kinds[name] = {entity.dxftype() for entity in model if entity.dxf.layer == "Visible"}
+        assert {entity.dxf.layer for entity in model} == {"Visible", "Hidden"}
+        assert 'id="Hidden"' in (tmp_path / f"{name}.svg").read_text()
+    assert kinds["ours"] == {"LINE", "ELLIPSE"} <= kinds["theirs"]
 
 
 @pytest.mark.parametrize(
