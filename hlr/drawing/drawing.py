@@ -99,7 +99,9 @@ class Drawing(ByValue):
     plan      for each effect whether it was on, why, and what it cost
     window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
     page      the page, and where the drawing lies on it; None: the file is as large as the drawing or its window
-    style     how it looks, in SVG, PDF and PNG
+    style     how it looks, in SVG, PDF, DXF and PNG
+    group     widths of wide and narrow lines, millimetres, because lines are crowded; a style that names widths
+              overrides them. None: those of the page
     reading   how a CAD file was obtained, for people: read, or taken from the cache; not written to files
 
     >>> import hlr
@@ -131,6 +133,7 @@ class Drawing(ByValue):
     window: Bounds | None = None
     page: Page | None = None
     style: Style = field(default_factory=Style)
+    group: tuple[float, float] | None = None
     reading: str = field(default="", compare=False)
 
     def __repr__(self) -> str:

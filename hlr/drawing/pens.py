@@ -74,24 +74,36 @@ class PenSet:
         return Pen(wide, color, lengths, "butt" if dash else cap or "round")
 
 
-def widths_of(style: Style, sheet: tuple[float, float]) -> tuple[float, float]:
-    """The wide and the narrow lines of a style, millimetres; sheet: width and height, millimetres."""
+def widths_of(
+    style: Style, sheet: tuple[float, float], group: tuple[float, float] | None = None
+) -> tuple[float, float]:
+    """The wide and the narrow lines of a style, millimetres.
+
+    sheet: width and height, millimetres; group: what stands for the sheet's line group where lines are crowded
+    """
+    if group is not None and style.wide is None and style.narrow is None:
+        return group
     short, long = sorted(sheet)
     usual = WIDE_MM if short <= A2[0] and long <= A2[1] else LARGE_WIDE_MM
     wide = usual if style.wide is None else style.wide
     return wide, 0.5 * wide if style.narrow is None else style.narrow
 
 
-def usual_pens(style: Style, sheet: tuple[float, float] = A2) -> PenSet:
-    """The pens of parts for which the style has no rules of their own."""
+def usual_pens(style: Style, sheet: tuple[float, float] = A2, group: tuple[float, float] | None = None) -> PenSet:
+    """The pens of parts for which the style has no rules of their own; sheet, group: as of `widths_of`."""
     rules = sorted((rule for rule in style.lines if rule.parts is None), key=lambda rule: rule.weight)
-    return PenSet((), tuple(rules), *widths_of(style, sheet))
+    return PenSet((), tuple(rules), *widths_of(style, sheet, group))
+
+
+def usual_pens_of(drawing: Drawing) -> PenSet:
+    """The same, of a drawing."""
+    return usual_pens(drawing.style, (drawing.area.width, drawing.area.height), drawing.group)
 
 
 def pens_of(drawing: Drawing) -> list[PenSet]:
     """Sets of parts that are drawn alike, each with its pens; every part is in one set."""
     style, area = drawing.style, drawing.area
-    wide, narrow = widths_of(style, (area.width, area.height))
+    wide, narrow = widths_of(style, (area.width, area.height), drawing.group)
     special = [rule for rule in style.lines if rule.parts is not None]
     usual = [rule for rule in style.lines if rule.parts is None]
     alike: dict[tuple[LineRule, ...], list[int]] = {}

@@ -12,7 +12,7 @@ Twice the width of the pen is the least distance of lines (ISO 128). The rule ha
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil
 from time import perf_counter
 
@@ -46,10 +46,13 @@ Pens = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class Legible:
-    """Lines as they are drawn, their style, how many lines were left out, and what is said about it."""
+    """Lines as they are drawn, their line group, how many lines were left out, and what is said about it.
+
+    group: widths of wide and narrow lines in millimetres; None: those of the style and the page
+    """
 
     lines: Sequence[Line]
-    style: Style
+    group: Pens | None = None
     left_out: int = 0
     notes: tuple[Note, ...] = ()
 
@@ -92,13 +95,13 @@ def legible(
     scale: paper to model; accuracy: millimetres on paper, as used; sheet: width and height, millimetres
     """
     if not planner.on(LEGIBILITY):
-        return Legible(lines, style)
+        return Legible(lines)
     begun = perf_counter()
     usual = widths_of(style, sheet)
     seen = _spacing(lines, True, usual[0], options.threads)
     behind = _spacing(lines, False, usual[1], options.threads)
     if seen is None or behind is None or not (seen.close(usual[0]) or behind.close(usual[1])):
-        return Legible(lines, style)
+        return Legible(lines)
     pens = usual if style.wide or style.narrow else _group(seen, usual)
     notes = _notes(seen, usual, pens, scale)
     order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
@@ -109,9 +112,7 @@ def legible(
     if out:
         lines = Lines(kept.chosen(fates == 0))
         notes = (_left_out(out, pens), *notes)
-    if pens != usual:
-        style = replace(style, wide=pens[0], narrow=pens[1])
-    return Legible(lines, style, out, notes)
+    return Legible(lines, pens if pens != usual else None, out, notes)
 
 
 def _group(seen: Spacing, usual: Pens) -> Pens:

@@ -64,7 +64,8 @@ def finished(
     window = None if options.window is None else Bounds(*map(float, options.window))
     sheet = _sheet(placement, window, lines)
     accuracy = placement.tolerances.accuracy
-    shown = legible(lines, placement.scale, accuracy, style_of(options.style), sheet, options, planner)
+    style = style_of(options.style)
+    shown = legible(lines, placement.scale, accuracy, style, sheet, options, planner)
     lines = shown.lines
     fill: Fill | None = None
     if plan.fill:
@@ -122,7 +123,8 @@ def finished(
         plan=Decisions(planner, counters),
         window=window,
         page=page,
-        style=shown.style,
+        style=style,
+        group=shown.group,
         reading=getattr(source, "reading", ""),
     )
 

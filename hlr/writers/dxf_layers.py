@@ -14,7 +14,7 @@ import numpy as np
 from hlr.common.colors import rgb_of
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
-from hlr.drawing.pens import Pen, PenSet, by_part, pens_of, usual_pens
+from hlr.drawing.pens import Pen, PenSet, by_part, pens_of, usual_pens_of
 from hlr.tables.line_classes import names
 from hlr.writers.dxf_text import FORBIDDEN
 
@@ -69,8 +69,8 @@ class Layers:
 
         A layer of a class has the pen of the class, one of a part that of the part's visible lines.
         """
-        area, style = self.drawing.area, self.drawing.style
-        usual, pens, classes = usual_pens(style, (area.width, area.height)), by_part(pens_of(self.drawing)), names()
+        style = self.drawing.style
+        usual, pens, classes = usual_pens_of(self.drawing), by_part(pens_of(self.drawing)), names()
         seen: dict[tuple[int, str | None, bool], Look] = {}
 
         def look(own: PenSet, kind: str | None, visible: bool) -> Look:

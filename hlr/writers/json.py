@@ -37,12 +37,14 @@ def document(drawing: Drawing) -> bytes:
         "model": {"unit": float(drawing.unit), "up_axis": _numbers(drawing.up_axis)},
     }
     parts = [{"name": part.name, "color": part.color, "transform": _numbers(part.transform)} for part in drawing.parts]
-    tail = {
+    tail: dict[str, Any] = {
         "notes": [note.as_dict() for note in drawing.notes],
         "plan": [decision.as_dict() for decision in drawing.plan],
         "counters": dict(drawing.counters),
         "timings": {**drawing.timings, **_effects(drawing)},
     }
+    if drawing.group is not None:
+        tail = {"group": _numbers(drawing.group), **tail}
     if drawing.style != Style():
         tail = {"style": asdict(drawing.style), **tail}
     if drawing.fill is not None:

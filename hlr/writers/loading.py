@@ -105,6 +105,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         fill=revived(Fill | None, document.get("fill"), "fill"),
         reached=_reached(document["accuracy"].get("reached"), accuracy),
         style=_style(document.get("style", {})),
+        group=revived(tuple[float, float] | None, document.get("group"), "group"),
         window=None if document.get("window") is None else Bounds(*revived(Box, document["window"], "window")),
         page=revived(Page | None, document.get("page"), "page"),
         plan=tuple(_decision(d, seconds, f"plan[{i}]") for i, d in enumerate(document["plan"])),

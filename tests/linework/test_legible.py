@@ -105,8 +105,8 @@ def extent(points):
 @pytest.mark.parametrize("name", MODELS)
 def test_crowded_lines_are_drawn_thinner_and_what_is_left_out_lies_beside_what_stays(name):
     drawing, whole = both(name)
-    assert (drawing.style.wide, drawing.style.narrow) == THINNEST
-    assert whole.style == hlr.Style()
+    assert drawing.group == THINNEST
+    assert whole.group is None
     out = len(whole.lines) - len(drawing.lines)
     assert out == drawing.counters["left_out"] > 0 == whole.counters["left_out"]
     assert f"{out:,} lines are left out" in numbers(drawing)["details-left-out"]
@@ -139,7 +139,7 @@ def test_a_larger_scale_than_the_note_names_needs_nothing_left_out():
 def test_nothing_is_looked_for_where_lines_are_far_apart():
     drawing = hlr.draw(box((0, 0, 0), (30, 20, 10)), "iso")
     assert drawing.counters["left_out"] == 0
-    assert drawing.style == hlr.Style()
+    assert drawing.group is None
     with everything_on():
         assert hlr.draw(box((0, 0, 0), (30, 20, 10)), "iso").to_svg() == drawing.to_svg()
 
@@ -156,14 +156,24 @@ def test_the_group_is_kept_in_json_and_its_widths_are_in_svg_and_pdf():
     drawing, whole = both("fins")
     assert hlr.load(_text(drawing)) == drawing
     assert 'stroke-width=".25"' in drawing.to_svg()
-    assert "style" not in json.loads(whole.to_json())
+    assert json.loads(_text(drawing).read())["group"] == list(THINNEST)
+    assert "group" not in json.loads(whole.to_json())
+
+
+def test_another_style_keeps_the_group_unless_it_names_widths():
+    drawing, _ = both("fins")
+    model, view = MODELS["fins"]
+    asked = hlr.draw(model, view, scale=1, style="dark")
+    assert drawing.with_style("dark").to_svg() == asked.to_svg()
+    assert drawing.with_style("asme").with_style("dark").to_svg() == asked.to_svg()
+    assert 'stroke-width=".6"' in drawing.with_style("asme").to_svg()
 
 
 def test_widths_that_are_asked_for_stay():
     model, view = MODELS["fins"]
     for style in ({"wide": 0.5}, "asme"):
         drawing = hlr.draw(model, view, scale=1, style=style)
-        assert drawing.style == hlr.draw(model, view, scale=1, style=style, details=True).style
+        assert drawing.group is None
         assert drawing.counters["left_out"] > 0
 
 
