@@ -35,7 +35,7 @@ from hlr.linework.lines import draw_lines
 from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
 from hlr.pipeline.finish import Solved, finished
 from hlr.request.accuracy import ANGLE, REMESH, SMALL_DRAWING
-from hlr.request.drawing_effects import BY_VIEW, drawing_effects
+from hlr.request.drawing_effects import drawing_effects, left_to_view
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
@@ -188,7 +188,7 @@ class Session:
 def by_view(options: Options, camera: Camera, planner: Planner) -> Options:
     """The options of one view: what was left to the kind of view is yes or no."""
     facts = Facts(pictorial=camera.pictorial)
-    found: dict[str, Any] = {name: planner.on(effect, facts) for name, effect in BY_VIEW.items()}
+    found: dict[str, Any] = {name: planner.on(effect, facts) for name, effect in left_to_view().items()}
     return replace(options, **found)
 
 

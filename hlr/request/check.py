@@ -12,7 +12,7 @@ import numpy as np
 
 from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
-from hlr.request.drawing_effects import BY_VIEW
+from hlr.request.drawing_effects import left_to_view
 from hlr.request.options import Options, Perspective, Vector, View
 from hlr.request.style_file import style_of
 from hlr.tables.sheets import papers
@@ -32,9 +32,10 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
 
     A style that was named is then a `Style`; faces are painted where it wants their parts' colours.
     """
-    for name in (*BY_VIEW, *SWITCHES):
+    open_to_view = left_to_view()
+    for name in (*open_to_view, *SWITCHES):
         value = getattr(options, name)
-        if value is None and name in BY_VIEW:
+        if value is None and name in open_to_view:
             continue
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")

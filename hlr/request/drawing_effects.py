@@ -238,11 +238,10 @@ _AFTER: tuple[Effect, ...] = (
 )
 
 
-BY_VIEW = {
-    "hidden": "hidden lines",
-    **{row.option: row.title for row in counted() if row.option is not None and row.by_default is None},
-}
-"""Options that may be left to the kind of view, and their effects."""
+def left_to_view() -> dict[str, str]:
+    """Options that may be left to the kind of view, and their effects."""
+    rows = {row.option: row.title for row in counted() if row.option is not None and row.by_default is None}
+    return {"hidden": "hidden lines", **rows}
 
 
 def drawing_effects() -> tuple[Effect, ...]:
