@@ -3,6 +3,8 @@
 import re
 import runpy
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -125,3 +127,12 @@ def test_the_readme_draws_a_model_that_is_there():
         if heading:
             headings = re.findall(r"^#+ (.*)$", (EXAMPLES.parent / file).read_text("utf-8"), re.MULTILINE)
             assert heading in [title.lower().replace(" ", "-") for title in headings], name
+
+
+@pytest.mark.slow
+def test_the_readme_draws_the_picture_that_it_shows(tmp_path):
+    text = (EXAMPLES.parent / "README.md").read_text("utf-8")
+    (arguments,) = re.findall(r"pip install \. && hlr (draw .+)", text)
+    words = [str(EXAMPLES.parent / word) if word.startswith("examples/") else word for word in arguments.split()]
+    subprocess.run([sys.executable, "-P", "-m", "hlr", *words], cwd=tmp_path, check=True)
+    assert alike((tmp_path / "assembly.svg").read_bytes(), (EXAMPLES / "assembly.svg").read_bytes())
