@@ -17,7 +17,7 @@ SCRIPT = "import cadquery as cq\nimport sizes\nsize = 10\nresult = cq.Workplane(
 def test_the_variants_of_a_script_and_what_they_import(tmp_path):
     (tmp_path / "part.py").write_text(SCRIPT)
     (tmp_path / "sizes.py").write_text("width = 20\n")
-    found = manifest_of({"files": "part.py", "views": "top", "parameters": {"size": [10, 30]}}, tmp_path)
+    found = manifest_of({"files": "part.py", "views": "top", "scale": 1, "parameters": {"size": [10, 30]}}, tmp_path)
     outcomes = [carry_out(job) for job in plan(found, tmp_path / "out").jobs]
     assert [outcome.drawings[0]["width_mm"] for outcome in outcomes] == pytest.approx([10.0, 30.0])
     assert [outcome.depends for outcome in outcomes] == [("sizes.py",), ("sizes.py",)]

@@ -41,7 +41,8 @@ def expect_on_page(drawing: hlr.Drawing, sides: tuple[float, float] = (210.0, 29
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
 def test_any_size_of_box_lies_on_a4_at_the_largest_standard_scale(size: tuple[float, float, float]) -> None:
-    for drawing in hlr.draw_views(box(size), VIEWS):
+    # All details: of a thin box lines are crowded, which is said.
+    for drawing in hlr.draw_views(box(size), VIEWS, hlr.Options(details=True)):
         expect_on_page(drawing)
         assert not drawing.notes
 

@@ -272,7 +272,7 @@ print([hashlib.sha256(data).hexdigest() for data in made])
 def test_the_same_bytes_in_every_process():
     found = {
         subprocess.run(
-            [sys.executable, "-c", BYTES], env=environment(PYTHONHASHSEED=seed), capture_output=True, check=True
+            [sys.executable, "-P", "-c", BYTES], env=environment(PYTHONHASHSEED=seed), capture_output=True, check=True
         ).stdout
         for seed in ("1", "2")
     }
