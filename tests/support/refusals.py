@@ -166,7 +166,9 @@ def _perspective(value: Any) -> bool | None:
 
 
 _JUDGES: dict[str, Any] = {
-    **dict.fromkeys(("hidden", "smooth", "seam", "intersections", "fill", "circles", "strict"), _flag),
+    **dict.fromkeys(("seam", "intersections", "fill", "circles", "strict"), _flag),
+    # What is left to the kind of view may be None.
+    **dict.fromkeys(("hidden", "smooth"), lambda value: True if value is None else _flag(value)),
     "scale": _between(1e-3, 1e3, 1e-9, 1e9, False),
     "accuracy": _between(1e-4, 10.0, 5e-324, math.inf, True),
     "crease": _between(0.0, 180.0, 0.0, 180.0, False),

@@ -74,10 +74,10 @@ REPEAT = 0.5
 """Share of the limit: no further run begins if all runs together would take longer."""
 
 
-def _options(job: Job, **others: Any) -> Options:
+def _options(job: Job, smooth: bool = False, **others: Any) -> Options:
     return Options(
         hidden=True,
-        smooth=False,
+        smooth=smooth,
         scale=job.scale if job.scale or job.fit else 1.0,
         fit=None if job.scale else job.fit,
         only=tuple(job.only),
