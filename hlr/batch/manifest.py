@@ -6,7 +6,6 @@ such a table the top names them itself.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -16,6 +15,7 @@ from typing import Any
 from hlr.batch.lines import line_of
 from hlr.batch.request import NAMES
 from hlr.batch.schema import KEYS
+from hlr.common.toml import parsed
 from hlr.errors import OptionError
 from hlr.tables.writers import WRITERS, formats
 
@@ -74,7 +74,7 @@ def find(folder: Path) -> Path | None:
     project = folder / PROJECT
     if project.is_file():
         try:
-            if "hlr" in tomllib.loads(project.read_text("utf-8")).get("tool", {}):
+            if "hlr" in parsed(project.read_text("utf-8")).get("tool", {}):
                 return project
         except (OSError, ValueError, AttributeError):  # another program's file, which that one complains about
             return None
@@ -90,7 +90,7 @@ def read(file: Path, **given: Any) -> Manifest:
         if file.stat().st_size > _LARGEST:
             raise OptionError(f"{file} is no manifest: it is larger than {_LARGEST / 1e6:g} MB")
         text = file.read_text("utf-8")
-        found = tomllib.loads(text)
+        found = parsed(text)
     except OSError as error:
         raise OptionError(f"{file} cannot be read: {(error.strerror or str(error)).lower()}") from None
     except (ValueError, RecursionError) as error:  # TOMLDecodeError says the line, UnicodeDecodeError the byte

@@ -13,6 +13,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
+from hlr.common.toml import parsed
 from hlr.errors import OptionError
 from hlr.request.style import LineRule, Style
 from hlr.request.styles import STYLES
@@ -146,8 +147,6 @@ def _rules(
 
 
 def _read(path: Path) -> dict[str, Any]:
-    import tomllib
-
     try:
         with path.open("rb") as file:
             data = file.read(LARGEST + 1)
@@ -158,7 +157,7 @@ def _read(path: Path) -> dict[str, Any]:
     if len(data) > LARGEST:
         raise OptionError(f"the style {path} is larger than {LARGEST // 1000} kB, which no style needs")
     try:
-        return tomllib.loads(data.decode("utf-8"))
+        return parsed(data.decode("utf-8"))
     except (ValueError, RecursionError) as error:
         raise OptionError(f"the style {path.name} is no TOML: {error}") from None
 

@@ -87,7 +87,7 @@ def test_names_paths_tables_and_records_are_styles(tmp_path):
         ("[parts.nut.lines]\ncolor = 'red'", "in [parts.\"nut\"] there is no key 'lines'"),
         ("#" * (LARGEST + 1), "is larger than 100 kB"),
         ("\n".join(f"[parts.p{i}]\ncap = 'butt'" for i in range(1001)), "has 1001 rules for lines: 1000 are the most"),
-        ("a" + ".a" * 40000 + " = 1", "own.toml"),
+        ("a" + ".a" * 40000 + " = 1", "line 1 has more than 1000 points"),
     ],
 )
 def test_a_wrong_file_gets_one_sentence_that_names_it(tmp_path, text, said):
