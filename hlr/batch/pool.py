@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
@@ -56,12 +57,16 @@ class LocalPool:
         waiting, left = iter(enumerate(shared)), len(jobs)
         for worker in self._workers:
             _give(worker, waiting)
+        looked = time.monotonic()
         while left:
+            # Not only where nothing is said: quick jobs beside an endless one always have something to say.
+            if time.monotonic() - looked >= _GLANCE:
+                looked = time.monotonic()
+                for worker in self._workers:
+                    worker.keep_within_limits()
             try:
                 said = self._said.get(timeout=_GLANCE)
             except Empty:
-                for worker in self._workers:
-                    worker.keep_within_limits()
                 continue
             if isinstance(said, Begun):
                 yield Event(said.number, stage=said.stage)

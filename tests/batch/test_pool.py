@@ -4,13 +4,16 @@ import os
 import re
 import signal
 import sys
+import threading
+import time
 from dataclasses import replace
 
 import pytest
 from batch.models import tetrahedron
 
-from hlr.batch.job import Job
+from hlr.batch.job import Job, Outcome
 from hlr.batch.pool import LocalPool
+from hlr.batch.worker import Begun, Ended
 
 SCRIPTS = {
     "exits.py": "import os\nos._exit(3)\n",
@@ -97,3 +100,29 @@ def test_nothing_of_one_script_reaches_the_next(tmp_path):
         pool.close()
     assert [outcome.failure.message[-6:] for outcome in outcomes] == [": one.", "other."]
     assert [outcome.depends for outcome in outcomes] == [("one/lib.py",), ("other/lib.py",)]
+
+
+def test_limits_are_kept_though_something_is_said_all_the_time(monkeypatch, tmp_path):
+    looks = []
+
+    class Talker:
+        """A worker that says something every hundredth of a second, and ends after half a second."""
+
+        def __init__(self, said):
+            self.said = said
+
+        def give(self, number, job):
+            def talk():
+                for _ in range(50):
+                    time.sleep(0.01)
+                    self.said.put(Begun(number, "source"))
+                self.said.put(Ended(number, Outcome(), self))
+
+            threading.Thread(target=talk, daemon=True).start()
+
+        def keep_within_limits(self):
+            looks.append(time.monotonic())
+
+    monkeypatch.setattr("hlr.batch.pool.Worker", Talker)
+    assert list(LocalPool(1).run([job(tmp_path, "part.off")]))[-1].outcome is not None
+    assert len(looks) >= 2
