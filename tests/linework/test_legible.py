@@ -179,3 +179,9 @@ def test_widths_that_are_asked_for_stay():
 
 def _text(drawing):
     return io.StringIO(drawing.to_json())
+
+
+@pytest.mark.parametrize("scale", [1 / 16, 1 / 512, 1e-5])
+def test_a_drawing_so_small_that_its_accuracy_is_below_a_thousandth_of_a_millimetre(scale):
+    drawn = hlr.draw(box((0, 0, 0), (10, 20, 30)), "front", scale=scale)
+    assert drawn.lines and drawn.accuracy.used < 1e-3

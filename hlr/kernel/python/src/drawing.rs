@@ -173,8 +173,11 @@ impl Lines {
         order: Vec<u8>,
         threads: usize,
     ) -> PyResult<Bound<'py, PyArray1<u8>>> {
-        for (name, value) in [("pen", pens[0]), ("pen", pens[1]), ("accuracy", accuracy)] {
-            width(name, value)?;
+        for pen in pens {
+            width("pen", pen)?;
+        }
+        if !(accuracy.is_finite() && accuracy > 0.0) {
+            return Err(PyValueError::new_err("accuracy must be above zero"));
         }
         let order: Vec<Kind> = order.into_iter().map(Kind).collect();
         let fates = run(py, threads, self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;

@@ -30,9 +30,11 @@ const PIECE: f64 = 0.5;
 /// The fate of each line. pens: widths of hidden and of visible lines, millimetres; accuracy: ends within it meet;
 /// order: the classes, the least important first.
 pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) -> Vec<Fate> {
+    // Points are rounded to whole steps here: ends that meet may be a step apart.
+    let tolerance = (accuracy * STEPS).max(1.0);
     let mut fates = vec![Fate::Drawn; lines.0.len()];
     let all = vec![true; lines.0.len()];
-    let figure = joined(lines, &all, accuracy * STEPS, false);
+    let figure = joined(lines, &all, tolerance, false);
     let mut boxes = vec![NOWHERE; lines.0.len()];
     for (i, line) in lines.0.iter().enumerate() {
         line.flat.iter().for_each(|p| grow(&mut boxes[figure[i]], &rounded(p)));
@@ -49,7 +51,7 @@ pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) ->
         return vec![Fate::Drawn; lines.0.len()];
     }
     for visible in [false, true] {
-        leave_out_between(lines, visible, pens[usize::from(visible)] * STEPS, accuracy * STEPS, order, &mut fates);
+        leave_out_between(lines, visible, pens[usize::from(visible)] * STEPS, tolerance, order, &mut fates);
     }
     fates
 }
