@@ -47,15 +47,24 @@ def path_size(known):
 @pytest.mark.parametrize(
     ("options", "environment"), [(["--no-cache"], {}), ([], {"HLR_CACHE": "off"}), (["--no-cache"], {"HLR_CACHE": "x"})]
 )
-@pytest.mark.parametrize("verb", ["draw", "plan", "info", "preview"])
-def test_without_it_nothing_is_kept(verb, options, environment, run, own_cache, tmp_path):
-    wanted = {"draw": ["-o", "a.svg", "--explain"], "preview": ["-o", "a.png", "--size", "80x60"]}.get(verb, [])
-    done = run(verb, PART, *wanted, *options, **environment)
+def test_without_it_nothing_is_kept(options, environment, run, own_cache, tmp_path):
+    done = run("draw", PART, "-o", "a.svg", "--explain", *options, **environment)
     assert done.returncode == 0, done.stderr
     assert not own_cache.exists()
     assert not (tmp_path / "x").exists()
-    if verb == "draw":
-        assert done.stderr.splitlines()[-1].endswith("; the cache is off.")
+    assert done.stderr.splitlines()[-1].endswith("; the cache is off.")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("verb", [["plan"], ["info"], ["preview", "-o", "a.png", "--size", "80x60"]])
+def test_every_verb_can_do_without_it(verb, own_cache, tmp_path, monkeypatch):
+    from hlr.cli import main
+
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        main([verb[0], str(PART), *verb[1:], "--no-cache", "-q"])
+    assert not ended.value.code
+    assert not own_cache.exists()
 
 
 def test_without_it_only_that_command_is(monkeypatch, own_cache, tmp_path):

@@ -7,6 +7,7 @@ triangle on the needle's other side. Exporters of meshes write such needles.
 
 from __future__ import annotations
 
+import functools
 import math
 
 import cadquery as cq
@@ -21,6 +22,7 @@ from hlr.source import open_source
 SIDE, STEP = 5.0, 8.0
 
 
+@functools.cache
 def plate(degrees: float) -> cq.Shape:
     """Windows like diamonds, in rows along the directions of their own sides."""
     slope = math.radians(degrees)

@@ -12,8 +12,9 @@ from support.at_size import AT_SIZE
 from support.referee import exchange, reference
 from support.referee.judge import RayCaster, judge, offenders
 
-QUICK = 4000
-"""Fineness of the tests: the same rules at five times the lengths. The command line judges at the full one."""
+QUICK, PIXELS = 4000, 400
+"""Fineness of the tests, and pixels of their depth images: the same rules at some times the lengths. The command line
+judges at the full ones."""
 VIEWS: list[referee.View] = ["front", "top", "right", "iso", *referee.random_views(1)]
 
 
@@ -49,7 +50,7 @@ def test_perspective(name: str, tmp_path: Path) -> None:
 
 def expect_faultless(path: Path) -> None:
     drawn = 0
-    for judged in referee.judge_file(path, VIEWS, fineness=QUICK):
+    for judged in referee.judge_file(path, VIEWS, fineness=QUICK, pixels=PIXELS):
         assert not judged.row.bad, f"{judged.row}\n" + "\n".join(judged.why())
         assert judged.row.visible and judged.row.asked, "a drawing with nothing visible proves nothing"
         drawn += 1

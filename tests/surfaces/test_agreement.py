@@ -7,7 +7,7 @@ from surfaces.random_scenes import KINDS, SIZE
 
 from hlr.lab.methods import METHODS, SCREEN, render
 
-COUNT = 200
+COUNT = 80
 
 # Those that assume that no polygon passes through another are tried where that is so.
 COHERENT = [("scan line", "naive"), ("scan line", "leaving"), ("scan line", "visible")]
