@@ -37,9 +37,9 @@ def true_curves(source: Any) -> dict[tuple[str, int], Any]:
         if (name, edge) not in known:
             part = parts[name]
             curve = BRepAdaptor_Curve(TopoDS.Edge_s(edges[part.prototype][edge]))
-            spline = curve.GetType() == GeomAbs_CurveType.GeomAbs_BSplineCurve
-            # A helix of many turns is one B-spline.
-            count = 8 * DENSE if spline else DENSE
+            # A straight line is its two ends; a helix of many turns is one B-spline.
+            counts = {GeomAbs_CurveType.GeomAbs_Line: 2, GeomAbs_CurveType.GeomAbs_BSplineCurve: 8 * DENSE}
+            count = counts.get(curve.GetType(), DENSE)
             places = np.linspace(curve.FirstParameter(), curve.LastParameter(), count)
             values = [curve.Value(float(t)) for t in places]
             known[name, edge] = transform_points(np.array([(p.X(), p.Y(), p.Z()) for p in values]), part.transform)
