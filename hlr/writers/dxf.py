@@ -57,6 +57,8 @@ def dxf(drawing: Drawing, unit: int = MILLIMETRES) -> bytes:
             hatch(model, painted(drawing, drawing.fill), FILL)
         first = int(str(document.entitydb.handles), 16)
         document.entitydb.handles.reset(f"{first + len(drawing.lines):X}")
+        for name in sorted(document.entitydb.dxf_types_in_use()):  # ezdxf takes them as they come out of a set
+            document.classes.add_class(name)
         stream = io.StringIO()
         document.write(stream)
     head, mark, tail = stream.getvalue().partition(_ENTITIES)

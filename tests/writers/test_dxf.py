@@ -274,7 +274,7 @@ def test_the_same_bytes_in_every_process():
         subprocess.run(
             [sys.executable, "-P", "-c", BYTES], env=environment(PYTHONHASHSEED=seed), capture_output=True, check=True
         ).stdout
-        for seed in ("1", "2")
+        for seed in ("1", "5")
     }
     assert len(found) == 1
 
