@@ -39,6 +39,10 @@ class StrictError(HlrError):
     """A warning, where the caller asked for warnings to be errors."""
 
 
+class ClusterError(HlrError):
+    """Other machines that cannot be reached, have gone, or would draw other bytes."""
+
+
 class KernelError(HlrError):
     """A fault of hlr itself, in its kernel: worth a report. The command line ends with exit code 1."""
 

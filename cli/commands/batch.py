@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from hlr.batch.keys import Digests
     from hlr.batch.manifest import Manifest
     from hlr.batch.plan import Plan
-    from hlr.batch.pool import LocalPool
+    from hlr.batch.pool import Pool
     from hlr.batch.run import Done
 
 FAILED = 1
@@ -47,7 +47,13 @@ FAILED = 1
     "--jobs",
     type=click.IntRange(1, 1024),
     metavar="N",
-    help="Sources drawn at the same time. Default: all cores.",
+    help="Sources drawn at the same time. Default: one on each core.",
+)
+@click.option(
+    "--on",
+    "address",
+    metavar="ADDRESS",
+    help="Draw on the workers of a Dask scheduler, such as tcp://host:8786, instead of here.",
 )
 @click.option("--strict", is_flag=True, help="Warnings are errors: a source with one counts as failed.")
 @click.option("--init", is_flag=True, help="Write a manifest hlr.toml for the models here, to be changed at will.")
@@ -60,6 +66,7 @@ def batch(
     *,
     sources: tuple[str, ...],
     jobs: int | None,
+    address: str | None,
     init: bool,
     only_list: bool,
     dry_run: bool,
@@ -73,7 +80,8 @@ def batch(
       hlr batch parts -o drawings --view iso
       hlr batch "parts/**/*.step" -o drawings --format svg --format pdf
 
-    Exit codes: 0 all is drawn, 1 some sources failed and the rest is there, 2 the batch itself was wrong.
+    Exit codes: 0 all is drawn, 1 some sources failed and the rest is there, 2 the batch itself was wrong, or
+    --on found no workers that it could use to the end.
     """
     if init:
         return _init(sources)
@@ -95,7 +103,7 @@ def batch(
         # Beside the drawings there is a display to take down, and workers to end.
         stack.enter_context(tidily())
         show = stack.enter_context(progress(quiet))
-        pool = _Pool(stack, jobs or os.cpu_count() or 1)
+        pool = _Pool(stack, jobs, address)
         code = _round(plan, kept, digests, show, pool, quiet)
         if watch:
             _watch(asked, plan, kept, digests, show, pool, quiet)
@@ -142,19 +150,26 @@ class _Asked:
 
 
 class _Pool:
-    """The pool of workers, made when there is work for it."""
+    """The pool of workers, made when there is work for it. address: of a scheduler; None: processes here."""
 
-    def __init__(self, stack: ExitStack, workers: int) -> None:
-        self._stack, self._workers = stack, workers
-        self._pool: LocalPool | None = None
+    def __init__(self, stack: ExitStack, jobs: int | None, address: str | None) -> None:
+        self._stack, self._jobs, self._address = stack, jobs, address
+        self._pool: Pool | None = None
 
-    def __call__(self) -> LocalPool:
+    def __call__(self) -> Pool:
         if self._pool is None:
-            from hlr.batch.pool import LocalPool
-
-            self._pool = LocalPool(self._workers)
+            self._pool = self._made()
             self._stack.callback(self._pool.close)
         return self._pool
+
+    def _made(self) -> Pool:
+        if self._address is not None:
+            from hlr.batch.cluster import DaskPool
+
+            return DaskPool(self._address, self._jobs)
+        from hlr.batch.pool import LocalPool
+
+        return LocalPool(self._jobs or os.cpu_count() or 1)
 
 
 def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import sys
 import sysconfig
 from collections.abc import Iterable
@@ -12,6 +11,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, cast
 
 from hlr.batch.job import Job, Outcome, failed
+from hlr.batch.pulled_in import references
 from hlr.batch.request import options_of
 from hlr.common.process import debugging
 from hlr.errors import HlrError
@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from hlr.common.types import Progress
     from hlr.drawing.drawing import Drawing
     from hlr.request.options import View
-
-_REFERENCE = re.compile(rb"DOCUMENT_FILE\s*\(\s*'([^'\r\n]{1,300})'")
-"""A file that a STEP file refers to."""
 
 
 def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
@@ -48,7 +45,7 @@ def carry_out(job: Job, progress: Progress | None = None) -> Outcome:
     modules = _own_modules(set(sys.modules) - before)
     for name in modules:  # the next job imports them again, as they are then
         del sys.modules[name]
-    depends = {*modules.values(), *_references(Path(job.root, job.source))}
+    depends = {*modules.values(), *references(Path(job.root, job.source))}
     return replace(
         outcome,
         depends=tuple(sorted(_from_root(path, job.root) for path in depends)),
@@ -105,18 +102,6 @@ def _own_modules(names: Iterable[str]) -> dict[str, Path]:
         if "site-packages" not in path.parts and not any(path.is_relative_to(folder) for folder in installed):
             found[name] = path
     return found
-
-
-def _references(source: Path) -> list[Path]:
-    """Files that a STEP file refers to, and that are there."""
-    if source.suffix.lower() not in (".step", ".stp"):
-        return []
-    try:
-        named = _REFERENCE.findall(source.read_bytes())
-        paths = [source.parent / name.decode("utf-8", "replace") for name in named]
-        return [path.resolve() for path in paths if path.is_file()]
-    except (OSError, ValueError):
-        return []
 
 
 def _from_root(path: Path, root: str) -> str:

@@ -8,23 +8,17 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
-from functools import cache
 from hashlib import blake2b, file_digest
 from pathlib import Path
 
 from hlr.batch.job import Job
 from hlr.batch.request import files_of
+from hlr.batch.versions import libraries, program
 from hlr.common.packages import bindings, installed
 from hlr.tables.readers import of_ending
 
 _FORM = 1
 """Of what is kept of an outcome: another one makes other keys."""
-
-_NOT_DRAWING = ("batch", "cli", "compat", "docs", "kernel", "lab")
-"""Folders of hlr whose code no drawing depends on; the kernel counts as it is compiled."""
-
-_LIBRARIES = ("ezdxf", "lxml", "manifold3d", "networkx", "numpy", "pillow", "pydyf", "trimesh")
-"""Packages beside OpenCASCADE that read models or write files."""
 
 
 class Digests:
@@ -60,7 +54,7 @@ def key_of(job: Job, digests: Digests) -> str | None:
         return None
     known = {
         "form": _FORM,
-        "program": _program(),
+        "program": program(),
         "packages": _packages(job),
         "source": [job.source, source],
         "views": job.views,
@@ -75,23 +69,9 @@ def key_of(job: Job, digests: Digests) -> str | None:
     return blake2b(text.encode("utf-8", "surrogatepass"), digest_size=20).hexdigest()
 
 
-@cache
-def _program() -> str:
-    """Digest of hlr's own code and of its kernel: in a checkout they change more often than the version."""
-    digest = blake2b(digest_size=20)
-    home = Path(__file__).parents[1]
-    for folder, folders, names in os.walk(home):
-        folders[:] = sorted(name for name in folders if not (Path(folder) == home and name in _NOT_DRAWING))
-        for name in sorted(names):
-            if name.endswith((".py", ".so", ".pyd")):
-                digest.update(name.encode() + b"\0" + Path(folder, name).read_bytes())
-    return digest.hexdigest()
-
-
 def _packages(job: Job) -> list[str]:
     """Names and versions of the packages that a job may use: of a script, all that are installed."""
     reader = of_ending(Path(job.source).suffix)
     if reader is not None and reader.kind == "script":
         return installed()
-    used = [name for name in installed() if name.partition("-")[0].lower() in _LIBRARIES]
-    return used + bindings() if reader is not None and reader.brep else used
+    return libraries() + bindings() if reader is not None and reader.brep else libraries()

@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from queue import Empty, SimpleQueue
 from typing import Protocol
@@ -42,15 +42,22 @@ class Pool(Protocol):
 class LocalPool:
     """Worker processes on this machine, started when there is work for them and kept until the pool is closed."""
 
-    def __init__(self, workers: int) -> None:
-        self._most = workers
+    def __init__(
+        self,
+        workers: int,
+        environment: Mapping[str, str] | None = None,
+        wanted: Callable[[], bool] = lambda: True,
+    ) -> None:
+        """workers: at most so many at the same time. environment: variables of theirs that differ from those of this
+        process. wanted: asked all the time; once it says no, all jobs are ended."""
+        self._most, self._environment, self.wanted = workers, environment, wanted
         self._workers: list[Worker] = []
         self._said: SimpleQueue[Begun | Ended] = SimpleQueue()
 
     def run(self, jobs: Sequence[Job]) -> Iterator[Event]:
         """As of `Pool`."""
         while len(self._workers) < min(self._most, len(jobs)):
-            self._workers.append(Worker(self._said))
+            self._workers.append(Worker(self._said, self._environment))
         # Jobs that run at the same time share the cores; the number of threads changes no byte.
         threads = max(1, (os.cpu_count() or 1) // max(1, min(self._most, len(jobs))))
         shared = [replace(job, options={"threads": threads, **job.options}) for job in jobs]
@@ -62,6 +69,9 @@ class LocalPool:
             # Not only where nothing is said: quick jobs beside an endless one always have something to say.
             if time.monotonic() - looked >= _GLANCE:
                 looked = time.monotonic()
+                if not self.wanted():
+                    self.close()
+                    return
                 for worker in self._workers:
                     worker.keep_within_limits()
             try:
@@ -82,6 +92,7 @@ class LocalPool:
         for worker in self._workers:
             worker.wait()
         self._workers.clear()
+        self._said = SimpleQueue()  # what they may still say is of jobs that have been given up
 
 
 def _give(worker: Worker, waiting: Iterator[tuple[int, Job]]) -> None:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from queue import SimpleQueue
@@ -52,8 +53,9 @@ class Ended:
 class Worker:
     """A process, and the thread of this one that talks with it. The thread's messages go into a queue."""
 
-    def __init__(self, said: SimpleQueue[Begun | Ended]) -> None:
-        self._said = said
+    def __init__(self, said: SimpleQueue[Begun | Ended], environment: Mapping[str, str] | None = None) -> None:
+        """said: where its messages go. environment: variables of its process that differ from those of this one."""
+        self._said, self._environment = said, environment or {}
         self._given: SimpleQueue[tuple[int, Job] | None] = SimpleQueue()
         self._process: subprocess.Popen[bytes] | None = None
         self._running: _Running | None = None
@@ -95,7 +97,7 @@ class Worker:
         running = _Running(job)
         code: int | None = None
         try:
-            process = self._started(job)
+            process = self._started()
             assert process.stdin is not None and process.stdout is not None
             send(process.stdin.fileno(), job)
             self._running = running
@@ -116,12 +118,16 @@ class Worker:
         why = running.verdict or _why(job, running.stage, code)
         return failed(*why, seconds=round(time.monotonic() - started, 4))
 
-    def _started(self, job: Job) -> subprocess.Popen[bytes]:
+    def _started(self) -> subprocess.Popen[bytes]:
         if self._process is None:
             # -P: the folder that the batch works in must not provide modules.
             command = [sys.executable, "-P", "-m", "hlr.batch.worker_process", str(os.getpid())]
             self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=job.root, start_new_session=True
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                env=os.environ | self._environment,
+                start_new_session=True,
             )
         return self._process
 

@@ -76,8 +76,10 @@ def _own_streams() -> tuple[int, int]:
 
 
 def _done(job: Job, writing: int) -> Any:
-    """The outcome of a job in this process; its stages are told."""
+    """The outcome of a job in this process, from the job's own folder; its stages are told."""
     told = ""
+    with contextlib.suppress(OSError):
+        os.chdir(job.root)
 
     def progress(stage: str, _fraction: float) -> None:
         nonlocal told

@@ -26,11 +26,3 @@ def test_the_variants_of_a_script_and_what_they_import(tmp_path):
     (tmp_path / "sizes.py").write_text("width = 200\n")
     (again,) = (carry_out(job) for job in plan(found, tmp_path / "out").jobs[:1])
     assert again.drawings[0]["height_mm"] == pytest.approx(200.0)
-
-
-def test_files_that_a_step_file_refers_to_are_told(tmp_path):
-    from hlr.batch.carry_out import _references
-
-    (tmp_path / "bolt.stp").touch()
-    (tmp_path / "all.step").write_text("#1=DOCUMENT_FILE('bolt.stp','',$,#2,'',$);\n#3=DOCUMENT_FILE( 'gone.stp' ,'')")
-    assert _references(tmp_path / "all.step") == [tmp_path / "bolt.stp"]

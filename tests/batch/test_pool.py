@@ -108,7 +108,7 @@ def test_limits_are_kept_though_something_is_said_all_the_time(monkeypatch, tmp_
     class Talker:
         """A worker that says something every hundredth of a second, and ends after half a second."""
 
-        def __init__(self, said):
+        def __init__(self, said, environment):
             self.said = said
 
         def give(self, number, job):
@@ -126,3 +126,17 @@ def test_limits_are_kept_though_something_is_said_all_the_time(monkeypatch, tmp_
     monkeypatch.setattr("hlr.batch.pool.Worker", Talker)
     assert list(LocalPool(1).run([job(tmp_path, "part.off")]))[-1].outcome is not None
     assert len(looks) >= 2
+
+
+@pytest.mark.slow
+def test_a_job_that_was_given_up_says_nothing_to_the_next(tmp_path):
+    (tmp_path / "endless.py").write_text("while True: pass\n")
+    tetrahedron(tmp_path / "part.off", 1)
+    wishes = iter([True, False])
+    pool = LocalPool(1, wanted=lambda: next(wishes, True))
+    try:
+        assert [event for event in pool.run([job(tmp_path, "endless.py")]) if event.outcome is not None] == []
+        (outcome,) = [e.outcome for e in pool.run([job(tmp_path, "part.off")]) if e.outcome is not None]
+    finally:
+        pool.close()
+    assert outcome.failure is None
