@@ -1,6 +1,7 @@
 //! The class of each edge of a part: sharp, smooth, seam or boundary. An edge along which the class changes is divided
 //! into pieces.
 
+use crate::continued::{Beside, one_surface};
 use crate::format::Orientation;
 use crate::part_topology::{PartFace, PartTopology};
 use crate::shapes::{Shapes, Use};
@@ -23,9 +24,9 @@ pub struct Classes {
     pub more: Vec<(f64, EdgeClass)>,
 }
 
-/// The classes of an edge. An edge of two faces is smooth where the surface normals agree along it. A seam whose
-/// normals do not agree is sharp. Edges of more than two faces, and edges of none, are sharp. An edge of one face is a
-/// boundary.
+/// The classes of an edge. An edge of two faces is smooth where the surface normals agree along it, and a seam if both
+/// faces lie on one surface. A seam whose normals do not agree is sharp. Edges of more than two faces, and edges of
+/// none, are sharp. An edge of one face is a boundary.
 pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
     let placed = &part.edges[number];
     let edge = &shapes.edges[placed.edge as usize];
@@ -50,6 +51,7 @@ pub fn classes(shapes: Shapes, part: &PartTopology, number: usize) -> Classes {
             };
             match met {
                 Meeting::Unknown => whole(sharp_or(edge.tangent, EdgeClass::Smooth)),
+                Meeting::Whole(true) if divides(shapes, part, [one, two], number as u32) => whole(EdgeClass::Seam),
                 Meeting::Whole(smooth) => whole(sharp_or(smooth, EdgeClass::Smooth)),
                 Meeting::Pieces(smooth, shares) => {
                     let [first, last] = edge.range;
@@ -80,6 +82,17 @@ fn one_side<'a>(shapes: Shapes<'a>, placed: &'a PartFace, used: &Use) -> Option<
     let curve = used.curve2.and_then(|(curve, range)| Some((shapes.curves2[curve].as_ref()?, range)));
     let free = face.record.as_ref().is_some_and(|r| r.kind > LAST_ELEMENTARY);
     Some(Side { surface: face.surface.as_ref()?, curve, place: placed.place.as_ref(), reversed: placed.reversed, free })
+}
+
+/// Whether a tangent edge only divides one surface into two faces.
+fn divides(shapes: Shapes, part: &PartTopology, faces: [u32; 2], number: u32) -> bool {
+    let beside = |face: u32| {
+        let placed = &part.faces[face as usize];
+        uses(shapes, part, face, number).next().map(|used| Beside { placed, used })
+    };
+    let of_faces = faces.map(|face| shapes.faces[part.faces[face as usize].face as usize].tolerance);
+    let tolerance = shapes.edges[part.edges[number as usize].edge as usize].tolerance + of_faces[0] + of_faces[1];
+    matches!(faces.map(beside), [Some(one), Some(other)] if one_surface(shapes, one, other, tolerance))
 }
 
 /// The highest kind of an elementary surface: plane, cylinder, cone, sphere, torus.

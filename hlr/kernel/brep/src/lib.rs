@@ -3,6 +3,7 @@
 pub mod assemble;
 pub mod certificate;
 pub mod classes;
+pub mod continued;
 pub mod edges;
 pub mod explore;
 pub mod faces;

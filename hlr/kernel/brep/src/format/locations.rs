@@ -181,7 +181,7 @@ fn cofactor(m: &Matrix, i: usize, j: usize) -> f64 {
     m[j1][i1] * m[j2][i2] - m[j1][i2] * m[j2][i1]
 }
 
-fn inverted(m: &Matrix) -> Matrix {
+pub fn inverted(m: &Matrix) -> Matrix {
     let determinant = determinant(m);
     [0, 1, 2].map(|i| {
         let [a, b, c] = [0, 1, 2].map(|j| cofactor(m, i, j) / determinant);

@@ -16,7 +16,7 @@ mod surfaces;
 mod triangles;
 
 pub use bytes::Damaged;
-pub use locations::{IDENTITY, Locations, Matrix, chained, determinant, moved, turned};
+pub use locations::{IDENTITY, Locations, Matrix, chained, determinant, inverted, moved, turned};
 pub use shapes::{Kind, On, Orientation, Shape, Sub};
 pub use surfaces::SurfaceRecord;
 pub use triangles::Triangulation;
