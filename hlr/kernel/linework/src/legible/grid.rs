@@ -10,6 +10,9 @@ pub const STEPS: f64 = 1024.0;
 /// Most cells of a grid: beyond, they grow.
 const MOST_CELLS: f64 = 4.0e6;
 
+/// Cells for each segment: few segments need few cells.
+const CELLS_EACH: f64 = 2.0;
+
 /// More ink than this, 2 km, has no room on a page, and is not looked at.
 const MOST_INK: f64 = 2.0e6;
 
@@ -90,7 +93,8 @@ impl<'a> Grid<'a> {
         segments.iter().for_each(|s| [s.a, s.b].iter().for_each(|p| grow(&mut around, p)));
         let [low, high] = around;
         let size = if segments.is_empty() { [0.0; 2] } else { minus(&high, &low) };
-        let cell = reach.max((size[0] * size[1] / MOST_CELLS).sqrt()).max(size[0].max(size[1]) / MOST_CELLS);
+        let most = (CELLS_EACH * segments.len() as f64).clamp(1.0, MOST_CELLS);
+        let cell = reach.max((size[0] * size[1] / most).sqrt()).max(size[0].max(size[1]) / most);
         let [columns, rows] = size.map(|s| (s / cell) as usize + 1);
         let mut grid =
             Grid { segments, low, cell, columns, rows, starts: vec![0; columns * rows + 1], members: Vec::new() };
@@ -137,6 +141,11 @@ impl<'a> Grid<'a> {
         }
     }
 
+    fn members(&self, cell: usize) -> impl Iterator<Item = &Segment> {
+        let range = self.starts[cell] as usize..self.starts[cell + 1] as usize;
+        self.members[range].iter().map(|&number| &self.segments[number as usize])
+    }
+
     /// Calls `visit` with the segments alongside that the perpendicular to segment `own` through `place` meets within
     /// `reach`: the distance, positive to the left, and the segment; until it says false. What meets the segment itself
     /// there is left out.
@@ -145,9 +154,10 @@ impl<'a> Grid<'a> {
         let size = length(&way);
         let along = way.map(|c| c / size);
         let left = [-along[1], along[0]];
-        self.cells(place.map(|c| c - reach), place.map(|c| c + reach), |cell| {
-            for &number in &self.members[self.starts[cell] as usize..self.starts[cell + 1] as usize] {
-                let other = &self.segments[number as usize];
+        // The box of the perpendicular, and a step more for what is rounded.
+        let half = left.map(|c| c.abs() * reach + 1.0);
+        self.cells(minus(place, &half), [place[0] + half[0], place[1] + half[1]], |cell| {
+            for other in self.members(cell) {
                 if alongside(&way, &other.way())
                     && let Some(offset) = met(other, place, &along, &left)
                     && (ON_LINE..=reach).contains(&offset.abs())
