@@ -10,188 +10,89 @@
 //!   worse        - - - - - - - - - - - -      left out on the left, drawn on the right
 //! ```
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
+use super::drawn::Drawn;
 pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
 use super::{Polyline, View, distance};
-use hlr_exact::Point;
-use hlr_exact::snap::Grid;
-use hlr_visibility::scan::bands::{Bands, clipped_x, y_range};
 
 /// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
 /// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
 const PARALLEL: f64 = 0.5;
-/// A stretch of one side, in parameters, that another side covers, either of its own line or of another.
-#[derive(Clone, Copy, PartialEq)]
-struct Hit {
-    side: u32,
-    from: f64,
-    to: f64,
-    own: bool,
-    better: u32,
-}
-
-/// Once so many others cover a side entirely, worse ones are not listed. Among thousands of short lines that all cover
-/// one another, the list would grow without bound; and only the best of them are drawn.
-const ENOUGH: usize = 16;
-
-struct Entry {
-    xmin: i32,
-    xmax: i32,
-    side: u32,
-}
 
 /// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
 pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
-    let mut sides = Vec::new();
-    let mut first_side = Vec::with_capacity(lines.len());
-    for (i, line) in lines.iter().enumerate() {
-        first_side.push(sides.len());
-        for w in line.flat.windows(2) {
-            sides.push(Side { visible: line.visible, line: i as u32, from: w[0], to: w[1] });
-        }
-    }
-    let hits = coverings(&sides, rank, widths);
-    let mut by_line: Vec<Vec<Covered>> = vec![Vec::new(); lines.len()];
-    let starts: Vec<f64> = lines
-        .iter()
-        .flat_map(|line| {
-            line.flat.windows(2).scan(0.0, |at, w| {
-                let start = *at;
-                *at += distance(&w[0], &w[1]);
-                Some(start)
-            })
-        })
-        .collect();
-    let mut of_line: Vec<Vec<Hit>> = vec![Vec::new(); lines.len()];
-    for hit in hits {
-        of_line[sides[hit.side as usize].line as usize].push(hit);
-    }
     let mut order: Vec<usize> = (0..lines.len()).collect();
     order.sort_unstable_by_key(|&i| rank[i]);
-    for i in order {
-        if of_line[i].is_empty() {
-            continue;
-        }
-        let mut covered = Vec::new();
-        for hit in &of_line[i] {
-            let (s, t) = (&sides[hit.side as usize], &sides[hit.better as usize]);
-            let (start, length) = (starts[hit.side as usize], distance(&s.from, &s.to));
-            let mut put = |from: f64, to: f64| {
-                covered.push(Covered {
-                    from: start + from * length,
-                    to: start + to * length,
-                    own: hit.own,
-                    by: [hit.better; 2],
-                });
-            };
-            let gone: &[Covered] = if hit.own { &[] } else { &by_line[t.line as usize] };
-            if gone.is_empty() {
-                put(hit.from, hit.to);
-                continue;
-            }
-            // Where the better line is left out itself, it covers nothing.
-            let place =
-                |u: f64| starts[hit.better as usize] + along(t, &at(s, u)).clamp(0.0, 1.0) * distance(&t.from, &t.to);
-            still_there(hit.from, hit.to, [place(hit.from), place(hit.to)], gone, put);
-        }
-        by_line[i] = gaps(covered, &lines[i], &sides, widths, view);
-    }
+    let gone = covered_by_better(&lines, &order, widths, view);
     lines
         .into_par_iter()
-        .zip(by_line.into_par_iter())
+        .zip(gone.into_par_iter())
         .flat_map_iter(|(line, gaps)| if gaps.is_empty() { vec![line] } else { rest(&line, &gaps, widths, view) })
         .collect()
 }
 
-/// Stretches of sides covered by sides of better lines.
-fn coverings(sides: &[Side], rank: &[u32], widths: Widths) -> Vec<Hit> {
-    let corners: Vec<[f64; 3]> =
-        sides.iter().flat_map(|s| [[s.from[0], s.from[1], 0.0], [s.to[0], s.to[1], 0.0]]).collect();
-    let Some(grid) = Grid::around(&corners) else { return Vec::new() };
-    let snapped: Vec<Point> = corners.iter().map(|p| grid.snap(p)).collect();
-    let reach = (widths.under.max(widths.same) * grid.scale_xy).ceil().min(f64::from(1 << 29)) as i32 + 1;
-    let grow = |(low, high): (i32, i32)| (low.saturating_sub(reach), high.saturating_add(reach));
-    let ranges: Vec<(i32, i32)> = snapped.chunks_exact(2).map(|p| grow(y_range(&p[0], &p[1]))).collect();
-    let bands = Bands::choose(&ranges, 2.0);
-    let (offsets, items) = bands.bucket(&ranges);
-    let mut found: Vec<Hit> = (0..bands.count)
-        .into_par_iter()
-        .flat_map_iter(|k| {
-            let (y0, y1) = bands.limits(k);
-            let (y0, y1) = (y0 - i64::from(reach), y1 + i64::from(reach));
-            let mut entries: Vec<Entry> = items[offsets[k] as usize..offsets[k + 1] as usize]
-                .iter()
-                .map(|&i| {
-                    let i = i as usize;
-                    let (xmin, xmax) = grow(clipped_x(&snapped[2 * i], &snapped[2 * i + 1], y0, y1));
-                    Entry { xmin, xmax, side: i as u32 }
-                })
-                .collect();
-            entries.sort_unstable_by_key(|e| (e.xmin, e.side));
-            sweep(&entries, sides, &ranges, rank, widths)
-        })
-        .collect();
-    found.par_sort_by(|a, b| {
-        let places = a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to));
-        a.side.cmp(&b.side).then(places).then(a.own.cmp(&b.own)).then(a.better.cmp(&b.better))
-    });
-    found.dedup();
-    found
+/// The stretches of each line that better ones cover, ascending. order: the best line first.
+///
+/// Lines are decided one after another, and each is compared with what is drawn so far alone. So a thousand lines that
+/// all cover one another take a thousand comparisons, and not a million.
+fn covered_by_better(lines: &[Polyline], order: &[usize], widths: Widths, view: &View) -> Vec<Vec<Covered>> {
+    let (mut sides, mut first_side) = (Vec::new(), vec![0]);
+    for (i, line) in lines.iter().enumerate() {
+        let mut start = 0.0;
+        for w in line.flat.windows(2) {
+            sides.push(Side { visible: line.visible, line: i as u32, from: w[0], to: w[1], start });
+            start += distance(&w[0], &w[1]);
+        }
+        first_side.push(sides.len());
+    }
+    let mut gone = vec![Vec::new(); lines.len()];
+    let Some(mut drawn) = Drawn::none_of(&sides, widths.under.max(widths.same)) else { return gone };
+    let (mut near, mut covered) = (Vec::new(), Vec::new());
+    for &i in order {
+        let own = first_side[i]..first_side[i + 1];
+        covered.clear();
+        for id in own.clone() {
+            let side = &sides[id];
+            drawn.near(id as u32, &mut near);
+            for &other in &near {
+                cover(side, &sides[other as usize], other, &gone, widths, &mut covered);
+            }
+            // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
+            drawn.add(id as u32);
+        }
+        if covered.is_empty() {
+            continue;
+        }
+        gone[i] = gaps(&mut covered, &lines[i], &sides, widths, view);
+        for id in own.filter(|&id| sides[id].within_one_of(&gone[i])) {
+            drawn.remove(id as u32);
+        }
+    }
+    gone
 }
 
-fn sweep(entries: &[Entry], sides: &[Side], ranges: &[(i32, i32)], rank: &[u32], widths: Widths) -> Vec<Hit> {
-    let mut active: Vec<&Entry> = Vec::new();
-    let mut found = Vec::new();
-    let mut whole: HashMap<u32, Vec<u32>> = HashMap::new();
-    for e in entries {
-        let (s, range) = (&sides[e.side as usize], ranges[e.side as usize]);
-        let mut i = 0;
-        while i < active.len() {
-            let other = active[i];
-            if other.xmax < e.xmin {
-                active.swap_remove(i);
-                continue;
-            }
-            i += 1;
-            let o = ranges[other.side as usize];
-            if range.0 > o.1 || o.0 > range.1 {
-                continue;
-            }
-            let t = &sides[other.side as usize];
-            let yields = if s.line == t.line {
-                // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
-                if heading(s, t) >= 0.0 {
-                    continue;
-                }
-                e.side > other.side
-            } else {
-                rank[s.line as usize] > rank[t.line as usize]
-            };
-            let (worse, better, id, by) = if yields { (s, t, e.side, other.side) } else { (t, s, other.side, e.side) };
-            let own = s.line == t.line;
-            // A side of the same line certainly covers this one: it counts as the best rank.
-            let place = if own { 0 } else { rank[better.line as usize] };
-            let known = whole.get(&id);
-            if known.is_some_and(|best| best.len() == ENOUGH && best[ENOUGH - 1] <= place) {
-                continue;
-            }
-            let width = if worse.visible == better.visible { widths.same } else { widths.under };
-            if let Some((u0, u1)) = covered(worse, better, width, widths.same) {
-                found.push(Hit { side: id, from: u0, to: u1, own, better: by });
-                if (u0, u1) == (0.0, 1.0) {
-                    let best = whole.entry(id).or_default();
-                    best.insert(best.partition_point(|&r| r <= place), place);
-                    best.truncate(ENOUGH);
-                }
-            }
-        }
-        active.push(e);
+/// Adds the stretches of a side that a side of a better line covers, or an earlier one of its own line.
+///
+/// other: the number of the better side; gone: of each line the stretches that are left out, where it covers nothing
+fn cover(side: &Side, better: &Side, other: u32, gone: &[Vec<Covered>], widths: Widths, out: &mut Vec<Covered>) {
+    let own = side.line == better.line;
+    if own && heading(side, better) >= 0.0 {
+        return;
     }
-    found
+    let width = if side.visible == better.visible { widths.same } else { widths.under };
+    let Some((from, to)) = covered(side, better, width, widths.same) else { return };
+    let length = side.length();
+    let mut put = |from: f64, to: f64| {
+        out.push(Covered { from: side.start + from * length, to: side.start + to * length, own, by: [other; 2] });
+    };
+    let gone = &gone[better.line as usize];
+    if own || gone.is_empty() {
+        return put(from, to);
+    }
+    let place = |u: f64| better.start + along(better, &at(side, u)).clamp(0.0, 1.0) * better.length();
+    still_there(from, to, [place(from), place(to)], gone, put);
 }
 
 /// Positive if two sides run in the same direction.

@@ -17,6 +17,20 @@ pub(super) struct Side {
     pub(super) line: u32,
     pub(super) from: [f64; 2],
     pub(super) to: [f64; 2],
+    /// Arc length of its line up to it.
+    pub(super) start: f64,
+}
+
+impl Side {
+    pub(super) fn length(&self) -> f64 {
+        distance(&self.from, &self.to)
+    }
+
+    /// Whether one of the stretches (ascending) of its line holds all of it.
+    pub(super) fn within_one_of(&self, stretches: &[Covered]) -> bool {
+        let before = stretches.partition_point(|s| s.from <= self.start);
+        before > 0 && self.start + self.length() <= stretches[before - 1].to
+    }
 }
 
 /// A stretch of a line, in arc length.
@@ -54,7 +68,8 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
         let (u, v) = (back(a), back(b));
         put(u.min(v), u.max(v));
     };
-    for g in gone.iter().filter(|g| g.to >= low && g.from <= high) {
+    let first = gone.partition_point(|g| g.to < low);
+    for g in gone[first..].iter().take_while(|g| g.from <= high) {
         if g.from > here {
             keep(here, g.from);
         }
@@ -69,7 +84,7 @@ pub(super) fn still_there(from: f64, to: f64, places: [f64; 2], gone: &[Covered]
 /// left out too: a line that slants off would leave dots. Longer rests, up to twice the drawn line width, are left out
 /// only where they lie under a drawn line themselves.
 pub(super) fn gaps(
-    mut covered: Vec<Covered>,
+    covered: &mut [Covered],
     line: &Polyline,
     sides: &[Side],
     widths: Widths,
@@ -88,7 +103,7 @@ pub(super) fn gaps(
             })
     };
     let mut merged: Vec<Covered> = Vec::new();
-    for one in covered {
+    for &mut one in covered {
         match merged.last_mut() {
             Some(last) if goes(last.to, one.from, [last.by[1], one.by[0]]) => {
                 if one.to > last.to {

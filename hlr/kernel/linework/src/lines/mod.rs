@@ -3,7 +3,8 @@
 //! 1. `chain`       mesh edges that continue one another become chains (edges of the source are chains already;
 //!    `candidates` adds the contours of the mesh)
 //! 2. `runs`        along a chain equal states join, doubtful and short runs are decided, and lines are cut out
-//! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others
+//! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others,
+//!    `drawn` finds those beside one another
 //! 4. `specks`      figures shorter than the accuracy, with all they connect to, are dropped
 //! 5. `simplify`    vertices that the accuracy does not need are left out
 //!
@@ -18,6 +19,7 @@ pub mod chain;
 pub mod coincident;
 pub mod cut;
 pub mod drawing;
+mod drawn;
 pub mod ends;
 pub mod finish;
 mod gaps;

@@ -1,0 +1,143 @@
+//! The sides of lines that are drawn so far, in square cells of the paper.
+
+use super::distance;
+use super::gaps::Side;
+
+/// Cells for each side, at most.
+const CELLS_EACH: f64 = 2.0;
+
+pub(super) struct Drawn<'a> {
+    sides: &'a [Side],
+    low: [f64; 2],
+    cell: f64,
+    columns: usize,
+    rows: usize,
+    members: Vec<Vec<u32>>,
+    /// How far beside a side is looked, mm.
+    reach: f64,
+}
+
+impl<'a> Drawn<'a> {
+    /// None drawn yet. None where a coordinate is no number.
+    pub(super) fn none_of(sides: &'a [Side], reach: f64) -> Option<Drawn<'a>> {
+        let (mut low, mut high, mut long) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0);
+        for side in sides {
+            for k in 0..2 {
+                low[k] = low[k].min(side.from[k]).min(side.to[k]);
+                high[k] = high[k].max(side.from[k]).max(side.to[k]);
+            }
+            long += distance(&side.from, &side.to);
+        }
+        let size = [high[0] - low[0], high[1] - low[1]];
+        if !(reach.is_finite() && f64::is_finite(long) && size[0] + size[1] > 0.0) {
+            return None;
+        }
+        let most = CELLS_EACH * sides.len() as f64;
+        let cell = (long / sides.len() as f64).max(reach).max((size[0] * size[1] / most).sqrt());
+        let cell = cell.max(size[0].max(size[1]) / most);
+        let [columns, rows] = size.map(|s| (s / cell) as usize + 1);
+        Some(Drawn { sides, low, cell, columns, rows, members: vec![Vec::new(); columns * rows], reach })
+    }
+
+    pub(super) fn add(&mut self, side: u32) {
+        self.each(side, 0.0, |members| {
+            if members.last() != Some(&side) {
+                members.push(side);
+            }
+        });
+    }
+
+    pub(super) fn remove(&mut self, side: u32) {
+        self.each(side, 0.0, |members| members.retain(|&s| s != side));
+    }
+
+    /// The drawn sides that may come within reach of a side, ascending.
+    pub(super) fn near(&mut self, side: u32, found: &mut Vec<u32>) {
+        found.clear();
+        self.each(side, self.reach, |members| found.extend_from_slice(members));
+        found.sort_unstable();
+        found.dedup();
+    }
+
+    /// Calls `visit` with the members of the cells that a side comes as near to as `reach`, maybe more than once.
+    fn each(&mut self, side: u32, reach: f64, mut visit: impl FnMut(&mut Vec<u32>)) {
+        let Side { from, to, .. } = &self.sides[side as usize];
+        let pieces = (distance(from, to) / self.cell).ceil().max(1.0);
+        let cell = |x: f64, k: usize, count: usize| (((x - self.low[k]) / self.cell).max(0.0) as usize).min(count - 1);
+        for i in 0..pieces as usize {
+            let [(x0, x1), (y0, y1)] = [0, 1].map(|k| {
+                let at = |i: usize| from[k] + (to[k] - from[k]) * (i as f64 / pieces);
+                let (a, b) = (at(i), at(i + 1));
+                // A little more, as the ends of pieces are rounded.
+                let more = reach + 1e-6 * self.cell;
+                let count = [self.columns, self.rows][k];
+                (cell(a.min(b) - more, k, count), cell(a.max(b) + more, k, count))
+            });
+            for y in y0..=y1 {
+                self.members[y * self.columns + x0..=y * self.columns + x1].iter_mut().for_each(&mut visit);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sides of all lengths, scattered by a congruential generator.
+    fn scattered(count: u32) -> Vec<Side> {
+        let mut state = 1u32;
+        let mut next = |size: f64| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            size * f64::from(state >> 8) / f64::from(1 << 24)
+        };
+        let mut side = |line: u32| {
+            let (from, size) = ([next(100.0), next(60.0)], [0.1, 2.0, 50.0][line as usize % 3]);
+            let to = [from[0] + next(size), from[1] + next(size)];
+            Side { visible: true, line, from, to, start: 0.0 }
+        };
+        (0..count).map(&mut side).collect()
+    }
+
+    fn nearest(a: &Side, b: &Side) -> f64 {
+        let at = |s: &Side, u: f64| [0, 1].map(|k| s.from[k] + u * (s.to[k] - s.from[k]));
+        let places = (0..=400).map(|i| f64::from(i) / 400.0);
+        let to_b = |p: [f64; 2]| {
+            let (x, y) = (b.to[0] - b.from[0], b.to[1] - b.from[1]);
+            let u = (x * (p[0] - b.from[0]) + y * (p[1] - b.from[1])) / (x * x + y * y);
+            distance(&p, &at(b, u.clamp(0.0, 1.0)))
+        };
+        places.map(|u| to_b(at(a, u))).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn what_is_drawn_within_reach_is_found_and_what_was_removed_is_not() {
+        let sides = scattered(300);
+        let mut drawn = Drawn::none_of(&sides, 0.4).expect("numbers");
+        (0..200).for_each(|side| drawn.add(side));
+        (0..200).step_by(5).for_each(|side| drawn.remove(side));
+        let mut found = Vec::new();
+        let mut close = 0;
+        for side in 200..300 {
+            drawn.near(side, &mut found);
+            assert!(found.is_sorted() && found.iter().all(|s| s % 5 != 0 && *s < 200));
+            for other in (0..200).filter(|s| s % 5 != 0) {
+                if nearest(&sides[side as usize], &sides[other as usize]) < 0.4 {
+                    close += 1;
+                    assert!(found.contains(&other), "{side} {other}");
+                }
+            }
+        }
+        assert!(close > 100);
+        drawn.near(299, &mut found);
+        assert!(found.len() < 80, "{} of 160 are looked at", found.len());
+    }
+
+    #[test]
+    fn sides_that_are_no_numbers_are_left_alone() {
+        let mut sides = scattered(3);
+        sides[1].to[0] = f64::NAN;
+        assert!(Drawn::none_of(&sides, 0.4).is_none());
+        assert!(Drawn::none_of(&[], 0.4).is_none());
+    }
+}
