@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 Command = Callable[..., Any]
 
 _ANNOTATED = file_titles(lambda reader: "annotations" in reader.takes)
+_HIDING = file_titles(lambda reader: "hidden_objects" in reader.takes)
 _CACHED = file_titles(lambda reader: reader.cached)
 
 VIEW = click.option(
@@ -65,6 +66,12 @@ ANNOTATIONS = click.option(
     help=f"{_ANNOTATED}: also draw faces of annotation that the file hides or calls supplemental.",
 )
 
+HIDDEN_OBJECTS = click.option(
+    "--hidden-objects",
+    is_flag=True,
+    help=f"{_HIDING}: also draw the objects that the document hides.",
+)
+
 
 def _uncached(ctx: click.Context, _parameter: click.Parameter, wanted: bool) -> None:
     if wanted:
@@ -109,6 +116,7 @@ CHOICE = (
     click.option("--var", metavar="NAME", help="Scripts: the variable to draw, instead of what the script shows."),
     PARAMETERS,
     ANNOTATIONS,
+    HIDDEN_OBJECTS,
     NO_CACHE,
 )
 """Which parts are drawn, and where they come from."""

@@ -47,6 +47,6 @@ class KernelError(HlrError):
     """A fault of hlr itself, in its kernel: worth a report. The command line ends with exit code 1."""
 
 
-def counted(number: int, what: str) -> str:
-    """A number with its noun: 1 edge, 2 edges."""
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+def counted(number: int, what: str, several: str = "") -> str:
+    """A number with its noun: 1 edge, 2 edges. several: the plural, where it is not the noun with an s."""
+    return f"{number} {what}" if number == 1 else f"{number} {several or what + 's'}"

@@ -12,7 +12,7 @@ from ..meter import meter
 from ..streams import result_only
 from ..telling import tell_notes
 from ..verb import Verb
-from ..view_options import ANNOTATIONS, NO_CACHE, PARAMETERS
+from ..view_options import ANNOTATIONS, HIDDEN_OBJECTS, NO_CACHE, PARAMETERS
 
 if TYPE_CHECKING:
     from hlr.drawing.model_info import ModelInfo, PartReport
@@ -33,6 +33,7 @@ _LONGEST_NAME = 40
 @click.option("--var", metavar="NAME", help="Scripts: the variable to look at, instead of what the script shows.")
 @PARAMETERS
 @ANNOTATIONS
+@HIDDEN_OBJECTS
 @NO_CACHE
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option("-q", "--quiet", is_flag=True, help="No progress on the terminal.")

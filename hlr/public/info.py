@@ -20,6 +20,7 @@ def info(
     var: str | None = None,
     parameters: Mapping[str, Parameter] | None = None,
     annotations: bool = False,
+    hidden_objects: bool = False,
 ) -> ModelInfo:
     """Parts, faces, edges, triangles, closedness and defects of a source, meshed at a two-thousandth of its size.
 
@@ -29,6 +30,7 @@ def info(
     var          the variable of a script, instead of what it shows
     parameters   values for variables of a script, as of `hlr.Options`
     annotations  count the faces of annotation in STEP files as well
+    hidden_objects  count the objects that a FreeCAD document hides as well
 
     Raises SourceError, OptionError.
 
@@ -38,9 +40,10 @@ def info(
     >>> part.name, part.solids, part.faces, part.edges, part.closed, part.defects
     ('part', 1, 7, 15, True, ())
     """
-    session = Session(
-        source, [], checked(Options(crease=crease, var=var, parameters=parameters, annotations=annotations)), progress
+    options = Options(
+        crease=crease, var=var, parameters=parameters, annotations=annotations, hidden_objects=hidden_objects
     )
+    session = Session(source, [], checked(options), progress)
     source, scene = session.source, session.scene_by_size()
     solids = {i.name: i.solids for i in source.infos()}
     parts = tuple(

@@ -21,7 +21,18 @@ MOST_THREADS = 1024
 MOST_SCALE = 1e9
 SMALLEST_FIT, LARGEST_FIT = 1e-3, 1e7
 """Millimetres."""
-SWITCHES = ("seam", "intersections", "see_through", "details", "fill", "circles", "strict", "report", "annotations")
+SWITCHES = (
+    "seam",
+    "intersections",
+    "see_through",
+    "details",
+    "fill",
+    "circles",
+    "strict",
+    "report",
+    "annotations",
+    "hidden_objects",
+)
 """Options that are yes or no."""
 NARROWEST, WIDEST = 0.01, 170.0
 """Degrees: fields of view that can be drawn."""

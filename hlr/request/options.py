@@ -75,6 +75,7 @@ class Options:
     var          the variable of a script to draw, instead of what it shows
     parameters   values for variables of a script that it sets to plain numbers, texts, True or False: {"size": 20}
     annotations  draw the faces of annotation in STEP files: those that the file hides, or calls supplemental geometry
+    hidden_objects  draw also the objects that a FreeCAD document hides
     report       measure what accuracy was reached: `Drawing.reached`; takes several times as long as the drawing
     within       seconds: draw coarsely first, then finer while time lasts, though not finer than `accuracy`
 
@@ -109,6 +110,7 @@ class Options:
     var: str | None = None
     parameters: Mapping[str, Parameter] | None = field(default=None, hash=False)
     annotations: bool = False
+    hidden_objects: bool = False
     style: StyleLike | None = None
 
 
@@ -137,6 +139,7 @@ class Wishes(TypedDict, total=False):
     var: str | None
     parameters: Mapping[str, Parameter] | None
     annotations: bool
+    hidden_objects: bool
     style: StyleLike | None
     strict: bool
     report: bool

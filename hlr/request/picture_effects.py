@@ -58,7 +58,8 @@ class PreviewOptions:
     smooth       with edges: also tangent edges, thin; None: in pictorial views
     crease       degrees: a mesh without B-rep is smooth where it folds less than this
     accuracy     None: 0.05 mm at 4 pixels a millimetre, a fifth of a pixel
-    up, perspective, threads, strict, only, hide, var, parameters, annotations   as of a drawing (`Options`)
+    up, perspective, threads, strict, only, hide, var, parameters, annotations, hidden_objects   as of
+                 `Options`
 
     >>> import hlr
     >>> options = hlr.PreviewOptions(size=(320, 240), background="transparent", shadows=True)
@@ -87,6 +88,7 @@ class PreviewOptions:
     var: str | None = None
     parameters: Mapping[str, Parameter] | None = field(default=None, hash=False)
     annotations: bool = False
+    hidden_objects: bool = False
     look: str = "shaded"
 
 
@@ -113,6 +115,7 @@ class PreviewWishes(TypedDict, total=False):
     var: str | None
     parameters: Mapping[str, Parameter] | None
     annotations: bool
+    hidden_objects: bool
     strict: bool
     look: str
 
@@ -277,5 +280,6 @@ def line_options(options: PreviewOptions, fit: tuple[float, float] | None, scale
         var=options.var,
         parameters=options.parameters,
         annotations=options.annotations,
+        hidden_objects=options.hidden_objects,
         details=True,
     )

@@ -24,6 +24,7 @@ def open_source(
     var: str | None = None,
     annotations: bool = False,
     parameters: Mapping[str, Parameter] | None = None,
+    hidden_objects: bool = False,
 ) -> Source:
     """Open anything that can be drawn, with the reader of `hlr.tables.readers` that accepts it.
 
@@ -34,13 +35,15 @@ def open_source(
         var: the variable of a script to draw, instead of what it shows.
         annotations: faces of annotation, hidden or supplemental in a STEP file, count as well.
         parameters: values for variables of a script.
+        hidden_objects: objects that a FreeCAD document hides count as well.
 
     Raises:
         SourceError: it cannot be drawn; the message says why and what to do, in one sentence.
         OptionError: var or a parameter is given, and the script has no such variable, or `thing` is no script.
     """
     if isinstance(thing, str | os.PathLike):
-        return _open_path(Path(os.fspath(thing)), {"var": var, "parameters": parameters or None}, annotations)
+        of_file = {"annotations": annotations, "hidden_objects": hidden_objects}
+        return _open_path(Path(os.fspath(thing)), {"var": var, "parameters": parameters or None}, of_file)
     missing = missing_of_source(thing)
     if not missing:
         opened: Source = thing
@@ -63,7 +66,7 @@ FEW = 4
 """An object that lacks at most this many members of the protocol is taken for an incomplete source."""
 
 
-def _open_path(path: Path, of_script: Mapping[str, Any], annotations: bool) -> Source:
+def _open_path(path: Path, of_script: Mapping[str, Any], of_file: Mapping[str, bool]) -> Source:
     from hlr.source.file_checks import check_readable
 
     reader = of_ending(path.suffix)
@@ -72,14 +75,14 @@ def _open_path(path: Path, of_script: Mapping[str, Any], annotations: bool) -> S
         ending = f'the ending "{path.suffix}"' if path.suffix else "no ending"
         raise SourceError(f"{path.name} has {ending}, which hlr cannot read: use one of {' '.join(endings())}.")
     _only_of_scripts(of_script, reader.takes, path.name)
-    given = {**of_script, "annotations": annotations}
+    given = {**of_script, **of_file}
     if not reader.cached:
         return _opened(reader, path, path.name, **given)
     from hlr.source.cad.cached_files import read_through_cache
 
-    matter = annotations and "annotations" in reader.takes
+    all_of_it = any(asked and name in reader.takes for name, asked in of_file.items())
     return read_through_cache(
-        path, reader.kind, matter, lambda: cast("BrepSource", _opened(reader, path, path.name, **given))
+        path, reader.kind, all_of_it, lambda: cast("BrepSource", _opened(reader, path, path.name, **given))
     )
 
 

@@ -39,6 +39,10 @@ class PartSelection(Protocol):
     def annotations(self) -> bool:
         """Whether faces of annotation are read as well."""
 
+    @property
+    def hidden_objects(self) -> bool:
+        """Whether objects that a document hides are read as well."""
+
 
 def open_selected(thing: Any, options: PartSelection) -> Source:
     """Open anything that `open_source` opens, with the selected parts only.
@@ -47,7 +51,7 @@ def open_selected(thing: Any, options: PartSelection) -> Source:
         SourceError: it cannot be opened.
         OptionError: a pattern matches no part, or no part is left.
     """
-    source = open_source(thing, options.var, options.annotations, options.parameters)
+    source = open_source(thing, options.var, options.annotations, options.parameters, options.hidden_objects)
     only, hide = tuple(options.only), tuple(options.hide)
     if not (only or hide) or getattr(source, "choice", None) == (only, hide):
         return source

@@ -29,8 +29,8 @@ class Reader:
     entry     "module:function": opens a file, given by its path, or an object. The module is imported when it is used
     endings   of the files that it reads, in small letters; none for objects in memory
     fits      "module:function": of objects in memory, whether it opens this one
-    takes     what the entry is given besides, by name: kind; var and parameters, of a script; annotations, whether
-              faces of annotation are read
+    takes     what the entry is given besides, by name: kind; var and parameters, of a script; annotations and
+              hidden_objects, whether what a file hides is read
     brep      sources have surfaces and edges, not only triangles
     noun      one such source, for people: "a STEP file"
     cached    what was read is kept, and is not read again (of a `hlr.source.cad.brep_source.BrepSource` alone)
@@ -80,6 +80,7 @@ READERS: dict[str, Reader] = {
         _cad_file("STEP", "step", "hlr.source.cad.step:open_step", (".step", ".stp"), takes=("annotations",)),
         _cad_file("IGES", "iges", "hlr.source.cad.iges:open_iges", (".iges", ".igs")),
         _cad_file("BREP", "brep", "hlr.source.cad.brep_file:open_brep", (".brep", ".brp")),
+        _cad_file("FreeCAD", "fcstd", "hlr.source.freecad.fcstd:open_fcstd", (".fcstd",), takes=("hidden_objects",)),
         Reader(
             "CadQuery and build123d scripts",
             "script",

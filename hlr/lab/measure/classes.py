@@ -58,7 +58,8 @@ def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Dr
     if drawing.request is None:
         raise OptionError("this drawing does not know what it was asked for: measure one that hlr.draw has made")
     started = perf_counter()
-    opened = open_source(source, annotations=drawing.request.options.annotations)
+    asked = drawing.request.options
+    opened = open_source(source, annotations=asked.annotations, hidden_objects=asked.hidden_objects)
     paper = Paper.of(drawing)
     forms = (written(drawing), written(drawing, cubic=True))
     meshes = Errors(None, why="the model is no mesh")

@@ -35,6 +35,7 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     var: str | None = None,
     parameters: Mapping[str, Parameter] | None = None,
     annotations: bool = False,
+    hidden_objects: bool = False,
     progress: Progress | None = None,
 ) -> list[Timing]:
     """Time every method on every scene.
@@ -45,7 +46,7 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     limit   seconds of processor time for each method and scene
     methods names of the methods to time: "method", or "method, variant"; None: all
 
-    only, hide, var, parameters, annotations  which parts of the source, as of a drawing (`hlr.Options`)
+    only, hide, var, parameters, annotations, hidden_objects  which parts of the source, as of a drawing (`hlr.Options`)
 
     Raises OptionError, SourceError, ViewError.
 
@@ -55,10 +56,19 @@ def compare_methods(  # noqa: PLR0913 - one for each thing a user may ask
     ('z-buffer', 10, True)
     """
     chosen = checked(
-        Options(only=tuple(only), hide=tuple(hide), var=var, parameters=parameters, annotations=annotations)
+        Options(
+            only=tuple(only),
+            hide=tuple(hide),
+            var=var,
+            parameters=parameters,
+            annotations=annotations,
+            hidden_objects=hidden_objects,
+        )
     )
-    if source is None and (only or hide or var is not None or parameters or annotations):
-        raise OptionError("only, hide, var, parameters and annotations choose parts of a model: name one")
+    if source is None and (only or hide or var is not None or parameters or annotations or hidden_objects):
+        raise OptionError(
+            "only, hide, var, parameters, annotations and hidden_objects choose parts of a model: name one"
+        )
     size = checked_size(size)
     if not limit > 0.0:
         raise OptionError(f"a limit of {limit!r} seconds leaves no time: give a positive number")

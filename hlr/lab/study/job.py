@@ -41,7 +41,7 @@ class Job:
     folder    where lines are kept for the judge; name: their file name
     runs      how often a contestant draws; fewer if that would take too long
     limit     seconds of processor time for all runs together
-    only, hide, var, parameters, annotations   which parts, as for a drawing (`hlr.Options`)
+    only, hide, var, parameters, annotations, hidden_objects   which parts, as for a drawing (`hlr.Options`)
     """
 
     work: str
@@ -59,6 +59,7 @@ class Job:
     var: str | None = None
     parameters: Mapping[str, Parameter] | None = None
     annotations: bool = False
+    hidden_objects: bool = False
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -77,13 +77,14 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
     var: str | None = None,
     parameters: Mapping[str, Parameter] | None = None,
     annotations: bool = False,
+    hidden_objects: bool = False,
     into: Study | None = None,
     progress: Progress | None = None,
 ) -> Study:
     """Measure all points, each `runs` times in a process of its own.
 
     scale: paper to model; None: as large as fits into `fit` (an A4 sheet). limit: processor seconds for each point.
-    only, hide, var, parameters, annotations: which parts, as for a drawing (`hlr.Options`).
+    only, hide, var, parameters, annotations, hidden_objects: which parts, as for a drawing (`hlr.Options`).
     into: a Study that is filled step by step, so that finished results survive an interruption.
 
     Raises OptionError, and SourceError where the model cannot be drawn at all.
@@ -101,6 +102,7 @@ def study(  # noqa: PLR0913 - one for each thing a user may ask
             "var": var,
             "parameters": parameters,
             "annotations": annotations,
+            "hidden_objects": hidden_objects,
         }
         first = Job("look", source, view, scale=scale, fit=fit or A4, limit=PATIENCE * limit, **chosen)
         told("look", 0.0)

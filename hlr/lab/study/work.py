@@ -85,6 +85,7 @@ def _options(job: Job, smooth: bool = False, **others: Any) -> Options:
         var=job.var,
         parameters=job.parameters,
         annotations=job.annotations,
+        hidden_objects=job.hidden_objects,
         details=True,
         **others,
     )

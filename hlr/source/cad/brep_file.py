@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
+from typing import Any
 
 from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
@@ -15,22 +17,37 @@ _ROOT_RECORD = re.compile(rb"\*\s+[-+ie]\d+ \d+\s*(?:\d+\s*)?\0?\s*$")
 """The end of the last list of sub-shapes, and the root shape: orientation and number, then its location."""
 
 
+def is_binary(data: bytes) -> bool:
+    """Whether the content of a BREP file is binary."""
+    return b"Open CASCADE Topology V" in data[:200]
+
+
 def open_brep(path: Path) -> BrepSource:
     """A BREP file.
 
     Raises:
         SourceError: not a BREP file, broken, or holding nothing to draw.
     """
-    with path.open("rb") as file:
-        head = file.read(200)
-    binary = b"Open CASCADE Topology V" in head
+    try:
+        shape = read_brep(path.read_bytes())
+    except ValueError as error:
+        raise SourceError(f"{path.name} {error}.") from None
+    return build_source(path.name, "brep", [Leaf(shape, path.stem)])
+
+
+def read_brep(data: bytes) -> Any:
+    """The TopoDS_Shape of a BREP file's content, text or binary.
+
+    Raises:
+        ValueError: it is none, or broken; the message says why, after the file's name.
+        SourceError: OpenCASCADE is missing.
+    """
+    head, binary = data[:200], is_binary(data)
     if not binary and b"DBRep_DrawableShape" not in head and b"CASCADE Topology V" not in head:
-        raise SourceError(f"{path.name} is not a BREP file (it does not begin with its header): check the file.")
-    with path.open("rb") as file:
-        file.seek(max(0, path.stat().st_size - 200))
-        # OpenCASCADE's text reader never returns from a file whose last line, the root shape, is missing.
-        if not binary and _ROOT_RECORD.search(file.read()) is None:
-            raise SourceError(f"{path.name} cannot be read as BREP: it is cut short; export or download it again.")
+        raise ValueError("is not a BREP file (it does not begin with its header): check the file")
+    # OpenCASCADE's text reader never returns from a file whose last line, the root shape, is missing.
+    if not binary and _ROOT_RECORD.search(data[-200:]) is None:
+        raise ValueError("cannot be read as BREP: it is cut short; export or download it again")
     load_occt()
     from OCP.BinTools import BinTools
     from OCP.BRep import BRep_Builder
@@ -41,11 +58,11 @@ def open_brep(path: Path) -> BrepSource:
     try:
         with silence_stdout():
             if binary:
-                BinTools.Read_s(shape, str(path))
+                BinTools.Read_s(shape, io.BytesIO(data))
             else:
-                BRepTools.Read_s(shape, str(path), BRep_Builder())
+                BRepTools.Read_s(shape, io.BytesIO(data), BRep_Builder())
     except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
-        raise SourceError(f"{path.name} cannot be read as BREP ({type(error).__name__}): the file is broken.") from None
+        raise ValueError(f"cannot be read as BREP ({type(error).__name__}): the file is broken") from None
     if shape.IsNull():
-        raise SourceError(f"{path.name} cannot be read as BREP: the file is broken or incomplete.")
-    return build_source(path.name, "brep", [Leaf(shape, path.stem)])
+        raise ValueError("cannot be read as BREP: the file is broken or incomplete")
+    return shape

@@ -9,13 +9,13 @@ from pathlib import Path
 from hlr.common.packages import bindings
 
 
-def cache_key(path: Path, kind: str, annotations: bool) -> str:
+def cache_key(path: Path, kind: str, all_of_it: bool) -> str:
     """40 hexadecimal digits: a digest of a file's content and name, the kind, the options, and the reading code.
 
-    The name counts because nameless parts are named after the file.
+    all_of_it: what the file hides was read as well. The name counts because nameless parts are named after the file.
     """
     digest = blake2b(digest_size=20)
-    for text in (*_reader_versions(), kind, path.name, str(annotations)):
+    for text in (*_reader_versions(), kind, path.name, str(all_of_it)):
         digest.update(text.encode("utf-8", "surrogateescape") + b"\0")
     with path.open("rb") as file:
         while piece := file.read(1 << 20):

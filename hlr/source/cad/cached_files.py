@@ -35,7 +35,7 @@ from hlr.source.cad.source_builder import with_appearance
 from hlr.source.model import Appearance
 
 
-def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[[], BrepSource]) -> BrepSource:
+def read_through_cache(path: Path, kind: str, all_of_it: bool, read: Callable[[], BrepSource]) -> BrepSource:
     """The source of a file: from the cache, else from `read`, whose result is cached where that is possible.
 
     Raises:
@@ -48,7 +48,7 @@ def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[
         source.reading = f"{path.name} was read in {_seconds_since(started)}; the cache is off"
         return source
     store = Store(cache_folder, most_bytes())
-    key = cache_key(path, kind, annotations)
+    key = cache_key(path, kind, all_of_it)
     entry = store.read(key)
     damage = ""
     if entry is not None:
@@ -63,7 +63,7 @@ def read_through_cache(path: Path, kind: str, annotations: bool, read: Callable[
     source = read()
     source.reading = f"{damage}{path.name} was read in {_seconds_since(started)}"
     try:
-        if key != cache_key(path, kind, annotations):
+        if key != cache_key(path, kind, all_of_it):
             raise NotKeptError("the file has changed meanwhile")
         store.write(key, packed(key, *to_entry(source)))
         source.reading += f" and is in the cache now: {store.path(key)}"

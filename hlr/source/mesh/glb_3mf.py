@@ -123,9 +123,9 @@ def _check_glb(path: Path, head: bytes, size: int) -> None:
 _PACKED = {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization_compressed"}
 
 
-def _check_3mf(path: Path, head: bytes, size: int) -> None:
+def _check_3mf(path: Path, head: bytes, _size: int) -> None:
     from hlr.source.mesh.zip_checks import check_3mf_archive
 
     if not head.startswith(b"PK"):
         raise wrong_format(path, "a 3MF file (they are ZIP archives)", head)
-    check_3mf_archive(path, size)
+    check_3mf_archive(path)

@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-import zipfile
-import zlib
 from pathlib import Path
 
 from hlr.errors import SourceError
-
-MAX_EXPANDED = 4 << 30
-"""Bytes that a 3MF archive may unpack to."""
-
-MAX_RATIO = 300
-"""Ratio of compression that only a ZIP bomb exceeds; plain XML does not."""
-
+from hlr.source.archive import declares_entities, open_archive
 
 MAX_PLACED = 1_000_000
 """Bodies that a file may place: nested components can double them with every level."""
@@ -24,34 +16,28 @@ _TAG = re.compile(rb"<(?:\w+:)?(object|component|item)\b([^>]*)>")
 _ID = re.compile(rb"\b(?:object)?id\s*=\s*[\"'](\d+)")
 
 
-def check_3mf_archive(path: Path, size: int) -> None:
-    """Check that a 3MF archive of `size` bytes can be unpacked, parsed and placed within the limits.
+def check_3mf_archive(path: Path) -> None:
+    """Check that a 3MF archive can be unpacked, parsed and placed within the limits.
 
     Raises:
         SourceError: it cannot; the message says why.
     """
-    try:
-        with zipfile.ZipFile(path) as archive:
-            entries = archive.infolist()
-            total = sum(entry.file_size for entry in entries)
-            if total > MAX_EXPANDED or (total > 64 << 20 and total > MAX_RATIO * size):
-                raise SourceError(f"{path.name} would unpack to {total >> 20} MiB: it is refused as a ZIP bomb.")
-            models = [entry for entry in entries if entry.filename.lower().endswith(".model")]
-            if not any("3d/3dmodel.model" in entry.filename.lower() for entry in entries):
-                raise SourceError(f"{path.name} is a ZIP archive without 3D/3dmodel.model: it is no 3MF file.")
-            for entry in models:
-                text = archive.read(entry)
-                prolog = _prolog(text[: 1 << 20])
-                if "<!DOCTYPE" in prolog or "<!ENTITY" in prolog:
-                    raise SourceError(f"{path.name} declares XML entities, which no 3MF file needs: it is refused.")
-                if "<" not in prolog:
-                    raise SourceError(f"{path.name} cannot be read as 3MF: {entry.filename} does not begin as XML.")
-                if _placed(text) > MAX_PLACED:
-                    raise SourceError(
-                        f"{path.name} places more than {MAX_PLACED} bodies, or a body within itself: it is refused."
-                    )
-    except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError) as error:
-        raise SourceError(f"{path.name} cannot be read as 3MF: the archive is broken or encrypted ({error}).") from None
+    with open_archive(path, "3MF") as archive:
+        entries = archive.infolist()
+        models = [entry for entry in entries if entry.filename.lower().endswith(".model")]
+        if not any("3d/3dmodel.model" in entry.filename.lower() for entry in entries):
+            raise SourceError(f"{path.name} is a ZIP archive without 3D/3dmodel.model: it is no 3MF file.")
+        for entry in models:
+            text = archive.read(entry)
+            prolog = _prolog(text[: 1 << 20])
+            if "<!DOCTYPE" in prolog or "<!ENTITY" in prolog:
+                raise declares_entities(path, "3MF")
+            if "<" not in prolog:
+                raise SourceError(f"{path.name} cannot be read as 3MF: {entry.filename} does not begin as XML.")
+            if _placed(text) > MAX_PLACED:
+                raise SourceError(
+                    f"{path.name} places more than {MAX_PLACED} bodies, or a body within itself: it is refused."
+                )
 
 
 def _prolog(start: bytes) -> str:

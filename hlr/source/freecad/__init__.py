@@ -1,0 +1,1 @@
+"""FreeCAD's documents, read without FreeCAD."""

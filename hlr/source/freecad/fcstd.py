@@ -1,0 +1,53 @@
+"""FreeCAD documents (.FCStd) as sources: what they show, read without FreeCAD."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hlr.drawing.notes import Note
+from hlr.errors import SourceError, counted
+from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.source_builder import build_source
+from hlr.source.freecad.document import open_document
+from hlr.source.freecad.properties import DamagedError
+from hlr.source.freecad.shapes import Shapes
+from hlr.source.freecad.tree import TooManyError, Tree
+
+
+def open_fcstd(path: Path, hidden_objects: bool = False) -> BrepSource:
+    """A FreeCAD document. hidden_objects: what it does not show is read as well.
+
+    Raises:
+        SourceError: it is no FreeCAD document, broken or hostile, or shows nothing that can be drawn.
+    """
+    load_occt()
+    with open_document(path) as document:
+        try:
+            tree = Tree(document, Shapes(), hidden_objects)
+        except TooManyError as error:
+            raise SourceError(f"{path.name} {error}: it is refused.") from None
+        except DamagedError as error:
+            raise SourceError(f"{path.name} cannot be read as a FreeCAD document: {error}.") from None
+    notes = list(tree.notes)
+    if tree.left_hidden:
+        notes.append(_hidden_note(tree.left_hidden))
+    if not tree.leaves and not tree.sketches:
+        raise SourceError(f"{path.name} {_why_empty(tree)}: there is nothing to draw.")
+    if tree.leaves and tree.sketches:
+        sketches = f"{counted(len(tree.sketches), 'sketch', 'sketches')} left out"
+        notes.append(Note("free-edges-left-out", f"{sketches}: a hidden-line drawing needs faces."))
+    return build_source(path.name, "fcstd", tree.leaves or tree.sketches, notes)
+
+
+def _hidden_note(count: int) -> Note:
+    what = f"{counted(count, 'object')} that the document hides left out"
+    return Note("hidden-objects-left-out", f"{what}: --hidden-objects draws them (in Python, hidden_objects=True).")
+
+
+def _why_empty(tree: Tree) -> str:
+    if tree.notes:
+        return f"shows no shapes that can be drawn ({tree.notes[0].text.rstrip('.')})"
+    if tree.left_hidden:
+        return "hides all its objects (--hidden-objects draws them)"
+    return "holds no shapes"

@@ -1,0 +1,151 @@
+"""Shapes of a FreeCAD document: read once each, and placed, scaled and coloured as leaves of an assembly."""
+
+from __future__ import annotations
+
+import io
+import math
+import struct
+from typing import Any
+
+import numpy as np
+
+from hlr.common.types import Color, Floats
+from hlr.source.cad.brep_file import is_binary, read_brep
+from hlr.source.cad.parts import Leaf
+from hlr.source.cad.shapes import location_matrix, sub_shapes
+from hlr.source.freecad.colors import Look
+from hlr.source.freecad.document import Object
+from hlr.source.transforms import IDENTITY, MatrixRows, compose
+
+Colors = tuple[dict[Any, Color], dict[Any, float]]
+"""Colours of faces, and opacities below one, by TShape."""
+
+
+class Shapes:
+    """The shapes of a document. What several instances have in common is one shape: read, scaled and coloured once."""
+
+    def __init__(self) -> None:
+        self._read: dict[str, Any] = {}
+        self._scaled: dict[tuple[str, bytes], Any] = {}
+        self._colors: dict[tuple[str, bytes], Colors] = {}
+
+    def of(self, thing: Object) -> Any:
+        """The TopoDS_Shape of an object, with its own placement; None where it has none.
+
+        Raises:
+            ValueError: it is broken; the message says why.
+        """
+        if thing.name not in self._read:
+            data = thing.values.content("Shape")
+            if data is None:
+                raise ValueError("is missing in the document")
+            self._read[thing.name] = (read_binary if is_binary(data) else read_brep)(data) if data else None
+        return self._read[thing.name]
+
+    def leaf(self, thing: Object, name: str, place: MatrixRows, placed: bool, look: Look | None) -> Leaf:
+        """An instance of an object's shape. placed: by its own placement as well, inside `place`."""
+        shape = self.of(thing)
+        whole = compose(place, location_matrix(shape.Location()) if placed else IDENTITY)
+        scale, rest = split_scale(whole)
+        key = (thing.name, b"" if scale is None else scale.tobytes())
+        if key not in self._scaled:
+            self._scaled[key] = _scaled(_moved(shape, None), scale)
+        bare = self._scaled[key]
+        leaf = Leaf(_moved(bare, rest), name)
+        if look is not None:
+            leaf.color, leaf.opacity = look.whole[:3], look.whole[3]
+            if look.faces:
+                leaf.colors, leaf.opacities = self._face_colors(key, bare, look)
+        return leaf
+
+    def _face_colors(self, key: tuple[str, bytes], shape: Any, look: Look) -> Colors:
+        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
+
+        if key not in self._colors:
+            faces = [face.TShape() for face in sub_shapes(shape, Kind.TopAbs_FACE)]
+            # A list of another length is of an earlier shape: FreeCAD does not show it either.
+            pairs = list(zip(faces, look.faces, strict=True)) if len(faces) == len(look.faces) else []
+            self._colors[key] = (
+                {face: rgba[:3] for face, rgba in pairs},
+                {face: rgba[3] for face, rgba in pairs if rgba[3] < 1.0},
+            )
+        return self._colors[key]
+
+
+def read_binary(data: bytes) -> Any:
+    """The TopoDS_Shape of a binary BREP file of FreeCAD's: after the tables it names shape, location and orientation.
+
+    Raises:
+        ValueError: it is broken; the message says why.
+    """
+    from OCP.BinTools import BinTools_ShapeSet
+    from OCP.TopAbs import TopAbs_Orientation
+
+    from hlr.source.cad.occt_import import load_occt, silence_stdout
+
+    load_occt()
+    tables = BinTools_ShapeSet()
+    number, place, orientation = struct.unpack("<3i", data[-12:]) if len(data) > 12 else (0, 0, 0)
+    try:
+        with silence_stdout():
+            tables.Read(io.BytesIO(data))
+            if not 1 <= number <= tables.NbShapes() or not 0 <= place <= tables.Locations().NbLocations():
+                raise ValueError("its root is missing")
+            shape = tables.Shape(number)
+            shape.Location(tables.Locations().Location(place), False)
+            shape.Orientation(list(TopAbs_Orientation.__members__.values())[orientation])
+    except Exception as error:  # OpenCASCADE's exceptions derive from Exception alone
+        raise ValueError(f"cannot be read as BREP ({type(error).__name__}): the file is broken") from None
+    return shape
+
+
+def split_scale(rows: MatrixRows) -> tuple[Floats | None, MatrixRows]:
+    """A placement as a scaling (3, 3) of the shape, None where there is none, and what is left: a turn and a shift."""
+    if rows is IDENTITY:
+        return None, rows
+    matrix = np.array(rows).reshape(3, 4)
+    linear, shift = matrix[:, :3], matrix[:, 3]
+    size = math.copysign(abs(float(np.linalg.det(linear))) ** (1 / 3), float(np.linalg.det(linear)))
+    if size == 0.0:
+        raise ValueError("has no volume at a scale of zero")
+    turn = linear / size
+    if np.abs(turn @ turn.T - np.eye(3)).max() < 1e-9:
+        if abs(size - 1.0) < 1e-9:
+            return None, rows
+        return np.eye(3) * round(size, 12), _rows(turn, shift)
+    # Scaled differently along its axes: what is left is a shift alone.
+    return np.round(linear, 12), _rows(np.eye(3), shift)
+
+
+def _rows(linear: Floats, shift: Floats) -> MatrixRows:
+    return tuple(np.column_stack((linear, shift)).ravel().tolist())
+
+
+def _scaled(shape: Any, scale: Floats | None) -> Any:
+    """The shape itself made larger or smaller, and not only placed so: OpenCASCADE's tolerances would not follow."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_GTransform, BRepBuilderAPI_Transform
+    from OCP.gp import gp_GTrsf, gp_Trsf
+
+    if scale is None:
+        return shape
+    if np.array_equal(scale, np.eye(3) * scale[0, 0]):
+        even = gp_Trsf()
+        even.SetScaleFactor(float(scale[0, 0]))
+        return BRepBuilderAPI_Transform(shape, even, True).Shape()
+    uneven = gp_GTrsf()
+    for i in range(3):
+        for j in range(3):
+            uneven.SetValue(i + 1, j + 1, float(scale[i, j]))
+    return BRepBuilderAPI_GTransform(shape, uneven, True).Shape()
+
+
+def _moved(shape: Any, rows: MatrixRows | None) -> Any:
+    """The shape at this placement, a turn and a shift, instead of its own."""
+    from OCP.gp import gp_Trsf
+    from OCP.TopLoc import TopLoc_Location
+
+    if rows is None or rows is IDENTITY:
+        return shape.Located(TopLoc_Location(), False)
+    move = gp_Trsf()
+    move.SetValues(*rows)
+    return shape.Located(TopLoc_Location(move), False)

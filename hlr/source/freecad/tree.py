@@ -1,0 +1,228 @@
+"""The tree of a FreeCAD document: groups, bodies, links and arrays, as leaves placed as FreeCAD means it.
+
+A leaf is named by the labels on the way to it: Trolley/Axle/Wheel. A link stands for what it refers to, and its own
+label takes the place of that one's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from hlr.drawing.notes import Note, NoteCode
+from hlr.source.cad.parts import Leaf
+from hlr.source.freecad.colors import Look, look_of, look_of_link
+from hlr.source.freecad.document import Document, Object
+from hlr.source.freecad.shapes import Shapes
+from hlr.source.transforms import IDENTITY, MatrixRows, compose
+
+MAX_DEPTH = 100
+"""Levels of a tree that are followed."""
+
+MAX_LEAVES = 200_000
+"""Instances of shapes in one document: arrays of arrays have no other end."""
+
+
+class TooManyError(ValueError):
+    """A document that holds more than can be drawn; the message says how many."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Context:
+    """What an object has from those above it.
+
+    place   placement of all above
+    placed  its own placement counts as well
+    names   labels on the way to it
+    above   the names of the objects on the way to it: a link to one of them would have no end
+    look    a colour that a link gives
+    label   a label that takes the place of its own
+    """
+
+    place: MatrixRows = IDENTITY
+    placed: bool = True
+    names: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()
+    look: Look | None = None
+    label: str = ""
+
+
+class Tree:
+    """The tree of a document, flattened into `leaves`. `notes`: what was left out, and why.
+
+    hidden: objects that the document does not show count as well, unless others are made of them.
+    """
+
+    def __init__(self, document: Document, shapes: Shapes, hidden: bool) -> None:
+        self.document, self.shapes = document, shapes
+        self.leaves: list[Leaf] = []
+        self.sketches: list[Leaf] = []
+        self.notes: list[Note] = []
+        self.left_hidden = 0
+        self._hidden = hidden
+        self._made_of = set(_ingredients(document))
+        inside = {name for thing in document.objects.values() for name in _members(thing)}
+        for thing in document.objects.values():
+            if thing.name not in inside and self._is_shown(thing):
+                self._visit(thing, _Context())
+
+    def _is_shown(self, thing: Object) -> bool:
+        if thing.name in self._made_of and (self._hidden or not self.document.has_view):
+            # Without the user interface FreeCAD calls everything visible.
+            return thing.visible and self.document.has_view
+        shown = thing.visible or self._hidden
+        self.left_hidden += not shown and thing.name not in self._made_of and thing.type not in _AIDS
+        return shown
+
+    def _visit(self, thing: Object, context: _Context) -> None:
+        label = context.label or thing.label
+        if thing.name in context.above or len(context.above) >= MAX_DEPTH:
+            self._note(f'"{label}" leads back to itself and was left out.')
+            return
+        inner = replace(
+            context, names=(*context.names, label), above=(*context.above, thing.name), placed=True, label=""
+        )
+        if _is_link(thing):
+            self._link(
+                thing, replace(inner, place=_own_place(thing, context), look=context.look or look_of_link(thing.view))
+            )
+        elif thing.type in _AIDS:
+            return
+        elif (members := _members(thing)) and thing.type not in _BODIES:
+            moves = _MOVING & thing.extensions or thing.type in _MOVING_TYPES
+            place = _own_place(thing, context) if moves else context.place
+            self._members(members, replace(inner, place=place))
+        elif "Shape" in thing.values:
+            self._shape(thing, context, "/".join(inner.names))
+        elif "Mesh" in thing.values:
+            self._note(f'"{label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.')
+
+    def _members(self, names: list[str], context: _Context) -> None:
+        for name in names:
+            thing = self.document.objects.get(name)
+            if thing is not None and self._is_shown(thing):
+                self._visit(thing, context)
+
+    def _link(self, thing: Object, context: _Context) -> None:
+        """A link, an array of links, or a group of links; context: that of what is in it."""
+        values, label = thing.values, context.names[-1]
+        elements = values.links("ElementList")
+        shown = values.bits("VisibilityList")
+        if elements:
+            for number, name in enumerate(elements):
+                element = self.document.objects.get(name)
+                if element is not None and (self._hidden or shown[number : number + 1] != "0"):
+                    self._visit(element, context)
+            return
+        target = self._target(thing, label)
+        if target is None:
+            return
+        # The label of a link takes the place of that of its target.
+        context = replace(context, names=context.names[:-1], label=label, placed=values.flag("LinkTransform", False))
+        count = values.count("ElementCount") or values.count("Count")
+        if not count:
+            self._visit(target, context)
+            return
+        places, scales = values.placements("PlacementList"), values.vectors("ScaleList")
+        for number in range(count):
+            if shown[number : number + 1] == "0" and not self._hidden:
+                continue
+            place = compose(context.place, places[number]) if number < len(places) else context.place
+            if number < len(scales):
+                place = compose(place, _scaling(*scales[number]))
+            self._visit(target, replace(context, place=place))
+
+    def _target(self, thing: Object, label: str) -> Object | None:
+        """What a link refers to; None, with a note, where that cannot be drawn."""
+        for name in _TARGETS:
+            if name not in thing.values:
+                continue
+            if other := thing.values.other_document(name):
+                self._note(f'"{label}" is kept in another document, {other}, and was left out: draw that one too.')
+                return None
+            if thing.values.sub_names(name):
+                self._note(f'"{label}" is a link to a part of an object and was left out.')
+                return None
+            target = self.document.objects.get(thing.values.link(name))
+            if target is not None:
+                return target
+        self._note(f'"{label}" is a link to nothing and was left out.')
+        return None
+
+    def _shape(self, thing: Object, context: _Context, name: str) -> None:
+        if len(self.leaves) >= MAX_LEAVES:
+            raise TooManyError(f"places more than {MAX_LEAVES} shapes")
+        # A body shows its tip, in the colours of the tip.
+        tip = self.document.objects.get(thing.values.link("Tip")) if thing.type in _BODIES else None
+        try:
+            if self.shapes.of(thing) is None:  # as of an empty body
+                return
+            look = context.look or look_of((tip or thing).view)
+            leaf = self.shapes.leaf(thing, name, context.place, context.placed, look)
+        except ValueError as error:
+            self._note(f'"{name}" was left out: its shape {error}.')
+            return
+        (self.sketches if thing.type in _SKETCHES else self.leaves).append(leaf)
+
+    def _note(self, text: str, code: NoteCode = "part-left-out") -> None:
+        note = Note(code, text)
+        if note not in self.notes:
+            self.notes.append(note)
+
+
+def _own_place(thing: Object, context: _Context) -> MatrixRows:
+    """The placement of what is in a group or a link: its own after that of all above, then its scale."""
+    values = thing.values
+    own = values.placement("LinkPlacement" if "LinkPlacement" in values else "Placement")
+    place = compose(context.place, own) if context.placed else context.place
+    if not _is_link(thing):
+        return place
+    even = values.number("Scale", 1.0)
+    scale = values.vector("ScaleVector", (even, even, even))
+    return place if scale == (1.0, 1.0, 1.0) else compose(place, _scaling(*scale))
+
+
+def _scaling(x: float, y: float, z: float) -> MatrixRows:
+    return (x, 0.0, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, z, 0.0)
+
+
+def _is_link(thing: Object) -> bool:
+    return any(extension.startswith("App::Link") for extension in thing.extensions) or thing.type in _LINKS
+
+
+def _members(thing: Object) -> list[str]:
+    """What is in a group, or shown as an element of a link."""
+    return thing.values.links("ElementList" if _is_link(thing) else "Group")
+
+
+def _ingredients(document: Document) -> Iterator[str]:
+    """The names of the objects that others are made of: the tool of a cut, the profile of an extrusion."""
+    for thing in document.objects.values():
+        if "Shape" in thing.values and thing.type not in _COPIES:
+            for name in _INGREDIENTS:
+                yield from thing.values.links(name)
+
+
+_LINKS = {"App::Link", "App::LinkElement", "App::LinkGroup"}
+_TARGETS = ("LinkedObject", "Base")
+"""What a link refers to; Base: of Draft's arrays of links."""
+
+_BODIES = {"PartDesign::Body"}
+"""They are groups with a shape of their own, which is that of their tip."""
+
+_MOVING_TYPES = {"App::Part", "Assembly::AssemblyObject"}
+_MOVING = {
+    f"App::{kind}{python}" for kind in ("GeoFeatureGroupExtension", "OriginGroupExtension") for python in ("", "Python")
+}
+"""Extensions of groups that move what is in them; other groups are folders."""
+
+_SKETCHES = {"Sketcher::SketchObject", "Sketcher::SketchObjectPython"}
+_AIDS = {
+    *(f"PartDesign::{kind}" for kind in ("Plane", "Line", "Point", "CoordinateSystem")),
+    *(f"App::{kind}" for kind in ("Origin", "Plane", "Line", "Point")),
+}
+"""Aids for design: shown in the view, but no part of the model."""
+
+_INGREDIENTS = ("Base", "Tool", "Shapes", "Links", "Source", "Sections", "Spine", "BaseFeature", "Objects")
+_COPIES = {"Part::Mirroring", "Part::FeaturePython", "Part::Part2DObjectPython"}
+"""What they are made of stays visible beside them: mirrors, clones."""
