@@ -1,5 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use rayon::prelude::*;
+
 use super::*;
 use crate::mesh::tests::shapes::{Random, circle, frame, loops, surface};
 use crate::mesh::{Progress, mesh_face};
@@ -7,7 +9,7 @@ use crate::mesh::{Progress, mesh_face};
 /// The greatest gap, sampled at many places of each triangle: along the mean normal of its corners or along its own
 /// normal, whichever gap is less.
 fn sampled(surface: &Surface, mesh: &FaceMesh) -> f64 {
-    const STEPS: u32 = 12;
+    const STEPS: u32 = 9;
     let of_triangle = |t: &[u32; 3]| {
         let uv = t.map(|i| mesh.uv[i as usize]);
         let points = uv.map(|p| surface.point(p));
@@ -43,7 +45,7 @@ fn patch(random: &mut Random, weights: f64) -> Surface {
 
 #[test]
 fn a_bound_is_never_less_than_the_error_and_comes_near_it() {
-    let deflection = 4e-3;
+    let deflection = 8e-3;
     let mut random = Random(11);
     let square = || frame([0.0, 0.0], [1.0, 1.0], 60, 60);
     let line = [1.0, 1.0, 0.2, 0.0, 1.0, 0.0, 0.3, 0.0, 0.0, 0.0];
@@ -70,10 +72,10 @@ fn a_bound_is_never_less_than_the_error_and_comes_near_it() {
         (patch(&mut random, 0.5), square()),
         (patch(&mut random, 3.0), square()),
     ];
-    for (surface, border) in cases {
+    cases.into_par_iter().for_each(|(surface, border)| {
         let mesh = mesh_face(&surface, &loops(&surface, &[border]), deflection, 0.5, &Progress::free()).unwrap();
         let real = sampled(&surface, &mesh);
-        for asked in [deflection, 0.3 * deflection] {
+        for asked in [deflection, 0.6 * deflection] {
             let found = certify(&surface, &mesh, asked);
             assert_eq!(found.unproved, 0);
             assert!(found.bound >= real * (1.0 - 1e-9), "{surface:?}: {} {real}", found.bound);
@@ -81,8 +83,8 @@ fn a_bound_is_never_less_than_the_error_and_comes_near_it() {
             assert_eq!(found.above > 0, found.bound > asked * (1.0 + 1e-9));
         }
         assert_eq!(certify(&surface, &mesh, deflection).above, 0, "{surface:?}");
-        assert!(certify(&surface, &mesh, 0.3 * real).above > 0);
-    }
+        assert!(certify(&surface, &mesh, 0.6 * real).above > 0);
+    });
 }
 
 #[test]

@@ -101,7 +101,7 @@ mod tests {
 
     fn nearest(a: &Side, b: &Side) -> f64 {
         let at = |s: &Side, u: f64| [0, 1].map(|k| s.from[k] + u * (s.to[k] - s.from[k]));
-        let places = (0..=400).map(|i| f64::from(i) / 400.0);
+        let places = (0..=100).map(|i| f64::from(i) / 100.0);
         let to_b = |p: [f64; 2]| {
             let (x, y) = (b.to[0] - b.from[0], b.to[1] - b.from[1]);
             let u = (x * (p[0] - b.from[0]) + y * (p[1] - b.from[1])) / (x * x + y * y);

@@ -245,7 +245,7 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             ((state >> 33) as i32).rem_euclid(n)
         };
-        for count in [0, 1, 30, 700, 9000] {
+        for count in [0, 1, 30, 700, ALONE as u32 + 100] {
             let mut boxes = |first: u32| -> Vec<Item> {
                 let mut cube = || {
                     let low = [random(1000), random(1000), random(1000)];
