@@ -134,7 +134,7 @@ def test_an_array_of_links_shown_as_elements(tmp_path):
             LinkedObject=xlink("Box"),
             ElementCount=whole(2),
             ElementList=links("Row_i0", "Row_i1"),
-            VisibilityList='<BoolList value="10"/>',
+            VisibilityList='<BoolList value="01"/>',
             Placement=placement(0, 0, 1),
         ),
         "Row_i0": element(5),
@@ -259,15 +259,20 @@ def test_binary_shapes(tmp_path):
 
     from OCP.BinTools import BinTools_ShapeSet
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
+    from OCP.gp import gp_Trsf, gp_Vec
+    from OCP.TopLoc import TopLoc_Location
 
+    move = gp_Trsf()
+    move.SetTranslation(gp_Vec(1, 2, 3))
     tables, stream = BinTools_ShapeSet(), io.BytesIO()
-    shape = BRepPrimAPI_MakeBox(10, 20, 30).Shape()
+    shape = BRepPrimAPI_MakeBox(10, 20, 30).Shape().Located(TopLoc_Location(move))
     number = tables.Add(shape)
     tables.Write(stream)
     data = stream.getvalue()
+    root = struct.pack("<3i", number, tables.Locations().Index(shape.Location()), 0)
     objects = {"Box": item("Part::Box", Shape=kept("Part", "cube.bin"))}
-    source = opened(tmp_path, objects, {"cube.bin": data + struct.pack("<3i", number, 0, 0)})
-    assert boxes(source) == {"Box": [[0, 0, 0], [10, 20, 30]]}
+    source = opened(tmp_path, objects, {"cube.bin": data + root})
+    assert boxes(source) == {"Box": [[1, 2, 3], [11, 22, 33]]}
     with pytest.raises(SourceError, match="cannot be read as BREP"):
         opened(tmp_path, objects, {"cube.bin": data[: len(data) // 2]})
 
@@ -287,6 +292,7 @@ def test_real_documents(data):
     assert len({rgba for rgba in looks["Trolley/Chassis/Plate"].faces.values()}) == 3
 
 
+@pytest.mark.slow
 def test_a_drawing_of_a_document(data):
     drawing = hlr.draw(data / "trolley_assembly.FCStd", view="top", only=["Trolley/Chassis"], scale=1.0)
     assert {part.name for part in drawing.parts} == {

@@ -88,8 +88,8 @@ class Properties:
         return [sub for sub in subs if sub]
 
     def bits(self, name: str) -> str:
-        """Of a list of switches: a 0 or a 1 each, the first one first."""
-        return self._value(name, "")
+        """Of a list of switches: a 0 or a 1 each, the first one first. In the document it is the last."""
+        return self._value(name, "")[::-1]
 
     def content(self, name: str) -> bytes | None:
         """The file in which a property keeps its value; empty where it keeps none, None where the file is missing."""
