@@ -52,11 +52,12 @@ class Scale(click.ParamType[float]):
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
         """A positive number."""
-        paper, colon, model = str(value).partition(":")
-        above, below = number_of(paper), number_of(model) if colon else 1.0
-        if above is None or below is None or above <= 0.0 or below <= 0.0:
+        from hlr.request.scale import scale_of
+
+        found = scale_of(str(value))
+        if found is None:
             self.fail(f"{value!r} is not a scale such as 1:2, 0.5 or 2", param, ctx)
-        return above / below
+        return found
 
 
 class Size(click.ParamType["tuple[float, float] | str"]):

@@ -67,7 +67,7 @@ def _better(fits: float, uneven: float, best: float, least: float) -> bool:
 def _scale(size: Size, options: Options, paper: Paper | None) -> float:
     """The scale that was asked for, or that fills what is to be filled, or the largest standard one."""
     if options.scale is not None:
-        return float(options.scale)
+        return float(options.scale)  # `checked` made a number of it
     if options.fit is not None and not isinstance(options.fit, str):
         return _most(size, options.fit)
     assert paper is not None

@@ -14,6 +14,7 @@ from hlr.errors import OptionError, ViewError
 from hlr.request.directions import check_directions
 from hlr.request.drawing_effects import left_to_view
 from hlr.request.options import Options, Perspective, Vector, View
+from hlr.request.scale import scale_of
 from hlr.request.style_file import style_of
 from hlr.tables.sheets import papers
 
@@ -41,7 +42,8 @@ NARROWEST, WIDEST = 0.01, 170.0
 def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for each option
     """The same options, checked: types, ranges, contradictions. Raises OptionError that says what is allowed.
 
-    A style that was named is then a `Style`; faces are painted where it wants their parts' colours.
+    A scale is then a number, and a style that was named a `Style`; faces are painted where it wants their parts'
+    colours.
     """
     open_to_view = left_to_view()
     for name in (*open_to_view, *SWITCHES):
@@ -50,7 +52,7 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
             continue
         if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, Integral) and value in (0, 1)):
             raise OptionError(f"{name} is yes or no: give True or False, not {value!r}")
-    _check_size(options)
+    options = _with_size(options)
     accuracy = options.accuracy
     if accuracy is not None and (not _is_real(accuracy) or not (math.isfinite(accuracy) and accuracy > 0.0)):
         raise OptionError(f"accuracy {_shown(accuracy)} mm cannot be kept: give a positive length, such as 0.05")
@@ -84,11 +86,15 @@ def checked(options: Options) -> Options:  # noqa: C901, PLR0912 - one check for
     return replace(options, style=style, fill=fill)
 
 
-def _check_size(options: Options) -> None:
-    """Scale, fit and page."""
+def _with_size(options: Options) -> Options:
+    """Scale, fit and page, checked; the scale as a number."""
     scale, fit, page = options.scale, options.fit, options.page
-    if scale is not None and (not _is_real(scale) or not 1.0 / MOST_SCALE <= scale <= MOST_SCALE):
-        raise OptionError(f"scale {_shown(scale)} cannot be drawn: give a positive number, such as 0.5 for 1:2")
+    if scale is not None:
+        number = scale_of(scale) if isinstance(scale, str) or _is_real(scale) else None
+        if number is None or not 1.0 / MOST_SCALE <= number <= MOST_SCALE:
+            raise OptionError(f"scale {_shown(scale)} cannot be drawn: give a positive number or a ratio, 0.5 or 1:2")
+        if number != scale:
+            options = replace(options, scale=number)
     if scale is not None and fit is not None:
         raise OptionError("scale and fit contradict one another: give one of them")
     if isinstance(fit, str):
@@ -101,6 +107,7 @@ def _check_size(options: Options) -> None:
         )
     if page is not None:
         _check_page(page)
+    return options
 
 
 def _check_page(page: Any) -> None:

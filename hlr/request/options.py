@@ -48,7 +48,7 @@ class Options:
     smooth       draw tangent (G1) edges, thin; None: in pictorial views (oblique or in perspective), not in others
     seam         draw the seams of closed surfaces
     intersections  draw the lines in which surfaces pass through one another
-    scale        paper : model; 0.5 is 1:2. None, and no `fit`: the largest standard scale (ISO 5455) at which the
+    scale        paper : model; 0.5 or "1:2". None, and no `fit`: the largest standard scale (ISO 5455) at which the
                  drawing fits its page inside margins of 10 mm
     fit          instead of a scale: (width, height) to fit the drawing into, or the name of a sheet to fill
     page         the name of a sheet, such as "A3" or "letter-portrait", or (width, height) in millimetres. A sheet lies
@@ -89,7 +89,7 @@ class Options:
     smooth: bool | None = None
     seam: bool = False
     intersections: bool = True
-    scale: float | None = None
+    scale: float | str | None = None
     fit: tuple[float, float] | str | None = None
     page: tuple[float, float] | str | None = None
     window: tuple[float, float, float, float] | None = None
@@ -121,7 +121,7 @@ class Wishes(TypedDict, total=False):
     smooth: bool | None
     seam: bool
     intersections: bool
-    scale: float | None
+    scale: float | str | None
     fit: tuple[float, float] | str | None
     page: tuple[float, float] | str | None
     window: tuple[float, float, float, float] | None

@@ -37,12 +37,22 @@ def test_options_are_frozen_and_their_defaults_pass():
 
 
 @pytest.mark.parametrize(
+    ("written", "scale"), [("1:50", 0.02), ("5:2", 2.5), (" 2 ", 2.0), (0.5, 0.5), (np.float64(3.0), 3.0)]
+)
+def test_a_scale_is_a_number_or_a_ratio(written, scale):
+    assert checked(Options(scale=written)).scale == scale
+
+
+@pytest.mark.parametrize(
     ("wish", "words"),
     [
         ({"scale": 0.0}, r"scale 0.* give a positive number"),
         ({"scale": -1.0}, "scale -1"),
         ({"scale": math.nan}, "scale nan"),
         ({"scale": math.inf}, "scale inf"),
+        ({"scale": "1:0"}, "scale '1:0'"),
+        ({"scale": "half"}, "scale 'half'"),
+        ({"scale": "1:1e40"}, "scale '1:1e40'"),
         ({"fit": (0.0, 10.0)}, "fit needs a positive width and height"),
         ({"fit": (10.0, math.nan)}, "fit needs"),
         ({"fit": (-1.0, 10.0)}, "fit needs"),
