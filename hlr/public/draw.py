@@ -92,7 +92,7 @@ def draw(source: Any, view: View = "iso", *, progress: Progress | None = None, *
 
     >>> hlr.draw("part.step", scale=-1)
     Traceback (most recent call last):
-    hlr.errors.OptionError: scale -1 cannot be drawn: give a positive number, such as 0.5 for 1:2.
+    hlr.errors.OptionError: scale -1 cannot be drawn: give a positive number or a ratio, 0.5 or 1:2.
     """
     return draw_views(source, [view], record_of(Options, options, "draw"), progress)[0]
 
