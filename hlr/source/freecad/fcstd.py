@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError, counted
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
 from hlr.source.freecad.document import open_document
 from hlr.source.freecad.properties import DamagedError
@@ -21,10 +23,22 @@ def open_fcstd(path: Path, hidden_objects: bool = False) -> BrepSource:
     Raises:
         SourceError: it is no FreeCAD document, broken or hostile, or shows nothing that can be drawn.
     """
+    leaves, notes = read_document(path, hidden_objects)
+    return build_source(path.name, "fcstd", leaves, notes)
+
+
+def read_document(
+    path: Path, hidden_objects: bool = False, only: Sequence[str] | None = None
+) -> tuple[list[Leaf], list[Note]]:
+    """What a document shows as leaves of an assembly, and what was left out. only: the names of objects, and no others.
+
+    Raises:
+        SourceError: as `open_fcstd`.
+    """
     load_occt()
     with open_document(path) as document:
         try:
-            tree = Tree(document, Shapes(), hidden_objects)
+            tree = Tree(document, Shapes(), hidden_objects, only)
         except TooManyError as error:
             raise SourceError(f"{path.name} {error}: it is refused.") from None
         except DamagedError as error:
@@ -37,7 +51,7 @@ def open_fcstd(path: Path, hidden_objects: bool = False) -> BrepSource:
     if tree.leaves and tree.sketches:
         sketches = f"{counted(len(tree.sketches), 'sketch', 'sketches')} left out"
         notes.append(Note("free-edges-left-out", f"{sketches}: a hidden-line drawing needs faces."))
-    return build_source(path.name, "fcstd", tree.leaves or tree.sketches, notes)
+    return tree.leaves or tree.sketches, notes
 
 
 def _hidden_note(count: int) -> Note:

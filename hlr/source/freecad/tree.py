@@ -6,7 +6,7 @@ label takes the place of that one's.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from hlr.drawing.notes import Note, NoteCode
@@ -51,9 +51,12 @@ class Tree:
     """The tree of a document, flattened into `leaves`. `notes`: what was left out, and why.
 
     hidden: objects that the document does not show count as well, unless others are made of them.
+    only: the names of objects that are drawn, shown or not, where they lie in the document; None: all that it shows.
     """
 
-    def __init__(self, document: Document, shapes: Shapes, hidden: bool) -> None:
+    def __init__(
+        self, document: Document, shapes: Shapes, hidden: bool = False, only: Sequence[str] | None = None
+    ) -> None:
         self.document, self.shapes = document, shapes
         self.leaves: list[Leaf] = []
         self.sketches: list[Leaf] = []
@@ -61,10 +64,15 @@ class Tree:
         self.left_hidden = 0
         self._hidden = hidden
         self._made_of = set(_ingredients(document))
-        inside = {name for thing in document.objects.values() for name in _members(thing)}
-        for thing in document.objects.values():
-            if thing.name not in inside and self._is_shown(thing):
-                self._visit(thing, _Context())
+        parents = {name: thing for thing in document.objects.values() for name in _members(thing)}
+        if only is None:
+            for thing in document.objects.values():
+                if thing.name not in parents and self._is_shown(thing):
+                    self._visit(thing, _Context())
+            return
+        for name in only:
+            if name in document.objects:
+                self._visit(document.objects[name], _Context(place=_place_around(name, parents)))
 
     def _is_shown(self, thing: Object) -> bool:
         if thing.name in self._made_of and (self._hidden or not self.document.has_view):
@@ -89,8 +97,7 @@ class Tree:
         elif thing.type in _AIDS:
             return
         elif (members := _members(thing)) and thing.type not in _BODIES:
-            moves = _MOVING & thing.extensions or thing.type in _MOVING_TYPES
-            place = _own_place(thing, context) if moves else context.place
+            place = _own_place(thing, context) if _moves(thing) else context.place
             self._members(members, replace(inner, place=place))
         elif "Shape" in thing.values:
             self._shape(thing, context, "/".join(inner.names))
@@ -182,6 +189,24 @@ def _own_place(thing: Object, context: _Context) -> MatrixRows:
     return place if scale == (1.0, 1.0, 1.0) else compose(place, _scaling(*scale))
 
 
+def _moves(thing: Object) -> bool:
+    """Whether a group moves what is in it; others are folders."""
+    return _is_link(thing) or bool(_MOVING & thing.extensions) or thing.type in _MOVING_TYPES
+
+
+def _place_around(name: str, parents: Mapping[str, Object]) -> MatrixRows:
+    """The placement of all groups that an object is in. parents: the group of each object that is in one."""
+    around: list[Object] = []
+    while (parent := parents.get(name)) is not None and parent not in around:
+        around.append(parent)
+        name = parent.name
+    place = IDENTITY
+    for parent in reversed(around):
+        if _moves(parent):
+            place = _own_place(parent, _Context(place))
+    return place
+
+
 def _scaling(x: float, y: float, z: float) -> MatrixRows:
     return (x, 0.0, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, z, 0.0)
 
@@ -214,7 +239,7 @@ _MOVING_TYPES = {"App::Part", "Assembly::AssemblyObject"}
 _MOVING = {
     f"App::{kind}{python}" for kind in ("GeoFeatureGroupExtension", "OriginGroupExtension") for python in ("", "Python")
 }
-"""Extensions of groups that move what is in them; other groups are folders."""
+"""Extensions of groups that move what is in them."""
 
 _SKETCHES = {"Sketcher::SketchObject", "Sketcher::SketchObjectPython"}
 _AIDS = {
