@@ -74,4 +74,4 @@ def _packages(job: Job) -> list[str]:
     reader = of_ending(Path(job.source).suffix)
     if reader is not None and reader.kind == "script":
         return installed()
-    return libraries() + bindings() if reader is not None and reader.brep else libraries()
+    return [*libraries(), *(bindings() if reader is not None and reader.brep else ())]

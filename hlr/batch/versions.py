@@ -39,9 +39,10 @@ def program(endings: tuple[str, ...] = (*_SOURCES, *_COMPILED), besides: tuple[s
     return digest.hexdigest()
 
 
-def libraries(names: tuple[str, ...] = LIBRARIES) -> list[str]:
+@cache
+def libraries(names: tuple[str, ...] = LIBRARIES) -> tuple[str, ...]:
     """Names and versions of those of these packages that are installed."""
-    return [name for name in installed() if name.partition("-")[0].lower() in names]
+    return tuple(name for name in installed() if name.partition("-")[0].lower() in names)
 
 
 def versions() -> dict[str, str]:

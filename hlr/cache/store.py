@@ -23,6 +23,10 @@ _UNFINISHED = re.compile(rf"[0-9a-f]{{40}}\.({MODEL}|{DRAWINGS})\.\w+\.part")
 _ABANDONED = 3600.0
 """Seconds after which an unfinished file counts as abandoned."""
 
+_SPARE = 1 / 16
+"""Of the size that the cache may have: what is free once room was made in a full one. So much is written before the
+next look, too, for other processes may write as well."""
+
 
 class NotKeptError(Exception):
     """An entry was not written; says why in a few words."""
@@ -43,6 +47,8 @@ class Store:
     def __init__(self, folder: Path, most: int, kind: str = MODEL) -> None:
         """most: the most bytes that all entries together may take, of any kind. kind: of those read and written."""
         self.folder, self.most, self.kind = folder, most, kind
+        self._room = -1
+        """Bytes that may be written before the next look how full the folder is, which takes time for each file."""
 
     def path(self, key: str) -> Path:
         """The path of an entry's file, which may not exist."""
@@ -79,7 +85,9 @@ class Store:
             self._write(key, entry)
         except OSError as error:
             raise NotKeptError(f"{self.folder}: {(error.strerror or str(error)).lower()}") from None
-        self._shrink()
+        self._room -= size
+        if self._room < 0:
+            self._shrink()
         return size
 
     def _write(self, key: str, entry: Sequence[bytes]) -> None:
@@ -114,13 +122,16 @@ class Store:
 
     def _shrink(self) -> None:
         entries = self.entries()
-        over = sum(kept.size for kept in entries) - self.most
-        for kept in entries:
-            if over <= 0:
+        spare = int(self.most * _SPARE)
+        room = self.most - sum(kept.size for kept in entries)
+        wanted = spare if room < 0 else 0
+        for kept in entries[:-1]:
+            if room >= wanted:
                 break
             with suppress(OSError):
                 kept.path.unlink()
-                over -= kept.size
+                room += kept.size
+        self._room = min(room, spare)
         for kept in self._files(_UNFINISHED):
             if kept.used < time.time() - _ABANDONED:
                 with suppress(OSError):

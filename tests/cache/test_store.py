@@ -128,7 +128,7 @@ def test_halves_that_nobody_writes_any_more_go(store):
     for half in (old, new):
         half.write_bytes(b"half")
     os.utime(old, (1000, 1000))
-    store.write(key(1), entry(key(1)))
+    Store(store.folder, store.most).write(key(1), entry(key(1)))
     assert not old.exists()
     assert new.exists()
     store.clear()
@@ -268,3 +268,18 @@ def test_what_is_no_size_is_refused(monkeypatch, text):
     monkeypatch.setenv("HLR_CACHE_SIZE", text)
     with pytest.raises(OptionError):
         most_bytes()
+
+
+def test_a_thousand_entries_are_written_without_looking_at_all_of_them_each_time(store, monkeypatch):
+    looks, look = [], store.entries
+    monkeypatch.setattr(store, "entries", lambda: looks.append(1) or look())
+    for number in range(1000):
+        store.write(key(number), [b"x" * 10])
+    assert len(looks) < 20
+    # Another process fills the folder: that is noticed before long.
+    store.most = 100_000
+    (store.folder / f"{'c' * 40}.model").write_bytes(b"x" * 200_000)
+    os.utime(store.folder / f"{'c' * 40}.model", (1000, 1000))
+    for number in range(40):
+        store.write(key(1000 + number), [b"x" * 1000])
+    assert sum(kept.size for kept in store.entries()) <= 100_000

@@ -150,7 +150,7 @@ def test_what_is_no_model(source, reason):
 
 
 WRONG = [
-    ({"scale": "1:2"}, "scale '1:2'"),
+    ({"scale": "half"}, "scale 'half'"),
     ({"scale": True}, "scale True"),
     ({"page": "A9"}, "no page is called 'A9': use A0, "),
     ({"page": "A4-upright"}, "'A4-upright' lies neither landscape nor portrait"),

@@ -78,7 +78,7 @@ def draw_views(source, views, options, progress=None, noted=None):
     return [replace(made, view=replace(ISO, name=v if isinstance(v, str) else "free")) for v in views]
 
 
-def info(source, *, crease=30.0, var=None, parameters=None, annotations=False, progress=None):
+def info(source, *, crease=30.0, var=None, parameters=None, annotations=False, hidden_objects=False, progress=None):
     if Path(source).stem == "missing":
         raise errors.SourceError(f"cannot read {source}: there is no such file")
     parts = (
