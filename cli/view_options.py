@@ -37,7 +37,8 @@ SIZE = (
         "--page",
         metavar="A4|WxH",
         help="A sheet: A0 to A6, letter, legal or tabloid, with -landscape or -portrait; or its size in millimetres. "
-        "Without --scale the drawing gets the largest standard scale that fits inside margins of 10 mm. Default: A4.",
+        "Without --scale the drawing gets the largest standard scale that fits inside margins of 10 mm. Default: A4. "
+        "FreeCAD: also the name of a TechDraw page of the document, which is drawn.",
     ),
     click.option(
         "--scale",

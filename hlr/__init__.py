@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from hlr.lab.methods.comparison import compare_methods as methods
     from hlr.public.draw import draw, draw_views
     from hlr.public.info import info
+    from hlr.public.pages import draw_pages
     from hlr.public.plan import ViewPlan, plan_views
     from hlr.public.preview import preview, preview_views
     from hlr.request.effect import Decision
@@ -70,6 +71,7 @@ _HOME = {
     "Wishes": "hlr.request.options",
     "WriteError": "hlr.errors",
     "draw": "hlr.public.draw",
+    "draw_pages": "hlr.public.pages",
     "draw_views": "hlr.public.draw",
     "info": "hlr.public.info",
     "load": "hlr.writers.loading",
@@ -119,6 +121,7 @@ __all__ = [
     "WriteError",
     "compat",
     "draw",
+    "draw_pages",
     "draw_views",
     "info",
     "load",

@@ -12,6 +12,7 @@ from hlr.errors import OptionError
 from hlr.tables.line_classes import optional
 from hlr.tables.writers import WRITERS, formats
 
+from ..document_pages import draw_document_pages, names_a_page
 from ..drawn_files import Targets, targets_of, to_stdout, write
 from ..guard import start
 from ..meter import meter
@@ -84,6 +85,9 @@ LINES: tuple[Callable[[Command], Command], ...] = (
 @options(*CHOICE, *LINES)
 @options(*SIZE, WINDOW)
 @click.option(
+    "--all-pages", is_flag=True, help="FreeCAD: draw all TechDraw pages of the document, {view} in file names."
+)
+@click.option(
     "--circles",
     is_flag=True,
     help="Meshes: rims become circles where all their vertices lie on one, less than the crease angle apart.",
@@ -111,6 +115,7 @@ def draw(
     explain: bool,
     as_json: bool,
     quiet: bool,
+    all_pages: bool,
     **chosen: Any,
 ) -> None:
     """Draw SOURCE with its visible and hidden lines.
@@ -122,6 +127,12 @@ def draw(
 
     A CadQuery or build123d script is run to get its model.
     """
+    if all_pages or names_a_page(source, chosen["page"]):
+        page = None if all_pages else chosen["page"]
+        asked = request_of(style=style_from(chosen), **{**chosen, "page": chosen["page"] if all_pages else None})
+        _check_of_page(views, explain)
+        draw_document_pages(source, outputs, page, format, asked, {"as_json": as_json, "quiet": quiet})
+        return
     started = time.perf_counter() - time.process_time()  # the time of loading counts as well
     names = names_of(views, chosen["eye"])
     views = views or ("iso",)
@@ -157,6 +168,13 @@ def draw(
             out.put(summary(drawings, targets))
     for drawing, row in zip(drawings, targets, strict=True):
         tell_written(written(drawing, row), quiet)
+
+
+def _check_of_page(views: tuple[View, ...], explain: bool) -> None:
+    """Raises OptionError where something is asked for that a page of a document has not."""
+    for name, given in (("--view", bool(views)), ("--explain", explain)):
+        if given:
+            raise OptionError(f"a page of a document has views of its own: leave out {name}")
 
 
 def request_of(

@@ -16,6 +16,7 @@ from hlr.drawing.notes import Note
 from hlr.drawing.page import Page
 from hlr.drawing.saving import render, write
 from hlr.drawing.scale import ratio
+from hlr.drawing.sheet import Sheet
 from hlr.request.style import Style
 
 if TYPE_CHECKING:
@@ -99,6 +100,8 @@ class Drawing(ByValue):
     plan      for each effect whether it was on, why, and what it cost
     window    the rectangle on paper at which lines and fill were cut; None: nothing was cut
     page      the page, and where the drawing lies on it; None: the file is as large as the drawing or its window
+    sheet     the views, where there are several; then `view`, `scale` and `origin` are those of the page, which say
+              nothing of the model
     style     how it looks, in SVG, PDF, DXF and PNG
     group     widths of wide and narrow lines, millimetres, because lines are crowded; a style that names widths
               overrides them. None: those of the page
@@ -132,6 +135,7 @@ class Drawing(ByValue):
     plan: Sequence[Decision] = ()
     window: Bounds | None = None
     page: Page | None = None
+    sheet: Sheet | None = None
     style: Style = field(default_factory=Style)
     group: tuple[float, float] | None = None
     reading: str = field(default="", compare=False)

@@ -23,6 +23,8 @@ VERSION = 2
 
 def document(drawing: Drawing) -> bytes:
     """The drawing as JSON, one line of text per part and per line. Raises WriteError where a point is not finite."""
+    if drawing.sheet is not None:
+        raise WriteError("a page of several views cannot be written as JSON: use svg, pdf, dxf or png")
     head = {
         "format": FORMAT,
         "version": VERSION,

@@ -25,9 +25,10 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
 from hlr.drawing.pens import Pen, PenSet, part_color, usual_pens_of
 from hlr.drawing.scale import ratio
+from hlr.drawing.sheet import Sheet
 from hlr.errors import counted
 from hlr.writers.number import number
-from hlr.writers.strokes import Inked, strokes
+from hlr.writers.strokes import Inked, Strokes, strokes
 
 # Characters that XML 1.0 cannot carry, escaped or not.
 _SPECIAL = re.compile("[^ -~]|[&<>\"']")
@@ -50,7 +51,7 @@ def svg(drawing: Drawing) -> bytes:
         f'{_attributes(root)} stroke-linejoin="round"{paper}>\n',
         f"<title>{_escaped(title(drawing))}</title>\n",
         f"<desc>{_escaped(description(drawing))}</desc>\n",
-        _metadata(drawing),
+        _metadata(drawing) if drawing.sheet is None else template(drawing.sheet, page),
     ]
     if drawing.fill is not None:
         from hlr.writers.fill import painted, svg_group
@@ -67,6 +68,17 @@ def svg(drawing: Drawing) -> bytes:
             text += [*_lines(of_part, root, pens, ids=False), b"</g>\n"]
     text.append(b"</svg>\n")
     return b"".join(text)
+
+
+def template(sheet: Sheet, page: Strokes) -> str:
+    """What the page has printed on it, in the place of the drawing's coordinates; without the root's strokes."""
+    if not sheet.template:
+        return ""
+    corner = f"{number(page.left, page.places)} {number(-page.bottom - page.height, page.places)}"
+    plain = 'fill="#000000" stroke="none" stroke-width="1" stroke-linecap="butt" stroke-linejoin="miter"'
+    return (
+        f'<g id="template" {_layer(None, "Template")} transform="translate({corner})" {plain}>\n{sheet.template}</g>\n'
+    )
 
 
 Attributes = dict[str, str]

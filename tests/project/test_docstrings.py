@@ -2,6 +2,8 @@
 
 import doctest
 import inspect
+import shutil
+from pathlib import Path
 
 import pytest
 
@@ -29,11 +31,12 @@ WITHOUT_EXAMPLE = {
 
 @pytest.fixture(scope="module")
 def plate(tmp_path_factory):
-    """A folder with part.step: a plate of 30 x 20 x 10 mm with a hole of 8 mm through it."""
+    """A folder with part.step, a plate of 30 x 20 x 10 mm with a hole of 8 mm through it, and with housing.FCStd."""
     cq = pytest.importorskip("cadquery")
     folder = tmp_path_factory.mktemp("docstrings")
     solid = cq.Workplane().box(30, 20, 10).faces(">Z").workplane().hole(8)
     cq.exporters.export(solid, str(folder / "part.step"))
+    shutil.copy(Path(__file__).parents[1] / "data" / "housing_body.FCStd", folder / "housing.FCStd")
     return folder
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from hlr.drawing.notes import Note
@@ -11,7 +12,7 @@ from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.occt_import import load_occt
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
-from hlr.source.freecad.document import open_document
+from hlr.source.freecad.document import Document, open_document
 from hlr.source.freecad.properties import DamagedError
 from hlr.source.freecad.shapes import Shapes
 from hlr.source.freecad.tree import TooManyError, Tree
@@ -35,19 +36,41 @@ def read_document(
     Raises:
         SourceError: as `open_fcstd`.
     """
+    with opened_document(path) as document:
+        return leaves_of(document, path.name, Shapes(), hidden_objects, only)
+
+
+@contextmanager
+def opened_document(path: Path) -> Iterator[Document]:
+    """An open document, with OpenCASCADE; what is broken in it, wherever that shows, is an error in one sentence.
+
+    Raises:
+        SourceError: as `open_fcstd`.
+    """
     load_occt()
     with open_document(path) as document:
         try:
-            tree = Tree(document, Shapes(), hidden_objects, only)
+            yield document
         except TooManyError as error:
             raise SourceError(f"{path.name} {error}: it is refused.") from None
         except DamagedError as error:
             raise SourceError(f"{path.name} cannot be read as a FreeCAD document: {error}.") from None
+
+
+def leaves_of(
+    document: Document, name: str, shapes: Shapes, hidden_objects: bool = False, only: Sequence[str] | None = None
+) -> tuple[list[Leaf], list[Note]]:
+    """What an open document shows, and what was left out, as of `read_document`. name: of the file, for errors.
+
+    Raises:
+        SourceError: there is nothing to draw. TooManyError, DamagedError: it is broken or hostile.
+    """
+    tree = Tree(document, shapes, hidden_objects, only)
     notes = list(tree.notes)
     if tree.left_hidden:
         notes.append(_hidden_note(tree.left_hidden))
     if not tree.leaves and not tree.sketches:
-        raise SourceError(f"{path.name} {_why_empty(tree)}: there is nothing to draw.")
+        raise SourceError(f"{name} {_why_empty(tree)}: there is nothing to draw.")
     if tree.leaves and tree.sketches:
         sketches = f"{counted(len(tree.sketches), 'sketch', 'sketches')} left out"
         notes.append(Note("free-edges-left-out", f"{sketches}: a hidden-line drawing needs faces."))

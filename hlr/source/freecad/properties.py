@@ -97,6 +97,17 @@ class Properties:
         file = "" if element is None else element.get("file", "")
         return self.file(file) if file else b""
 
+    def count_of(self, name: str) -> int:
+        """How many values a list has."""
+        element = self.elements.get(name)
+        return 0 if element is None else max(0, int(_number(element.get("count", "0"))))
+
+    def texts(self, name: str) -> dict[str, str]:
+        """Of a map from texts to texts."""
+        element = self.elements.get(name)
+        items = () if element is None else element.iterfind("Item")
+        return {item.get("key", ""): item.get("value", "") for item in items}
+
     def placements(self, name: str) -> list[MatrixRows]:
         """Of a list of placements."""
         return [placement_rows(values) for values in records(self.content(name), "7d")]

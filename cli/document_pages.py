@@ -1,0 +1,84 @@
+"""Pages of a FreeCAD document on the command line: `--page NAME` and `--all-pages` of `hlr draw`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hlr.tables.sheets import papers
+
+from .drawn_files import targets_of, write
+from .guard import start
+from .meter import meter
+from .streams import result_only
+from .telling import summary, tell_notes, tell_written, written
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from hlr.drawing.drawing import Drawing
+    from hlr.drawing.notes import Note
+    from hlr.request.options import Options
+
+    from .drawn_files import Targets
+
+
+def names_a_page(source: str, page: str | None) -> bool:
+    """Whether `--page` names a page of the document, and no sheet of paper."""
+    if page is None or Path(source).suffix.lower() != ".fcstd":
+        return False
+    try:
+        papers(page)
+    except ValueError:
+        return True
+    return False
+
+
+def draw_document_pages(
+    source: str,
+    outputs: Sequence[str],
+    page: str | None,
+    format: str | None,
+    request: Options,
+    told: Mapping[str, Any],
+) -> None:
+    """Draw one page of a document, or all, into files. page: None for all; told: as_json and quiet.
+
+    Raises OptionError where other options contradict the page; else as `hlr.draw_pages`.
+    """
+    if page is not None:
+        targets = targets_of(outputs, source, [page], format, told["as_json"])
+    start(source)
+    with result_only() as out:
+        with meter(told["quiet"]) as progress:
+            import hlr
+            from hlr.public.pages import page_names
+
+            if page is None:
+                targets = targets_of(outputs, source, _distinct(page_names(source)), format, told["as_json"])
+            drawings = hlr.draw_pages(source, None if page is None else [page], request, progress)
+        notes = [*_without_template(drawings, targets), *(note for drawing in drawings for note in drawing.notes)]
+        tell_notes(notes, request.strict, told["quiet"])
+        drawings = write(drawings, targets, out.put)
+        if told["as_json"]:
+            out.put(summary(drawings, targets))
+    for drawing, row in zip(drawings, targets, strict=True):
+        tell_written(written(drawing, row), told["quiet"])
+
+
+def _without_template(drawings: Sequence[Drawing], targets: Targets) -> list[Note]:
+    """Notes on files that have the lines of a page without its template."""
+    from hlr.drawing.notes import Note
+
+    return [
+        Note("page-items-left-out", f'Page "{drawing.view.name}": the template not drawn in {target}, only in SVG.')
+        for drawing, row in zip(drawings, targets, strict=True)
+        for target in row
+        if drawing.sheet is not None and drawing.sheet.template and target.format != "svg"
+    ]
+
+
+def _distinct(pages: list[tuple[str, str]]) -> list[str]:
+    """The labels of pages, for the names of files; where two have the same, their names."""
+    labels = [label for _, label in pages]
+    return [name if labels.count(label) > 1 else label for name, label in pages]

@@ -1,0 +1,34 @@
+"""A sheet: several views of a model on one page, under them what the page has printed on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class SheetView:
+    """One view on a sheet.
+
+    name       unique on the sheet: the parts of the view are called by it, name/part
+    label      what people call it
+    scale      paper to model
+    place      millimetres from the lower left corner of the page to the middle of the view
+    rotation   degrees anticlockwise
+    direction  toward the viewer; right: the direction to the right on paper, before the rotation
+    """
+
+    name: str
+    label: str
+    scale: float
+    place: tuple[float, float]
+    rotation: float
+    direction: tuple[float, float, float]
+    right: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """views: in the order of the page; template: SVG elements in millimetres from the page's upper left corner."""
+
+    views: tuple[SheetView, ...]
+    template: str = ""

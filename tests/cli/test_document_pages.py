@@ -1,0 +1,55 @@
+"""`--page NAME` and `--all-pages` of a FreeCAD document."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+DATA = Path(__file__).parents[1] / "data"
+HOUSING = str(DATA / "housing_body.FCStd")
+STEP = str(DATA / "as1-oc-214.stp")
+
+
+@pytest.mark.slow
+def test_a_page_by_its_name(hlr_real, tmp_path):
+    result = hlr_real("draw", HOUSING, "--page", "Page", "-o", "page.svg", "-o", "page.pdf")
+    assert result.code == 0
+    assert result.err.splitlines() == [
+        'hlr: warning: Page "Page": the template not drawn in page.pdf, only in SVG.',
+        'hlr: warning: Page "Page": 3 dimensions not drawn.',
+    ]
+    assert 'id="template"' in (tmp_path / "page.svg").read_text("utf-8")
+    assert (tmp_path / "page.pdf").read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.slow
+def test_all_pages(hlr_real, tmp_path):
+    assert hlr_real("draw", HOUSING, "--all-pages", "-o", "{stem}-{view}.dxf").code == 0
+    assert [path.name for path in tmp_path.iterdir()] == ["housing_body-Page.dxf"]
+
+
+@pytest.mark.slow
+def test_a_sheet_of_paper_is_still_one(hlr_real, tmp_path):
+    assert hlr_real("draw", HOUSING, "--page", "A3", "-o", "a.svg").code == 0
+    assert 'width="420mm"' in (tmp_path / "a.svg").read_text("utf-8")
+    assert 'id="template"' not in (tmp_path / "a.svg").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((HOUSING, "--page", "Blatt"), 'housing_body.FCStd has no page "Blatt": its pages are "Page"'),
+        ((HOUSING, "--page", "Page", "--view", "top"), "leave out --view"),
+        ((HOUSING, "--page", "Page", "--scale", "2"), "the views of a page say scale themselves"),
+        ((HOUSING, "--all-pages", "--page", "A4"), "the views of a page say page themselves"),
+        ((HOUSING, "--page", "Page", "--format", "json"), "cannot be written as JSON"),
+        ((STEP, "--all-pages"), "only FreeCAD documents (.FCStd) have pages"),
+        ((STEP, "--page", "Blatt"), "no page is called 'Blatt'"),
+    ],
+)
+def test_what_is_refused(hlr_real, tmp_path, arguments, message):
+    result = hlr_real("draw", *arguments)
+    assert (result.code, result.out) == (2, "")
+    assert message in result.err and len(result.err.splitlines()) <= 3
+    assert list(tmp_path.iterdir()) == []
