@@ -71,10 +71,13 @@ def _without_template(drawings: Sequence[Drawing], targets: Targets) -> list[Not
     from hlr.drawing.notes import Note
 
     return [
-        Note("page-items-left-out", f'Page "{drawing.view.name}": the template not drawn in {target}, only in SVG.')
+        Note(
+            "page-items-left-out",
+            f'Page "{drawing.view.name}": the template not drawn in {target}, which has the lines alone.',
+        )
         for drawing, row in zip(drawings, targets, strict=True)
         for target in row
-        if drawing.sheet is not None and drawing.sheet.template and target.format != "svg"
+        if drawing.sheet is not None and drawing.sheet.template and target.format == "dxf"
     ]
 
 

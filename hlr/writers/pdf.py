@@ -83,6 +83,10 @@ def document(drawing: Drawing, page: Strokes, sheet: Sheet) -> bytes:
 
     names = {f"L{i}": reference for i, reference in enumerate(layers.references)}
     resources = {"Properties": pydyf.Dictionary(names)}
+    if drawing.sheet is not None and drawing.sheet.template:
+        from hlr.writers.template_pdf import FONT, FONT_RESOURCE
+
+        resources["Font"] = pydyf.Dictionary({FONT: FONT_RESOURCE})
     if drawing.fill is not None:
         from hlr.writers.fill import painted, pdf_resources
 
@@ -131,6 +135,12 @@ def _content(drawing: Drawing, page: Strokes, sheet: Sheet, layers: _Layers) -> 
         area = f"0 0 {_real(sheet.width)} {_real(sheet.height)} re f"
         out.append(f"{begin} {_color(drawing.style.background or PAPER)} rg {area} EMC\n".encode("ascii"))
     out.append(f"{matrix} cm 1 j\n".encode("ascii"))
+    if drawing.sheet is not None and drawing.sheet.template:
+        from hlr.writers.template_pdf import template_commands
+
+        begin = layers.begin("template", "Template")
+        commands = template_commands(drawing.sheet.template, page.left, page.bottom + page.height)
+        out += [f"{begin} ".encode("ascii"), commands, b"EMC\n"]
     if drawing.fill is not None:
         out += _filled(drawing, drawing.fill, page.places, layers)
     if drawing.style.layers == "class":

@@ -85,9 +85,9 @@ _SPACE = "{http://www.w3.org/XML/1998/namespace}space"
 
 _DRAWN = frozenset(
     (
-        *("g", "defs", "use", "symbol", "marker", "clipPath", "mask", "pattern", "switch", "title", "desc"),
+        *("g", "defs", "switch", "title", "desc"),
         *("path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "image", "text", "tspan"),
         *("linearGradient", "radialGradient", "stop"),
     )
 )
-"""Elements that are kept."""
+"""Elements that are kept. Those that repeat others are not: a few of them could stand for billions."""

@@ -79,7 +79,7 @@ class Tree:
             # Without the user interface FreeCAD calls everything visible.
             return thing.visible and self.document.has_view
         shown = thing.visible or self._hidden
-        self.left_hidden += not shown and thing.name not in self._made_of and thing.type not in _AIDS
+        self.left_hidden += not shown and thing.name not in self._made_of and _holds_shapes(thing)
         return shown
 
     def _visit(self, thing: Object, context: _Context) -> None:
@@ -101,7 +101,7 @@ class Tree:
             self._members(members, replace(inner, place=place))
         elif "Shape" in thing.values:
             self._shape(thing, context, "/".join(inner.names))
-        elif "Mesh" in thing.values:
+        elif thing.type.startswith("Mesh::"):
             self._note(f'"{label}" is a mesh and was left out: export it as STL, 3MF or OBJ to draw it.')
 
     def _members(self, names: list[str], context: _Context) -> None:
@@ -213,6 +213,11 @@ def _scaling(x: float, y: float, z: float) -> MatrixRows:
 
 def _is_link(thing: Object) -> bool:
     return any(extension.startswith("App::Link") for extension in thing.extensions) or thing.type in _LINKS
+
+
+def _holds_shapes(thing: Object) -> bool:
+    """Whether it would draw anything: sketches, datums and other aids would not."""
+    return thing.type not in _AIDS | _SKETCHES and (_is_link(thing) or "Shape" in thing.values or bool(_members(thing)))
 
 
 def _members(thing: Object) -> list[str]:

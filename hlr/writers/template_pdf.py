@@ -1,0 +1,130 @@
+"""The template of a page in PDF: its paths, and its texts in Helvetica, which every viewer has."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from typing import Any
+
+from hlr.errors import WriteError
+from hlr.writers.number import number
+
+FONT = "T"
+"""The name of the font among the resources of the page."""
+
+FONT_RESOURCE = "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>"
+
+CAPS = {"butt": 0, "round": 1, "square": 2}
+JOINS = {"miter": 0, "round": 1, "bevel": 2}
+
+
+def template_commands(template: str, left: float, top: float) -> bytes:
+    """The commands that draw a template, in millimetres with y up.
+
+    template: as of `hlr.drawing.sheet.Sheet`. left, top: of the page, in the drawing's coordinates.
+
+    Raises:
+        WriteError: the template is no SVG that can be drawn.
+    """
+    from svgelements import SVG, Path, Shape, Text
+
+    out = [f"q 1 0 0 -1 {number(left)} {number(top)} cm"]
+    try:
+        for element in SVG.parse(io.StringIO(template), reify=False).elements():
+            if element.values.get("visibility") == "hidden" or element.values.get("display") == "none":
+                continue
+            if isinstance(element, Text):
+                out += _text(element)
+            elif isinstance(element, Shape):
+                out += _shape(element, Path(element))
+    except Exception as error:  # whatever a broken file makes the library raise
+        raise WriteError(
+            f"the template of the page cannot be drawn in PDF ({type(error).__name__}): write SVG or DXF"
+        ) from None
+    return "\n".join([*out, "Q\n"]).encode("ascii")
+
+
+def _shape(shape: Any, path: Any) -> Iterator[str]:
+    fill, stroke = _color(shape.fill), _color(shape.stroke)
+    width, scale = float(shape.stroke_width or 0.0), abs(shape.transform.determinant) ** 0.5
+    path = abs(path)  # with its transforms applied
+    path.approximate_arcs_with_cubics()
+    if len(path) == 0 or not (fill or stroke):
+        return
+    if fill:
+        yield f"{fill} rg"
+    if stroke:
+        cap = CAPS.get(shape.values.get("stroke-linecap", "butt"), 0)
+        join = JOINS.get(shape.values.get("stroke-linejoin", "miter"), 0)
+        yield f"{stroke} RG {number(width * scale)} w {cap} J {join} j {_dashes(shape, scale)} d"
+    yield from _segments(path)
+    rule = "*" if fill and shape.values.get("fill-rule") == "evenodd" else ""
+    yield f"B{rule}" if fill and stroke else f"f{rule}" if fill else "S"
+
+
+def _segments(path: Any) -> Iterator[str]:
+    from svgelements import Close, CubicBezier, Line, Move, QuadraticBezier
+
+    for segment in path:
+        match segment:
+            case Move():
+                yield f"{_point(segment.end)} m"
+            case Close():
+                yield "h"
+            case Line():
+                yield f"{_point(segment.end)} l"
+            case CubicBezier():
+                yield f"{_point(segment.control1)} {_point(segment.control2)} {_point(segment.end)} c"
+            case QuadraticBezier():
+                a, b, c = segment.start, segment.control, segment.end
+                yield f"{_point(a + (b - a) * (2 / 3))} {_point(c + (b - c) * (2 / 3))} {_point(c)} c"
+
+
+def _text(text: Any) -> Iterator[str]:
+    words = " ".join((text.text or "").split())
+    fill = _color(text.fill)
+    if not words or not fill:
+        return
+    size = float(text.font_size or 0.0)
+    back = {"middle": 0.5, "end": 1.0}.get(text.anchor, 0.0) * size * _length(words)
+    m = text.transform
+    x, y = float(text.x or 0.0) - back, float(text.y or 0.0)
+    placed = (m.a, m.b, -m.c, -m.d, m.a * x + m.c * y + m.e, m.b * x + m.d * y + m.f)
+    data = words.encode("cp1252", "replace").hex()
+    yield f"BT {fill} rg /{FONT} {number(size)} Tf {' '.join(number(v, 6) for v in placed)} Tm <{data}> Tj ET"
+
+
+def _length(words: str) -> float:
+    """Of a text in Helvetica, in sizes of the font; a character that is not in the table counts as a digit."""
+    return sum(_WIDTHS.get(letter, 556) for letter in words) / 1000.0
+
+
+def _color(color: Any) -> str:
+    """Red, green and blue from 0 to 1; empty where there is none."""
+    if color is None or color.value is None or color.opacity == 0.0:
+        return ""
+    return " ".join(number(channel / 255.0, 4) for channel in (color.red, color.green, color.blue))
+
+
+def _dashes(shape: Any, scale: float) -> str:
+    given = str(shape.values.get("stroke-dasharray") or "none")
+    if given == "none":
+        return "[] 0"
+    lengths = [float(part.removesuffix("px").removesuffix("mm")) * scale for part in given.replace(",", " ").split()]
+    return f"[{' '.join(number(length) for length in lengths)}] 0" if sum(lengths) > 0.0 else "[] 0"
+
+
+def _point(point: Any) -> str:
+    return f"{number(point.x, 4)} {number(point.y, 4)}"
+
+
+_PRINTED = (
+    *(278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278),
+    *(556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556),
+    *(1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778),
+    *(667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556),
+    *(333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556),
+    *(556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584),
+)
+_WIDTHS = {chr(32 + i): width for i, width in enumerate(_PRINTED)}
+"""Widths of Helvetica's characters, thousandths of its size."""

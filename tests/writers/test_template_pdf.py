@@ -1,0 +1,84 @@
+"""The template of a page in PDF and PNG: paths and texts where SVG has them."""
+
+from __future__ import annotations
+
+import io
+from dataclasses import replace
+
+import numpy as np
+import pypdfium2
+import pytest
+from PIL import Image
+
+from hlr.drawing.page import Page
+from hlr.drawing.sheet import Sheet
+from hlr.errors import WriteError
+from support.drawings import drawing, line
+
+TEMPLATE = """<svg width="100" height="80" viewBox="0 0 200 160">
+<g transform="translate(20 0)" style="stroke:#ff0000;stroke-width:4;fill:none">
+<rect x="20" y="20" width="100" height="60"/>
+<path d="M 20 100 A 20 20 0 0 1 60 100 Q 80 80 100 100 z" fill="#0000ff" stroke="none"/>
+</g>
+<path d="M 0 150 h 200" stroke="#00ff00" stroke-width="2" stroke-dasharray="20 20"/>
+<text x="40" y="140" font-size="10">a &lt; b</text>
+<text x="180" y="140" font-size="10" text-anchor="end">Ünal <tspan display="none">not</tspan></text>
+</svg>"""
+
+
+def sheet(template=TEMPLATE):
+    lines = [line([(10, 10), (20, 10)])]
+    page = Page("test", 100.0, 80.0, 0.0, 0.0)
+    return replace(drawing(lines), page=page, sheet=Sheet((), template))
+
+
+def pixels(shown):
+    """The colour at a place in millimetres from the upper left corner."""
+    image = np.asarray(Image.open(io.BytesIO(shown.to_png())).convert("RGB"))
+    dots = image.shape[1] / 100.0
+
+    def at(x, y):
+        return tuple(int(v) for v in image[int(y * dots), int(x * dots)])
+
+    return at
+
+
+RED, BLUE, GREEN, WHITE = (255, 0, 0), (0, 0, 255), (0, 255, 0), (255, 255, 255)
+
+
+def test_paths_lie_where_svg_has_them():
+    at = pixels(sheet())
+    # Half as large as in its own units. The rectangle's left side is at 20 mm, 2 mm wide.
+    for x, y, color in (
+        (20, 25, RED),
+        (20.8, 25, RED),
+        (19.2, 25, RED),
+        (18.5, 25, WHITE),
+        (45, 25, WHITE),
+        (30, 45, BLUE),  # under the arc
+        (30, 38, WHITE),
+        (50, 47, BLUE),  # under the spline
+        (5, 75, GREEN),
+        (15, 75, WHITE),  # a gap
+    ):
+        assert at(x, y) == color, (x, y)
+
+
+def test_texts_are_texts():
+    page = pypdfium2.PdfDocument(sheet().to_pdf())[0].get_textpage()
+    text = page.get_text_range()
+    assert "a < b" in text and "Ünal" in text
+    mm = 72 / 25.4
+    left, bottom, _, _ = page.get_charbox(text.index("a < b"), loose=False)
+    assert left / mm == pytest.approx(20, abs=0.5) and bottom / mm == pytest.approx(10, abs=0.2)
+    right = page.get_charbox(text.index("Ünal") + 3, loose=False)[2]
+    assert right / mm == pytest.approx(90, abs=0.6)
+
+
+def test_the_same_bytes():
+    assert sheet().to_pdf() == sheet().to_pdf()
+
+
+def test_what_is_no_svg_is_refused():
+    with pytest.raises(WriteError, match="template of the page cannot be drawn in PDF"):
+        sheet('<svg viewBox="0 0 1 1"><path d="M 0 0 L 1').to_pdf()
