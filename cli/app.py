@@ -14,6 +14,7 @@ VERBS = {
     "draw": f"Draw a model as {titles('or')}.",
     "batch": "Draw many models, only what has changed, with a report.",
     "plan": "Which steps a drawing needs, and why, without drawing it.",
+    "compare": "What differs between two drawings, by their geometry.",
     "preview": "Shaded picture of a model as PNG.",
     "methods": "Time the visible-surface methods side by side.",
     "study": "Measure what accuracy costs, and compare with other programs.",

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hlr import compat
+    from hlr import compare, compat
     from hlr.drawing.curve import Arc, Bezier
     from hlr.drawing.drawing import Accuracy, Drawing
     from hlr.drawing.line import Bounds, Line
@@ -85,7 +85,7 @@ _HOME = {
 _CALLED = {"methods": "compare_methods"}
 """Names that are others at home."""
 
-_MODULES = {"compat": "hlr.compat", "study": "hlr.lab.study", "surfaces": "hlr.lab.methods"}
+_MODULES = {"compare": "hlr.compare", "compat": "hlr.compat", "study": "hlr.lab.study", "surfaces": "hlr.lab.methods"}
 
 __all__ = [
     "Accuracy",
@@ -119,6 +119,7 @@ __all__ = [
     "ViewPlan",
     "Wishes",
     "WriteError",
+    "compare",
     "compat",
     "draw",
     "draw_pages",

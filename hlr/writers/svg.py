@@ -49,8 +49,8 @@ def svg(drawing: Drawing) -> bytes:
         'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" '
         f'width="{width}mm" height="{height}mm" viewBox="{corner} {width} {height}" fill="none" '
         f'{_attributes(root)} stroke-linejoin="round"{paper}>\n',
-        f"<title>{_escaped(title(drawing))}</title>\n",
-        f"<desc>{_escaped(description(drawing))}</desc>\n",
+        f"<title>{escaped(title(drawing))}</title>\n",
+        f"<desc>{escaped(description(drawing))}</desc>\n",
         _metadata(drawing) if drawing.sheet is None else template(drawing.sheet, page),
     ]
     if drawing.fill is not None:
@@ -200,7 +200,7 @@ def _clean(text: str) -> str:
     return _FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
-def _escaped(text: str) -> str:
+def escaped(text: str) -> str:
     """Text between tags. What `xml.sax.saxutils` does, without the network that it loads."""
     return _clean(text).replace("&", "&amp;").replace(">", "&gt;").replace("<", "&lt;")
 
@@ -209,7 +209,7 @@ def _quoted(text: str) -> str:
     """The value of an attribute, with its quotes."""
     if _SPECIAL.search(text) is None:
         return f'"{text}"'
-    value = _escaped(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
+    value = escaped(text).replace("\n", "&#10;").replace("\r", "&#13;").replace("\t", "&#9;")
     if '"' not in value:
         return f'"{value}"'
     return f"'{value}'" if "'" not in value else '"' + value.replace('"', "&quot;") + '"'

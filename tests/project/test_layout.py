@@ -32,6 +32,7 @@ FLOORS = (
     "pipeline",
     "lab",
     "public",
+    "compare",
     "compat",
     "batch",
     "cli",

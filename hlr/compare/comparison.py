@@ -1,0 +1,146 @@
+"""The result of a comparison: what differs, in numbers, in words and as a picture."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hlr.compare.difference import Difference, told
+from hlr.compare.judge import Findings
+from hlr.compare.pieces import Pieces
+from hlr.compare.sides import Side
+from hlr.drawing.files import path_of, write_all
+from hlr.errors import OptionError
+
+FORMAT, VERSION = "hlr-comparison", 1
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Comparison:
+    """What differs between two drawings.
+
+    before, after  what people call the two sides
+    differences    each with its place, length, class, part and edge; by kind, the longest first
+    tolerance_mm   how far apart lines may lie that count as the same
+    shift          (x, y) mm by which the second drawing was moved before it was compared; None: it was not registered
+    same_mm        length that is the same in both
+    findings       the differences with their pieces, from which the overlay is drawn
+    lines          the pieces of the second drawing, as it was moved
+
+    >>> import hlr
+    >>> old, new = (hlr.draw("part.step", view="front", hidden=shown) for shown in (True, False))
+    >>> found = hlr.compare.compare(old, new)
+    >>> found.same, sorted(found.lengths_mm)[:2]
+    (False, ['class changed', 'gone'])
+    """
+
+    before: str
+    after: str
+    differences: tuple[Difference, ...]
+    tolerance_mm: float
+    shift: tuple[float, float] | None
+    same_mm: float
+    findings: Findings
+    lines: Pieces
+
+    @staticmethod
+    def of(
+        before: Side, after: Side, findings: Findings, tolerance_mm: float, shift: tuple[float, float] | None
+    ) -> Comparison:
+        """The record of what was found."""
+        found = tuple(findings.differences)
+        return Comparison(
+            before.title, after.title, found, tolerance_mm, shift, findings.same_mm, findings, after.pieces
+        )
+
+    def __repr__(self) -> str:
+        return f"<Comparison {self.summary}>"
+
+    @property
+    def same(self) -> bool:
+        """Whether nothing differs."""
+        return not self.differences
+
+    @property
+    def lengths_mm(self) -> dict[str, float]:
+        """Millimetres of each kind of difference."""
+        return self.findings.lengths_mm
+
+    @property
+    def summary(self) -> str:
+        """One line: "12.4 mm gone, 3 mm new"."""
+        lengths = [f"{told(length)} mm {kind}" for kind, length in self.lengths_mm.items() if length > 0.0]
+        text = ", ".join(lengths) or f"same: {told(self.same_mm)} mm of lines"
+        if self.shift is None:
+            return text
+        moved = any(abs(each) >= 0.0005 for each in self.shift)
+        x, y = (told(each) for each in self.shift)
+        return f"{text}; moved by ({x}, {y}) mm to be compared" if moved else f"{text}; in the same place"
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it but the picture, for JSON."""
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "before": self.before,
+            "after": self.after,
+            "same": self.same,
+            "summary": self.summary,
+            "tolerance_mm": self.tolerance_mm,
+            "shift": None if self.shift is None else list(self.shift),
+            "same_mm": self.same_mm,
+            "mm": self.lengths_mm,
+            "differences": [each.as_dict() for each in self.differences],
+        }
+
+    def to_json(self) -> str:
+        """`to_dict` as text."""
+        import json
+
+        return json.dumps(self.to_dict(), indent=1, allow_nan=False) + "\n"
+
+    def to_svg(self) -> str:
+        """The overlay as SVG: what is the same in grey, each kind of difference in its colour, with a legend."""
+        from hlr.compare.overlay import overlay
+        from hlr.compare.overlay_svg import svg
+
+        return svg(overlay((self.before, self.after), self.summary, self.findings, self.lines))
+
+    def to_png(self) -> bytes:
+        """The same as PNG, 8 pixels per millimetre where that is not too large."""
+        from hlr.compare.overlay import overlay
+        from hlr.compare.overlay_png import png
+
+        return png(overlay((self.before, self.after), self.summary, self.findings, self.lines))
+
+    def rendered(self, ending: str) -> bytes:
+        """The content of a file with this ending, a key of `WRITERS`."""
+        return WRITERS[ending](self)
+
+    def save(self, file: str | os.PathLike[str]) -> Path:
+        """Write the overlay (.svg, .png), or the figures (.json). Returns the path.
+
+        Raises OptionError for another ending, WriteError where the file cannot be written.
+        """
+        path = path_of(file)
+        write_all({path: self.rendered(ending_of(path))})
+        return path
+
+
+WRITERS: dict[str, Callable[[Comparison], bytes]] = {
+    ".svg": lambda found: found.to_svg().encode(),
+    ".png": Comparison.to_png,
+    ".json": lambda found: found.to_json().encode(),
+}
+"""What a comparison is written as."""
+
+
+def ending_of(path: Path) -> str:
+    """The ending of a file for a comparison, a key of `WRITERS`. Raises OptionError for another."""
+    ending = path.suffix.lower()
+    if ending not in WRITERS:
+        raise OptionError(f"a comparison cannot be written to {path}: its name has to end in {' or '.join(WRITERS)}")
+    return ending

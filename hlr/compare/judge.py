@@ -1,0 +1,154 @@
+"""What differs between two registered sides. Each stage takes on what the stages before it have not matched."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from hlr.compare.difference import KINDS, Difference, Verdict
+from hlr.compare.match import Rule, divided_by, partners
+from hlr.compare.pieces import Floats, Pieces
+from hlr.compare.sides import Side
+from hlr.tables.line_classes import names
+
+
+@dataclass(frozen=True, slots=True)
+class Stage:
+    """A row of the table below.
+
+    kind   what lines are called that it matches; None: they are the same
+    same   in what two lines have to agree
+    reach  how far apart they may lie, in tolerances
+    """
+
+    kind: Verdict | None
+    same: tuple[str, ...]
+    reach: float = 1.0
+
+
+STAGES = (
+    Stage(None, ("kind", "visible")),
+    Stage("class changed", ("visible",)),
+    Stage("visibility changed", ()),
+    Stage("moved", ("kind", "visible"), reach=10.0),
+)
+
+
+@dataclass(slots=True)
+class Findings:
+    """Differences with the pieces (n, 2, 2) that show each, in one order.
+
+    same  what both sides share, as the first has it; moved: where the second has what is displaced
+    """
+
+    differences: list[Difference] = field(default_factory=list)
+    traces: list[Floats] = field(default_factory=list)
+    same: Pieces | None = None
+    moved: Floats = field(default_factory=lambda: np.zeros((0, 2, 2)))
+
+    def add(self, found: Difference, pieces: Pieces) -> None:
+        """Add a difference, and the pieces that show it."""
+        self.differences.append(found)
+        self.traces.append(_ends(pieces))
+
+    @property
+    def same_mm(self) -> float:
+        """Length that is the same in both."""
+        return 0.0 if self.same is None else round(float(self.same.lengths.sum()), 6)
+
+    @property
+    def lengths_mm(self) -> dict[str, float]:
+        """Millimetres of each kind of difference."""
+        out = dict.fromkeys(KINDS, 0.0)
+        for each in self.differences:
+            out[each.kind] += each.length_mm
+        return {kind: round(length, 4) for kind, length in out.items()}
+
+
+def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
+    """All differences; the longest of each kind first."""
+    found = Findings()
+    a, b = before.pieces, after.pieces
+    for stage in STAGES:
+        rule = Rule(stage.reach * tolerance_mm, tolerance_mm, stage.same)
+        (both, left_a), (also, left_b) = divided_by(a, b, rule), divided_by(b, a, rule)
+        if stage.kind is None:
+            found.same = both
+        else:
+            _changed(found, stage.kind, both, b, rule, before.parts)
+        if stage.kind == "moved":
+            found.moved = _ends(also)
+        a, b = left_a, left_b
+    for kind, pieces, side in (("gone", a, before), ("new", b, after)):
+        for line in _lines(pieces):
+            found.add(_difference(kind, line, side.parts), line)
+    order = sorted(range(len(found.differences)), key=lambda n: _rank(found.differences[n]))
+    found.differences = [found.differences[n] for n in order]
+    found.traces = [found.traces[n] for n in order]
+    return found
+
+
+def _rank(found: Difference) -> tuple[int, float, float, float]:
+    return KINDS.index(found.kind), -found.length_mm, *found.place
+
+
+def _changed(found: Findings, kind: Verdict, both: Pieces, b: Pieces, rule: Rule, parts: tuple[str, ...]) -> None:
+    """Add the lines that have a partner in the second drawing, and what has become of them."""
+    if not len(both):
+        return
+    near, off = partners(both, b, rule)
+    starts = np.flatnonzero(np.append(True, both.line[1:] != both.line[:-1]))
+    for first, line in zip(starts, _lines(both), strict=True):
+        last = first + len(line)
+        fits = near[first:last] >= 0
+        weight = np.where(fits, line.lengths, 0.0)
+        best = near[first:last][int(np.argmax(weight))]
+        became = ""
+        if kind == "class changed" and best >= 0:
+            became = names()[b.kind[best]]
+        elif kind == "visibility changed":
+            became = "hidden" if line.visible[0] else "visible"
+        moved = 0.0
+        if kind == "moved" and weight.sum() > 0.0:
+            moved = float((np.where(fits, off[first:last], 0.0) * weight).sum() / weight.sum())
+        found.add(_difference(kind, line, parts, became, moved), line)
+
+
+def _difference(kind: str, line: Pieces, parts: tuple[str, ...], became: str = "", moved: float = 0.0) -> Difference:
+    part, edge = int(line.part[0]), int(line.edge[0])
+    return Difference(
+        kind=kind,  # type: ignore[arg-type]
+        place=_middle(line),
+        length_mm=round(float(line.lengths.sum()), 6),
+        line_class=names()[line.kind[0]],
+        visible=bool(line.visible[0]),
+        part=parts[part] if 0 <= part < len(parts) else None,
+        edge=edge if edge >= 0 else None,
+        side="after" if kind == "new" else "before",
+        became=became,
+        moved_mm=round(moved, 4),
+    )
+
+
+def _ends(pieces: Pieces) -> Floats:
+    return np.stack([pieces.start, pieces.end], axis=1)
+
+
+def _middle(line: Pieces) -> tuple[float, float]:
+    """The point half way along a line."""
+    ends = np.cumsum(line.lengths)
+    n = int(np.searchsorted(ends, 0.5 * ends[-1]))
+    share = 1.0 - (ends[n] - 0.5 * ends[-1]) / line.lengths[n]
+    x, y = (line.start[n] + share * (line.end[n] - line.start[n])).tolist()
+    return round(x, 4) + 0.0, round(y, 4) + 0.0
+
+
+def _lines(pieces: Pieces) -> list[Pieces]:
+    """The pieces of each line."""
+    if not len(pieces):
+        return []
+    cuts = np.flatnonzero(pieces.line[1:] != pieces.line[:-1]) + 1
+    ends = [0, *cuts.tolist(), len(pieces)]
+    return [pieces.take(slice(first, last)) for first, last in pairwise(ends)]

@@ -1,0 +1,81 @@
+"""The two sides of a comparison: each is read into straight pieces. A format that can be compared is a row here."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hlr.compare.our_svg import read_svg
+from hlr.compare.pieces import Pieces
+from hlr.compare.sketch import Sketch, Trait
+from hlr.drawing.curve import Arc, raised
+from hlr.drawing.drawing import Drawing
+from hlr.errors import SourceError
+from hlr.source.file_checks import check_readable
+from hlr.tables.line_classes import LINE_CLASSES
+
+MOST_BYTES = 1 << 29
+"""Of a file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Side:
+    """One of two drawings: what people call it, its lines, and the names of its parts."""
+
+    title: str
+    pieces: Pieces
+    parts: tuple[str, ...]
+
+
+def side_of(given: Any, tolerance_mm: float) -> Side:
+    """Read a side: a Drawing, or the path of a file. Raises SourceError where it cannot be read."""
+    sketch = Sketch()
+    if isinstance(given, Drawing):
+        title = f"{given.source}, {given.view.name}"
+        parts = _read_drawing(given, sketch)
+        return Side(title, sketch.pieces(tolerance_mm, title), parts)
+    path = _path(given)
+    parts = _READERS[path.suffix.lower()](path, sketch)
+    return Side(path.name, sketch.pieces(tolerance_mm, path.name), parts)
+
+
+def _path(given: Any) -> Path:
+    if not isinstance(given, str | os.PathLike):
+        raise SourceError(f"{given!r} cannot be compared: give a drawing, or the path of its file")
+    path = Path(given)
+    check_readable(path)
+    if path.suffix.lower() not in _READERS:
+        raise SourceError(f"{path.name} cannot be compared: give {' or '.join(_READERS)} of hlr")
+    if path.stat().st_size > MOST_BYTES:
+        raise SourceError(f"{path.name} has more than {MOST_BYTES >> 20} MiB: it is refused")
+    return path
+
+
+def _read_json(path: Path, sketch: Sketch) -> tuple[str, ...]:
+    from hlr.writers.loading import load
+
+    return _read_drawing(load(path), sketch)
+
+
+def _read_drawing(drawing: Drawing, sketch: Sketch) -> tuple[str, ...]:
+    for line in drawing.lines:
+        edge = -1 if line.edge is None else line.edge
+        sketch.begin(Trait(LINE_CLASSES[line.kind].number, int(line.visible), line.part, edge))
+        curve = line.curve
+        if curve is None:
+            sketch.polyline(line.points)
+        elif isinstance(curve, Arc):
+            centre, (long, short), angles = curve.centre.tolist(), curve.axes.tolist(), curve.angles.tolist()
+            sketch.arc(tuple(centre), (tuple(long), tuple(short)), tuple(angles))
+        else:
+            points = [(x, y) for x, y in (curve if curve.degree == 3 else raised(curve)).points.tolist()]
+            for k in range(0, len(points) - 1, 3):
+                sketch.cubic(*points[k : k + 4])
+    return tuple(part.name for part in drawing.parts)
+
+
+_READERS: dict[str, Callable[[Path, Sketch], tuple[str, ...]]] = {".svg": read_svg, ".json": _read_json}
+"""What reads a file with this ending: it adds the lines to the sketch, and returns the names of the parts."""
