@@ -28,7 +28,12 @@ class SheetView:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """views: in the order of the page; template: SVG elements in millimetres from the page's upper left corner."""
+    """What is on a page.
+
+    views     in the order of the page
+    template  what is printed under them, and texts beside them, as SVG elements in millimetres from the page's upper
+              left corner
+    """
 
     views: tuple[SheetView, ...]
     template: str = ""

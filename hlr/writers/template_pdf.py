@@ -6,6 +6,7 @@ import io
 from collections.abc import Iterator
 from typing import Any
 
+from hlr.common.text_width import text_width
 from hlr.errors import WriteError
 from hlr.writers.number import number
 
@@ -30,7 +31,7 @@ def template_commands(template: str, left: float, top: float) -> bytes:
 
     out = [f"q 1 0 0 -1 {number(left)} {number(top)} cm"]
     try:
-        for element in SVG.parse(io.StringIO(template), reify=False).elements():
+        for element in SVG.parse(io.StringIO(f"<svg>{template}</svg>"), reify=False).elements():
             if element.values.get("visibility") == "hidden" or element.values.get("display") == "none":
                 continue
             if isinstance(element, Text):
@@ -86,17 +87,12 @@ def _text(text: Any) -> Iterator[str]:
     if not words or not fill:
         return
     size = float(text.font_size or 0.0)
-    back = {"middle": 0.5, "end": 1.0}.get(text.anchor, 0.0) * size * _length(words)
+    back = {"middle": 0.5, "end": 1.0}.get(text.anchor, 0.0) * size * text_width(words)
     m = text.transform
     x, y = float(text.x or 0.0) - back, float(text.y or 0.0)
     placed = (m.a, m.b, -m.c, -m.d, m.a * x + m.c * y + m.e, m.b * x + m.d * y + m.f)
     data = words.encode("cp1252", "replace").hex()
     yield f"BT {fill} rg /{FONT} {number(size)} Tf {' '.join(number(v, 6) for v in placed)} Tm <{data}> Tj ET"
-
-
-def _length(words: str) -> float:
-    """Of a text in Helvetica, in sizes of the font; a character that is not in the table counts as a digit."""
-    return sum(_WIDTHS.get(letter, 556) for letter in words) / 1000.0
 
 
 def _color(color: Any) -> str:
@@ -116,15 +112,3 @@ def _dashes(shape: Any, scale: float) -> str:
 
 def _point(point: Any) -> str:
     return f"{number(point.x, 4)} {number(point.y, 4)}"
-
-
-_PRINTED = (
-    *(278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278),
-    *(556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556),
-    *(1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778),
-    *(667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556),
-    *(333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556),
-    *(556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584),
-)
-_WIDTHS = {chr(32 + i): width for i, width in enumerate(_PRINTED)}
-"""Widths of Helvetica's characters, thousandths of its size."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from hlr.errors import counted
+from hlr.source.freecad.annotations import annotation, balloon
 from hlr.source.freecad.document import Document, Object
 from hlr.source.freecad.properties import Properties, Vector
 from hlr.source.freecad.template import filled_template
@@ -44,7 +45,12 @@ class PageView:
 
 @dataclass(frozen=True, slots=True)
 class DocumentPage:
-    """A page. size: width and height, None where it has no template; left_out: what of it is not drawn, for people."""
+    """A page.
+
+    size      width and height, millimetres; None where it has no template
+    template  that and its texts, as SVG elements in millimetres from the upper left corner
+    left_out  what of it is not drawn, for people
+    """
 
     name: str
     label: str
@@ -72,26 +78,38 @@ def _page(page: Object, document: Document, path: Path) -> DocumentPage:
         data = template.values.content("PageResult")
         if size is not None and data:
             svg = filled_template(data, template.values.texts("EditableTexts"), size, path)
-    found: list[PageView] = []
+    found: dict[str, PageView] = {}
     others: Counter[str] = Counter()
     items = list(_items(page, document))
     clipped = {name for thing, _ in items if thing.type in _CLIPS for name in thing.values.links("Views")}
     for thing, group in items:
-        if thing.name in clipped:
-            others["clipped view"] += 1
-        elif thing.type in _VIEWS:
-            found.append(_view(thing, group, page))
+        if thing.type in _VIEWS and thing.name not in clipped:
+            found[thing.name] = _view(thing, group, page)
             for name, noun in _ADDED.items():
                 others[noun] += thing.values.count_of(name)
-        elif thing.type not in _GROUPS:
+    for thing, _ in items:
+        if thing.name in clipped:
+            others["clipped view"] += 1
+        elif size is not None and (drawn := _texts(thing, found, size[1])):
+            svg += drawn
+        elif thing.type not in _VIEWS | _GROUPS:
             others[_NOUNS.get(thing.type, thing.type.rpartition("::")[2])] += 1
     # Hatches are on no page, but on the faces of a view.
-    drawn = {view.name for view in found}
     others["hatch"] = sum(
-        thing.values.link("Source") in drawn for thing in document.objects.values() if thing.type in _HATCHES
+        thing.values.link("Source") in found for thing in document.objects.values() if thing.type in _HATCHES
     )
     left_out = [counted(count, noun, _SEVERAL.get(noun, "")) for noun, count in sorted(others.items()) if count]
-    return DocumentPage(page.name, page.label, size, svg, tuple(found), tuple(left_out))
+    return DocumentPage(page.name, page.label, size, svg, tuple(found.values()), tuple(left_out))
+
+
+def _texts(thing: Object, views: Mapping[str, PageView], height: float) -> str:
+    """An annotation or a balloon as SVG; empty where it is none, or belongs to a view that is not drawn."""
+    if thing.type == _ANNOTATION:
+        return annotation(thing, height)
+    view = views.get(thing.values.link("SourceView"))
+    if thing.type == _BALLOON and view is not None:
+        return balloon(thing, view.place, view.scale, height)
+    return ""
 
 
 def _items(page: Object, document: Document) -> Iterator[tuple[Object, Object | None]]:
@@ -174,10 +192,12 @@ _SWITCHES = {
 }
 """Which of a view's switches decides on each class of lines."""
 
+_BALLOON, _ANNOTATION = "TechDraw::DrawViewBalloon", "TechDraw::DrawViewAnnotation"
+
 _NOUNS = {
     "TechDraw::DrawViewDimension": "dimension",
-    "TechDraw::DrawViewBalloon": "balloon",
-    "TechDraw::DrawViewAnnotation": "annotation",
+    _BALLOON: "balloon",
+    _ANNOTATION: "annotation",
     "TechDraw::DrawRichAnno": "rich text",
     "TechDraw::DrawLeaderLine": "leader",
     "TechDraw::DrawViewSection": "section",

@@ -102,6 +102,11 @@ class Properties:
         element = self.elements.get(name)
         return 0 if element is None else max(0, int(_number(element.get("count", "0"))))
 
+    def strings(self, name: str) -> list[str]:
+        """Of a list of strings."""
+        element = self.elements.get(name)
+        return [] if element is None else [each.get("value", "") for each in element.iterfind("String")]
+
     def texts(self, name: str) -> dict[str, str]:
         """Of a map from texts to texts."""
         element = self.elements.get(name)
