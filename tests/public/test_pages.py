@@ -198,7 +198,7 @@ def test_the_template_is_filled_in_and_harmless(tmp_path):
 
 def test_what_is_not_drawn_is_named(tmp_path):
     views = {
-        "Front": view(CosmeticEdges='<CosmeticEdgeList count="2"/>'),
+        "Front": view(CosmeticEdges='<CosmeticEdgeList count="2"/>', IsoHidden=flag(True), IsoCount=whole(4)),
         "Wires": view(source="Nothing"),
         "Dimension": item("TechDraw::DrawViewDimension"),
         "Other": item("TechDraw::DrawViewDimension"),
@@ -213,8 +213,8 @@ def test_what_is_not_drawn_is_named(tmp_path):
     assert [view.name for view in drawing.sheet.views] == ["Front"]
     assert [str(note) for note in drawing.notes] == [
         'Page "The page": view "Wires" (made.FCStd holds no shapes: there is nothing to draw) not drawn.',
-        'Page "The page": 1 DrawSomethingNew, 1 clip, 1 clipped view, 2 cosmetic lines, 2 dimensions and 1 hatch '
-        "not drawn.",
+        'Page "The page": 1 DrawSomethingNew, 1 clip, 1 clipped view, 2 cosmetic lines, 2 dimensions, 1 hatch and '
+        "1 set of isoparametric lines not drawn.",
     ]
     with pytest.raises(StrictError):
         hlr.draw_pages(path, options=hlr.Options(strict=True))

@@ -87,6 +87,8 @@ def _page(page: Object, document: Document, path: Path) -> DocumentPage:
             found[thing.name] = _view(thing, group, page)
             for name, noun in _ADDED.items():
                 others[noun] += thing.values.count_of(name)
+            if thing.values.count("IsoCount"):
+                others[_ISO] += any(thing.values.flag(name, False) for name in ("IsoVisible", "IsoHidden"))
     for thing, _ in items:
         if thing.name in clipped:
             others["clipped view"] += 1
@@ -151,7 +153,7 @@ def _view(view: Object, group: Object | None, page: Object) -> PageView:
 
 def _lines(values: Properties) -> Iterator[tuple[str, bool]]:
     for kind, switch in _SWITCHES.items():
-        if switch == "Hard" or values.flag(f"{switch}Visible", switch != "Iso"):
+        if switch == "Hard" or values.flag(f"{switch}Visible", True):
             yield kind, True
         if values.flag(f"{switch}Hidden", False):
             yield kind, False
@@ -218,4 +220,6 @@ _HATCHES = {"TechDraw::DrawHatch", "TechDraw::DrawGeomHatch"}
 _ADDED = {"CosmeticEdges": "cosmetic line", "CenterLines": "centre line", "CosmeticVertexes": "cosmetic point"}
 """What a user has added to a view by hand."""
 
-_SEVERAL = {"hatch": "hatches", "rich text": "rich texts"}
+_ISO = "set of isoparametric lines"
+
+_SEVERAL = {_ISO: "sets of isoparametric lines", "hatch": "hatches", "rich text": "rich texts"}
