@@ -21,6 +21,8 @@ from ..verb import Verb
 from ..view_options import NO_CACHE
 
 if TYPE_CHECKING:
+    from hlr.batch.baseline import Baseline
+    from hlr.batch.changes import Changes
     from hlr.batch.kept import Kept
     from hlr.batch.keys import Digests
     from hlr.batch.manifest import Manifest
@@ -30,6 +32,9 @@ if TYPE_CHECKING:
 
 FAILED = 1
 """Exit code where some sources could not be drawn."""
+
+CHANGED = 3
+"""Exit code where drawings differ from the baseline, and that was asked for."""
 
 
 @click.command(cls=Verb)
@@ -55,6 +60,12 @@ FAILED = 1
     metavar="ADDRESS",
     help="Draw on the workers of a Dask scheduler, such as tcp://host:8786, instead of here.",
 )
+@click.option(
+    "--baseline",
+    metavar="FOLDER|git:REV",
+    help="Compare with earlier drawings: those of a folder, or of a revision of the folder of outputs.",
+)
+@click.option("--fail-on-change", is_flag=True, help="Exit code 3 where a drawing differs from the baseline.")
 @click.option("--strict", is_flag=True, help="Warnings are errors: a source with one counts as failed.")
 @click.option("--init", is_flag=True, help="Write a manifest hlr.toml for the models here, to be changed at will.")
 @click.option("--list", "only_list", is_flag=True, help="Print the files that would be written, and draw nothing.")
@@ -81,11 +92,11 @@ def batch(
       hlr batch "parts/**/*.step" -o drawings --format svg --format pdf
 
     Exit codes: 0 all is drawn, 1 some sources failed and the rest is there, 2 the batch itself was wrong, or
-    --on found no workers that it could use to the end.
+    --on found no workers that it could use to the end, 3 drawings differ from the baseline (--fail-on-change).
     """
     if init:
         return _init(sources)
-    watch = others.pop("watch")
+    watch, baseline, fail_on_change = (others.pop(name) for name in ("watch", "baseline", "fail_on_change"))
     asked = _Asked(sources, **others)
     plan, kept, digests = _prepared(asked)
     if only_list:
@@ -98,15 +109,16 @@ def batch(
         for job in plan.jobs:
             click.echo(f"{'unchanged' if kept.find(job) else 'to draw  '}  {job.title}")
         return 0
+    earlier = _Earlier(plan, baseline, fail_on_change)
     _make_folder(plan.output)
     with ExitStack() as stack:
         # Beside the drawings there is a display to take down, and workers to end.
         stack.enter_context(tidily())
         show = stack.enter_context(progress(quiet))
         pool = _Pool(stack, jobs, address)
-        code = _round(plan, kept, digests, show, pool, quiet)
+        code = _round(plan, kept, digests, show, pool, earlier, quiet)
         if watch:
-            _watch(asked, plan, kept, digests, show, pool, quiet)
+            _watch(asked, plan, kept, digests, show, pool, earlier, quiet)
     return code
 
 
@@ -172,6 +184,28 @@ class _Pool:
         return LocalPool(self._jobs or os.cpu_count() or 1)
 
 
+class _Earlier:
+    """The drawings that `--baseline` names, if any. fails: whether a difference is a failure."""
+
+    def __init__(self, plan: Plan, name: str | None, fails: bool) -> None:
+        if fails and name is None:
+            raise OptionError("--fail-on-change needs --baseline: name a folder, or git:REVISION")
+        self.name, self.fails = name, fails
+        self._baseline: Baseline | None = None
+        if name is not None:
+            from hlr.batch.baseline import baseline_of
+
+            self._baseline = baseline_of(name, plan)
+
+    def changes(self, done: Done) -> Changes | None:
+        """What has changed in the drawings of a batch; None: there is no baseline."""
+        if self._baseline is None:
+            return None
+        from hlr.batch.changes import changes
+
+        return changes(done, self._baseline)
+
+
 def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
     from hlr.batch.kept import Kept
     from hlr.batch.keys import Digests
@@ -182,7 +216,7 @@ def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
     return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
 
 
-def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, quiet: bool) -> int:
+def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier, quiet: bool) -> int:
     """Draw what has changed, write the report, and say how it went. Returns the exit code."""
     from hlr.batch.ci import github
     from hlr.batch.report import write
@@ -191,13 +225,18 @@ def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, q
     started = time.monotonic()
     done = run(plan, kept, pool, show)
     tidy(plan.output)
-    report = write(done, digests, os.environ)
+    changed = earlier.changes(done)
+    report = write(done, digests, os.environ, changed)
     for line in github(report, plan.manifest.root, os.environ):
         click.echo(line)
     _add_to_summary(plan.output / "summary.md")
     if not quiet:
         click.echo(_said(done, time.monotonic() - started), err=True)
-    return FAILED if report["counts"]["failed"] else 0
+        if changed is not None:
+            click.echo(f"since {earlier.name}: {changed}", err=True)
+    if report["counts"]["failed"]:
+        return FAILED
+    return CHANGED if earlier.fails and changed is not None and changed.any else 0
 
 
 def _said(done: Done, seconds: float) -> str:
@@ -208,7 +247,9 @@ def _said(done: Done, seconds: float) -> str:
     return f"{done.plan.output}: {drawn} drawn, {unchanged} unchanged, {failed} failed, {seconds:.1f} s"
 
 
-def _watch(asked: _Asked, plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, quiet: bool) -> None:
+def _watch(
+    asked: _Asked, plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier, quiet: bool
+) -> None:
     """Draw again whatever changes, until a signal ends the command."""
     from hlr.batch.watch import changes
     from hlr.errors import HlrError
@@ -221,7 +262,7 @@ def _watch(asked: _Asked, plan: Plan, kept: Kept, digests: Digests, show: Lines,
         digests.forget(changed)
         try:
             plan = asked.plan()
-            _round(plan, kept, digests, show, pool, quiet)
+            _round(plan, kept, digests, show, pool, earlier, quiet)
         except HlrError as error:  # a manifest in the middle of being changed
             click.echo(f"hlr: {error}", err=True)
 

@@ -31,6 +31,7 @@ def document(found: dict[str, Any]) -> bytes:
     slowest = sorted(sources, key=lambda source: -source["cost"]["seconds"])[:_SLOWEST]
     parts = [
         f"# Drawings\n\n{head}\n",
+        _changed(found),
         _table("Failed", ("source", "why"), failed),
         _table("Warnings", ("source", "warning"), warned),
         _table(
@@ -40,6 +41,18 @@ def document(found: dict[str, Any]) -> bytes:
         ),
     ]
     return "\n".join(filter(None, parts)).encode()
+
+
+def _changed(found: dict[str, Any]) -> str:
+    """What differs from the baseline, where there is one."""
+    drawings = [drawing for source in found["sources"] for drawing in source["drawings"]]
+    rows = [
+        (next(iter(drawing["files"].values())), drawing["change"]["state"], drawing["change"]["summary"])
+        for drawing in drawings
+        if drawing.get("change", {}).get("state", "unchanged") != "unchanged"
+    ]
+    rows += [(name, "gone", "no longer drawn") for name in found.get("gone", ())]
+    return _table("Changed", ("drawing", "state", "what"), rows)
 
 
 def _table(heading: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hlr.batch import ci, junit, markdown
 from hlr.batch.job import Job, Outcome
@@ -17,17 +17,20 @@ from hlr.batch.keys import Digests
 from hlr.batch.run import Done
 from hlr.drawing import files
 
+if TYPE_CHECKING:
+    from hlr.batch.changes import Changes
+
 FORMAT, VERSION = "hlr-batch", 1
 
 Document = dict[str, Any]
 
 
-def document(done: Done, digests: Digests) -> Document:
-    """The report as `manifest.json` has it."""
+def document(done: Done, digests: Digests, changes: Changes | None = None) -> Document:
+    """The report as `manifest.json` has it. changes: since the baseline; None: there is none."""
     from importlib.metadata import version
 
     sources = [_source(job, outcome, digests) for job, outcome in zip(done.plan.jobs, done.outcomes, strict=True)]
-    return {
+    found: Document = {
         "format": FORMAT,
         "version": VERSION,
         "hlr": version("hlr-drawing"),
@@ -39,14 +42,22 @@ def document(done: Done, digests: Digests) -> Document:
         },
         "sources": sources,
     }
+    if changes is not None:
+        for source in sources:
+            for drawing in source["drawings"]:
+                drawing["change"] = changes.of[next(iter(drawing["files"].values()))]
+        found["counts"]["changed"] = sum(change["state"] != "unchanged" for change in changes.of.values())
+        found["gone"] = list(changes.gone)
+    return found
 
 
-def write(done: Done, digests: Digests, environment: Mapping[str, str]) -> Document:
+def write(done: Done, digests: Digests, environment: Mapping[str, str], changes: Changes | None = None) -> Document:
     """Write the files of the report that have changed. Returns the document.
 
-    environment: variables by which a CI service is told. Raises WriteError where a file cannot be written.
+    environment: variables by which a CI service is told. changes: since the baseline, where there is one. Raises
+    WriteError where a file cannot be written.
     """
-    found = document(done, digests)
+    found = document(done, digests, changes)
     contents = {}
     for name, writer in _WRITERS.items():
         content = writer(found, environment)

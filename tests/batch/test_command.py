@@ -118,3 +118,16 @@ def test_watching_draws_what_is_saved(hlr_batch, tmp_path):
     finally:
         process.send_signal(signal.SIGINT)
         assert process.wait(timeout=10) == -signal.SIGINT
+
+
+@pytest.mark.slow
+def test_a_change_since_the_baseline_is_exit_code_3(hlr_batch):
+    tetrahedron(hlr_batch.folder / "a.off", 1)
+    assert hlr_batch("--view", "iso", "-o", "old").returncode == 0
+    same = hlr_batch("--view", "iso", "--baseline", "old", "--fail-on-change")
+    assert same.returncode == 0 and "since old: 1 unchanged, 0 changed, 0 new, 0 gone" in same.stderr
+    tetrahedron(hlr_batch.folder / "a.off", 3)
+    assert hlr_batch("--view", "iso", "--baseline", "old").returncode == 0
+    assert hlr_batch("--view", "iso", "--baseline", "old", "--fail-on-change", "-q").returncode == 3
+    refused = hlr_batch("--fail-on-change")
+    assert refused.returncode == 2 and refused.stderr.startswith("hlr: --fail-on-change needs --baseline")
