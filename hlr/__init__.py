@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from hlr import compare, compat
+    from hlr import compare, compat, testing
     from hlr.drawing.curve import Arc, Bezier
     from hlr.drawing.drawing import Accuracy, Drawing
     from hlr.drawing.line import Bounds, Line
@@ -85,7 +85,13 @@ _HOME = {
 _CALLED = {"methods": "compare_methods"}
 """Names that are others at home."""
 
-_MODULES = {"compare": "hlr.compare", "compat": "hlr.compat", "study": "hlr.lab.study", "surfaces": "hlr.lab.methods"}
+_MODULES = {
+    "compare": "hlr.compare",
+    "compat": "hlr.compat",
+    "study": "hlr.lab.study",
+    "surfaces": "hlr.lab.methods",
+    "testing": "hlr.testing",
+}
 
 __all__ = [
     "Accuracy",
@@ -132,6 +138,7 @@ __all__ = [
     "preview_views",
     "study",
     "surfaces",
+    "testing",
 ]
 
 

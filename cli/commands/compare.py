@@ -11,7 +11,6 @@ from ..outputs import Target, check, place
 from ..verb import Verb
 
 if TYPE_CHECKING:
-    from hlr.compare import Comparison, Difference
     from hlr.compare.compare import Registration
 
 DIFFERENT = 1
@@ -53,6 +52,7 @@ def compare(
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
     """
     from hlr.compare import compare as compared
+    from hlr.compare.table import rows
 
     targets = [_target(output) for output in outputs]
     for source in (before, after):
@@ -61,7 +61,7 @@ def compare(
     place([(target, found.rendered(f".{target.format}")) for target in targets])
     if not quiet:
         click.echo(found.summary)
-        for row in _table(found):
+        for row in rows(found, _MOST_ROWS)[:-1]:
             click.echo(row)
     return 0 if found.same else DIFFERENT
 
@@ -71,30 +71,3 @@ def _target(output: str) -> Target:
 
     path = Path(output)
     return Target(path, ending_of(path)[1:])
-
-
-def _table(found: Comparison) -> list[str]:
-    """The longest differences, and how many there are besides."""
-    if found.same:
-        return []
-    rows: list[tuple[str, ...]] = [("difference", "mm", "at x, y", "class", "part")]
-    rows += [_row(each) for each in found.differences[:_MOST_ROWS]]
-    widths = [max(len(row[column]) for row in rows) for column in range(4)]
-    lines = [
-        "",
-        *("  ".join([*(cell.ljust(width) for cell, width in zip(row, widths, strict=False)), row[4]]) for row in rows),
-    ]
-    more = len(found.differences) - _MOST_ROWS
-    return [line.rstrip() for line in lines] + ([f"and {more} more"] if more > 0 else [])
-
-
-def _row(each: Difference) -> tuple[str, ...]:
-    from hlr.compare.difference import told
-
-    what = f"moved by {told(each.moved_mm)} mm" if each.kind == "moved" else each.kind
-    line = f"{'visible' if each.visible else 'hidden'} {each.line_class}"
-    became = f", now {each.became}" if each.became else ""
-    name = "".join(c if c.isprintable() else "?" for c in each.part or "")
-    edge = "" if each.edge is None else f", edge {each.edge}"
-    x, y = (f"{value:.2f}" for value in each.place)
-    return what, told(each.length_mm), f"{x}, {y}", line + became, f"{name}{edge}"

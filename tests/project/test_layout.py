@@ -33,6 +33,7 @@ FLOORS = (
     "lab",
     "public",
     "compare",
+    "testing",
     "compat",
     "batch",
     "cli",
