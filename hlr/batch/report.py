@@ -1,7 +1,8 @@
-"""The report of a batch: files beside the drawings. What is added to reports is a row of `_WRITERS` here.
+"""The report of a batch: files beside the drawings. A file that is added to reports is a row of `_WRITERS` here.
 
-`manifest.json` has all there is to know; the others say a part of it in the form that another program reads. Rows stand
-in the order of the plan. Times and memory stand under "cost" and "seconds": nothing else differs from run to run.
+`manifest.json` has all there is to know; the others say a part of it in the form that another program reads. The web
+page, which is many files, shows it to people (`hlr.batch.page`). Rows stand in the order of the plan. Times and memory
+stand under "cost" and "seconds": nothing else differs from run to run.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from hlr.batch import ci, junit, markdown
 from hlr.batch.job import Job, Outcome
 from hlr.batch.keys import Digests
+from hlr.batch.page import write as page
 from hlr.batch.run import Done
 from hlr.drawing import files
 
@@ -65,6 +67,7 @@ def write(done: Done, digests: Digests, environment: Mapping[str, str], changes:
         if content is not None and _old(path) != content:
             contents[path] = content
     files.write_all(contents, dict.fromkeys(path.parent for path in contents))
+    page.write(found, _as_json(found, environment), done.plan.output)
     return found
 
 
