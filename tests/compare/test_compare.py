@@ -127,6 +127,7 @@ def test_the_shift_of_a_whole_drawing_is_found_and_told(x, y):
     assert "moved by (" in found.summary
 
 
+@pytest.mark.slow
 def test_a_drawing_that_has_moved_and_changed_is_registered_by_what_is_the_same():
     lines = plate()
     after = drawing([*shifted(lines[1:], 13.0, 7.5), line([[100, 90], [140, 90]]), line([[100, 95], [100, 120]])])
@@ -167,6 +168,12 @@ def test_lines_that_cross_cover_nothing_of_one_another():
     assert lengths(found) == {"gone": pytest.approx(30.0)}
 
 
+def test_a_line_that_specks_lie_on_is_gone_as_one():
+    crossing = [line([[x, -0.05], [x + 0.3, 0.05]]) for x in range(0, 24, 8)]
+    (one,) = compare(drawing([line([[-10, 0], [40, 0]]), *crossing]), drawing(crossing)).differences
+    assert (one.kind, one.length_mm) == ("gone", pytest.approx(50.0))
+
+
 def test_less_than_the_tolerance_is_no_difference():
     lines = plate()
     assert compare(drawing(lines), drawing(shifted(lines, 0.04, 0.05))).same
@@ -192,6 +199,7 @@ def test_options_out_of_range_are_refused(changes):
         compare(drawing([]), drawing([]), **changes)
 
 
+@pytest.mark.slow
 def test_a_hundred_thousand_lines_take_seconds():
     # Quick enough for a test: a tenth of them. The time grows with their number.
     made = np.random.default_rng(1)

@@ -79,6 +79,7 @@ def test_a_damaged_or_hostile_file_is_refused(name, tmp_path):
     assert "root:" not in str(refused.value)
 
 
+@pytest.mark.slow
 def test_groups_a_hundred_thousand_deep_are_read(tmp_path):
     path = tmp_path / "deep.svg"
     deep = 100_000
