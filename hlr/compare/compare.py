@@ -39,10 +39,10 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
     >>> hlr.compare.compare(old, old).summary
     'same: 112.6 mm of lines'
     """
-    if not SMALLEST_TOLERANCE_MM <= tolerance_mm <= LARGEST_TOLERANCE_MM:
-        raise OptionError(
-            f"the tolerance is {tolerance_mm:g} mm: give {SMALLEST_TOLERANCE_MM:g} to {LARGEST_TOLERANCE_MM:g}"
-        )
+    number = isinstance(tolerance_mm, int | float) and not isinstance(tolerance_mm, bool)
+    if not number or not SMALLEST_TOLERANCE_MM <= tolerance_mm <= LARGEST_TOLERANCE_MM:
+        limits = f"{SMALLEST_TOLERANCE_MM:g} to {LARGEST_TOLERANCE_MM:g}"
+        raise OptionError(f"the tolerance is {tolerance_mm!r}: give {limits} millimetres on paper")
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
     before, after = _divided(side_of(a, tolerance_mm), side_of(b, tolerance_mm), tolerance_mm)

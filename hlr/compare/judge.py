@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from hlr.compare.difference import KINDS, Difference, Verdict
-from hlr.compare.match import Rule, divided_by, partners
+from hlr.compare.match import Rule, divided_by, once, partners
 from hlr.compare.pieces import Floats, Pieces
 from hlr.compare.sides import Side
 from hlr.tables.line_classes import names
@@ -34,6 +34,10 @@ STAGES = (
     Stage("visibility changed", ()),
     Stage("moved", ("kind", "visible"), reach=10.0),
 )
+
+
+_TWICE = 0.1
+"""Tolerances within which lines of one drawing are one line, drawn twice."""
 
 
 @dataclass(slots=True)
@@ -76,6 +80,8 @@ def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
         (both, left_a), (also, left_b) = divided_by(a, b, rule), divided_by(b, a, rule)
         if stage.kind is None:
             found.same = both
+            twice = Rule(_TWICE * tolerance_mm, tolerance_mm, stage.same)
+            left_a, left_b = once(left_a, twice), once(left_b, twice)
         else:
             _changed(found, stage.kind, both, b, rule, before.parts)
         if stage.kind == "moved":

@@ -65,6 +65,26 @@ def divided_by(a: Pieces, b: Pieces, rule: Rule) -> tuple[Pieces, Pieces]:
     return a.cut(_complement(a, bare)), a.cut(bare)
 
 
+def once(a: Pieces, rule: Rule) -> Pieces:
+    """The lines of a without what an earlier one of them covers: lines on top of one another count once.
+
+    What sticks out by less than the tolerance is left out as well.
+    """
+    if not len(a):
+        return a
+    covered: list[Floats] = []
+    places = a.places
+    for i, j in _fitting(a, a, rule):
+        earlier = a.line[j] < a.line[i]
+        i, j = i[earlier], j[earlier]  # noqa: PLW2901 - the pairs that count
+        (low, high), _ = _intervals(a, a, i, j, rule.reach_mm)
+        some = high > low
+        covered.append(np.stack([low[some], high[some]], axis=1) + places[i[some]][:, None])
+    left = _gaps(a, covered)
+    whole = np.isin(left[:, 0], a.ends_of_lines()[0]) & np.isin(left[:, 1], a.ends_of_lines()[1])
+    return a.cut(left[whole | (left[:, 1] - left[:, 0] > rule.tolerance_mm)])
+
+
 def partners(a: Pieces, b: Pieces, rule: Rule) -> tuple[Index, Floats]:
     """For each piece of a the nearest of b that covers some of it, or -1, and how far its middle is from it."""
     nearest, distance = np.full(len(a), -1), np.full(len(a), np.inf)

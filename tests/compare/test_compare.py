@@ -157,6 +157,23 @@ def test_order_direction_and_where_lines_are_split_make_no_difference():
         assert found.same, found.summary
 
 
+def test_lines_on_top_of_one_another_count_once():
+    lines = plate()
+    halves = [line([[45, 30], [60, 40]], "smooth"), line([[50, 100 / 3], [30, 20]], "smooth")]
+    circle = replace(line(fine(lines[6].curve)[::-100]), kind=lines[6].kind)
+    twice = [*lines, lines[4], *halves, circle]
+    rest = [each for n, each in enumerate(lines) if n not in (4, 6)]
+    expected = {"gone": pytest.approx(math.hypot(60, 40) + 16 * math.pi, abs=0.02)}
+    assert lengths(compare(drawing(twice), drawing(rest))) == expected
+    assert lengths(compare(drawing(rest), drawing(twice))) == {"new": expected["gone"]}
+    seams = [replace(each, kind="seam") for each in twice]
+    assert lengths(compare(drawing([lines[4], *halves]), drawing(seams)))["class changed"] == pytest.approx(
+        math.hypot(60, 40), abs=0.001
+    )
+    # Lines a tolerance apart are two.
+    assert lengths(compare(drawing([]), drawing([lines[0], moved(lines[0], 0.0, 0.1)]))) == {"new": 120.0}
+
+
 def test_a_longer_line_differs_by_what_it_is_longer():
     found = compare(drawing([line([[0, 0], [10, 0]])]), drawing([line([[-0.05, 0], [10.3, 0]])]))
     assert lengths(found) == {"new": pytest.approx(0.3)}
@@ -193,9 +210,11 @@ def test_empty_drawings():
     assert found.to_svg() and found.to_png()
 
 
-@pytest.mark.parametrize("changes", [{"tolerance_mm": 0.0}, {"tolerance_mm": math.nan}, {"register": "turn"}])
+@pytest.mark.parametrize(
+    "changes", [{"tolerance_mm": t} for t in (0.0, math.nan, "0.1", None, True)] + [{"register": "turn"}]
+)
 def test_options_out_of_range_are_refused(changes):
-    with pytest.raises(OptionError):
+    with pytest.raises(OptionError, match=next(iter(changes)).partition("_")[0]):
         compare(drawing([]), drawing([]), **changes)
 
 
