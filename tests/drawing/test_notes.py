@@ -1,6 +1,7 @@
 """Notes: a code for programs, a sentence for people, one table of codes."""
 
 import json
+import re
 from pathlib import Path
 from typing import get_args
 
@@ -8,7 +9,7 @@ import pytest
 import trimesh
 
 import hlr
-from hlr.drawing.notes import CODES, Note, NoteCode
+from hlr.drawing.notes import CODES, REMARKS, Note, NoteCode
 from support.at_size import AT_SIZE
 
 
@@ -16,6 +17,8 @@ def test_there_is_one_table_of_codes_and_the_format_describes_it():
     assert get_args(NoteCode) == tuple(CODES)
     described = (Path(hlr.__file__).parent / "writers" / "JSON.md").read_text()
     assert all(f"| `{code}` | {meaning} |" in described for code, meaning in CODES.items())
+    remarks = described.partition(" are remarks, the others warnings.")[0].rpartition("\n\n")[2]
+    assert set(re.findall("`(.*?)`", remarks)) == REMARKS
 
 
 def test_a_note_is_a_frozen_value():
