@@ -65,7 +65,7 @@ def _change(output: Path, names: dict[str, str], baseline: Baseline) -> Change:
     before, overlay = PurePosixPath(FOLDER, name), PurePosixPath(FOLDER, f"{name}.overlay.svg")
     _write(output / before, baseline.read(name))
     try:
-        compared = compare(output / before, output / name)
+        compared = compare(output / before, output / name, register="translation")
     except HlrError as error:
         return _told("changed", str(error))
     if compared.same:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import replace
 from typing import Literal, get_args
@@ -22,6 +23,9 @@ SMALLEST_TOLERANCE_MM, LARGEST_TOLERANCE_MM = 0.001, 10.0
 _MOST_PIECES = 400_000
 """Pieces of both sides together, about, into which long lines are divided."""
 
+_SAME_SCALE = 1e-5
+"""Scales that differ by less are the same: files state six digits."""
+
 Compared = Drawing | str | os.PathLike[str]
 
 
@@ -31,6 +35,8 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
     a, b          each a `Drawing`, or the path of an SVG or JSON file of hlr
     tolerance_mm  how far apart on paper two lines may lie that count as the same; 0.001 to 10
     register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a
+
+    Drawings at different scales differ; their lines are compared at the scale of the first.
 
     Raises SourceError for a file that cannot be read, and OptionError for an option that does not exist.
 
@@ -45,12 +51,24 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
         raise OptionError(f"the tolerance is {tolerance_mm!r}: give {limits} millimetres on paper")
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
-    before, after = _divided(side_of(a, tolerance_mm), side_of(b, tolerance_mm), tolerance_mm)
+    before, after = side_of(a, tolerance_mm), side_of(b, tolerance_mm)
+    scales = _scales(before, after)
+    if scales is not None:
+        after = replace(after, pieces=after.pieces.scaled(scales[0] / scales[1]))
+    before, after = _divided(before, after, tolerance_mm)
     shift = None
     if register == "translation":
         shift = translation(after.pieces, before.pieces, tolerance_mm)
         after = replace(after, pieces=after.pieces.shifted(np.array(shift)))
-    return Comparison.of(before, after, judged(before, after, tolerance_mm), tolerance_mm, shift)
+    return Comparison.of(before, after, judged(before, after, tolerance_mm), tolerance_mm, shift, scales)
+
+
+def _scales(before: Side, after: Side) -> tuple[float, float] | None:
+    """The scales of two drawings, where both are known and differ."""
+    one, other = before.about.scale, after.about.scale
+    if one is None or other is None or math.isclose(one, other, rel_tol=_SAME_SCALE):
+        return None
+    return one, other
 
 
 def _divided(before: Side, after: Side, tolerance_mm: float) -> tuple[Side, Side]:

@@ -13,6 +13,7 @@ from hlr.compare.judge import Findings
 from hlr.compare.pieces import Pieces
 from hlr.compare.sides import Side
 from hlr.drawing.files import path_of, write_all
+from hlr.drawing.scale import ratio
 from hlr.errors import OptionError
 
 FORMAT, VERSION = "hlr-comparison", 1
@@ -26,6 +27,7 @@ class Comparison:
     differences    each with its place, length, class, part and edge; by kind, the longest first
     tolerance_mm   how far apart lines may lie that count as the same
     shift          (x, y) mm by which the second drawing was moved before it was compared; None: it was not registered
+    scales         of the two drawings, where they differ: the second was compared at the scale of the first
     same_mm        length that is the same in both
     findings       the differences with their pieces, from which the overlay is drawn
     lines          the pieces of the second drawing, as it was moved
@@ -42,18 +44,24 @@ class Comparison:
     differences: tuple[Difference, ...]
     tolerance_mm: float
     shift: tuple[float, float] | None
+    scales: tuple[float, float] | None
     same_mm: float
     findings: Findings
     lines: Pieces
 
     @staticmethod
     def of(
-        before: Side, after: Side, findings: Findings, tolerance_mm: float, shift: tuple[float, float] | None
+        before: Side,
+        after: Side,
+        findings: Findings,
+        tolerance_mm: float,
+        shift: tuple[float, float] | None,
+        scales: tuple[float, float] | None,
     ) -> Comparison:
         """The record of what was found."""
         found = tuple(findings.differences)
         return Comparison(
-            before.title, after.title, found, tolerance_mm, shift, findings.same_mm, findings, after.pieces
+            before.title, after.title, found, tolerance_mm, shift, scales, findings.same_mm, findings, after.pieces
         )
 
     def __repr__(self) -> str:
@@ -61,8 +69,8 @@ class Comparison:
 
     @property
     def same(self) -> bool:
-        """Whether nothing differs."""
-        return not self.differences
+        """Whether nothing differs, the scale included."""
+        return not self.differences and self.scales is None
 
     @property
     def lengths_mm(self) -> dict[str, float]:
@@ -74,11 +82,13 @@ class Comparison:
         """One line: "12.4 mm gone, 3 mm new"."""
         lengths = [f"{told(length)} mm {kind}" for kind, length in self.lengths_mm.items() if length > 0.0]
         text = ", ".join(lengths) or f"same: {told(self.same_mm)} mm of lines"
+        if self.scales is not None:
+            text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
         if self.shift is None:
             return text
         moved = any(abs(each) >= 0.0005 for each in self.shift)
         x, y = (told(each) for each in self.shift)
-        return f"{text}; moved by ({x}, {y}) mm to be compared" if moved else f"{text}; in the same place"
+        return f"{text}; moved by ({x}, {y}) mm to be compared" if moved else text
 
     def to_dict(self) -> dict[str, Any]:
         """All of it but the picture, for JSON."""
@@ -91,6 +101,7 @@ class Comparison:
             "summary": self.summary,
             "tolerance_mm": self.tolerance_mm,
             "shift": None if self.shift is None else list(self.shift),
+            "scales": None if self.scales is None else list(self.scales),
             "same_mm": self.same_mm,
             "mm": self.lengths_mm,
             "differences": [each.as_dict() for each in self.differences],

@@ -27,7 +27,7 @@ class Difference:
     moved_mm    how far it has moved, across its direction; 0 where it has not
 
     >>> import hlr
-    >>> before, after = (hlr.draw("part.step", view="top", scale=scale) for scale in (1, 2))
+    >>> before, after = (hlr.draw("part.step", view=view, scale=1) for view in ("top", "front"))
     >>> {each.side for each in hlr.compare.compare(before, after).differences}
     {'before', 'after'}
     """

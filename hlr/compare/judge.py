@@ -83,13 +83,13 @@ def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
             twice = Rule(_TWICE * tolerance_mm, tolerance_mm, stage.same)
             left_a, left_b = once(left_a, twice), once(left_b, twice)
         else:
-            _changed(found, stage.kind, both, b, rule, before.parts)
+            _changed(found, stage.kind, both, b, rule, before.about.parts)
         if stage.kind == "moved":
             found.moved = _ends(also)
         a, b = left_a, left_b
     for kind, pieces, side in (("gone", a, before), ("new", b, after)):
         for line in _lines(pieces):
-            found.add(_difference(kind, line, side.parts), line)
+            found.add(_difference(kind, line, side.about.parts), line)
     order = sorted(range(len(found.differences)), key=lambda n: _rank(found.differences[n]))
     found.differences = [found.differences[n] for n in order]
     found.traces = [found.traces[n] for n in order]

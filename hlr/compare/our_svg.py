@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hlr.compare.path_data import add_path
-from hlr.compare.sketch import Sketch, Trait
+from hlr.compare.sketch import About, Sketch, Trait
 from hlr.errors import SourceError
+from hlr.request.scale import scale_of
 from hlr.source.archive import xml_tree
 from hlr.tables.line_classes import LINE_CLASSES
 
@@ -22,8 +23,8 @@ _SHAPES = ("path", "circle", "ellipse")
 _TURN = re.compile(r"rotate\((\S+) \S+ \S+\)")
 
 
-def read_svg(path: Path, sketch: Sketch) -> tuple[str, ...]:
-    """Add the lines of a file to a sketch. Returns the names of the parts.
+def read_svg(path: Path, sketch: Sketch) -> About:
+    """Add the lines of a file to a sketch. Returns what else the file says.
 
     Raises SourceError, in one sentence, for a file that is no SVG, or none of ours, or damaged.
     """
@@ -35,7 +36,8 @@ def read_svg(path: Path, sketch: Sketch) -> tuple[str, ...]:
         _read(root, sketch)
     except ValueError as error:
         raise SourceError(f"{path.name} is damaged: {error}") from None
-    return tuple(part.get("name", "") for part in ours.iter(f"{_OURS}part"))
+    names = tuple(part.get("name", "") for part in ours.iter(f"{_OURS}part"))
+    return About(names, scale_of(ours.get("scale", "")))
 
 
 def _read(root: Element, sketch: Sketch) -> None:

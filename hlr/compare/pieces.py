@@ -77,6 +77,10 @@ class Pieces:
         """All of them moved by (x, y) millimetres."""
         return replace(self, start=self.start + by, end=self.end + by)
 
+    def scaled(self, by: float) -> Pieces:
+        """All of them that much larger, seen from 0, 0."""
+        return replace(self, start=self.start * by, end=self.end * by, along=self.along * by)
+
     def cut(self, intervals: Floats) -> Pieces:
         """What lies in intervals (k, 2) of the lines laid end to end, ascending; each interval becomes a line."""
         places, lengths = self.places, self.lengths

@@ -10,7 +10,7 @@ from typing import Any
 
 from hlr.compare.our_svg import read_svg
 from hlr.compare.pieces import Pieces
-from hlr.compare.sketch import Sketch, Trait
+from hlr.compare.sketch import About, Sketch, Trait
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
 from hlr.errors import SourceError
@@ -23,11 +23,11 @@ MOST_BYTES = 1 << 29
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """One of two drawings: what people call it, its lines, and the names of its parts."""
+    """One of two drawings: what people call it, its lines, and what else is known of it."""
 
     title: str
     pieces: Pieces
-    parts: tuple[str, ...]
+    about: About
 
 
 def side_of(given: Any, tolerance_mm: float) -> Side:
@@ -35,11 +35,11 @@ def side_of(given: Any, tolerance_mm: float) -> Side:
     sketch = Sketch()
     if isinstance(given, Drawing):
         title = f"{given.source}, {given.view.name}"
-        parts = _read_drawing(given, sketch)
-        return Side(title, sketch.pieces(tolerance_mm, title), parts)
+        about = _read_drawing(given, sketch)
+        return Side(title, sketch.pieces(tolerance_mm, title), about)
     path = _path(given)
-    parts = _READERS[path.suffix.lower()](path, sketch)
-    return Side(path.name, sketch.pieces(tolerance_mm, path.name), parts)
+    about = _READERS[path.suffix.lower()](path, sketch)
+    return Side(path.name, sketch.pieces(tolerance_mm, path.name), about)
 
 
 def _path(given: Any) -> Path:
@@ -54,13 +54,13 @@ def _path(given: Any) -> Path:
     return path
 
 
-def _read_json(path: Path, sketch: Sketch) -> tuple[str, ...]:
+def _read_json(path: Path, sketch: Sketch) -> About:
     from hlr.writers.loading import load
 
     return _read_drawing(load(path), sketch)
 
 
-def _read_drawing(drawing: Drawing, sketch: Sketch) -> tuple[str, ...]:
+def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
     for line in drawing.lines:
         edge = -1 if line.edge is None else line.edge
         sketch.begin(Trait(LINE_CLASSES[line.kind].number, int(line.visible), line.part, edge))
@@ -74,8 +74,8 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> tuple[str, ...]:
             points = [(x, y) for x, y in (curve if curve.degree == 3 else raised(curve)).points.tolist()]
             for k in range(0, len(points) - 1, 3):
                 sketch.cubic(*points[k : k + 4])
-    return tuple(part.name for part in drawing.parts)
+    return About(tuple(part.name for part in drawing.parts), drawing.scale)
 
 
-_READERS: dict[str, Callable[[Path, Sketch], tuple[str, ...]]] = {".svg": read_svg, ".json": _read_json}
-"""What reads a file with this ending: it adds the lines to the sketch, and returns the names of the parts."""
+_READERS: dict[str, Callable[[Path, Sketch], About]] = {".svg": read_svg, ".json": _read_json}
+"""What reads a file with this ending: it adds the lines to the sketch, and returns what else is known."""

@@ -33,6 +33,14 @@ class Trait:
     edge: int = -1
 
 
+@dataclass(frozen=True, slots=True)
+class About:
+    """What is known of a drawing besides its lines: names of its parts; paper to model, None where it is unknown."""
+
+    parts: tuple[str, ...]
+    scale: float | None = None
+
+
 class Sketch:
     """Lines that are being read. `begin` begins one; what is added then belongs to it, in this order."""
 

@@ -10,7 +10,7 @@ _HEADINGS = ("difference", "mm", "at x, y", "class", "part")
 
 def rows(found: Comparison, most: int) -> list[str]:
     """The longest differences of each kind first, at most so many, and how many there are besides."""
-    if found.same:
+    if not found.differences:
         return []
     cells = [_HEADINGS, *(_row(each) for each in found.differences[:most])]
     widths = [max(len(row[column]) for row in cells) for column in range(4)]

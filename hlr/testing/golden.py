@@ -29,7 +29,7 @@ def assert_same_drawing(
     *,
     view: View | None = None,
     tolerance_mm: float = 0.1,
-    register: Registration = "off",
+    register: Registration = "translation",
     **wishes: Unpack[Wishes],
 ) -> None:
     """Fail where a drawing differs from the golden one by more than the tolerance.
@@ -38,7 +38,7 @@ def assert_same_drawing(
     golden        path of an SVG or JSON file of hlr; a relative one starts from the folder of the test
     view          of a part: as of `hlr.draw`; None: isometric
     tolerance_mm  how far apart on paper two lines may lie that count as the same
-    register      "translation": where the drawing lies on its page does not matter
+    register      "off": from the lower left corner of the drawing, which moves where a part grows to the left
     wishes        of a part: fields of `Options`; with a `scale` a change of size does not change all lines
 
     Raises AssertionError, which says what differs and where the overlay is. With `pytest --hlr-update` a golden drawing

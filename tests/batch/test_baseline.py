@@ -108,6 +108,15 @@ def test_what_changed_since_the_baseline(go, earlier, tmp_path):
     }
 
 
+def test_a_part_that_grows_to_the_left_has_not_moved(go, tmp_path):
+    # Drawings begin at their lower left corner: all lines lie elsewhere in the file.
+    grown = [line([[8, 0], [38, 0]]), line([[38, 0], [38, 20]], edge=7), line([[0, 0], [8, 0]])]
+    go(output="old", a=BOX)
+    change = told(go(tmp_path / "old", a=grown))["a.off"]
+    assert change["summary"] == "8 mm new; moved by (-8, 0) mm to be compared"
+    assert change["mm"] == {**dict.fromkeys(change["mm"], 0.0), "new": 8.0}
+
+
 def test_without_a_baseline_there_is_no_change(go):
     report = go(alike=BOX)
     assert "gone" not in report and "change" not in report["sources"][0]["drawings"][0]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hlr.compare import compare
+from hlr.drawing.curve import Arc, Bezier
 from hlr.errors import OptionError
 from support.drawings import arc, bezier, drawing, line
 
@@ -29,6 +30,15 @@ def plate():
         bezier(3, [[5, 5], [15, 25], [35, -10], [50, 30]], kind="intersection"),
         arc((40, 15), 8, 8, (0, TURN), visible=False, edge=9),
     ]
+
+
+def scaled(one, by):
+    points, curve = one.points * by, one.curve
+    if isinstance(curve, Arc):
+        curve = Arc(curve.centre * by, curve.axes * by, curve.angles)
+    elif curve is not None:
+        curve = Bezier(curve.degree, curve.points * by)
+    return replace(one, points=points, curve=curve)
 
 
 def lengths(found):
@@ -134,6 +144,19 @@ def test_a_drawing_that_has_moved_and_changed_is_registered_by_what_is_the_same(
     found = compare(drawing(lines), after, register="translation")
     assert found.shift == (pytest.approx(-13.0, abs=2e-3), pytest.approx(-7.5, abs=2e-3))
     assert lengths(found) == {"gone": pytest.approx(60.0, abs=0.01), "new": pytest.approx(65.0, abs=0.01)}
+
+
+def test_drawings_at_other_scales_differ_and_are_compared_at_the_scale_of_the_first(tmp_path):
+    half = [scaled(one, 0.5) for one in plate()]
+    before, after = drawing(plate(), scale=2.0), drawing(half, scale=1.0)
+    for other in (after, after.save(tmp_path / "after.svg"), after.save(tmp_path / "after.json")):
+        found = compare(before, other)
+        assert not found.same and not found.differences and found.scales == (2.0, 1.0)
+        assert found.summary.startswith("scale 2:1, now 1:1; at the scale of the first: same: ")
+        assert found.to_dict()["scales"] == [2.0, 1.0]
+    (one,) = compare(before, drawing(half[1:], scale=1.0)).differences
+    assert (one.kind, one.length_mm) == ("gone", 60.0)
+    assert compare(before, drawing(plate(), scale=2.0 + 1e-6)).same
 
 
 def test_order_direction_and_where_lines_are_split_make_no_difference():
