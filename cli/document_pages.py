@@ -46,8 +46,8 @@ def draw_document_pages(
 
     Raises OptionError where other options contradict the page; else as `hlr.draw_pages`.
     """
-    if page is not None:
-        targets = targets_of(outputs, source, [page], format, told["as_json"])
+    # What cannot be a name of files is refused before the document is read for the names of all its pages.
+    targets = targets_of(outputs, source, ["page" if page is None else page], format, told["as_json"])
     start(source)
     with result_only() as out:
         with meter(told["quiet"]) as progress:

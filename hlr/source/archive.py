@@ -38,6 +38,7 @@ def open_archive(path: Path, title: str) -> Iterator[zipfile.ZipFile]:
             if total > MAX_EXPANDED or (total > 64 << 20 and total > MAX_RATIO * path.stat().st_size):
                 raise SourceError(f"{path.name} would unpack to {total >> 20} MiB: it is refused as a ZIP bomb.")
             yield archive
+    # zipfile says NotImplementedError of compressions that it does not know.
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OSError) as error:
         raise SourceError(
             f"{path.name} cannot be read as {title}: the archive is broken or encrypted ({error})."

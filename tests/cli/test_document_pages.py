@@ -53,3 +53,8 @@ def test_what_is_refused(hlr_real, tmp_path, arguments, message):
     assert (result.code, result.out) == (2, "")
     assert message in result.err and len(result.err.splitlines()) <= 3
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_name_that_cannot_be_is_refused_before_the_document_is_read(hlr_real):
+    result = hlr_real("draw", "none.FCStd", "--all-pages", "-o", "{page}.svg")
+    assert result.code == 2 and "the unknown field {page}" in result.err
