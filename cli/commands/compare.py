@@ -52,7 +52,7 @@ def compare(
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
     """
     from hlr.compare import compare as compared
-    from hlr.compare.table import rows
+    from hlr.compare.overlay.table import rows
 
     targets = [_target(output) for output in outputs]
     for source in (before, after):

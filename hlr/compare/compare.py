@@ -10,9 +10,9 @@ from typing import Literal, get_args
 import numpy as np
 
 from hlr.compare.comparison import Comparison
-from hlr.compare.judge import judged
-from hlr.compare.register import translation
-from hlr.compare.sides import Side, side_of
+from hlr.compare.matching.judge import judged
+from hlr.compare.matching.register import translation
+from hlr.compare.reading.sides import Side, side_of
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError
 

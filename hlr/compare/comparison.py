@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from hlr.compare.difference import Difference, told
-from hlr.compare.judge import Findings
-from hlr.compare.pieces import Pieces
-from hlr.compare.sides import Side
+from hlr.compare.lines.pieces import Pieces
+from hlr.compare.matching.judge import Findings
+from hlr.compare.reading.sides import Side
 from hlr.drawing.files import path_of, write_all
 from hlr.drawing.scale import ratio
 from hlr.errors import OptionError
@@ -115,15 +115,15 @@ class Comparison:
 
     def to_svg(self) -> str:
         """The overlay as SVG: what is the same in grey, each kind of difference in its colour, with a legend."""
-        from hlr.compare.overlay import overlay
-        from hlr.compare.overlay_svg import svg
+        from hlr.compare.overlay.picture import overlay
+        from hlr.compare.overlay.svg import svg
 
         return svg(overlay((self.before, self.after), self.summary, self.findings, self.lines))
 
     def to_png(self) -> bytes:
         """The same as PNG, 8 pixels per millimetre where that is not too large."""
-        from hlr.compare.overlay import overlay
-        from hlr.compare.overlay_png import png
+        from hlr.compare.overlay.picture import overlay
+        from hlr.compare.overlay.png import png
 
         return png(overlay((self.before, self.after), self.summary, self.findings, self.lines))
 

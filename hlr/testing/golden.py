@@ -95,7 +95,7 @@ def _save(drawing: Drawing, path: Path) -> None:
 
 def _told(found: Comparison, drawing: Drawing, path: Path) -> str:
     """What a failure says. The overlay and the drawing are kept for whoever looks."""
-    from hlr.compare.table import rows
+    from hlr.compare.overlay.table import rows
 
     folder = SESSION.temporary() if SESSION.temporary else Path(tempfile.mkdtemp(prefix="hlr-"))
     overlays = [found.save(folder / f"{path.stem}-overlay{ending}") for ending in (".svg", ".png")]

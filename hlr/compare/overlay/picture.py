@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from hlr.compare.difference import KINDS, told
-from hlr.compare.judge import Findings
-from hlr.compare.pieces import Floats, Pieces
+from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.matching.judge import Findings
 
 COLORS = {
     "gone": "#d62222",

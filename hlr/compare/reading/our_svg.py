@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from hlr.compare.path_data import add_path
-from hlr.compare.sketch import About, Sketch, Trait
+from hlr.compare.lines.sketch import About, Sketch, Trait
+from hlr.compare.reading.path_data import add_path
 from hlr.errors import SourceError
 from hlr.request.scale import scale_of
 from hlr.source.archive import xml_tree

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hlr.compare.pieces import Floats, Index, Pieces, with_ways
+from hlr.compare.lines.pieces import Floats, Index, Pieces, with_ways
 from hlr.drawing.chords import numbered
 from hlr.errors import SourceError
 

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterator
 
-from hlr.compare.sketch import Pair, Sketch
+from hlr.compare.lines.sketch import Pair, Sketch
 
 _TOKEN = re.compile(r"[MLHVCSQTAZmlhvcsqtaz]|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _ALLOWED = re.compile(r"[MLHVCSQTAZmlhvcsqtaz0-9eE+\-.,\s]*")

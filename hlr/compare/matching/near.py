@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from hlr.compare.pieces import Floats, Index, Pieces
+from hlr.compare.lines.pieces import Floats, Index, Pieces
 from hlr.drawing.chords import numbered
 from hlr.errors import OptionError
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from hlr.compare.overlay import PAPER, Overlay, Stroke, Text
-from hlr.compare.pieces import Floats
+from hlr.compare.lines.pieces import Floats
+from hlr.compare.overlay.picture import PAPER, Overlay, Stroke, Text
 from hlr.writers.number import number
 from hlr.writers.svg import escaped
 

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hlr.compare.near import pairs
-from hlr.compare.pieces import Array, Floats, Index, Pieces
+from hlr.compare.lines.pieces import Array, Floats, Index, Pieces
+from hlr.compare.matching.near import pairs
 
 STEEPEST = 0.42
 """Sine of the largest angle between two pieces that cover one another."""

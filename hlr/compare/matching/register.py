@@ -7,8 +7,8 @@ from itertools import chain
 
 import numpy as np
 
-from hlr.compare.match import Rule, divided_by, partners
-from hlr.compare.pieces import Floats, Pieces
+from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.matching.match import Rule, divided_by, partners
 
 _CELLS = 512
 """Of the picture in which both are first laid on one another, along its longer side."""

@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 
 from hlr.compare.difference import KINDS, Difference, Verdict
-from hlr.compare.match import Rule, divided_by, once, partners
-from hlr.compare.pieces import Floats, Pieces
-from hlr.compare.sides import Side
+from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.matching.match import Rule, divided_by, once, partners
+from hlr.compare.reading.sides import Side
 from hlr.tables.line_classes import names
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hlr.compare.our_svg import read_svg
-from hlr.compare.pieces import Pieces
-from hlr.compare.sketch import About, Sketch, Trait
+from hlr.compare.lines.pieces import Pieces
+from hlr.compare.lines.sketch import About, Sketch, Trait
+from hlr.compare.reading.our_svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
 from hlr.errors import SourceError

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from hlr.compare.overlay import PAPER, Overlay, Stroke
-from hlr.compare.pieces import Floats
+from hlr.compare.lines.pieces import Floats
+from hlr.compare.overlay.picture import PAPER, Overlay, Stroke
 from hlr.drawing.chords import numbered
 from hlr.writers.png import encoded
 

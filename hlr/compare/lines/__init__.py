@@ -1,0 +1,1 @@
+"""Lines of drawings as straight pieces in arrays."""
