@@ -35,19 +35,21 @@ _MOST_ROWS = 20
 )
 @click.option(
     "--register",
-    type=click.Choice(["off", "translation"]),
-    default="off",
-    help="translation: B is first moved to where most of its lines match those of A. Default: off.",
+    type=click.Choice(["auto", "off", "translation", "similarity"]),
+    default="auto",
+    help="translation: B is first moved to where most of its lines match those of A; similarity: turned by quarters, "
+    "mirrored and scaled as well. Default: off for two drawings of hlr, else similarity.",
 )
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing; the exit code tells.")
 def compare(
     before: str, after: str, outputs: tuple[str, ...], tolerance: float, register: Registration, quiet: bool
 ) -> int:
-    """Tell what differs from drawing A to drawing B: SVG or JSON files of hlr.
+    """Tell what differs from drawing A to drawing B: SVG or JSON files of hlr, or SVG of FreeCAD and other programs.
 
     \b
       hlr compare old.svg new.svg
       hlr compare old.svg new.svg -o difference.svg --register translation
+      hlr compare freecad_view.svg ours.svg -o difference.svg
 
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
     """

@@ -10,13 +10,16 @@ from typing import Literal, get_args
 import numpy as np
 
 from hlr.compare.comparison import Comparison
+from hlr.compare.lines.motion import Motion
+from hlr.compare.lines.pieces import Floats
 from hlr.compare.matching.judge import judged
 from hlr.compare.matching.register import translation
+from hlr.compare.matching.similarity import similarity
 from hlr.compare.reading.sides import Side, side_of
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError
 
-Registration = Literal["off", "translation"]
+Registration = Literal["auto", "off", "translation", "similarity"]
 
 SMALLEST_TOLERANCE_MM, LARGEST_TOLERANCE_MM = 0.001, 10.0
 
@@ -29,14 +32,17 @@ _SAME_SCALE = 1e-5
 Compared = Drawing | str | os.PathLike[str]
 
 
-def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Registration = "off") -> Comparison:
+def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Registration = "auto") -> Comparison:
     """What differs from drawing a to drawing b.
 
-    a, b          each a `Drawing`, or the path of an SVG or JSON file of hlr
+    a, b          each a `Drawing`, or the path of an SVG or JSON file of hlr, or of an SVG of another program
     tolerance_mm  how far apart on paper two lines may lie that count as the same; 0.001 to 10
-    register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a
+    register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a;
+                  "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings
+                  of hlr, else "similarity"
 
-    Drawings at different scales differ; their lines are compared at the scale of the first.
+    Drawings of hlr at different scales differ; their lines are compared at the scale of the first. What a file does not
+    say of its lines, such as which of them are hidden, agrees with everything.
 
     Raises SourceError for a file that cannot be read, and OptionError for an option that does not exist.
 
@@ -54,13 +60,31 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
     before, after = side_of(a, tolerance_mm), side_of(b, tolerance_mm)
     scales = _scales(before, after)
     if scales is not None:
-        after = replace(after, pieces=after.pieces.scaled(scales[0] / scales[1]))
+        after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))
     before, after = _divided(before, after, tolerance_mm)
-    shift = None
+    if register == "auto":
+        register = "similarity" if before.about.foreign or after.about.foreign else "off"
+    motion = None if register == "off" else _motion(before, after, tolerance_mm, register)
+    if motion is not None:
+        after = replace(after, pieces=after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift)))
+    return Comparison.of(before, after, judged(before, after, tolerance_mm), tolerance_mm, motion, scales)
+
+
+def _motion(before: Side, after: Side, tolerance_mm: float, register: Registration) -> Motion:
+    """How the second drawing has to be moved to lie on the first."""
+    moving, fixed = after.pieces, before.pieces
     if register == "translation":
-        shift = translation(after.pieces, before.pieces, tolerance_mm)
-        after = replace(after, pieces=after.pieces.shifted(np.array(shift)))
-    return Comparison.of(before, after, judged(before, after, tolerance_mm), tolerance_mm, shift, scales)
+        found = Motion(shift=_pair(translation(moving, fixed, tolerance_mm)[0]))
+    else:
+        known = before.about.scale is not None and after.about.scale is not None
+        found = similarity(moving, fixed, tolerance_mm, 1.0 if known else None).motion
+    x, y = found.shift
+    return replace(found, shift=(round(x, 4) + 0.0, round(y, 4) + 0.0))
+
+
+def _pair(shift: Floats) -> tuple[float, float]:
+    x, y = shift.tolist()
+    return x, y
 
 
 def _scales(before: Side, after: Side) -> tuple[float, float] | None:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hlr.compare.difference import Difference, told
+from hlr.compare.difference import WORDS_OF_TWO_PROGRAMS, Difference, told
+from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.judge import Findings
 from hlr.compare.reading.sides import Side
@@ -26,9 +27,11 @@ class Comparison:
     before, after  what people call the two sides
     differences    each with its place, length, class, part and edge; by kind, the longest first
     tolerance_mm   how far apart lines may lie that count as the same
-    shift          (x, y) mm by which the second drawing was moved before it was compared; None: it was not registered
+    motion         how the second drawing was moved before it was compared; None: it was not registered
     scales         of the two drawings, where they differ: the second was compared at the scale of the first
     same_mm        length that is the same in both
+    foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
+    left_out       what of each file is no line of its drawing, counted
     findings       the differences with their pieces, from which the overlay is drawn
     lines          the pieces of the second drawing, as it was moved
 
@@ -43,9 +46,11 @@ class Comparison:
     after: str
     differences: tuple[Difference, ...]
     tolerance_mm: float
-    shift: tuple[float, float] | None
+    motion: Motion | None
     scales: tuple[float, float] | None
     same_mm: float
+    foreign: bool
+    left_out: tuple[dict[str, int], dict[str, int]]
     findings: Findings
     lines: Pieces
 
@@ -55,13 +60,24 @@ class Comparison:
         after: Side,
         findings: Findings,
         tolerance_mm: float,
-        shift: tuple[float, float] | None,
+        motion: Motion | None,
         scales: tuple[float, float] | None,
     ) -> Comparison:
         """The record of what was found."""
         found = tuple(findings.differences)
+        one, other = before.about, after.about
         return Comparison(
-            before.title, after.title, found, tolerance_mm, shift, scales, findings.same_mm, findings, after.pieces
+            before=before.title,
+            after=after.title,
+            differences=found,
+            tolerance_mm=tolerance_mm,
+            motion=motion,
+            scales=scales,
+            same_mm=findings.same_mm,
+            foreign=one.foreign or other.foreign,
+            left_out=(one.left_out, other.left_out),
+            findings=findings,
+            lines=after.pieces,
         )
 
     def __repr__(self) -> str:
@@ -69,8 +85,17 @@ class Comparison:
 
     @property
     def same(self) -> bool:
-        """Whether nothing differs, the scale included."""
-        return not self.differences and self.scales is None
+        """Whether both show the same, at the same scale."""
+        return self.scales is None and all(self.looks_same(each) for each in self.differences)
+
+    def looks_same(self, found: Difference) -> bool:
+        """Whether a difference cannot be seen: a line drawn twice, or straight pieces within the tolerance."""
+        return found.kind == "doubled" or (found.kind == "polyline" and found.moved_mm <= self.tolerance_mm)
+
+    @property
+    def shift(self) -> tuple[float, float] | None:
+        """(x, y) mm by which the second drawing was moved before it was compared; None: it was not registered."""
+        return None if self.motion is None else self.motion.shift
 
     @property
     def lengths_mm(self) -> dict[str, float]:
@@ -80,15 +105,25 @@ class Comparison:
     @property
     def summary(self) -> str:
         """One line: "12.4 mm gone, 3 mm new"."""
-        lengths = [f"{told(length)} mm {kind}" for kind, length in self.lengths_mm.items() if length > 0.0]
-        text = ", ".join(lengths) or f"same: {told(self.same_mm)} mm of lines"
+        words = WORDS_OF_TWO_PROGRAMS if self.foreign else {}
+        lengths = [
+            f"{told(length)} mm {words.get(kind, kind)}" for kind, length in self.lengths_mm.items() if length > 0.0
+        ]
+        if all(self.looks_same(each) for each in self.differences):
+            lengths.insert(0, f"same: {told(self.same_mm)} mm of lines")
+        text = ", ".join(lengths)
         if self.scales is not None:
             text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
-        if self.shift is None:
-            return text
-        moved = any(abs(each) >= 0.0005 for each in self.shift)
-        x, y = (told(each) for each in self.shift)
-        return f"{text}; moved by ({x}, {y}) mm to be compared" if moved else text
+        moved = self._moved()
+        return f"{text}; {' and '.join(moved)} to be compared" if moved else text
+
+    def _moved(self) -> list[str]:
+        """What was done to the second drawing."""
+        if self.motion is None:
+            return []
+        shifted = any(abs(each) >= 0.0005 for each in self.motion.shift)
+        x, y = (told(each) for each in self.motion.shift)
+        return [*self.motion.words(), *([f"moved by ({x}, {y}) mm"] if shifted else [])]
 
     def to_dict(self) -> dict[str, Any]:
         """All of it but the picture, for JSON."""
@@ -101,8 +136,10 @@ class Comparison:
             "summary": self.summary,
             "tolerance_mm": self.tolerance_mm,
             "shift": None if self.shift is None else list(self.shift),
+            "motion": None if self.motion is None else self.motion.as_dict(),
             "scales": None if self.scales is None else list(self.scales),
             "same_mm": self.same_mm,
+            "left_out": list(self.left_out),
             "mm": self.lengths_mm,
             "differences": [each.as_dict() for each in self.differences],
         }

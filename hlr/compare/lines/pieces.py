@@ -26,9 +26,11 @@ class Pieces:
     along       (n, 2) the way that the line takes around a piece: a chord of two tolerances or more, where the line is
                 as long as that
     line        (n,) number of the line, ascending
-    kind        (n,) number of the line class
-    visible     (n,) 1 visible, 0 hidden
+    kind        (n,) number of the line class; -1: unknown
+    visible     (n,) 1 visible, 0 hidden, -1 unknown
     part, edge  (n,) as of the drawing; -1: unknown
+    view        (n,) number of the view of a page; -1: there is one view
+    curved      (n,) 1: a chord of an arc or a spline, 0: as straight as in the file
     """
 
     start: Floats
@@ -39,6 +41,8 @@ class Pieces:
     visible: Index
     part: Index
     edge: Index
+    view: Index
+    curved: Index
 
     def __len__(self) -> int:
         return len(self.line)
@@ -77,9 +81,10 @@ class Pieces:
         """All of them moved by (x, y) millimetres."""
         return replace(self, start=self.start + by, end=self.end + by)
 
-    def scaled(self, by: float) -> Pieces:
-        """All of them that much larger, seen from 0, 0."""
-        return replace(self, start=self.start * by, end=self.end * by, along=self.along * by)
+    def mapped(self, matrix: Floats) -> Pieces:
+        """All of them turned, mirrored or scaled: matrix (2, 2) @ point."""
+        start, end, along = (each @ matrix.T for each in (self.start, self.end, self.along))
+        return replace(self, start=start, end=end, along=along)
 
     def cut(self, intervals: Floats) -> Pieces:
         """What lies in intervals (k, 2) of the lines laid end to end, ascending; each interval becomes a line."""

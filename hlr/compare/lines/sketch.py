@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -25,35 +25,49 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class Trait:
-    """What is known of a line: number of its class, 1 visible or 0 hidden, part and edge, -1 where unknown."""
+    """What is known of a line: number of its class, 1 visible or 0 hidden, part, edge and view; -1 where unknown."""
 
     kind: int
     visible: int
     part: int = -1
     edge: int = -1
+    view: int = -1
 
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """What is known of a drawing besides its lines: names of its parts; paper to model, None where it is unknown."""
+    """What is known of a drawing besides its lines.
+
+    parts     names
+    scale     paper to model; None: unknown
+    views     names of the views of a page; empty: one view
+    foreign   whether another program drew it
+    left_out  what of the file is no line of the drawing, counted
+    """
 
     parts: tuple[str, ...]
     scale: float | None = None
+    views: tuple[str, ...] = ()
+    foreign: bool = False
+    left_out: dict[str, int] = field(default_factory=dict)
 
 
 class Sketch:
     """Lines that are being read. `begin` begins one; what is added then belongs to it, in this order."""
 
     def __init__(self) -> None:
-        self._traits: list[tuple[int, int, int, int]] = []
+        self._traits: list[tuple[int, int, int, int, int]] = []
         self._owner: list[int] = []  # of each stroke: its line
         self._straight: list[tuple[int, Floats]] = []
         self._cubic: list[tuple[int, tuple[float, ...]]] = []
         self._arc: list[tuple[int, tuple[float, ...]]] = []
 
+    def __len__(self) -> int:
+        return len(self._traits)
+
     def begin(self, trait: Trait) -> None:
         """A new line."""
-        self._traits.append((trait.kind, trait.visible, trait.part, trait.edge))
+        self._traits.append((trait.kind, trait.visible, trait.part, trait.edge, trait.view))
 
     def polyline(self, points: Floats | list[Pair]) -> None:
         """Points (n, 2) on the line."""
@@ -74,14 +88,17 @@ class Sketch:
         """
         stroke, rows = self._chords(tolerance_mm * CHORD_SHARE, name)
         order = np.argsort(stroke, kind="stable")
-        rows = rows[order]
-        line = np.array(self._owner, np.int64)[stroke[order]]
+        rows, stroke = rows[order], stroke[order]
         long = (rows[:, :2] != rows[:, 2:]).any(axis=1)
-        rows, line = rows[long], line[long]
-        traits = np.array(self._traits, np.int64).reshape(-1, 4)[line]
+        rows, stroke = rows[long], stroke[long]
+        line = np.array(self._owner, np.int64)[stroke]
+        traits = np.array(self._traits, np.int64).reshape(-1, 5)[line]
+        curved = np.ones(len(self._owner), np.int64)
+        curved[[number for number, _ in self._straight]] = 0
         zero = np.zeros((len(line), 2))
         rows = rows + 0.0  # no negative zeros: the same points have the same bits
-        return with_ways(Pieces(rows[:, :2], rows[:, 2:], zero, line, *traits.T), tolerance_mm)
+        columns = (*traits.T, curved[stroke])
+        return with_ways(Pieces(rows[:, :2], rows[:, 2:], zero, line, *columns), tolerance_mm)
 
     def _stroke(self) -> int:
         self._owner.append(len(self._traits) - 1)

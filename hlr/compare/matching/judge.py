@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import Any, Literal
 
 import numpy as np
 
-from hlr.compare.difference import KINDS, Difference, Verdict
+from hlr.compare.difference import KINDS, UNKNOWN, Difference, Kind
 from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.lines.sketch import CHORD_SHARE, About
 from hlr.compare.matching.match import Rule, divided_by, once, partners
 from hlr.compare.reading.sides import Side
 from hlr.tables.line_classes import names
@@ -23,7 +25,7 @@ class Stage:
     reach  how far apart they may lie, in tolerances
     """
 
-    kind: Verdict | None
+    kind: Kind | None
     same: tuple[str, ...]
     reach: float = 1.0
 
@@ -38,6 +40,9 @@ STAGES = (
 
 _TWICE = 0.1
 """Tolerances within which lines of one drawing are one line, drawn twice."""
+
+_BENT = 1.5 * CHORD_SHARE
+"""Tolerances: straight pieces that lie farther off a curve are not the curve."""
 
 
 @dataclass(slots=True)
@@ -74,33 +79,59 @@ class Findings:
 def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
     """All differences; the longest of each kind first."""
     found = Findings()
-    a, b = before.pieces, after.pieces
+    a, b = _once(found, before, "before", tolerance_mm), _once(found, after, "after", tolerance_mm)
     for stage in STAGES:
         rule = Rule(stage.reach * tolerance_mm, tolerance_mm, stage.same)
         (both, left_a), (also, left_b) = divided_by(a, b, rule), divided_by(b, a, rule)
         if stage.kind is None:
             found.same = both
+            if before.about.foreign or after.about.foreign:
+                _bent(found, both, b, rule, before.about)
             twice = Rule(_TWICE * tolerance_mm, tolerance_mm, stage.same)
-            left_a, left_b = once(left_a, twice), once(left_b, twice)
+            left_a, left_b = once(left_a, twice)[0], once(left_b, twice)[0]
         else:
-            _changed(found, stage.kind, both, b, rule, before.about.parts)
+            _changed(found, stage.kind, both, b, rule, before.about)
         if stage.kind == "moved":
             found.moved = _ends(also)
         a, b = left_a, left_b
     for kind, pieces, side in (("gone", a, before), ("new", b, after)):
         for line in _lines(pieces):
-            found.add(_difference(kind, line, side.about.parts), line)
+            found.add(_difference(kind, line, side.about, "after" if kind == "new" else "before"), line)
     order = sorted(range(len(found.differences)), key=lambda n: _rank(found.differences[n]))
     found.differences = [found.differences[n] for n in order]
     found.traces = [found.traces[n] for n in order]
     return found
 
 
+def _once(found: Findings, side: Side, name: Literal["before", "after"], tolerance_mm: float) -> Pieces:
+    """The lines of a side, each once. Other programs draw hidden lines under visible ones, and edges for each face."""
+    if not side.about.foreign:
+        return side.pieces
+    kept, again = once(side.pieces, Rule(_TWICE * tolerance_mm, tolerance_mm))
+    for line in _lines(again):
+        found.add(_difference("doubled", line, side.about, name), line)
+    return kept
+
+
+def _bent(found: Findings, both: Pieces, b: Pieces, rule: Rule, about: About) -> None:
+    """Add the lines that are a curve in one drawing, and straight pieces in the other, as far as that can be seen."""
+    near, off = partners(both, b, rule)
+    fits = near >= 0
+    unlike = fits & (both.curved != b.curved[near]) & (both.lengths > 0.0)
+    starts = np.flatnonzero(np.append(True, both.line[1:] != both.line[:-1]))
+    for first, line in zip(starts, _lines(both), strict=True):
+        here = slice(first, first + len(line))
+        error = float(np.where(unlike[here], off[here], 0.0).max())
+        if error > _BENT * rule.tolerance_mm:
+            became = "straight pieces" if line.curved[0] else "a curve"
+            found.add(_difference("polyline", line, about, "before", became, error), line)
+
+
 def _rank(found: Difference) -> tuple[int, float, float, float]:
     return KINDS.index(found.kind), -found.length_mm, *found.place
 
 
-def _changed(found: Findings, kind: Verdict, both: Pieces, b: Pieces, rule: Rule, parts: tuple[str, ...]) -> None:
+def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, about: About) -> None:
     """Add the lines that have a partner in the second drawing, and what has become of them."""
     if not len(both):
         return
@@ -113,29 +144,36 @@ def _changed(found: Findings, kind: Verdict, both: Pieces, b: Pieces, rule: Rule
         best = near[first:last][int(np.argmax(weight))]
         became = ""
         if kind == "class changed" and best >= 0:
-            became = names()[b.kind[best]]
+            became = _class(b.kind[best])
         elif kind == "visibility changed":
             became = "hidden" if line.visible[0] else "visible"
         moved = 0.0
         if kind == "moved" and weight.sum() > 0.0:
             moved = float((np.where(fits, off[first:last], 0.0) * weight).sum() / weight.sum())
-        found.add(_difference(kind, line, parts, became, moved), line)
+        found.add(_difference(kind, line, about, "before", became, moved), line)
 
 
-def _difference(kind: str, line: Pieces, parts: tuple[str, ...], became: str = "", moved: float = 0.0) -> Difference:
-    part, edge = int(line.part[0]), int(line.edge[0])
+def _difference(
+    kind: str, line: Pieces, about: About, side: Literal["before", "after"], became: str = "", moved: float = 0.0
+) -> Difference:
+    part, edge, view = int(line.part[0]), int(line.edge[0]), int(line.view[0])
     return Difference(
         kind=kind,  # type: ignore[arg-type]
         place=_middle(line),
         length_mm=round(float(line.lengths.sum()), 6),
-        line_class=names()[line.kind[0]],
-        visible=bool(line.visible[0]),
-        part=parts[part] if 0 <= part < len(parts) else None,
+        line_class=_class(line.kind[0]),
+        visible=None if line.visible[0] < 0 else bool(line.visible[0]),
+        part=about.parts[part] if 0 <= part < len(about.parts) else None,
         edge=edge if edge >= 0 else None,
-        side="after" if kind == "new" else "before",
+        side=side,
         became=became,
         moved_mm=round(moved, 4),
+        view=about.views[view] if 0 <= view < len(about.views) else None,
     )
+
+
+def _class(number: Any) -> str:
+    return names()[number] if number >= 0 else UNKNOWN
 
 
 def _ends(pieces: Pieces) -> Floats:

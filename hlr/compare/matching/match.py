@@ -34,7 +34,7 @@ class Rule:
 
     reach_mm      how far apart they may lie
     tolerance_mm  what counts as no difference; lines shorter than that have no direction
-    same          columns of `Pieces` in which they have to agree
+    same          columns of `Pieces` in which they have to agree; what is unknown agrees with everything
     any_way       whether the direction does not matter
     """
 
@@ -65,24 +65,27 @@ def divided_by(a: Pieces, b: Pieces, rule: Rule) -> tuple[Pieces, Pieces]:
     return a.cut(_complement(a, bare)), a.cut(bare)
 
 
-def once(a: Pieces, rule: Rule) -> Pieces:
-    """The lines of a without what an earlier one of them covers: lines on top of one another count once.
+def once(a: Pieces, rule: Rule) -> tuple[Pieces, Pieces]:
+    """The lines of a without what is drawn already, and what is: lines on top of one another count once.
 
-    What sticks out by less than the tolerance is left out as well.
+    A line goes under those before it in the file; a hidden one also under all visible ones that the rule lets cover it.
+    What sticks out by less than the tolerance goes with the rest.
     """
     if not len(a):
-        return a
+        return a, a
     covered: list[Floats] = []
     places = a.places
+    order = (a.visible == 0) * (a.line[-1] + 1) + a.line
     for i, j in _fitting(a, a, rule):
-        earlier = a.line[j] < a.line[i]
+        earlier = order[j] < order[i]
         i, j = i[earlier], j[earlier]  # noqa: PLW2901 - the pairs that count
         (low, high), _ = _intervals(a, a, i, j, rule.reach_mm)
         some = high > low
         covered.append(np.stack([low[some], high[some]], axis=1) + places[i[some]][:, None])
     left = _gaps(a, covered)
     whole = np.isin(left[:, 0], a.ends_of_lines()[0]) & np.isin(left[:, 1], a.ends_of_lines()[1])
-    return a.cut(left[whole | (left[:, 1] - left[:, 0] > rule.tolerance_mm)])
+    left = left[whole | (left[:, 1] - left[:, 0] > rule.tolerance_mm)]
+    return a.cut(left), a.cut(_complement(a, left))
 
 
 def partners(a: Pieces, b: Pieces, rule: Rule) -> tuple[Index, Floats]:
@@ -146,7 +149,8 @@ def _alike(a: Pieces, b: Pieces, i: Index, j: Index, rule: Rule) -> Array:
     """(n,) whether the pieces of each pair agree in what the rule asks for."""
     fits = np.ones(len(i), bool)
     for name in rule.same:
-        fits &= getattr(a, name)[i] == getattr(b, name)[j]
+        one, other = getattr(a, name)[i], getattr(b, name)[j]
+        fits &= (one == other) | (one < 0) | (other < 0)
     if rule.any_way:
         return fits
     u, v = a.along[i], b.along[j]

@@ -23,14 +23,22 @@ _MOST_FITTED = 6_000
 """Pieces that are moved to find the shift; the whole drawing is matched with it later."""
 
 
-def translation(moving: Pieces, fixed: Pieces, tolerance_mm: float) -> tuple[float, float]:
-    """(x, y) in millimetres by which `moving` has to be moved, so that the most of its length lies on `fixed`."""
+def translation(
+    moving: Pieces, fixed: Pieces, tolerance_mm: float, most_pieces: int = _MOST_FITTED, search: bool = True
+) -> tuple[Floats, float]:
+    """(2,) millimetres by which `moving` has to be moved, so that the most of its length lies on `fixed`, and how much.
+
+    most_pieces  of `moving` that are looked at
+    search       whether other places are tried than those where corners and middles lie on one another
+    """
     if not len(moving) or not len(fixed):
-        return 0.0, 0.0
-    cell = max(float(np.ptp(np.concatenate([_points(moving), _points(fixed)]), axis=0).max()) / _CELLS, tolerance_mm)
-    few, other = _thinned(moving), fixed
+        return np.zeros(2), 0.0
+    cell = max(
+        float(np.ptp(np.concatenate([points_of(moving), points_of(fixed)]), axis=0).max()) / _CELLS, tolerance_mm
+    )
+    few, other = thinned(moving, most_pieces), fixed
     best, most, whole = np.zeros(2), -1.0, 2.0 * float(few.lengths.sum())
-    for guess in chain(_corners(moving, fixed), _peaks(moving, fixed)):
+    for guess in chain(corners(moving, fixed), _peaks(moving, fixed) if search else ()):
         if most > _ALL * whole:
             break
         for shift in (guess, _fitted(few, other, guess, cell, tolerance_mm)):
@@ -38,29 +46,29 @@ def translation(moving: Pieces, fixed: Pieces, tolerance_mm: float) -> tuple[flo
             if matched > most * (1.0 + 1e-9) + 1e-6:
                 best, most = shift, matched
     best = _fitted(few, other, best, tolerance_mm, tolerance_mm) if most > 0.0 else best
-    x, y = np.round(best, 4).tolist()
-    return x + 0.0, y + 0.0
+    return best, max(most, 0.0) / whole
 
 
-def _points(pieces: Pieces) -> Floats:
+def points_of(pieces: Pieces) -> Floats:
+    """(2 n, 2) the ends of all pieces."""
     return np.concatenate([pieces.start, pieces.end])
 
 
-def _thinned(pieces: Pieces) -> Pieces:
-    """Some of the pieces, evenly."""
-    return pieces.take(slice(None, None, -(-len(pieces) // _MOST_FITTED)))
+def thinned(pieces: Pieces, most: int) -> Pieces:
+    """At most so many of the pieces, evenly."""
+    return pieces.take(slice(None, None, max(-(-len(pieces) // most), 1)))
 
 
-def _corners(moving: Pieces, fixed: Pieces) -> list[Floats]:
+def corners(moving: Pieces, fixed: Pieces) -> list[Floats]:
     """No shift, and those that lay corners and middles of the bounding rectangles on one another."""
-    a, b = _points(moving), _points(fixed)
+    a, b = points_of(moving), points_of(fixed)
     low, high = b.min(axis=0) - a.min(axis=0), b.max(axis=0) - a.max(axis=0)
     return [np.zeros(2), low, high, 0.5 * (low + high), np.array([low[0], high[1]]), np.array([high[0], low[1]])]
 
 
 def _peaks(moving: Pieces, fixed: Pieces) -> Iterator[Floats]:
     """Shifts at which pictures of both correlate best. A cell holds the length in it, with its direction as a phase."""
-    a, b = _points(moving), _points(fixed)
+    a, b = points_of(moving), points_of(fixed)
     low_a, low_b = a.min(axis=0), b.min(axis=0)
     size = np.maximum(np.ptp(a, axis=0), np.ptp(b, axis=0))
     cell = max(float(size.max()) / _CELLS, 1e-3)

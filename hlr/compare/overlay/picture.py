@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from textwrap import wrap
 
 import numpy as np
 
@@ -20,6 +21,8 @@ COLORS = {
     "moved": "#e08a00",
     "class changed": "#8a3fc0",
     "visibility changed": "#0a9a6a",
+    "polyline": "#b0a000",
+    "doubled": "#7fb4c8",
 }
 """Colours that people with any colour vision tell apart, beside the words of the legend."""
 
@@ -28,11 +31,16 @@ MEANING = {
     "new": "in the second drawing only",
     "moved": "displaced; dashed: where it was",
     "class changed": "another class of line",
-    "visibility changed": "visible became hidden, or hidden visible",
+    "visibility changed": "visible in one, hidden in the other",
+    "polyline": "straight pieces in one, a curve in the other",
+    "doubled": "drawn more than once in one of them",
 }
 
 SAME, PAPER, INK, PALE = "#a8a8a8", "#ffffff", "#202020", "#606060"
 _MARGIN, _ROW, _NARROWEST = 8.0, 5.5, 120.0
+_LETTERS = 72
+"""Of the legend in one line, on the narrowest overlay."""
+
 _RING, _SHORT, _MOST_RINGS = 2.5, 3.0, 300
 
 
@@ -96,13 +104,14 @@ def overlay(titles: tuple[str, str], summary: str, found: Findings, second: Piec
 def _legend(titles: tuple[str, str], summary: str, found: Findings, top: float) -> list[Stroke | Text]:
     """What was compared, and a row for each kind that was found."""
     line = np.array([[_MARGIN, top], [_MARGIN + 10.0, top]])
+    said = wrap(summary, _LETTERS)
     out: list[Stroke | Text] = [
         Text((_MARGIN, top), f"from {_short(titles[0])} to {_short(titles[1])}", 4.0),
-        Text((_MARGIN, top + _ROW), summary, 3.2, PALE),
+        *(Text((_MARGIN, top + n * _ROW), text, 3.2, PALE) for n, text in enumerate(said, 1)),
     ]
     rows = [(kind, COLORS[kind], length, MEANING[kind]) for kind, length in found.lengths_mm.items() if length > 0.0]
     rows.append(("same", SAME, found.same_mm, "in both"))
-    for number, (kind, color, length, meaning) in enumerate(rows, 2):
+    for number, (kind, color, length, meaning) in enumerate(rows, 1 + len(said)):
         down = np.array([0.0, number * _ROW])
         wide = 0.25 if kind == "same" else 0.8
         out.append(Stroke([line + down - (0.0, 1.1)], color, wide, kind == "moved"))

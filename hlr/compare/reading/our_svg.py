@@ -4,48 +4,40 @@ from __future__ import annotations
 
 import math
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.reading.path_data import add_path
-from hlr.errors import SourceError
+from hlr.compare.reading.svg_elements import SVG
 from hlr.request.scale import scale_of
-from hlr.source.archive import xml_tree
 from hlr.tables.line_classes import LINE_CLASSES
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-_SVG = "{http://www.w3.org/2000/svg}"
 _OURS = "{urn:hlr:drawing:1}"
 _SHAPES = ("path", "circle", "ellipse")
 _TURN = re.compile(r"rotate\((\S+) \S+ \S+\)")
 
 
-def read_svg(path: Path, sketch: Sketch) -> About:
-    """Add the lines of a file to a sketch. Returns what else the file says.
-
-    Raises SourceError, in one sentence, for a file that is no SVG, or none of ours, or damaged.
-    """
-    root = xml_tree(path.read_bytes(), path, "the file", "SVG")
-    ours = root.find(f"{_SVG}metadata/{_OURS}drawing")
-    if root.tag != f"{_SVG}svg" or ours is None:
-        raise SourceError(f"{path.name} is no drawing of hlr: draw the model as SVG or JSON and compare that")
-    try:
-        _read(root, sketch)
-    except ValueError as error:
-        raise SourceError(f"{path.name} is damaged: {error}") from None
+def about_ours(root: Element) -> About | None:
+    """What the file says besides its lines; None where it is no drawing of hlr."""
+    ours = root.find(f"{SVG}metadata/{_OURS}drawing")
+    if ours is None:
+        return None
     names = tuple(part.get("name", "") for part in ours.iter(f"{_OURS}part"))
     return About(names, scale_of(ours.get("scale", "")))
 
 
-def _read(root: Element, sketch: Sketch) -> None:
-    """Walk through the groups, in the order of the file; what holds in a group holds for all inside it."""
+def read_ours(root: Element, sketch: Sketch) -> None:
+    """Add all lines. Raises ValueError where the file is damaged.
+
+    Walk through the groups, in the order of the file; what holds in a group holds for all inside it.
+    """
     open_groups: list[tuple[Element, int | None, int | None, int]] = [(root, None, None, -1)]
     while open_groups:
         element, kind, visible, part = open_groups.pop()
-        name = element.tag.removeprefix(_SVG)
+        name = element.tag.removeprefix(SVG)
         if name in _SHAPES:
             if kind is not None and visible is not None:
                 sketch.begin(Trait(kind, visible, part, _whole(element.get("data-edge", "-1"))))

@@ -7,17 +7,18 @@ import re
 from collections.abc import Iterator
 
 from hlr.compare.lines.sketch import Pair, Sketch
+from hlr.compare.reading.affine import Y_UP, Affine
 
 _TOKEN = re.compile(r"[MLHVCSQTAZmlhvcsqtaz]|[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _ALLOWED = re.compile(r"[MLHVCSQTAZmlhvcsqtaz0-9eE+\-.,\s]*")
 _NUMBERS = {"M": 2, "L": 2, "H": 1, "V": 1, "C": 6, "S": 4, "Q": 4, "T": 2, "A": 7, "Z": 0}
 
 
-def add_path(sketch: Sketch, text: str) -> None:
-    """Add what a path draws to the line that was begun; y is turned up. Raises ValueError for what is no path data."""
+def add_path(sketch: Sketch, text: str, to_paper: Affine = Y_UP) -> None:
+    """Add what a path draws to the line that was begun. Raises ValueError for what is no path data."""
     if _ALLOWED.fullmatch(text) is None:
         raise ValueError("it has a letter that no path has")
-    pen = _Pen(sketch)
+    pen = _Pen(sketch, to_paper)
     for command, numbers in _commands(text):
         pen.draw(command, numbers)
     pen.lift()
@@ -47,8 +48,9 @@ def _commands(text: str) -> Iterator[tuple[str, list[float]]]:
 class _Pen:
     """Follows a path. Straight lines in a row become one polyline."""
 
-    def __init__(self, sketch: Sketch) -> None:
+    def __init__(self, sketch: Sketch, to_paper: Affine) -> None:
         self._sketch = sketch
+        self._to_paper = to_paper
         self._here: Pair = (0.0, 0.0)
         self._first: Pair = (0.0, 0.0)
         self._row: list[Pair] = []
@@ -78,13 +80,13 @@ class _Pen:
             first = (x + (a - x) * 2.0 / 3.0, y + (b - y) * 2.0 / 3.0)
             second = (end[0] + (a - end[0]) * 2.0 / 3.0, end[1] + (b - end[1]) * 2.0 / 3.0)
             pairs = [first, second, end]
-        self._sketch.cubic(_up(self._here), *(_up(each) for each in pairs))
+        self._sketch.cubic(*map(self._to_paper.point, (self._here, *pairs)))
         self._here = pairs[-1]
 
     def lift(self) -> None:
         """End the polyline that is being drawn."""
         if len(self._row) > 1:
-            self._sketch.polyline([_up(each) for each in self._row])
+            self._sketch.polyline([self._to_paper.point(each) for each in self._row])
         self._row = []
 
     def _straight(self, name: str, n: list[float], p: float, q: float) -> None:
@@ -107,7 +109,7 @@ class _Pen:
         rx, ry, turn, large, rising = abs(n[0]), abs(n[1]), math.radians(n[2]), n[3] != 0.0, n[4] != 0.0
         self._here = end
         if rx == 0.0 or ry == 0.0 or (x0, y0) == end:
-            self._sketch.polyline([_up((x0, y0)), _up(end)])
+            self._sketch.polyline([self._to_paper.point((x0, y0)), self._to_paper.point(end)])
             return
         c, s = math.cos(turn), math.sin(turn)
         hx, hy = 0.5 * (x0 - x1), 0.5 * (y0 - y1)
@@ -123,9 +125,5 @@ class _Pen:
             sweep -= math.tau
         cx = c * rx * a - s * ry * b + 0.5 * (x0 + x1)
         cy = s * rx * a + c * ry * b + 0.5 * (y0 + y1)
-        axes = (_up((c * rx, s * rx)), _up((-s * ry, c * ry)))
-        self._sketch.arc(_up((cx, cy)), axes, (first, first + sweep))
-
-
-def _up(point: Pair) -> Pair:
-    return point[0], -point[1]
+        axes = self._to_paper.way((c * rx, s * rx)), self._to_paper.way((-s * ry, c * ry))
+        self._sketch.arc(self._to_paper.point((cx, cy)), axes, (first, first + sweep))

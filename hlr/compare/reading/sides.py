@@ -10,7 +10,7 @@ from typing import Any
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
-from hlr.compare.reading.our_svg import read_svg
+from hlr.compare.reading.svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
 from hlr.errors import SourceError

@@ -1,0 +1,153 @@
+"""Registration of drawings of different programs: by quarter turns, mirror, scale and translation.
+
+Each of the eight ways to lay a sheet down is tried with a few scales, coarsely; the best ones are then matched like
+drawings of one program. The scale is improved at the end, together with the shift.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hlr.compare.lines.motion import Motion
+from hlr.compare.lines.pieces import Floats, Index, Pieces
+from hlr.compare.matching.match import Rule, divided_by, partners
+from hlr.compare.matching.register import corners, points_of, thinned, translation
+
+_FEW, _SOME, _MANY = 300, 1_200, 6_000
+"""Pieces that are looked at: to choose what is tried, to choose among that, and at the end."""
+
+_COARSE = 1.0 / 150.0
+"""Share of the size within which lines lie on one another when what is tried is chosen."""
+
+_TRIED = 6
+_AS_GOOD = 0.85
+"""How many are tried, of those that are nearly as good as the best."""
+
+_ENOUGH = 0.995
+"""Share of the length: nothing better will come."""
+
+_FOUND = 0.5
+"""Share of the length: the place is found, and need not be searched for."""
+
+_BETTER = 1.002
+"""What comes later in the list has to be that much better: as it lies comes first."""
+
+_LARGEST = 1e4
+"""Scale."""
+
+
+@dataclass(frozen=True, slots=True)
+class Registered:
+    """A motion, and the share of the length of the moved lines that it lays on the others, 0 to 1."""
+
+    motion: Motion
+    share: float
+
+
+def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | None = None) -> Registered:
+    """How `moving` has to be turned, mirrored, scaled and moved, so that the most of its length lies on `fixed`.
+
+    scale  where it is known; None: it is found
+    """
+    if not len(moving) or not len(fixed):
+        return Registered(Motion(scale=scale or 1.0), 0.0)
+    best = Registered(Motion(scale=scale or 1.0), -1.0)
+    motions = _to_try(moving, fixed, tolerance_mm, scale)
+    for search in (False, True):
+        for motion in motions:
+            shift, share = translation(moving.mapped(motion.matrix), fixed, tolerance_mm, _SOME, search)
+            found = Registered(replace(motion, shift=_pair(shift)), share)
+            if scale is None:
+                found = _fitted(moving, fixed, found, tolerance_mm)
+            if found.share > best.share * _BETTER:
+                best = found
+            if best.share > _ENOUGH:
+                return best
+        if best.share > _FOUND:
+            break
+    return best
+
+
+def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | None) -> list[Motion]:
+    """The motions that lay bounding rectangles on one another best, without shifts; the best first."""
+    size = float(np.ptp(points_of(fixed), axis=0).max())
+    coarse = max(_COARSE * size, tolerance_mm)
+    rule = Rule(coarse, coarse)
+    found: list[tuple[float, Motion]] = []
+    few = thinned(moving, _FEW)
+    for mirrored, turn in itertools.product((False, True), (0, 90, 180, 270)):
+        motion = Motion(mirrored, turn)
+        for factor in [scale] if scale is not None else _scales(moving.mapped(motion.matrix), fixed):
+            motion = Motion(mirrored, turn, factor)
+            whole, some = moving.mapped(motion.matrix), few.mapped(motion.matrix)
+            covered = max(_length(divided_by(some.shifted(guess), fixed, rule)[0]) for guess in corners(whole, fixed))
+            found.append((covered / max(_length(some), 1e-12), motion))
+    most = max(score for score, _ in found)
+    found = [each for each in found if each[0] >= _AS_GOOD * most]
+    return [motion for _, motion in sorted(found, key=lambda each: -round(each[0], 2))[:_TRIED]]
+
+
+def _scales(moving: Pieces, fixed: Pieces) -> list[float]:
+    """As large as it is, and as large as the other by width, by height and by length of line."""
+    sizes = [np.ptp(points_of(each), axis=0) for each in (moving, fixed)]
+    wide = [float(other / one) for one, other in zip(*sizes, strict=True) if min(one, other) > 1e-9]
+    found: list[float] = []
+    for factor in [1.0, *wide, _length(fixed) / max(_length(moving), 1e-12)]:
+        usable = 1.0 / _LARGEST < factor < _LARGEST
+        if usable and all(abs(factor / other - 1.0) > 2e-3 for other in found):
+            found.append(factor)
+    return found
+
+
+def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: float) -> Registered:
+    """The scale and the shift, improved: lines are pulled across their direction onto those nearest to them."""
+    some, motion = thinned(moving, _MANY), start.motion
+    reach = max(_COARSE * float(np.ptp(points_of(fixed), axis=0).max()), tolerance_mm)
+    for _ in range(16):
+        moved = some.mapped(motion.matrix).shifted(np.array(motion.shift))
+        near, _off = partners(moved, fixed, Rule(reach, tolerance_mm))
+        which = np.flatnonzero(near >= 0)
+        if len(which) < 3:
+            return start
+        scale, shift = _step(moved, fixed, which, near[which], reach)
+        motion = replace(motion, scale=motion.scale * scale, shift=_pair(scale * np.array(motion.shift) + shift))
+        if reach <= tolerance_mm and abs(scale - 1.0) < 1e-8 and float(np.hypot(*shift)) < 1e-6:
+            break
+        reach = max(0.5 * reach, tolerance_mm)
+    moved = thinned(moving, _SOME).mapped(motion.matrix).shifted(np.array(motion.shift))
+    share = covered_share(moved, fixed, tolerance_mm)
+    return Registered(motion, share) if share >= start.share else start
+
+
+def _step(moved: Pieces, fixed: Pieces, which: Index, near: Index, reach: float) -> tuple[float, Floats]:
+    """The scale and the shift that lay each piece best on the line of its partner."""
+    way = fixed.end[near] - fixed.start[near]
+    normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.hypot(*way.T)[:, None]
+    middle = 0.5 * (moved.start[which] + moved.end[which])
+    off = ((fixed.start[near] - middle) * normal).sum(axis=1)
+    weight = moved.lengths[which] / (1.0 + (off / (0.3 * reach)) ** 2) ** 2
+    about = (middle * weight[:, None]).sum(axis=0) / weight.sum()
+    rows = np.column_stack([((middle - about) * normal).sum(axis=1), normal])
+    grow, x, y = np.linalg.pinv((rows * weight[:, None]).T @ rows, rcond=1e-12) @ (rows * (weight * off)[:, None]).sum(
+        axis=0
+    )
+    scale = 1.0 + float(np.clip(grow, -0.5, 0.5))
+    return scale, np.array([x, y]) + (1.0 - scale) * about
+
+
+def covered_share(moved: Pieces, fixed: Pieces, tolerance_mm: float) -> float:
+    """How much of the length lies on the others, 0 to 1; half of it counts only within a tenth of the tolerance."""
+    close = [divided_by(moved, fixed, Rule(share * tolerance_mm, tolerance_mm))[0] for share in (1.0, 0.1)]
+    return sum(map(_length, close)) / max(2.0 * _length(moved), 1e-12)
+
+
+def _length(pieces: Pieces) -> float:
+    return float(pieces.lengths.sum())
+
+
+def _pair(shift: Floats) -> tuple[float, float]:
+    x, y = shift.tolist()
+    return x, y
