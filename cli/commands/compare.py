@@ -44,7 +44,9 @@ _MOST_ROWS = 20
 def compare(
     before: str, after: str, outputs: tuple[str, ...], tolerance: float, register: Registration, quiet: bool
 ) -> int:
-    """Tell what differs from drawing A to drawing B: SVG or JSON files of hlr, or SVG of FreeCAD and other programs.
+    """Tell what differs from drawing A to drawing B.
+
+    Each is an SVG, PDF, DXF or JSON file of hlr, or an SVG, PDF or DXF file of FreeCAD and other programs.
 
     \b
       hlr compare old.svg new.svg
@@ -54,7 +56,7 @@ def compare(
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
     """
     from hlr.compare import compare as compared
-    from hlr.compare.overlay.table import rows
+    from hlr.compare.overlay.table import left_out, rows
 
     targets = [_target(output) for output in outputs]
     for source in (before, after):
@@ -63,7 +65,7 @@ def compare(
     place([(target, found.rendered(f".{target.format}")) for target in targets])
     if not quiet:
         click.echo(found.summary)
-        for row in rows(found, _MOST_ROWS)[:-1]:
+        for row in [*rows(found, _MOST_ROWS)[:-1], *left_out(found)]:
             click.echo(row)
     return 0 if found.same else DIFFERENT
 

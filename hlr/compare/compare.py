@@ -35,7 +35,8 @@ Compared = Drawing | str | os.PathLike[str]
 def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Registration = "auto") -> Comparison:
     """What differs from drawing a to drawing b.
 
-    a, b          each a `Drawing`, or the path of an SVG or JSON file of hlr, or of an SVG of another program
+    a, b          each a `Drawing`, or the path of an SVG, PDF, DXF or JSON file of hlr, or of an SVG, PDF or DXF of
+                  another program
     tolerance_mm  how far apart on paper two lines may lie that count as the same; 0.001 to 10
     register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a;
                   "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings

@@ -36,3 +36,13 @@ def _row(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
     view = f"{each.view} " if each.view else ""
     x, y = (f"{value:.2f}" for value in each.place)
     return what, told(each.length_mm), f"{x}, {y}", line + became, f"{view}{name}{edge}"
+
+
+def left_out(found: Comparison) -> list[str]:
+    """What each side has besides its lines, a line of text for each."""
+    sides = zip((found.before, found.after), found.left_out, strict=True)
+    return [
+        f"{title}: not compared: {', '.join(f'{word} ({count})' for word, count in words.items())}"
+        for title, words in sides
+        if words
+    ]

@@ -15,6 +15,7 @@ from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
 from hlr.errors import SourceError
 from hlr.source.file_checks import check_readable
+from hlr.tables.entry import listed
 from hlr.tables.line_classes import LINE_CLASSES
 
 MOST_BYTES = 1 << 29
@@ -48,7 +49,7 @@ def _path(given: Any) -> Path:
     path = Path(given)
     check_readable(path)
     if path.suffix.lower() not in _READERS:
-        raise SourceError(f"{path.name} cannot be compared: give {' or '.join(_READERS)} of hlr")
+        raise SourceError(f"{path.name} cannot be compared: give {listed(_READERS, 'or')}")
     if path.stat().st_size > MOST_BYTES:
         raise SourceError(f"{path.name} has more than {MOST_BYTES >> 20} MiB: it is refused")
     return path
@@ -77,5 +78,22 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
     return About(tuple(part.name for part in drawing.parts), drawing.scale)
 
 
-_READERS: dict[str, Callable[[Path, Sketch], About]] = {".svg": read_svg, ".json": _read_json}
+def _read_dxf(path: Path, sketch: Sketch) -> About:
+    from hlr.compare.reading.dxf import read_dxf
+
+    return read_dxf(path, sketch)
+
+
+def _read_pdf(path: Path, sketch: Sketch) -> About:
+    from hlr.compare.reading.pdf import read_pdf
+
+    return read_pdf(path, sketch)
+
+
+_READERS: dict[str, Callable[[Path, Sketch], About]] = {
+    ".svg": read_svg,
+    ".json": _read_json,
+    ".dxf": _read_dxf,
+    ".pdf": _read_pdf,
+}
 """What reads a file with this ending: it adds the lines to the sketch, and returns what else is known."""
