@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ..guard import start
 from ..outputs import Target, check, place
+from ..streams import result_only
 from ..verb import Verb
 
 if TYPE_CHECKING:
@@ -40,32 +42,49 @@ _MOST_ROWS = 20
     help="translation: B is first moved to where most of its lines match those of A; similarity: turned by quarters, "
     "mirrored and scaled as well. Default: off for two drawings of hlr, else similarity.",
 )
+@click.option(
+    "--page",
+    metavar="NAME[/VIEW]",
+    help="The page of a FreeCAD document (.FCStd) that is A or B, by name or label, or one view of it.",
+)
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing; the exit code tells.")
 def compare(
-    before: str, after: str, outputs: tuple[str, ...], tolerance: float, register: Registration, quiet: bool
+    before: str,
+    after: str,
+    outputs: tuple[str, ...],
+    tolerance: float,
+    register: Registration,
+    page: str | None,
+    quiet: bool,
 ) -> int:
     """Tell what differs from drawing A to drawing B.
 
     Each is an SVG, PDF, DXF or JSON file of hlr, or an SVG, PDF or DXF file of FreeCAD and other programs.
 
+    Pages are compared view by view.
+
     \b
       hlr compare old.svg new.svg
       hlr compare old.svg new.svg -o difference.svg --register translation
       hlr compare freecad_view.svg ours.svg -o difference.svg
+      hlr compare freecad_page.svg housing.FCStd --page Page
 
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
     """
     from hlr.compare import compare as compared
-    from hlr.compare.overlay.table import left_out, rows
+    from hlr.compare.overlay.table import left_out, rows, view_rows
 
     targets = [_target(output) for output in outputs]
     for source in (before, after):
         check(targets, source)
-    found = compared(before, after, tolerance_mm=tolerance, register=register)
+    if page is not None:
+        start(after)
+    with result_only():
+        found = compared(before, after, tolerance_mm=tolerance, register=register, page=page)
     place([(target, found.rendered(f".{target.format}")) for target in targets])
     if not quiet:
         click.echo(found.summary)
-        for row in [*rows(found, _MOST_ROWS)[:-1], *left_out(found)]:
+        for row in [*view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]:
             click.echo(row)
     return 0 if found.same else DIFFERENT
 

@@ -15,6 +15,8 @@ from hlr.compare.lines.pieces import Floats
 from hlr.compare.matching.judge import judged
 from hlr.compare.matching.register import translation
 from hlr.compare.matching.similarity import similarity
+from hlr.compare.matching.views import by_view
+from hlr.compare.reading.document import with_pages
 from hlr.compare.reading.sides import Side, side_of
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError
@@ -32,7 +34,9 @@ _SAME_SCALE = 1e-5
 Compared = Drawing | str | os.PathLike[str]
 
 
-def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Registration = "auto") -> Comparison:
+def compare(
+    a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Registration = "auto", page: str | None = None
+) -> Comparison:
     """What differs from drawing a to drawing b.
 
     a, b          each a `Drawing`, or the path of an SVG, PDF, DXF or JSON file of hlr, or of an SVG, PDF or DXF of
@@ -41,7 +45,9 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
     register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a;
                   "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings
                   of hlr, else "similarity"
+    page          name or label of the page of a FreeCAD document (.FCStd) that is a or b; "Page/View": one view of it
 
+    Pages are compared view by view; unless register is "off", each view is moved onto that of the other page.
     Drawings of hlr at different scales differ; their lines are compared at the scale of the first. What a file does not
     say of its lines, such as which of them are hidden, agrees with everything.
 
@@ -58,6 +64,7 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
         raise OptionError(f"the tolerance is {tolerance_mm!r}: give {limits} millimetres on paper")
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
+    a, b = with_pages((a, b), page, tolerance_mm)
     before, after = side_of(a, tolerance_mm), side_of(b, tolerance_mm)
     scales = _scales(before, after)
     if scales is not None:
@@ -65,10 +72,14 @@ def compare(a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Re
     before, after = _divided(before, after, tolerance_mm)
     if register == "auto":
         register = "similarity" if before.about.foreign or after.about.foreign else "off"
+    if before.about.views or after.about.views:
+        findings, after, views = by_view(before, after, tolerance_mm, register != "off")
+        return Comparison.of(before, after, findings, tolerance_mm, views=views)
     motion = None if register == "off" else _motion(before, after, tolerance_mm, register)
     if motion is not None:
         after = replace(after, pieces=after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift)))
-    return Comparison.of(before, after, judged(before, after, tolerance_mm), tolerance_mm, motion, scales)
+    findings = judged(before, after, tolerance_mm)
+    return Comparison.of(before, after, findings, tolerance_mm, motion=motion, scales=scales)
 
 
 def _motion(before: Side, after: Side, tolerance_mm: float, register: Registration) -> Motion:

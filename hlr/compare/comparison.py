@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hlr.compare.compared_view import ComparedView
 from hlr.compare.difference import WORDS_OF_TWO_PROGRAMS, Difference, told
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Pieces
@@ -29,6 +30,7 @@ class Comparison:
     tolerance_mm   how far apart lines may lie that count as the same
     motion         how the second drawing was moved before it was compared; None: it was not registered
     scales         of the two drawings, where they differ: the second was compared at the scale of the first
+    views          of two pages, each with what was found of it; empty: they were compared as a whole
     same_mm        length that is the same in both
     foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
     left_out       what of each file is no line of its drawing, counted
@@ -48,6 +50,7 @@ class Comparison:
     tolerance_mm: float
     motion: Motion | None
     scales: tuple[float, float] | None
+    views: tuple[ComparedView, ...]
     same_mm: float
     foreign: bool
     left_out: tuple[dict[str, int], dict[str, int]]
@@ -60,8 +63,10 @@ class Comparison:
         after: Side,
         findings: Findings,
         tolerance_mm: float,
-        motion: Motion | None,
-        scales: tuple[float, float] | None,
+        *,
+        motion: Motion | None = None,
+        scales: tuple[float, float] | None = None,
+        views: tuple[ComparedView, ...] = (),
     ) -> Comparison:
         """The record of what was found."""
         found = tuple(findings.differences)
@@ -73,6 +78,7 @@ class Comparison:
             tolerance_mm=tolerance_mm,
             motion=motion,
             scales=scales,
+            views=views,
             same_mm=findings.same_mm,
             foreign=one.foreign or other.foreign,
             left_out=(one.left_out, other.left_out),
@@ -86,7 +92,8 @@ class Comparison:
     @property
     def same(self) -> bool:
         """Whether both show the same, at the same scale."""
-        return self.scales is None and all(self.looks_same(each) for each in self.differences)
+        seen = self.scales is None and all(self.looks_same(each) for each in self.differences)
+        return seen and not any(view.displaced for view in self.views)
 
     def looks_same(self, found: Difference) -> bool:
         """Whether a difference cannot be seen: a line drawn twice, or straight pieces within the tolerance."""
@@ -114,6 +121,8 @@ class Comparison:
         text = ", ".join(lengths)
         if self.scales is not None:
             text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
+        elsewhere = [view.name for view in self.views if view.displaced]
+        text += f"; elsewhere on the page: {', '.join(elsewhere)}" if elsewhere else ""
         moved = self._moved()
         return f"{text}; {' and '.join(moved)} to be compared" if moved else text
 
@@ -139,6 +148,7 @@ class Comparison:
             "motion": None if self.motion is None else self.motion.as_dict(),
             "scales": None if self.scales is None else list(self.scales),
             "same_mm": self.same_mm,
+            "views": [each.as_dict() for each in self.views],
             "left_out": list(self.left_out),
             "mm": self.lengths_mm,
             "differences": [each.as_dict() for each in self.differences],

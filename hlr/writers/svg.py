@@ -25,7 +25,7 @@ from hlr.drawing.drawing import Drawing
 from hlr.drawing.lines import held
 from hlr.drawing.pens import Pen, PenSet, part_color, usual_pens_of
 from hlr.drawing.scale import ratio
-from hlr.drawing.sheet import Sheet
+from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import counted
 from hlr.writers.number import number
 from hlr.writers.strokes import Inked, Strokes, strokes
@@ -51,7 +51,8 @@ def svg(drawing: Drawing) -> bytes:
         f'{_attributes(root)} stroke-linejoin="round"{paper}>\n',
         f"<title>{escaped(title(drawing))}</title>\n",
         f"<desc>{escaped(description(drawing))}</desc>\n",
-        _metadata(drawing) if drawing.sheet is None else template(drawing.sheet, page),
+        _metadata(drawing),
+        "" if drawing.sheet is None else template(drawing.sheet, page),
     ]
     if drawing.fill is not None:
         from hlr.writers.fill import painted, svg_group
@@ -144,9 +145,30 @@ def description(drawing: Drawing) -> str:
 
 
 def _metadata(drawing: Drawing) -> str:
-    """The element that leads from a path back to the model: view, scale, origin, unit and parts."""
+    """The element that leads from a path back to the model: view, scale, origin, unit and parts; or views and parts."""
+    named = {"source": drawing.source, "view": drawing.view.name}
+    fields = {**(_camera(drawing) if drawing.sheet is None else {}), **accuracies(drawing)}
+    attributes = " ".join(
+        [
+            *(f"{key}={_quoted(value)}" for key, value in named.items()),
+            *(f'{key}="{value}"' for key, value in fields.items()),
+        ]
+    )
+    views = "" if drawing.sheet is None else "".join(map(_view, drawing.sheet.views))
+    parts = []
+    for index, part in enumerate(drawing.parts):
+        own = part_color(part)
+        color = "" if own is None else f' color="{own}"'
+        parts.append(f'<part index="{index}" name={_quoted(part.name)}{color}/>\n')
+    errors = " ".join(f'{key}="{value}"' for key, value in reached(drawing).items())
+    measured = f"<reached {errors}/>\n" if errors else ""
+    inside = measured + views + "".join(parts)
+    return f'<metadata>\n<drawing xmlns="urn:hlr:drawing:1" {attributes}>\n{inside}</drawing>\n</metadata>\n'
+
+
+def _camera(drawing: Drawing) -> dict[str, str]:
+    """How the model was seen."""
     view = drawing.view
-    named = {"source": drawing.source, "view": view.name}
     fields = {
         "projection": view.projection,
         "direction": _vector(view.direction),
@@ -155,27 +177,17 @@ def _metadata(drawing: Drawing) -> str:
     }
     if view.eye is not None:
         fields["eye"] = _vector(view.eye)
-    fields |= {
-        "scale": ratio(drawing.scale),
-        "origin": _vector(drawing.origin),
-        "unit": f"{drawing.unit:.9g}",
-        **accuracies(drawing),
-    }
-    attributes = " ".join(
-        [
-            *(f"{key}={_quoted(value)}" for key, value in named.items()),
-            *(f'{key}="{value}"' for key, value in fields.items()),
-        ]
+    return fields | {"scale": ratio(drawing.scale), "origin": _vector(drawing.origin), "unit": f"{drawing.unit:.9g}"}
+
+
+def _view(view: SheetView) -> str:
+    """A view of a page."""
+    vectors = {"place": view.place, "direction": view.direction, "right": view.right}
+    fields = " ".join(f'{key}="{_vector(value)}"' for key, value in vectors.items())
+    return (
+        f'<view name={_quoted(view.name)} label={_quoted(view.label)} scale="{ratio(view.scale)}" '
+        f'rotation="{view.rotation + 0.0:.9g}" {fields}/>\n'
     )
-    parts = []
-    for index, part in enumerate(drawing.parts):
-        own = part_color(part)
-        color = "" if own is None else f' color="{own}"'
-        parts.append(f'<part index="{index}" name={_quoted(part.name)}{color}/>\n')
-    errors = " ".join(f'{key}="{value}"' for key, value in reached(drawing).items())
-    measured = f"<reached {errors}/>\n" if errors else ""
-    inside = measured + "".join(parts)
-    return f'<metadata>\n<drawing xmlns="urn:hlr:drawing:1" {attributes}>\n{inside}</drawing>\n</metadata>\n'
 
 
 def accuracies(drawing: Drawing) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -109,6 +110,14 @@ class Pieces:
         start = found.start + number[:, None] * way
         last = number == count[whose] - 1
         return replace(found, start=start, end=np.where(last[:, None], found.end, start + way))
+
+
+def joined(several: Sequence[Pieces]) -> Pieces:
+    """All pieces of several sets; lines are numbered anew."""
+    columns = {f.name: np.concatenate([getattr(each, f.name) for each in several]) for f in fields(Pieces)}
+    counts = [0, *(int(each.line.max(initial=-1)) + 1 for each in several[:-1])]
+    first = np.repeat(np.cumsum(counts), [len(each) for each in several])
+    return Pieces(**columns | {"line": columns["line"] + first})
 
 
 def with_ways(pieces: Pieces, tolerance_mm: float) -> Pieces:

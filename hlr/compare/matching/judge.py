@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
 
 from hlr.compare.difference import KINDS, UNKNOWN, Difference, Kind
-from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.lines.pieces import Floats, Pieces, joined
 from hlr.compare.lines.sketch import CHORD_SHARE, About
 from hlr.compare.matching.match import Rule, divided_by, once, partners
 from hlr.compare.reading.sides import Side
@@ -57,6 +58,22 @@ class Findings:
     same: Pieces | None = None
     moved: Floats = field(default_factory=lambda: np.zeros((0, 2, 2)))
 
+    @staticmethod
+    def of(several: Sequence[Findings]) -> Findings:
+        """All findings of several pairs of drawings."""
+        every = [each.same for each in several if each.same is not None]
+        return Findings(
+            [found for each in several for found in each.differences],
+            [trace for each in several for trace in each.traces],
+            joined(every) if every else None,
+            np.concatenate([np.zeros((0, 2, 2)), *(each.moved for each in several)]),
+        ).ranked()
+
+    def ranked(self) -> Findings:
+        """The same by kind, the longest first."""
+        order = sorted(range(len(self.differences)), key=lambda n: _rank(self.differences[n]))
+        return replace(self, differences=[self.differences[n] for n in order], traces=[self.traces[n] for n in order])
+
     def add(self, found: Difference, pieces: Pieces) -> None:
         """Add a difference, and the pieces that show it."""
         self.differences.append(found)
@@ -97,10 +114,7 @@ def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
     for kind, pieces, side in (("gone", a, before), ("new", b, after)):
         for line in _lines(pieces):
             found.add(_difference(kind, line, side.about, "after" if kind == "new" else "before"), line)
-    order = sorted(range(len(found.differences)), key=lambda n: _rank(found.differences[n]))
-    found.differences = [found.differences[n] for n in order]
-    found.traces = [found.traces[n] for n in order]
-    return found
+    return found.ranked()
 
 
 def _once(found: Findings, side: Side, name: Literal["before", "after"], tolerance_mm: float) -> Pieces:
@@ -115,6 +129,8 @@ def _once(found: Findings, side: Side, name: Literal["before", "after"], toleran
 
 def _bent(found: Findings, both: Pieces, b: Pieces, rule: Rule, about: About) -> None:
     """Add the lines that are a curve in one drawing, and straight pieces in the other, as far as that can be seen."""
+    if not len(both):
+        return
     near, off = partners(both, b, rule)
     fits = near >= 0
     unlike = fits & (both.curved != b.curved[near]) & (both.lengths > 0.0)

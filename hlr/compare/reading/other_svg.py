@@ -15,9 +15,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from hlr.compare.lines.sketch import About, Sketch, Trait
-from hlr.compare.reading.affine import Y_UP
+from hlr.compare.reading.affine import Y_UP, Affine
 from hlr.compare.reading.path_data import add_path
-from hlr.compare.reading.svg_elements import TEXTS, Shape, shapes, to_millimetres
+from hlr.compare.reading.svg_elements import TEXTS, Shape, height_mm, shapes, to_millimetres
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -39,6 +39,8 @@ def read_other(root: Element, sketch: Sketch, fragment: bool) -> About:
     """
     content = next((each for each in root.iter() if each.get("id") == _CONTENT), None)
     start = Y_UP if fragment else to_millimetres(root)
+    if content is not None:
+        start = Affine(f=height_mm(root)).after(start)  # from the lower left corner of the page
     every = list(shapes(root, start, content))
     left_out: Counter[str] = Counter()
     lines = []

@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING
 
 from hlr.compare.lines.sketch import About, Sketch, Trait
+from hlr.compare.lines.views import views_of_parts
 from hlr.compare.reading.path_data import add_path
 from hlr.compare.reading.svg_elements import SVG
 from hlr.request.scale import scale_of
@@ -25,25 +26,27 @@ def about_ours(root: Element) -> About | None:
     ours = root.find(f"{SVG}metadata/{_OURS}drawing")
     if ours is None:
         return None
-    names = tuple(part.get("name", "") for part in ours.iter(f"{_OURS}part"))
-    return About(names, scale_of(ours.get("scale", "")))
+    parts, views = (tuple(each.get("name", "") for each in ours.iter(f"{_OURS}{tag}")) for tag in ("part", "view"))
+    return About(parts, scale_of(ours.get("scale", "")), views)
 
 
-def read_ours(root: Element, sketch: Sketch) -> None:
-    """Add all lines. Raises ValueError where the file is damaged.
+def read_ours(root: Element, about: About, sketch: Sketch) -> None:
+    """Add all lines; about: what `about_ours` has found. Raises ValueError where the file is damaged.
 
     Walk through the groups, in the order of the file; what holds in a group holds for all inside it.
     """
+    views = views_of_parts(about.parts, about.views)
     open_groups: list[tuple[Element, int | None, int | None, int]] = [(root, None, None, -1)]
     while open_groups:
         element, kind, visible, part = open_groups.pop()
         name = element.tag.removeprefix(SVG)
         if name in _SHAPES:
             if kind is not None and visible is not None:
-                sketch.begin(Trait(kind, visible, part, _whole(element.get("data-edge", "-1"))))
+                view = views[part] if 0 <= part < len(views) else -1
+                sketch.begin(Trait(kind, visible, part, _whole(element.get("data-edge", "-1")), view))
                 _add(sketch, name, element)
             continue
-        if name not in ("svg", "g"):
+        if name not in ("svg", "g") or element.get("id") == "template":
             continue
         if "transform" in element.attrib:
             raise ValueError("a group is moved by another program; compare the file as it was drawn")

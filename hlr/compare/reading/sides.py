@@ -10,6 +10,7 @@ from typing import Any
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
+from hlr.compare.lines.views import views_of_parts
 from hlr.compare.reading.svg import read_svg
 from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
@@ -62,9 +63,13 @@ def _read_json(path: Path, sketch: Sketch) -> About:
 
 
 def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
+    parts = tuple(part.name for part in drawing.parts)
+    views = () if drawing.sheet is None else tuple(view.name for view in drawing.sheet.views)
+    of_parts = views_of_parts(parts, views)
     for line in drawing.lines:
         edge = -1 if line.edge is None else line.edge
-        sketch.begin(Trait(LINE_CLASSES[line.kind].number, int(line.visible), line.part, edge))
+        view = of_parts[line.part] if views else -1
+        sketch.begin(Trait(LINE_CLASSES[line.kind].number, int(line.visible), line.part, edge, view))
         curve = line.curve
         if curve is None:
             sketch.polyline(line.points)
@@ -75,7 +80,7 @@ def _read_drawing(drawing: Drawing, sketch: Sketch) -> About:
             points = [(x, y) for x, y in (curve if curve.degree == 3 else raised(curve)).points.tolist()]
             for k in range(0, len(points) - 1, 3):
                 sketch.cubic(*points[k : k + 4])
-    return About(tuple(part.name for part in drawing.parts), drawing.scale)
+    return About(parts, None if drawing.sheet is not None else drawing.scale, views)
 
 
 def _read_dxf(path: Path, sketch: Sketch) -> About:

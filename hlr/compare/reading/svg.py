@@ -28,7 +28,7 @@ def read_svg(path: Path, sketch: Sketch) -> About:
     try:
         ours = about_ours(root)
         if ours is not None:
-            read_ours(root, sketch)
+            read_ours(root, ours, sketch)
             return ours
         other = read_other(root, sketch, fragment)
     except ValueError as error:

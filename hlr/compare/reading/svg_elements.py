@@ -84,6 +84,12 @@ def to_millimetres(root: Element) -> Affine:
     return Y_UP.after(scaling(width / box[2])).after(Affine(e=-box[0], f=-box[1]))
 
 
+def height_mm(root: Element) -> float:
+    """Of the page; 0 where it does not say."""
+    size = _LENGTH.fullmatch(root.get("height", ""))
+    return float(size[1]) * _UNITS[size[2]] if size is not None and size[2] in _UNITS else 0.0
+
+
 _KEYS = {
     "fill": "fill",
     "stroke": "stroke",

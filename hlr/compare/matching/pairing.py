@@ -1,0 +1,93 @@
+"""Which view of one page is which of another: by their names, or else by where they lie."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.reading.sides import Side
+
+_NEAR = 0.5
+"""Of a view's diagonal: how far apart the middles of two views may lie that have no name in common."""
+
+_AROUND_MM = 5.0
+"""A line that lies farther from all views belongs to none."""
+
+BESIDE = "beside the views"
+"""In place of a view's name: lines that belong to none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """A view of two pages; before, after: its number on each, None where a page has none such, -1 for `BESIDE`."""
+
+    name: str
+    before: int | None
+    after: int | None
+
+
+def with_views_of(side: Side, other: Side) -> Side:
+    """A side that knows no views, with its lines given to those of the other side that they lie in."""
+    if side.about.views or not len(side.pieces):
+        return side
+    boxes = np.array([_box(other.pieces, number) for number in range(len(other.about.views))])
+    number = side.pieces.number_of_line
+    first = np.flatnonzero(np.diff(number, prepend=-1))
+    low = np.minimum.reduceat(np.minimum(side.pieces.start, side.pieces.end), first)
+    high = np.maximum.reduceat(np.maximum(side.pieces.start, side.pieces.end), first)
+    middle = 0.5 * (low + high)[:, None]
+    off = np.hypot(*np.moveaxis(np.maximum(np.maximum(boxes[:, 0] - middle, middle - boxes[:, 1]), 0.0), 2, 0))
+    size = np.hypot(*(boxes[:, 1] - boxes[:, 0]).T)
+    near = np.lexsort((np.broadcast_to(size, off.shape), off), axis=1)[:, 0]
+    near[off[np.arange(len(near)), near] > _AROUND_MM] = -1
+    about = replace(side.about, views=other.about.views)
+    return replace(side, pieces=replace(side.pieces, view=near[number]), about=about)
+
+
+def pairs_of(before: Side, after: Side) -> list[Pair]:
+    """Each view of either page once, in the order of the first page; then lines that belong to none."""
+    one, other = before.about.views, after.about.views
+    ours = other if before.about.foreign and not after.about.foreign else one
+    found = {i: other.index(name) for i, name in enumerate(one) if name in other} or _by_place(before, after)
+    pairs = [
+        Pair(name if i not in found or ours is one else other[found[i]], i, found.get(i)) for i, name in enumerate(one)
+    ]
+    pairs += [Pair(name, None, j) for j, name in enumerate(other) if j not in found.values()]
+    if (before.pieces.view < 0).any() or (after.pieces.view < 0).any():
+        pairs.append(Pair(BESIDE, -1, -1))
+    return pairs
+
+
+def view_of(side: Side, pair: Pair, number: int | None) -> Side:
+    """The lines of one view of a side."""
+    which = side.pieces.view == number if number is not None else np.zeros(len(side.pieces), bool)
+    pieces = side.pieces.take(which)
+    about = replace(side.about, views=(pair.name,))
+    return replace(side, pieces=replace(pieces, view=np.zeros_like(pieces.view)), about=about)
+
+
+def _by_place(before: Side, after: Side) -> dict[int, int]:
+    """Views whose middles lie near one another, the nearest first."""
+    one, other = ([_box(side.pieces, number) for number in range(len(side.about.views))] for side in (before, after))
+    ranked = []
+    for i, a in enumerate(one):
+        for j, b in enumerate(other):
+            apart = float(np.hypot(*(a.mean(axis=0) - b.mean(axis=0))))
+            if apart < _NEAR * max(float(np.hypot(*(box[1] - box[0]))) for box in (a, b)):
+                ranked.append((apart, i, j))
+    found: dict[int, int] = {}
+    for _, i, j in sorted(ranked):
+        if i not in found and j not in found.values():
+            found[i] = j
+    return found
+
+
+def _box(pieces: Pieces, view: int) -> Floats:
+    """(2, 2) around the lines of a view; far away where it has none."""
+    which = pieces.view == view
+    if not which.any():
+        return np.full((2, 2), -1e9)
+    points = np.concatenate([pieces.start[which], pieces.end[which]])
+    return np.stack([points.min(axis=0), points.max(axis=0)])

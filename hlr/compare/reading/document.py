@@ -1,0 +1,57 @@
+"""A page of a FreeCAD document as a side: it is drawn anew, without FreeCAD."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from hlr.drawing.drawing import Drawing
+from hlr.drawing.sheet import Sheet
+from hlr.errors import OptionError
+from hlr.public.pages import draw_pages, page_names
+from hlr.request.accuracy import DEFAULT_ACCURACY
+from hlr.request.options import Options
+
+ACCURACY_SHARE = 0.2
+"""Of the tolerance: how exactly a page is drawn to be compared."""
+
+
+def with_pages(given: tuple[Any, Any], page: str | None, tolerance_mm: float) -> tuple[Any, Any]:
+    """Two sides, documents among them as drawings of their page; page: name or label, or "Page/View" for one view.
+
+    Raises SourceError, OptionError where there is no such document, page or view.
+    """
+    if page is None:
+        return given
+    documents = [_is_document(side) for side in given]
+    if not any(documents):
+        raise OptionError(f'the page "{page}" is said, and no side is a FreeCAD document (.FCStd): leave the page out')
+    a, b = (_drawn(side, page, tolerance_mm) if drawn else side for side, drawn in zip(given, documents, strict=True))
+    return a, b
+
+
+def _is_document(given: Any) -> bool:
+    return isinstance(given, str | os.PathLike) and Path(given).suffix.lower() == ".fcstd"
+
+
+def _drawn(document: str | os.PathLike[str], page: str, tolerance_mm: float) -> Drawing:
+    known = {name for pair in page_names(document) for name in pair}
+    whole, mark, view = (page, "", "") if page in known else page.rpartition("/")
+    accuracy = min(DEFAULT_ACCURACY, ACCURACY_SHARE * tolerance_mm)
+    (drawing,) = draw_pages(document, [whole if mark else page], Options(accuracy=accuracy))
+    return _one_view(drawing, view) if mark else drawing
+
+
+def _one_view(drawing: Drawing, name: str) -> Drawing:
+    """The lines of one view of a page alone. Raises OptionError where there is no such view."""
+    views = drawing.sheet.views if drawing.sheet is not None else ()
+    view = next((each for each in views if name in (each.name, each.label)), None)
+    if view is None:
+        known = ", ".join(f'"{each.name}"' for each in views)
+        raise OptionError(f'page "{drawing.view.name}" has no view "{name}" that is drawn: it has {known or "none"}')
+    own = [part.name.startswith(f"{view.name}/") for part in drawing.parts]
+    lines = tuple(line for line in drawing.lines if own[line.part])
+    shown = replace(drawing.view, name=f"{drawing.view.name}/{view.name}")
+    return replace(drawing, lines=lines, view=shown, sheet=Sheet((), ""))

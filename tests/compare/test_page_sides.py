@@ -1,0 +1,152 @@
+"""Pages are compared view by view: each is moved by itself, and each difference names its view."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hlr.compare import compare
+from hlr.compare.matching.pairing import BESIDE
+from hlr.drawing.page import Page
+from hlr.drawing.sheet import Sheet, SheetView
+from hlr.errors import OptionError
+from support.drawings import arc, drawing, line, part
+
+TEMPLATE = '<rect x="10" y="10" width="277" height="190" fill="none" stroke="#000000"/>\n'
+
+
+def outline(x, y, n):
+    """Lines of a view about its middle."""
+    corners = [[-15, -8], [15, -8], [15, 8], [-4, 8], [-15, -8]]
+    return [
+        line([[x + a, y + b] for a, b in corners], part=n),
+        arc((x + 5, y), 4 + n, 4 + n, (0, 2 * np.pi), part=n),
+        line([[x - 6, y - 8], [x - 6, y + 4]], visible=False, part=n),
+    ]
+
+
+def page(places, without=()):
+    """A page with a view at each place; without: views of which the hidden line is left out."""
+    parts = [part(f"{name}/bolt") for name in places]
+    lines = []
+    for n, (name, (x, y)) in enumerate(places.items()):
+        lines += outline(x, y, n)[: 2 if name in without else 3]
+    views = tuple(SheetView(name, name, 1.0, place, 0.0, (0, 0, 1), (1, 0, 0)) for name, place in places.items())
+    made = drawing(lines, parts=parts, page=Page("A4", 297.0, 210.0, 0.0, 0.0))
+    return replace(made, sheet=Sheet(views, TEMPLATE))
+
+
+PLACES = {"Front": (60.0, 150.0), "Top": (60.0, 70.0), "Iso": (200.0, 110.0)}
+MOVED = {"Front": (60.03, 150.2), "Top": (60.0, 69.6), "Iso": (199.5, 110.0)}
+
+
+def test_views_are_moved_by_themselves_and_the_difference_names_its_view():
+    found = compare(page(PLACES), page(MOVED, without=["Top"]), register="translation")
+    (one,) = found.differences
+    assert (one.view, one.kind, one.visible, one.part) == ("Top", "gone", False, "Top/bolt")
+    rows = {view.name: view for view in found.views}
+    assert {name: row.shift for name, row in rows.items()} == {
+        name: pytest.approx(np.subtract(PLACES[name], MOVED[name]), abs=1e-3) for name in PLACES
+    }
+    assert [row.mm["gone"] for row in rows.values()] == [0.0, pytest.approx(12.0), 0.0]
+    assert sum(row.same_mm for row in rows.values()) == pytest.approx(found.same_mm, abs=1e-3)
+    assert found.to_dict()["views"][1]["name"] == "Top"
+
+
+def test_as_they_lie_views_that_lie_elsewhere_differ():
+    found = compare(page(PLACES), page(MOVED))
+    assert {view.name: view.shift for view in found.views} == dict.fromkeys(PLACES)
+    assert {each.view for each in found.differences} == set(PLACES)
+
+
+def test_a_view_that_lies_elsewhere_on_the_page_is_told():
+    found = compare(page(PLACES), page(PLACES | {"Iso": (200.0, 113.0)}), register="translation")
+    assert [view.name for view in found.views if view.displaced] == ["Iso"]
+    assert not found.same and found.differences == () and found.summary.endswith("elsewhere on the page: Iso")
+
+
+def test_a_view_of_one_page_alone_is_told():
+    fewer = {name: place for name, place in PLACES.items() if name != "Iso"}
+    for found, there in (
+        (compare(page(PLACES), page(fewer)), (True, False)),
+        (compare(page(fewer), page(PLACES)), (False, True)),
+    ):
+        assert {view.name: (view.before, view.after) for view in found.views}["Iso"] == there
+        assert {each.view for each in found.differences} == {"Iso"}
+
+
+@pytest.mark.parametrize("ending", ["svg", "dxf", "pdf"])
+def test_files_of_a_page_are_the_same_view_by_view(ending, tmp_path):
+    whole = page(PLACES)
+    found = compare(whole, whole.save(tmp_path / f"a.{ending}"))
+    assert found.same and [view.name for view in found.views] == list(PLACES), found.summary
+
+
+FREECAD = """<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 2970 2100">
+<g><rect width="2970" height="2100"/></g><g id="DrawingContent">{}</g></svg>"""
+GROUP = (
+    '<g fill="none" stroke="#000" stroke-width="1" stroke-linecap="round" stroke-linejoin="bevel" '
+    'transform="matrix(1,0,0,1,{:g},{:g})"><path d="{}"/></g>'
+)
+
+
+def freecad_page(tmp_path, places):
+    """A page as FreeCAD writes it: ten units a millimetre, y down, each path in a group of its own."""
+    groups = ""
+    for n, (x, y) in enumerate(places.values()):
+        r = 40 + 10 * n
+        paths = (
+            "M-150,80L150,80L150,-80L-40,-80L-150,80",
+            f"M{50 + r},0A{r} {r} 0 1 1 {50 - r},0A{r} {r} 0 1 1 {50 + r},0",
+            "M-60,80L-60,-40",
+        )
+        groups += "".join(GROUP.format(10 * x, 10 * (210 - y), path) for path in paths)
+    path = tmp_path / "freecad.svg"
+    path.write_text(FREECAD.format(groups))
+    return path
+
+
+def test_views_of_freecad_s_pages_are_found_by_their_places(tmp_path):
+    theirs = freecad_page(tmp_path, PLACES | {"Iso": (200.4, 110.0)})
+    for found in (compare(theirs, page(PLACES)), compare(page(PLACES), theirs)):
+        assert found.same and [view.name for view in found.views] == list(PLACES), found.summary
+        assert [abs(view.shift[0]) for view in found.views] == pytest.approx([0.0, 0.0, 0.4], abs=0.01)
+
+
+def test_lines_that_belong_to_no_view_are_compared_too(tmp_path):
+    more = page(PLACES)
+    more = replace(more, lines=[*more.lines, line([[250, 20], [280, 20]])], sheet=None)
+    found = compare(page(PLACES), more)
+    assert [(each.view, each.kind, each.length_mm) for each in found.differences] == [(BESIDE, "new", 30.0)]
+
+
+def test_a_drawing_without_lines_beside_a_page_is_all_missing():
+    found = compare(page(PLACES), replace(page(PLACES), lines=(), sheet=None), register="translation")
+    assert found.same_mm == 0.0 and {each.kind for each in found.differences} == {"gone"}
+
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+@pytest.mark.slow
+def test_the_page_of_a_document_beside_freecad_s_own_dxf(tmp_path):
+    found = compare(DATA / "trolley_assembly.dxf", DATA / "trolley_assembly.FCStd", page="Page")
+    rows = {view.name: view for view in found.views}
+    assert list(rows)[:3] == ["Front", "Top", "Iso"] and not any(rows[name].displaced for name in ("Front", "Top"))
+    assert all(rows[name].same_mm > 10.0 * rows[name].mm["gone"] for name in ("Front", "Top", "Iso"))
+    one = compare(DATA / "trolley_assembly.FCStd", DATA / "trolley_assembly.FCStd", page="Page/Top")
+    assert one.same and one.before == "trolley_assembly.FCStd, Page/Top" and one.views == ()
+    with pytest.raises(OptionError, match='has no view "Left" that is drawn: it has "Front", "Top"'):
+        compare(DATA / "trolley_assembly.FCStd", page_file(tmp_path), page="Page/Left")
+    with pytest.raises(OptionError, match='no page "Sheet"'):
+        compare(DATA / "trolley_assembly.FCStd", page_file(tmp_path), page="Sheet")
+
+
+def page_file(tmp_path):
+    return page(PLACES).save(tmp_path / "page.svg")
+
+
+def test_a_page_is_said_only_of_documents():
+    with pytest.raises(OptionError, match="no side is a FreeCAD document"):
+        compare(page(PLACES), page(PLACES), page="Page")
