@@ -31,6 +31,9 @@ _MOST_PIECES = 400_000
 _SAME_SCALE = 1e-5
 """Scales that differ by less are the same: files state six digits."""
 
+_ENLARGED = 1.2
+"""A drawing that becomes so many times larger is read once more, with shorter chords."""
+
 Compared = Drawing | str | os.PathLike[str]
 
 
@@ -76,6 +79,10 @@ def compare(
         findings, after, views = by_view(before, after, tolerance_mm, register != "off")
         return Comparison.of(before, after, findings, tolerance_mm, views=views)
     motion = None if register == "off" else _motion(before, after, tolerance_mm, register)
+    if motion is not None and motion.scale > _ENLARGED:  # its chords would be seen
+        pieces = after.sketch.pieces(tolerance_mm / motion.scale, after.title)
+        after = _divided(before, replace(after, pieces=pieces), tolerance_mm)[1]
+        motion = _motion(before, after, tolerance_mm, register)
     if motion is not None:
         after = replace(after, pieces=after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift)))
     findings = judged(before, after, tolerance_mm)

@@ -16,8 +16,8 @@ _QUARTERS = {
     270: ((0.0, 1.0), (-1.0, 0.0)),
 }
 
-_NO_SCALE = 2e-5
-"""A drawing that is larger by less is as large: files state six digits."""
+_NO_SCALE = 1e-4
+"""A drawing that is larger by less is as large: files state six digits, and have pieces for curves."""
 
 
 @dataclass(frozen=True, slots=True)

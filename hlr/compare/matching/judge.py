@@ -42,8 +42,14 @@ STAGES = (
 _TWICE = 0.1
 """Tolerances within which lines of one drawing are one line, drawn twice."""
 
+_MEETING = 20.0
+"""Tolerances: over a shorter length, lines lie on one another where they meet at a small angle."""
+
 _BENT = 1.5 * CHORD_SHARE
 """Tolerances: straight pieces that lie farther off a curve are not the curve."""
+
+_MOSTLY = 0.8
+"""Share of a curve that lies beside straight pieces."""
 
 
 @dataclass(slots=True)
@@ -96,14 +102,19 @@ class Findings:
 def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
     """All differences; the longest of each kind first."""
     found = Findings()
-    a, b = _once(found, before, "before", tolerance_mm), _once(found, after, "after", tolerance_mm)
+    a, b = before.pieces, after.pieces
+    _doubled(found, before, "before", tolerance_mm)
+    _doubled(found, after, "after", tolerance_mm)
     for stage in STAGES:
         rule = Rule(stage.reach * tolerance_mm, tolerance_mm, stage.same)
         (both, left_a), (also, left_b) = divided_by(a, b, rule), divided_by(b, a, rule)
         if stage.kind is None:
             found.same = both
             if before.about.foreign or after.about.foreign:
-                _bent(found, both, b, rule, before.about)
+                _bent(found, both, b, rule, before.about, "before")
+                _bent(found, also, a, rule, after.about, "after")
+                found.same = once(both, Rule(_TWICE * tolerance_mm, tolerance_mm))[0]
+            left_a, left_b = _seen(left_a, before, tolerance_mm), _seen(left_b, after, tolerance_mm)
             twice = Rule(_TWICE * tolerance_mm, tolerance_mm, stage.same)
             left_a, left_b = once(left_a, twice)[0], once(left_b, twice)[0]
         else:
@@ -117,30 +128,46 @@ def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
     return found.ranked()
 
 
-def _once(found: Findings, side: Side, name: Literal["before", "after"], tolerance_mm: float) -> Pieces:
-    """The lines of a side, each once. Other programs draw hidden lines under visible ones, and edges for each face."""
+def _doubled(found: Findings, side: Side, name: Literal["before", "after"], tolerance_mm: float) -> None:
+    """Add what a side draws twice. Other programs draw hidden lines under visible ones, and an edge for each face."""
     if not side.about.foreign:
-        return side.pieces
-    kept, again = once(side.pieces, Rule(_TWICE * tolerance_mm, tolerance_mm))
-    for line in _lines(again):
-        found.add(_difference("doubled", line, side.about, name), line)
-    return kept
-
-
-def _bent(found: Findings, both: Pieces, b: Pieces, rule: Rule, about: About) -> None:
-    """Add the lines that are a curve in one drawing, and straight pieces in the other, as far as that can be seen."""
-    if not len(both):
         return
-    near, off = partners(both, b, rule)
-    fits = near >= 0
-    unlike = fits & (both.curved != b.curved[near]) & (both.lengths > 0.0)
-    starts = np.flatnonzero(np.append(True, both.line[1:] != both.line[:-1]))
-    for first, line in zip(starts, _lines(both), strict=True):
+    _, again = once(side.pieces, Rule(_TWICE * tolerance_mm, tolerance_mm))
+    for line in _lines(again):
+        if float(line.lengths.sum()) > _MEETING * tolerance_mm:
+            found.add(_difference("doubled", line, side.about, name), line)
+
+
+def _seen(left: Pieces, side: Side, tolerance_mm: float) -> Pieces:
+    """Without hidden lines under visible ones of the same drawing, which nobody sees. hlr never draws those."""
+    if not side.about.foreign:
+        return left
+    hidden, visible = (side.pieces.visible == value for value in (0, 1))
+    under = divided_by(
+        left.take(left.visible == 0), side.pieces.take(visible), Rule(_TWICE * tolerance_mm, tolerance_mm)
+    )
+    return joined([left.take(left.visible != 0), under[1]]) if hidden.any() else left
+
+
+def _bent(
+    found: Findings, both: Pieces, other: Pieces, rule: Rule, about: About, side: Literal["before", "after"]
+) -> None:
+    """Add the curves that are straight pieces in the other drawing, as far as that can be seen."""
+    curves = both.take(both.curved == 1)
+    if not len(curves):
+        return
+    quarter = 0.25 * (curves.end - curves.start)
+    # The ends of chords lie on the curve, their middles do not.
+    around = replace(curves, start=curves.start - quarter, end=curves.start + quarter)
+    near, off = partners(around, other, rule)
+    fits = (near >= 0) & (other.curved[np.maximum(near, 0)] == 0)
+    off = np.where(fits, off, 0.0)
+    starts = np.flatnonzero(np.append(True, curves.line[1:] != curves.line[:-1]))
+    for first, line in zip(starts, _lines(curves), strict=True):
         here = slice(first, first + len(line))
-        error = float(np.where(unlike[here], off[here], 0.0).max())
-        if error > _BENT * rule.tolerance_mm:
-            became = "straight pieces" if line.curved[0] else "a curve"
-            found.add(_difference("polyline", line, about, "before", became, error), line)
+        error = float(off[here].max())
+        if error > _BENT * rule.tolerance_mm and fits[here].mean() > _MOSTLY:
+            found.add(_difference("polyline", line, about, side, "straight pieces", error), line)
 
 
 def _rank(found: Difference) -> tuple[int, float, float, float]:
@@ -163,10 +190,13 @@ def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, a
             became = _class(b.kind[best])
         elif kind == "visibility changed":
             became = "hidden" if line.visible[0] else "visible"
-        moved = 0.0
+        moved, named = 0.0, kind
         if kind == "moved" and weight.sum() > 0.0:
             moved = float((np.where(fits, off[first:last], 0.0) * weight).sum() / weight.sum())
-        found.add(_difference(kind, line, about, "before", became, moved), line)
+            if line.curved[0] != b.curved[best]:
+                named, moved = "polyline", float(np.where(fits, off[first:last], 0.0).max())
+                became = "straight pieces" if line.curved[0] else "a curve"
+        found.add(_difference(named, line, about, "before", became, moved), line)
 
 
 def _difference(

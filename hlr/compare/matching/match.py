@@ -90,14 +90,14 @@ def once(a: Pieces, rule: Rule) -> tuple[Pieces, Pieces]:
 
 def partners(a: Pieces, b: Pieces, rule: Rule) -> tuple[Index, Floats]:
     """For each piece of a the nearest of b that covers some of it, or -1, and how far its middle is from it."""
-    nearest, distance = np.full(len(a), -1), np.full(len(a), np.inf)
+    nearest, least = np.full(len(a), -1), np.full(len(a), np.inf)
     for i, j in _fitting(a, b, rule):
         off = _distance(0.5 * (a.start[i] + a.end[i]), b, j)
         order = np.lexsort((j, off, i))
         best = order[np.diff(i[order], prepend=-1) > 0]
-        better = best[off[best] < distance[i[best]]]
-        nearest[i[better]], distance[i[better]] = j[better], off[better]
-    return nearest, distance
+        better = best[off[best] < least[i[best]]]
+        nearest[i[better]], least[i[better]] = j[better], off[better]
+    return nearest, least
 
 
 def _bare(a: Pieces, b: Pieces, rule: Rule) -> Floats:

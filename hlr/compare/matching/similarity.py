@@ -38,6 +38,12 @@ _BETTER = 1.002
 _LARGEST = 1e4
 """Scale."""
 
+_SMALLEST = 10.0
+"""Tolerances: a drawing that is not larger lies on everything."""
+
+_UNLIKE = 1e-3
+"""Weight of straight pieces beside a curve."""
+
 
 @dataclass(frozen=True, slots=True)
 class Registered:
@@ -52,7 +58,7 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
 
     scale  where it is known; None: it is found
     """
-    if not len(moving) or not len(fixed):
+    if min(_size(moving), _size(fixed)) < _SMALLEST * tolerance_mm:
         return Registered(Motion(scale=scale or 1.0), 0.0)
     best = Registered(Motion(scale=scale or 1.0), -1.0)
     motions = _to_try(moving, fixed, tolerance_mm, scale)
@@ -73,8 +79,7 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
 
 def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | None) -> list[Motion]:
     """The motions that lay bounding rectangles on one another best, without shifts; the best first."""
-    size = float(np.ptp(points_of(fixed), axis=0).max())
-    coarse = max(_COARSE * size, tolerance_mm)
+    coarse = max(_COARSE * _size(fixed), tolerance_mm)
     rule = Rule(coarse, coarse)
     found: list[tuple[float, Motion]] = []
     few = thinned(moving, _FEW)
@@ -105,7 +110,7 @@ def _scales(moving: Pieces, fixed: Pieces) -> list[float]:
 def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: float) -> Registered:
     """The scale and the shift, improved: lines are pulled across their direction onto those nearest to them."""
     some, motion = thinned(moving, _MANY), start.motion
-    reach = max(_COARSE * float(np.ptp(points_of(fixed), axis=0).max()), tolerance_mm)
+    reach = max(_COARSE * _size(fixed), tolerance_mm)
     for _ in range(16):
         moved = some.mapped(motion.matrix).shifted(np.array(motion.shift))
         near, _off = partners(moved, fixed, Rule(reach, tolerance_mm))
@@ -128,7 +133,9 @@ def _step(moved: Pieces, fixed: Pieces, which: Index, near: Index, reach: float)
     normal = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.hypot(*way.T)[:, None]
     middle = 0.5 * (moved.start[which] + moved.end[which])
     off = ((fixed.start[near] - middle) * normal).sum(axis=1)
-    weight = moved.lengths[which] / (1.0 + (off / (0.3 * reach)) ** 2) ** 2
+    # Straight pieces lie inside the curve that they stand for: they would make the drawing larger.
+    alike = np.where(moved.curved[which] == fixed.curved[near], 1.0, _UNLIKE)
+    weight = alike * moved.lengths[which] / (1.0 + (off / (0.3 * reach)) ** 2) ** 2
     about = (middle * weight[:, None]).sum(axis=0) / weight.sum()
     rows = np.column_stack([((middle - about) * normal).sum(axis=1), normal])
     grow, x, y = np.linalg.pinv((rows * weight[:, None]).T @ rows, rcond=1e-12) @ (rows * (weight * off)[:, None]).sum(
@@ -142,6 +149,10 @@ def covered_share(moved: Pieces, fixed: Pieces, tolerance_mm: float) -> float:
     """How much of the length lies on the others, 0 to 1; half of it counts only within a tenth of the tolerance."""
     close = [divided_by(moved, fixed, Rule(share * tolerance_mm, tolerance_mm))[0] for share in (1.0, 0.1)]
     return sum(map(_length, close)) / max(2.0 * _length(moved), 1e-12)
+
+
+def _size(pieces: Pieces) -> float:
+    return float(np.ptp(points_of(pieces), axis=0).max()) if len(pieces) else 0.0
 
 
 def _length(pieces: Pieces) -> float:

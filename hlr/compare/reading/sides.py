@@ -25,11 +25,12 @@ MOST_BYTES = 1 << 29
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """One of two drawings: what people call it, its lines, and what else is known of it."""
+    """One of two drawings: its name, its lines in pieces, what else is known of it, its lines as read."""
 
     title: str
     pieces: Pieces
     about: About
+    sketch: Sketch
 
 
 def side_of(given: Any, tolerance_mm: float) -> Side:
@@ -38,10 +39,10 @@ def side_of(given: Any, tolerance_mm: float) -> Side:
     if isinstance(given, Drawing):
         title = f"{given.source}, {given.view.name}"
         about = _read_drawing(given, sketch)
-        return Side(title, sketch.pieces(tolerance_mm, title), about)
+        return Side(title, sketch.pieces(tolerance_mm, title), about, sketch)
     path = _path(given)
     about = _READERS[path.suffix.lower()](path, sketch)
-    return Side(path.name, sketch.pieces(tolerance_mm, path.name), about)
+    return Side(path.name, sketch.pieces(tolerance_mm, path.name), about, sketch)
 
 
 def _path(given: Any) -> Path:

@@ -1,0 +1,104 @@
+"""Drawings of two programs are laid on one another, and what then differs is named."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hlr.compare import compare
+from hlr.compare.lines.motion import Motion
+
+BOX = Path(__file__).parent.parent / "data/freecad/box_iso.svg"
+MODEL = BOX.with_name("box.step")
+
+
+def mutated(tmp_path, pattern, replacement, transform=""):
+    """FreeCAD's drawing of the box with one thing changed."""
+    text, count = re.subn(pattern, replacement, BOX.read_text(), count=1)
+    assert count == 1 or not pattern
+    path = tmp_path / "mutated.svg"
+    path.write_text(f'<g transform="{transform}">{text}</g>' if transform else text)
+    return path
+
+
+def kinds(found):
+    return {each.kind for each in found.differences if not found.looks_same(each)}
+
+
+def test_nothing_is_invented_on_the_untouched_pair():
+    found = compare(BOX, BOX)
+    assert found.same and not kinds(found) and found.motion == Motion()
+
+
+@pytest.mark.parametrize(
+    ("transform", "inverse"),
+    [
+        ("rotate(90)", Motion(turn=90)),
+        ("rotate(180)", Motion(turn=180)),
+        ("rotate(270)", Motion(turn=270)),
+        ("scale(-1, 1)", Motion(mirrored=True)),
+        ("scale(1.0005)", Motion(scale=1 / 1.0005)),
+        ("translate(30, -70) rotate(90) scale(0.25)", Motion(turn=90, scale=4.0)),
+        ("scale(1, -1) translate(3, 1)", Motion(mirrored=True, turn=180)),
+    ],
+)
+def test_turned_mirrored_and_scaled_drawings_are_laid_on_one_another(tmp_path, transform, inverse):
+    found = compare(BOX, mutated(tmp_path, "", "", transform))
+    assert found.same, found.summary
+    motion = found.motion
+    assert (motion.mirrored, motion.turn) == (inverse.mirrored, inverse.turn)
+    assert motion.scale == pytest.approx(inverse.scale, rel=2e-6)
+    assert all(word in found.summary for word in inverse.words()[:-1])
+    assert motion.scales == (inverse.scale != 1.0)
+
+
+FIRST_LINE = r'<path id= "2" d=" M -31.1127 6.14405 L 2.82843 25.74 " />'
+
+
+@pytest.mark.parametrize(
+    ("pattern", "replacement", "kind", "mm"),
+    [
+        (re.escape(FIRST_LINE), "", "gone", 39.19),
+        (re.escape(FIRST_LINE), '<path d=" M -31.2127 6.31725 L 2.72843 25.9132 " />', "moved", 39.19),
+        (re.escape(FIRST_LINE), FIRST_LINE + '<path d="M 0 0 L 3 4"/>', "new", 5.0),
+    ],
+)
+@pytest.mark.parametrize("transform", ["", "translate(5, 7) rotate(90)"])
+def test_a_mutation_is_found_and_named(tmp_path, pattern, replacement, kind, mm, transform):
+    found = compare(BOX, mutated(tmp_path, pattern, replacement, transform))
+    assert kinds(found) == {kind}, found.summary
+    assert found.lengths_mm[kind] == pytest.approx(mm, abs=0.35)
+    if kind == "moved":
+        assert found.differences[0].moved_mm == pytest.approx(0.2, abs=0.02)
+
+
+def test_visible_and_hidden_exchanged_is_found_and_named(tmp_path):
+    swapped = tmp_path / "swapped.svg"
+    swapped.write_text(BOX.read_text().replace('"0.35"', '"?"').replace('"0.7"', '"0.35"').replace('"?"', '"0.7"'))
+    found = compare(BOX, swapped)
+    assert kinds(found) == {"visibility changed"} and found.lengths_mm["visibility changed"] > 640
+    assert found.same_mm < 6  # where lines meet
+
+
+@pytest.mark.slow
+def test_freecads_drawing_of_a_box_beside_ours(tmp_path):
+    """What hlr draws and FreeCAD does not are hidden smooth lines and seams; else both are the same."""
+    import hlr
+
+    ours = hlr.draw(MODEL, view=(1, -1, 1), scale=1, hidden=True, smooth=True, seam=True, details=True)
+    found = compare(BOX, ours)
+    only_ours = [each for each in found.differences if not found.looks_same(each)]
+    assert {each.kind for each in only_ours} == {"new"} and found.motion.words() == []
+    assert {(each.line_class, each.visible) for each in only_ours} <= {
+        ("smooth", False),
+        ("seam", False),
+        ("seam", True),
+    }
+    assert found.same_mm == pytest.approx(655, abs=2)
+
+
+def test_an_empty_or_a_tiny_drawing_has_no_motion(tmp_path):
+    dot = tmp_path / "dot.svg"
+    dot.write_text('<g stroke="#000" fill="none"><path d="M 0 0 L 0.001 0"/></g>')
+    assert np.isfinite(compare(BOX, dot).motion.scale) and np.isfinite(compare(dot, BOX).motion.scale)
