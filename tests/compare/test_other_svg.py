@@ -70,8 +70,8 @@ def test_a_page_gives_the_edges_of_its_views_in_millimetres(tmp_path, dash, soli
     side = read(tmp_path, PAGE.format(edge=EDGE, dash=dash))
     pieces = side.pieces
     assert pieces.visible[:2].tolist() == [solid, gaps]
-    assert np.allclose(pieces.start[:2], [[75, -60], [75, -65]]) and np.allclose(pieces.end[:2], [[85, -60], [85, -65]])
-    assert side.about.views == ("at (75, -60)", "at (200, -60)") and set(pieces.view.tolist()) == {0, 1}
+    assert np.allclose(pieces.start[:2], [[75, 150], [75, 145]]) and np.allclose(pieces.end[:2], [[85, 150], [85, 145]])
+    assert side.about.views == ("at (75, 150)", "at (200, 150)") and set(pieces.view.tolist()) == {0, 1}
     assert float(pieces.lengths[2:].sum()) == pytest.approx(2 * math.pi, rel=1e-3)
     assert side.about.left_out == {
         "faces": 1,
@@ -175,10 +175,10 @@ def read_path(tmp_path, text):
 
 
 def test_what_is_unknown_agrees_with_everything(tmp_path):
-    ours = [line([[75, -60], [85, -60]]), line([[75, -65], [85, -65]], "smooth", visible=False)]
+    ours = [line([[75, 150], [85, 150]]), line([[75, 145], [85, 145]], "smooth", visible=False)]
     page = PAGE.format(edge=EDGE, dash="").replace("A40 40 0 0 1 40 40", "L100 0")
     found = compare(
-        read_path(tmp_path, page), drawing([*ours, line([[200, -60], [210, -60]], "outline")]), register="off"
+        read_path(tmp_path, page), drawing([*ours, line([[200, 150], [210, 150]], "outline")]), register="off"
     )
     assert found.same and not found.differences
 
