@@ -26,7 +26,7 @@ _MOST_ROWS = 20
 @click.argument("after", metavar="B")
 @click.option(
     "-o", "--output", "outputs", metavar="FILE", multiple=True,
-    help="Overlay as SVG or PNG, figures as JSON, by the ending; may be repeated.",
+    help="Overlay as SVG, PNG or HTML, figures as JSON, by the ending; may be repeated.",
 )  # fmt: skip
 @click.option(
     "--tolerance",

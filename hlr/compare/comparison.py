@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hlr.compare.compared_view import ComparedView
 from hlr.compare.difference import WORDS_OF_TWO_PROGRAMS, Difference, told
@@ -17,6 +17,9 @@ from hlr.compare.reading.sides import Side
 from hlr.drawing.files import path_of, write_all
 from hlr.drawing.scale import ratio
 from hlr.errors import OptionError
+
+if TYPE_CHECKING:
+    from hlr.compare.overlay.picture import Overlay
 
 FORMAT, VERSION = "hlr-comparison", 1
 
@@ -162,24 +165,35 @@ class Comparison:
 
     def to_svg(self) -> str:
         """The overlay as SVG: what is the same in grey, each kind of difference in its colour, with a legend."""
-        from hlr.compare.overlay.picture import overlay
         from hlr.compare.overlay.svg import svg
 
-        return svg(overlay((self.before, self.after), self.summary, self.findings, self.lines))
+        return svg(self.overlay())
 
     def to_png(self) -> bytes:
         """The same as PNG, 8 pixels per millimetre where that is not too large."""
-        from hlr.compare.overlay.picture import overlay
         from hlr.compare.overlay.png import png
 
-        return png(overlay((self.before, self.after), self.summary, self.findings, self.lines))
+        return png(self.overlay())
+
+    def to_html(self) -> str:
+        """The overlay as a web page that needs no other file: layers, zoom, and a table that leads to each place."""
+        from hlr.compare.overlay.html import Told, html
+
+        titles, others = (self.before, self.after), (self.foreign, self.tolerance_mm)
+        return html(Told(titles, self.summary, self.findings, self.views, self.left_out, *others), self.overlay())
+
+    def overlay(self) -> Overlay:
+        """The picture that SVG, PNG and HTML show."""
+        from hlr.compare.overlay.picture import overlay
+
+        return overlay((self.before, self.after), self.summary, self.findings, self.lines)
 
     def rendered(self, ending: str) -> bytes:
         """The content of a file with this ending, a key of `WRITERS`."""
         return WRITERS[ending](self)
 
     def save(self, file: str | os.PathLike[str]) -> Path:
-        """Write the overlay (.svg, .png), or the figures (.json). Returns the path.
+        """Write the overlay (.svg, .png, .html), or the figures (.json). Returns the path.
 
         Raises OptionError for another ending, WriteError where the file cannot be written.
         """
@@ -191,6 +205,7 @@ class Comparison:
 WRITERS: dict[str, Callable[[Comparison], bytes]] = {
     ".svg": lambda found: found.to_svg().encode(),
     ".png": Comparison.to_png,
+    ".html": lambda found: found.to_html().encode("utf-8", "replace"),
     ".json": lambda found: found.to_json().encode(),
 }
 """What a comparison is written as."""

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from hlr.batch.page import scripts
+from hlr.common.web import shared
 from hlr.drawing import files
 from hlr.errors import counted
 
@@ -39,7 +40,7 @@ def write(found: dict[str, Any], report: bytes, output: Path) -> None:
         if card.svg:
             _write_drawing(output / card.svg, page / "drawings" / f"{card.key}.js", card.key)
     _remove_others(page / "drawings", (f"{card.key}.js" for card in shown if card.svg))
-    contents = {page / path.name: path.read_bytes() for path in sorted((_HOME / "assets").iterdir())}
+    contents = {page / path.name: path.read_bytes() for path in _assets()}
     contents[page / "data.js"] = scripts.data([card.data() for card in shown])
     # Last, for it says that all is there.
     contents[output / INDEX] = _html(found, shown, made_of)
@@ -98,7 +99,11 @@ def _remove_others(folder: Path, names: Iterable[str]) -> None:
 
 def _own_files() -> list[Path]:
     """What the page is made of besides the report: templates, style and scripts."""
-    return sorted(path for folder in ("templates", "assets") for path in (_HOME / folder).iterdir())
+    return [*sorted((_HOME / "templates").iterdir()), *_assets()]
+
+
+def _assets() -> list[Path]:
+    return [*sorted((_HOME / "assets").iterdir()), *shared()]
 
 
 def _head(path: Path, size: int) -> bytes:

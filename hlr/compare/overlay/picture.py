@@ -67,12 +67,18 @@ class Text:
 
 @dataclass(frozen=True, slots=True)
 class Overlay:
-    """A page with marks."""
+    """A page with marks.
+
+    drawn   height of what lies above the legend
+    corner  what of the drawings, y up, lies in the upper left corner
+    """
 
     width: float
     height: float
     title: str
     marks: tuple[Stroke | Text, ...]
+    drawn: float
+    corner: tuple[float, float]
 
 
 def overlay(titles: tuple[str, str], summary: str, found: Findings, second: Pieces) -> Overlay:
@@ -98,7 +104,8 @@ def overlay(titles: tuple[str, str], summary: str, found: Findings, second: Piec
     top = float(high[1] - low[1]) + 2.0 * _MARGIN
     legend = _legend(titles, summary, found, top)
     bottom = max(mark.at[1] for mark in legend if isinstance(mark, Text)) + _ROW
-    return Overlay(width, bottom, " and ".join(titles), (*marks, *legend))
+    place = float(corner[0]), float(corner[1])
+    return Overlay(width, bottom, " and ".join(titles), (*marks, *legend), top - _MARGIN + _RING, place)
 
 
 def _legend(titles: tuple[str, str], summary: str, found: Findings, top: float) -> list[Stroke | Text]:

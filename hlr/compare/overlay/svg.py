@@ -22,9 +22,24 @@ def svg(page: Overlay) -> str:
     return "".join(out)
 
 
+def drawn_alone(page: Overlay) -> str:
+    """The element without the legend, for a page that has one of its own."""
+    strokes = "".join(_stroke(mark) for mark in page.marks if isinstance(mark, Stroke) and mark.name)
+    width, height = number(page.width, 3), number(page.drawn, 3)
+    return (
+        f'<svg width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}" fill="none" '
+        f'stroke-linecap="round" stroke-linejoin="round" aria-hidden="true">\n{strokes}</svg>'
+    )
+
+
+def class_of(name: str) -> str:
+    """The class of a mark of this name."""
+    return name.replace(", ", " ").replace(" ", "-")
+
+
 def _stroke(mark: Stroke) -> str:
     dash = ' stroke-dasharray="2 1.2"' if mark.dashed else ""
-    name = f' class="{mark.name.replace(", ", " ").replace(" ", "-")}"' if mark.name else ""
+    name = f' class="{class_of(mark.name)}"' if mark.name else ""
     path = "".join(map(_path, mark.lines))
     return f'<path{name} stroke="{mark.color}" stroke-width="{number(mark.width, 3)}"{dash} d="{path}"/>\n'
 

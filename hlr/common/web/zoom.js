@@ -10,6 +10,7 @@
 
   const place = () => {
     paper.style.transform = `translate(${x}px, ${y}px) scale(${scale})`;
+    paper.style.setProperty("--zoom", scale);
     hlr.part("percent").textContent = `${Math.round(scale * 100)} %`;
   };
 
@@ -35,6 +36,14 @@
     scale = Math.max(least, Math.min((stage.clientWidth - 24) / width, (stage.clientHeight - 24) / height, most));
     x = (stage.clientWidth - width * scale) / 2;
     y = (stage.clientHeight - height * scale) / 2;
+    place();
+  };
+
+  // A point of the paper, in its own pixels, to the middle of the stage, with at least so many pixels around it.
+  const look = (atX, atY, around) => {
+    scale = Math.max(least, Math.min(Math.min(stage.clientWidth, stage.clientHeight) / around, most));
+    x = stage.clientWidth / 2 - atX * scale;
+    y = stage.clientHeight / 2 - atY * scale;
     place();
   };
 
@@ -84,5 +93,5 @@
     stage.addEventListener(name, (event) => held.delete(event.pointerId));
   }
 
-  hlr.zoom = { ...actions, pan, held: () => held.size > 0 };
+  hlr.zoom = { ...actions, look, pan, held: () => held.size > 0 };
 }
