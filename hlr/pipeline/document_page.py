@@ -58,8 +58,8 @@ class Sources:
         """Raises SourceError where nothing of it can be drawn."""
         if names not in self._opened:
             try:
-                leaves, notes = leaves_of(self._document, self.name, self._shapes, only=names)
-                self._opened[names] = build_source(self.name, "fcstd", leaves, notes)
+                leaves, notes = leaves_of(self._document, self.name, self._shapes, only=names, sketches=True)
+                self._opened[names] = build_source(self.name, "fcstd", leaves, notes, wires_too=True)
             except SourceError as error:
                 self._opened[names] = error
         found = self._opened[names]

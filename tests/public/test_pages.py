@@ -196,10 +196,62 @@ def test_the_template_is_filled_in_and_harmless(tmp_path):
     assert not [word for word in ("alert", "passwd", "http://a.b") if word in svg]
 
 
+def wire(*points):
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakePolygon
+    from OCP.gp import gp_Pnt
+
+    polygon = BRepBuilderAPI_MakePolygon()
+    for point in points:
+        polygon.Add(gp_Pnt(*point))
+    return fc.brep(polygon.Wire())
+
+
+def test_wires_and_sketches_are_drawn_and_solids_hide_them(tmp_path):
+    """Seen from the front: one wire runs through behind the box, 10 wide, one lies above it, a sketch beside it."""
+    objects = {
+        "Page": item("TechDraw::DrawPage", Views=links("All", "Alone")),
+        "Box": item("Part::Box", Shape=kept("Part", "box.brp")),
+        "Behind": item("Part::Feature", Shape=kept("Part", "behind.brp")),
+        "Above": item("Part::Feature", Shape=kept("Part", "above.brp")),
+        "Sketch": item("Sketcher::SketchObject", Shape=kept("Part", "sketch.brp")),
+        "All": view(Source=links("Box", "Behind", "Above", "Sketch"), HardHidden=flag(True)),
+        "Alone": view(Source=links("Sketch"), x=300.0),
+    }
+    files = {
+        "box.brp": fc.box(10, 20, 30),
+        "behind.brp": wire((-5, 25, 10), (20, 25, 10)),
+        "above.brp": wire((0, 5, 35), (8, 5, 40)),
+        "sketch.brp": wire((12, 0, 0), (16, 0, 0), (16, 0, 3)),
+    }
+    (drawing,) = hlr.draw_pages(write(tmp_path / "made.FCStd", objects, files))
+    found = [
+        (
+            drawing.parts[x.part].name,
+            x.visible,
+            round(float(np.linalg.norm(np.diff(x.points, axis=0), axis=1).sum()), 6),
+        )
+        for x in drawing.lines
+        if "Box" not in drawing.parts[x.part].name
+    ]
+    assert sorted(found) == [
+        ("All/Above", True, round(89**0.5, 6)),
+        ("All/Behind", False, 10.0),
+        ("All/Behind", True, 5.0),
+        ("All/Behind", True, 10.0),
+        ("All/Sketch", True, 3.0),
+        ("All/Sketch", True, 4.0),
+        ("Alone/Sketch", True, 3.0),
+        ("Alone/Sketch", True, 4.0),
+    ]
+    # The middle is that of everything drawn.
+    assert boxes(drawing) == {"All": [87.5, 30, 112.5, 70], "Alone": [298, 48.5, 302, 51.5]}
+    assert drawing.notes == ()
+
+
 def test_what_is_not_drawn_is_named(tmp_path):
     views = {
         "Front": view(CosmeticEdges='<CosmeticEdgeList count="2"/>', IsoHidden=flag(True), IsoCount=whole(4)),
-        "Wires": view(source="Nothing"),
+        "Empty": view(source="Nothing"),
         "Dimension": item("TechDraw::DrawViewDimension"),
         "Other": item("TechDraw::DrawViewDimension"),
         "New": item("TechDraw::DrawSomethingNew"),
@@ -212,7 +264,7 @@ def test_what_is_not_drawn_is_named(tmp_path):
     (drawing,) = hlr.draw_pages(path)
     assert [view.name for view in drawing.sheet.views] == ["Front"]
     assert [str(note) for note in drawing.notes] == [
-        'Page "The page": view "Wires" (made.FCStd holds no shapes: there is nothing to draw) not drawn.',
+        'Page "The page": view "Empty" (made.FCStd holds no shapes: there is nothing to draw) not drawn.',
         'Page "The page": 1 DrawSomethingNew, 1 clip, 1 clipped view, 2 cosmetic lines, 2 dimensions, 1 hatch and '
         "1 set of isoparametric lines not drawn.",
     ]

@@ -34,7 +34,7 @@ class BrepSource:
     def __init__(
         self, name: str, kind: str, parts: Sequence[Part], prototypes: Prototypes, notes: Sequence[Note] = ()
     ) -> None:
-        """Args: `parts`, at least one, each an instance of one of `prototypes` that has faces."""
+        """Args: `parts`, at least one, each an instance of one of `prototypes`."""
         self._name, self._kind, self._notes = name, kind, list(notes)
         self._prototypes = prototypes
         self.choice: Choice | None = None
@@ -201,7 +201,7 @@ class BrepSource:
             if faults:
                 a, b = tables.face_start[prototype : prototype + 2]
                 notes += faults.notes(part.name, tables.face_shape[a:b])
-            if counts[prototype]:
+            if counts[prototype] or not self._prototypes.has_faces[part.prototype]:
                 kept.append(part)
             else:
                 text = f'Part "{part.name}" has no triangles and was left out.'

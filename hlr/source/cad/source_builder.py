@@ -13,21 +13,23 @@ from hlr.source.cad.prototypes import LivePrototypes
 from hlr.source.model import Appearance
 
 
-def build_source(name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note] = ()) -> BrepSource:
+def build_source(
+    name: str, kind: str, leaves: Sequence[Leaf], notes: Sequence[Note] = (), *, wires_too: bool = False
+) -> BrepSource:
     """Split leaves into parts and make a source of them.
 
-    A caller's shapes are not copied; those of a file are released.
+    A caller's shapes are not copied; those of a file are released. wires_too: edges without faces are parts as well.
 
     Raises:
-        SourceError: there are no shapes, or none has faces.
+        SourceError: there are no shapes, or none has faces and wires are left out.
     """
     collector = PartCollector()
     for leaf in leaves:
         collector.add(leaf)
     prototypes = LivePrototypes(collector.prototypes)
     has_faces = prototypes.has_faces
-    parts = [part for part in collector.parts if has_faces[part.prototype]]
-    wires = [part for part in collector.parts if not has_faces[part.prototype]]
+    parts = [part for part in collector.parts if wires_too or has_faces[part.prototype]]
+    wires = [part for part in collector.parts if not wires_too and not has_faces[part.prototype]]
     if not collector.parts:
         raise SourceError(f"{name} holds no shapes: there is nothing to draw.")
     if not parts:

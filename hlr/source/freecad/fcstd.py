@@ -58,9 +58,17 @@ def opened_document(path: Path) -> Iterator[Document]:
 
 
 def leaves_of(
-    document: Document, name: str, shapes: Shapes, hidden_objects: bool = False, only: Sequence[str] | None = None
+    document: Document,
+    name: str,
+    shapes: Shapes,
+    hidden_objects: bool = False,
+    only: Sequence[str] | None = None,
+    *,
+    sketches: bool = False,
 ) -> tuple[list[Leaf], list[Note]]:
     """What an open document shows, and what was left out, as of `read_document`. name: of the file, for errors.
+
+    sketches: they are drawn beside shapes that have faces, too.
 
     Raises:
         SourceError: there is nothing to draw. TooManyError, DamagedError: it is broken or hostile.
@@ -71,9 +79,11 @@ def leaves_of(
         notes.append(_hidden_note(tree.left_hidden))
     if not tree.leaves and not tree.sketches:
         raise SourceError(f"{name} {_why_empty(tree)}: there is nothing to draw.")
+    if sketches:
+        return tree.leaves + tree.sketches, notes
     if tree.leaves and tree.sketches:
-        sketches = f"{counted(len(tree.sketches), 'sketch', 'sketches')} left out"
-        notes.append(Note("free-edges-left-out", f"{sketches}: a hidden-line drawing needs faces."))
+        left_out = f"{counted(len(tree.sketches), 'sketch', 'sketches')} left out"
+        notes.append(Note("free-edges-left-out", f"{left_out}: a hidden-line drawing needs faces."))
     return tree.leaves or tree.sketches, notes
 
 
