@@ -7,13 +7,17 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hlr.tables.readers import is_model
+
 from ..guard import start
 from ..outputs import Target, check, place
+from ..parameters import ViewName
 from ..streams import result_only
 from ..verb import Verb
 
 if TYPE_CHECKING:
     from hlr.compare.compare import Registration
+    from hlr.request.options import View
 
 DIFFERENT = 1
 """Exit code."""
@@ -47,6 +51,12 @@ _MOST_ROWS = 20
     metavar="NAME[/VIEW]",
     help="The page of a FreeCAD document (.FCStd) that is A or B, by name or label, or one view of it.",
 )
+@click.option(
+    "--view",
+    type=ViewName(),
+    metavar="NAME|X,Y,Z",
+    help="Of the model that is A or B: a name or a direction. Default: the named view that the other side shows.",
+)
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing; the exit code tells.")
 def compare(
     before: str,
@@ -55,18 +65,21 @@ def compare(
     tolerance: float,
     register: Registration,
     page: str | None,
+    view: View | None,
     quiet: bool,
 ) -> int:
     """Tell what differs from drawing A to drawing B.
 
     Each is an SVG, PDF, DXF or JSON file of hlr, or an SVG, PDF or DXF file of FreeCAD and other programs.
 
-    Pages are compared view by view.
+    Or it is a model, which is drawn as the other side shows it. Pages are compared view by view.
 
     \b
       hlr compare old.svg new.svg
       hlr compare old.svg new.svg -o difference.svg --register translation
       hlr compare freecad_view.svg ours.svg -o difference.svg
+      hlr compare freecad_view.svg part.step
+      hlr compare drawing.dxf part.step --view iso
       hlr compare freecad_page.svg housing.FCStd --page Page
 
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
@@ -77,10 +90,11 @@ def compare(
     targets = [_target(output) for output in outputs]
     for source in (before, after):
         check(targets, source)
-    if page is not None:
-        start(after)
+    models = [side for side in (before, after) if is_model(side)]
+    if models:
+        start(models[0])
     with result_only():
-        found = compared(before, after, tolerance_mm=tolerance, register=register, page=page)
+        found = compared(before, after, tolerance_mm=tolerance, register=register, page=page, view=view)
     place([(target, found.rendered(f".{target.format}")) for target in targets])
     if not quiet:
         click.echo(found.summary)

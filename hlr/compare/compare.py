@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-import os
 from dataclasses import replace
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -17,9 +16,10 @@ from hlr.compare.matching.register import translation
 from hlr.compare.matching.similarity import similarity
 from hlr.compare.matching.views import by_view
 from hlr.compare.reading.document import with_pages
-from hlr.compare.reading.sides import Side, side_of
-from hlr.drawing.drawing import Drawing
+from hlr.compare.reading.model import sides_of, without_undrawn
+from hlr.compare.reading.sides import Side
 from hlr.errors import OptionError
+from hlr.request.options import View
 
 Registration = Literal["auto", "off", "translation", "similarity"]
 
@@ -34,22 +34,29 @@ _SAME_SCALE = 1e-5
 _ENLARGED = 1.2
 """A drawing that becomes so many times larger is read once more, with shorter chords."""
 
-Compared = Drawing | str | os.PathLike[str]
-
 
 def compare(
-    a: Compared, b: Compared, *, tolerance_mm: float = 0.1, register: Registration = "auto", page: str | None = None
+    a: Any,
+    b: Any,
+    *,
+    tolerance_mm: float = 0.1,
+    register: Registration = "auto",
+    page: str | None = None,
+    view: View | None = None,
 ) -> Comparison:
     """What differs from drawing a to drawing b.
 
     a, b          each a `Drawing`, or the path of an SVG, PDF, DXF or JSON file of hlr, or of an SVG, PDF or DXF of
-                  another program
+                  another program; or a model, as anything that `hlr.draw` takes
     tolerance_mm  how far apart on paper two lines may lie that count as the same; 0.001 to 10
     register      "off": as they lie; "translation": b is first moved to where most of its lines match those of a;
                   "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings
                   of hlr, else "similarity"
     page          name or label of the page of a FreeCAD document (.FCStd) that is a or b; "Page/View": one view of it
 
+    view          of the model, as of `hlr.draw`; None: the named view that the other side shows, which is found
+
+    A model is drawn at the scale of the other side, with the lines that it has, hidden or smooth ones for example.
     Pages are compared view by view; unless register is "off", each view is moved onto that of the other page.
     Drawings of hlr at different scales differ; their lines are compared at the scale of the first. What a file does not
     say of its lines, such as which of them are hidden, agrees with everything.
@@ -68,7 +75,7 @@ def compare(
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
     a, b = with_pages((a, b), page, tolerance_mm)
-    before, after = side_of(a, tolerance_mm), side_of(b, tolerance_mm)
+    before, after = sides_of(a, b, tolerance_mm, view)
     scales = _scales(before, after)
     if scales is not None:
         after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))
@@ -85,6 +92,7 @@ def compare(
         motion = _motion(before, after, tolerance_mm, register)
     if motion is not None:
         after = replace(after, pieces=after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift)))
+    before, after = without_undrawn(before, after, tolerance_mm), without_undrawn(after, before, tolerance_mm)
     findings = judged(before, after, tolerance_mm)
     return Comparison.of(before, after, findings, tolerance_mm, motion=motion, scales=scales)
 

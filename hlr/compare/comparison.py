@@ -37,6 +37,7 @@ class Comparison:
     same_mm        length that is the same in both
     foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
     left_out       what of each file is no line of its drawing, counted
+    view_found     of a model, where it was not said: the view that the other side shows
     findings       the differences with their pieces, from which the overlay is drawn
     lines          the pieces of the second drawing, as it was moved
 
@@ -57,6 +58,7 @@ class Comparison:
     same_mm: float
     foreign: bool
     left_out: tuple[dict[str, int], dict[str, int]]
+    view_found: str | None
     findings: Findings
     lines: Pieces
 
@@ -85,6 +87,7 @@ class Comparison:
             same_mm=findings.same_mm,
             foreign=one.foreign or other.foreign,
             left_out=(one.left_out, other.left_out),
+            view_found=one.view_found or other.view_found,
             findings=findings,
             lines=after.pieces,
         )
@@ -126,6 +129,7 @@ class Comparison:
             text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
         elsewhere = [view.name for view in self.views if view.displaced]
         text += f"; elsewhere on the page: {', '.join(elsewhere)}" if elsewhere else ""
+        text += "" if self.view_found is None else f"; the view is {self.view_found}"
         moved = self._moved()
         return f"{text}; {' and '.join(moved)} to be compared" if moved else text
 
@@ -152,6 +156,7 @@ class Comparison:
             "scales": None if self.scales is None else list(self.scales),
             "same_mm": self.same_mm,
             "views": [each.as_dict() for each in self.views],
+            "view_found": self.view_found,
             "left_out": list(self.left_out),
             "mm": self.lengths_mm,
             "differences": [each.as_dict() for each in self.differences],

@@ -43,6 +43,7 @@ class About:
     views     names of the views of a page; empty: one view
     foreign   whether another program drew it
     left_out  what of the file is no line of the drawing, counted
+    view_found  the view of a model, where it was not said and was found by the other side's lines
     """
 
     parts: tuple[str, ...]
@@ -50,6 +51,7 @@ class About:
     views: tuple[str, ...] = ()
     foreign: bool = False
     left_out: dict[str, int] = field(default_factory=dict)
+    view_found: str | None = None
 
 
 class Sketch:

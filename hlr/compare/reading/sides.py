@@ -16,21 +16,39 @@ from hlr.drawing.curve import Arc, raised
 from hlr.drawing.drawing import Drawing
 from hlr.errors import SourceError
 from hlr.source.file_checks import check_readable
+from hlr.source.model import Source
 from hlr.tables.entry import listed
 from hlr.tables.line_classes import LINE_CLASSES
+from hlr.tables.readers import is_model
 
 MOST_BYTES = 1 << 29
 """Of a file."""
 
 
 @dataclass(frozen=True, slots=True)
+class Behind:
+    """The model of which a side was drawn: the opened source, and the drawing, which knows its camera and its scale."""
+
+    source: Source
+    drawing: Drawing
+
+
+@dataclass(frozen=True, slots=True)
 class Side:
-    """One of two drawings: its name, its lines in pieces, what else is known of it, its lines as read."""
+    """One of two drawings: its name, its lines in pieces and as read, what else is known of it, its model."""
 
     title: str
     pieces: Pieces
     about: About
     sketch: Sketch
+    behind: Behind | None = None
+
+
+def is_drawing(given: Any) -> bool:
+    """Whether this is a drawing, or the file of one, and not a model that is still to be drawn."""
+    if isinstance(given, str | os.PathLike):
+        return Path(given).suffix.lower() in _READERS or not is_model(os.fspath(given))
+    return isinstance(given, Drawing)
 
 
 def side_of(given: Any, tolerance_mm: float) -> Side:

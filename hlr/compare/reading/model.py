@@ -1,0 +1,112 @@
+"""A model as a side: it is drawn as the other side shows it."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hlr.compare.lines.pieces import Pieces
+from hlr.compare.matching.match import Rule, divided_by
+from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
+from hlr.compare.reading.view import Fit, found_view
+from hlr.errors import OptionError
+from hlr.pipeline.draw import draw_views
+from hlr.request.options import Options, View
+from hlr.source import open_source
+from hlr.tables.line_classes import by_number, optional
+
+ACCURACY_SHARE = 0.2
+"""Of the tolerance: how exactly a model is drawn to be compared with the drawing of another program."""
+
+_NICE = 0.01
+"""A scale this close to a whole number, or to one over a whole number, is meant to be that."""
+
+_DRAWN = 0.5
+"""Share of the lines of one sort that the other drawing has, where it has such lines at all."""
+
+
+def sides_of(a: Any, b: Any, tolerance_mm: float, view: View | None) -> tuple[Side, Side]:
+    """Read both sides. A model is drawn in this view, or, where none is said, in the one that the other side shows.
+
+    Raises SourceError where a side cannot be read, OptionError for a view where no side is a model.
+    """
+    drawn = is_drawing(a), is_drawing(b)
+    if all(drawn):
+        if view is not None:
+            raise OptionError("a view is said, and both sides are drawings already: leave it out, or name a model")
+        return side_of(a, tolerance_mm), side_of(b, tolerance_mm)
+    if not any(drawn):
+        one = side_of_model(a, None, tolerance_mm, view)
+        return one, side_of_model(b, None, tolerance_mm, view)
+    other = side_of(a if drawn[0] else b, tolerance_mm)
+    model = side_of_model(b if drawn[0] else a, other, tolerance_mm, view)
+    return (other, model) if drawn[0] else (model, other)
+
+
+def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: View | None) -> Side:
+    """Draw a model as the other side shows it: its view, its scale, and all classes of line that it may have."""
+    source = open_source(given)
+    options = _options(other, tolerance_mm)
+    fit = Fit(view or "iso", 1.0)
+    if other is not None and (view is None or other.about.scale is None):
+        fit = found_view(source, options, other, [] if view is None else [view])
+    scale = other.about.scale if other is not None and other.about.scale is not None else _nice(fit.scale)
+    drawing = draw_views(source, [fit.view], replace(options, scale=scale))[0]
+    side = side_of(drawing, tolerance_mm)
+    name = Path(given).name if isinstance(given, str | os.PathLike) else source.name
+    found = fit.view if view is None and other is not None else None
+    about = replace(side.about, view_found=None if found is None else drawing.view.name)
+    return replace(side, title=f"{name}, {drawing.view.name}", about=about, behind=Behind(source, drawing))
+
+
+def _options(other: Side | None, tolerance_mm: float) -> Options:
+    """What a model is drawn with: whatever the other side has, or may have where it does not say."""
+    if other is None:
+        return Options()
+    # A drawing of hlr was drawn with the usual accuracy, if nothing else was asked for.
+    accuracy = ACCURACY_SHARE * tolerance_mm if other.about.foreign else None
+    kinds, visible = other.pieces.kind, other.pieces.visible
+    shown = {row.option: bool(np.isin(kinds, (row.number, -1)).any()) for row in optional() if row.option}
+    hidden = bool((visible < 1).any())
+    return Options(accuracy=accuracy, hidden=hidden, details=other.about.foreign, **shown)  # type: ignore[arg-type]
+
+
+def _nice(scale: float) -> float:
+    near = float(round(scale)) if scale >= 1.0 else 1.0 / round(1.0 / scale)
+    return near if abs(near / scale - 1.0) < _NICE else float(f"{scale:.6g}")
+
+
+def without_undrawn(model: Side, other: Side, tolerance_mm: float) -> Side:
+    """The side of a model without the sorts of lines that the other drawing has none of: hidden, smooth, seams.
+
+    Only where the other drawing does not say what its lines are: the sorts it has are found by its lines. Any other
+    side stays as it is.
+    """
+    if model.behind is None or other.behind is not None or (other.pieces.kind >= 0).all():
+        return model
+    pieces, left_out = model.pieces, dict(model.about.left_out)
+    choice = np.array([row.option is not None and row.occt != "sharp" for row in by_number()])[pieces.kind]
+    always = pieces.take(~choice & (pieces.visible == 1))
+    sorts = [("hidden lines", ~choice & (pieces.visible == 0))]
+    for row in optional():
+        for before, visible in (("", 1), ("hidden ", 0)):
+            sorts.append((f"{before}{row.title}", choice & (pieces.kind == row.number) & (pieces.visible == visible)))
+    keep = np.ones(len(pieces), bool)
+    for title, which in sorts:
+        if which.any() and not _has(other.pieces, pieces.take(which), always, tolerance_mm):
+            keep &= ~which
+            left_out[f"{title}, of which the other drawing has none"] = len(np.unique(pieces.line[which]))
+    return replace(model, pieces=pieces.take(keep), about=replace(model.about, left_out=left_out))
+
+
+def _has(drawn: Pieces, some: Pieces, always: Pieces, tolerance_mm: float) -> bool:
+    """Whether a drawing has lines of a sort; those that other lines cover as well say nothing."""
+    alone = divided_by(some, always, Rule(tolerance_mm, tolerance_mm))[1]
+    if not len(alone):
+        return True
+    covered = divided_by(alone, drawn, Rule(tolerance_mm, tolerance_mm, ("visible",)))[0]
+    return float(covered.lengths.sum()) >= _DRAWN * float(alone.lengths.sum())
