@@ -24,6 +24,9 @@ _ALWAYS = 0.05
 _NOTHING_MM = 1e-6
 """A shorter length is a rounding error."""
 
+_FEW = 4
+"""Times as many pieces on the other side: looking for the very same ones would take longer than measuring."""
+
 _ISLAND = 4.0
 """Tolerances: a shorter covered length between two uncovered ones is where lines cross."""
 
@@ -105,7 +108,7 @@ def _bare(a: Pieces, b: Pieces, rule: Rule) -> Floats:
     tight: list[Floats] = []
     loose: list[Floats] = []
     places = a.places
-    twin = _twins(a, b, rule.same)
+    twin = _twins(a, b, rule.same) if _FEW * len(a) > len(b) else np.zeros(len(a), bool)
     whole = np.stack([places, places + a.lengths], axis=1)[twin]
     tight.append(whole)
     loose.append(whole)

@@ -14,7 +14,7 @@ import numpy as np
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Floats, Index, Pieces
 from hlr.compare.matching.match import Rule, divided_by, partners
-from hlr.compare.matching.register import corners, points_of, thinned, translation
+from hlr.compare.matching.register import apart, corners, points_of, thinned, translation
 
 _FEW, _SOME, _MANY = 300, 1_200, 6_000
 """Pieces that are looked at: to choose what is tried, to choose among that, and at the end."""
@@ -67,14 +67,14 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
             shift, share = translation(moving.mapped(motion.matrix), fixed, tolerance_mm, _SOME, search)
             found = Registered(replace(motion, shift=_pair(shift)), share)
             if scale is None:
-                found = _fitted(moving, fixed, found, tolerance_mm)
+                found = _fitted(moving, fixed, found, tolerance_mm, _SOME)
             if found.share > best.share * _BETTER:
                 best = found
             if best.share > _ENOUGH:
-                return best
+                break
         if best.share > _FOUND:
             break
-    return best
+    return best if scale is not None else _fitted(moving, fixed, best, tolerance_mm, _MANY)
 
 
 def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | None) -> list[Motion]:
@@ -88,7 +88,10 @@ def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | N
         for factor in [scale] if scale is not None else _scales(moving.mapped(motion.matrix), fixed):
             motion = Motion(mirrored, turn, factor)
             whole, some = moving.mapped(motion.matrix), few.mapped(motion.matrix)
-            covered = max(_length(divided_by(some.shifted(guess), fixed, rule)[0]) for guess in corners(whole, fixed))
+            covered = max(
+                _length(divided_by(some.shifted(guess), fixed, rule)[0])
+                for guess in apart(corners(whole, fixed), coarse)
+            )
             found.append((covered / max(_length(some), 1e-12), motion))
     most = max(score for score, _ in found)
     found = [each for each in found if each[0] >= _AS_GOOD * most]
@@ -107,9 +110,9 @@ def _scales(moving: Pieces, fixed: Pieces) -> list[float]:
     return found
 
 
-def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: float) -> Registered:
+def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: float, most_pieces: int) -> Registered:
     """The scale and the shift, improved: lines are pulled across their direction onto those nearest to them."""
-    some, motion = thinned(moving, _MANY), start.motion
+    some, motion = thinned(moving, most_pieces), start.motion
     reach = max(_COARSE * _size(fixed), tolerance_mm)
     for _ in range(16):
         moved = some.mapped(motion.matrix).shifted(np.array(motion.shift))
@@ -119,7 +122,7 @@ def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: floa
             return start
         scale, shift = _step(moved, fixed, which, near[which], reach)
         motion = replace(motion, scale=motion.scale * scale, shift=_pair(scale * np.array(motion.shift) + shift))
-        if reach <= tolerance_mm and abs(scale - 1.0) < 1e-8 and float(np.hypot(*shift)) < 1e-6:
+        if reach <= tolerance_mm and abs(scale - 1.0) < 1e-7 and float(np.hypot(*shift)) < 1e-5:
             break
         reach = max(0.5 * reach, tolerance_mm)
     moved = thinned(moving, _SOME).mapped(motion.matrix).shifted(np.array(motion.shift))
