@@ -93,13 +93,12 @@ def compare(
     models = [side for side in (before, after) if is_model(side)]
     if models:
         start(models[0])
-    with result_only():
+    with result_only() as out:
         found = compared(before, after, tolerance_mm=tolerance, register=register, page=page, view=view)
-    place([(target, found.rendered(f".{target.format}")) for target in targets])
-    if not quiet:
-        click.echo(found.summary)
-        for row in [*view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]:
-            click.echo(row)
+        place([(target, found.rendered(f".{target.format}")) for target in targets])
+        if not quiet:
+            told = [found.summary, *view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]
+            out.put("".join(f"{row}\n" for row in told).encode("utf-8", "replace"))
     return 0 if found.same else DIFFERENT
 
 

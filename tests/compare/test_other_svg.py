@@ -140,6 +140,22 @@ def test_hidden_lines_under_visible_ones_and_lines_drawn_again_are_named_once(tm
     assert "drawn twice" in found.summary
 
 
+def test_a_hidden_arc_under_a_visible_one_that_begins_elsewhere_is_no_difference(tmp_path):
+    begins = np.linspace(0.1, 2.9, 15)
+    ends = [(9 * math.cos(t), 9 * math.sin(t)) for t in begins]
+    arcs = "".join(f'<path d="M {x:.6g} {y:.6g} A 9 9 0 0 1 -9 0"/>' for x, y in ends)
+    text = FRAGMENT.replace('<circle cx ="0" cy ="0" r ="6" />', '<circle cx="0" cy="0" r="9"/>').replace(
+        '<path id= "2" d=" M 0 -5 L 20 -5 " />', f'<path d="M 0 -5 L 20 -5"/>{arcs}'
+    )
+    ours = [
+        line([[-30, -6], [20, -6]]),
+        arc((0, 0), 9, 9, (0, 2 * math.pi)),
+        line([[0, 5], [20, 5]], visible=False),
+    ]
+    found = compare(read_path(tmp_path, text), drawing(ours))
+    assert found.same and found.lengths_mm["gone"] == 0.0, found.summary
+
+
 @pytest.mark.parametrize("pieces", [20, 8])
 def test_straight_pieces_instead_of_a_curve_are_named_with_their_error(tmp_path, pieces):
     found = compare(*arc_and_chords(tmp_path, pieces))

@@ -39,8 +39,8 @@ STAGES = (
 )
 
 
-_TWICE = 0.1
-"""Tolerances within which lines of one drawing are one line, drawn twice."""
+_TWICE = 4.0 * CHORD_SHARE
+"""Tolerances within which lines of one drawing are one line, drawn twice: two curves differ by two chords' errors."""
 
 _MEETING = 20.0
 """Tolerances: over a shorter length, lines lie on one another where they meet at a small angle."""

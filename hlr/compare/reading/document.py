@@ -41,10 +41,10 @@ def _drawn(document: str | os.PathLike[str], page: str, tolerance_mm: float) -> 
     whole, mark, view = (page, "", "") if page in known else page.rpartition("/")
     accuracy = min(DEFAULT_ACCURACY, ACCURACY_SHARE * tolerance_mm)
     (drawing,) = draw_pages(document, [whole if mark else page], Options(accuracy=accuracy))
-    return _one_view(drawing, view) if mark else drawing
+    return one_view(drawing, view) if mark else drawing
 
 
-def _one_view(drawing: Drawing, name: str) -> Drawing:
+def one_view(drawing: Drawing, name: str) -> Drawing:
     """The lines of one view of a page alone. Raises OptionError where there is no such view."""
     views = drawing.sheet.views if drawing.sheet is not None else ()
     view = next((each for each in views if name in (each.name, each.label)), None)
