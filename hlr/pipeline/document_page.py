@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hlr.drawing.drawing import Accuracy, Drawing, DrawnPart, DrawnView
-from hlr.drawing.line import Line
+from hlr.drawing.line import Bounds, Line
 from hlr.drawing.lines import bounds_of
 from hlr.drawing.moved import moved
 from hlr.drawing.notes import Note
@@ -29,6 +30,8 @@ from hlr.source.freecad.fcstd import leaves_of
 from hlr.source.freecad.pages import DocumentPage, PageView
 from hlr.source.freecad.shapes import Shapes
 from hlr.tables.entry import listed
+from hlr.window.frame import Frame
+from hlr.window.lines import cut_lines
 
 if TYPE_CHECKING:
     from hlr.common.types import Floats, Progress
@@ -162,9 +165,19 @@ def _add(view: PageView, source: BrepSource, content: _Content, options: Options
     shift = np.array(view.place) - matrix @ middle
     first = len(content.parts)
     content.parts += [replace(part, name=f"{view.name}/{part.name}") for part in drawing.parts]
-    content.lines += [moved(x, matrix, shift, first) for x in drawing.lines if (x.kind, x.visible) in view.lines]
+    lines = [moved(x, matrix, shift, first) for x in drawing.lines if (x.kind, x.visible) in view.lines]
+    content.lines += lines if view.window is None else _inside(view.window, lines, drawing.view, view)
     content.notes += [note for note in drawing.notes if note.code not in OF_ONE_VIEW]
     content.accuracies.append(drawing.accuracy)
+
+
+def _inside(window: tuple[float, ...], lines: list[Line], drawn: DrawnView, view: PageView) -> Sequence[Line]:
+    """What of the lines on the page lies in the window of a clip."""
+    turn = math.radians(view.rotation)
+    right, up = np.array(drawn.right), np.array(drawn.up)
+    right, up = math.cos(turn) * right - math.sin(turn) * up, math.sin(turn) * right + math.cos(turn) * up
+    axes = replace(drawn, right=tuple(right.tolist()), up=tuple(up.tolist()))
+    return cut_lines(lines, Frame(Bounds(*window), axes, view.scale))[0]
 
 
 def _up(view: PageView) -> tuple[float, float, float]:

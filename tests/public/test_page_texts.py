@@ -2,37 +2,10 @@
 
 from __future__ import annotations
 
-from xml.etree import ElementTree
-
 import pytest
 
-import hlr
-from support import freecad_document as fc
-from support.freecad_document import flag, item, kept, link, links, number, text, vector, whole, write
-
-SVG = "{http://www.w3.org/2000/svg}"
-
-
-def drawn(path, **things):
-    """The elements that are printed on a page of 200 x 100 mm with one view, at 60, 40 and a scale of 0.5."""
-    objects = {
-        "Box": item("Part::Box", Shape=kept("Part", "box.brp")),
-        "Page": item("TechDraw::DrawPage", Template=link("Template"), Views=links("Front", *things)),
-        "Template": item("TechDraw::DrawSVGTemplate", Width=number(200.0), Height=number(100.0)),
-        "Front": item(
-            "TechDraw::DrawViewPart",
-            Source=links("Box"),
-            Direction=vector(0, -1, 0),
-            XDirection=vector(1, 0, 0),
-            X=number(60.0),
-            Y=number(40.0),
-            ScaleType=whole(2),
-            Scale=number(0.5),
-        ),
-        **things,
-    }
-    (drawing,) = hlr.draw_pages(write(path / "made.FCStd", objects, {"box.brp": fc.box(10, 20, 30)}))
-    return drawing, ElementTree.fromstring(f'<svg xmlns="http://www.w3.org/2000/svg">{drawing.sheet.template}</svg>')
+from support.freecad_document import flag, item, link, number, text, whole
+from support.freecad_page import SVG, drawn
 
 
 def test_the_lines_of_an_annotation_lie_about_its_place(tmp_path):

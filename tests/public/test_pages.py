@@ -249,14 +249,16 @@ def test_wires_and_sketches_are_drawn_and_solids_hide_them(tmp_path):
 
 
 def test_what_is_not_drawn_is_named(tmp_path):
+    splines = 2 * '<CosmeticEdge><GeometryType value="6"/></CosmeticEdge>'
+    added = {"CosmeticEdges": f"<CosmeticEdgeList>{splines}</CosmeticEdgeList>"}
     views = {
-        "Front": view(CosmeticEdges='<CosmeticEdgeList count="2"/>', IsoHidden=flag(True), IsoCount=whole(4)),
+        "Front": view(IsoHidden=flag(True), IsoCount=whole(4), **added),
         "Empty": view(source="Nothing"),
         "Dimension": item("TechDraw::DrawViewDimension"),
         "Other": item("TechDraw::DrawViewDimension"),
         "New": item("TechDraw::DrawSomethingNew"),
         "Clip": item("TechDraw::DrawViewClip", Views=links("Inside")),
-        "Inside": view(),
+        "Inside": item("TechDraw::DrawViewAnnotation"),
         "Off": view(Visibility=flag(False)),
         "_Hatch": item("TechDraw::DrawHatch", Source='<LinkSub value="Front" count="1"><Sub value="Face1"/></LinkSub>'),
     }
@@ -265,7 +267,7 @@ def test_what_is_not_drawn_is_named(tmp_path):
     assert [view.name for view in drawing.sheet.views] == ["Front"]
     assert [str(note) for note in drawing.notes] == [
         'Page "The page": view "Empty" (made.FCStd holds no shapes: there is nothing to draw) not drawn.',
-        'Page "The page": 1 DrawSomethingNew, 1 clip, 1 clipped view, 2 cosmetic lines, 2 dimensions, 1 hatch and '
+        'Page "The page": 1 DrawSomethingNew, 1 annotation, 2 cosmetic lines, 2 dimensions, 1 hatch and '
         "1 set of isoparametric lines not drawn.",
     ]
     with pytest.raises(StrictError):

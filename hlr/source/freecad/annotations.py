@@ -1,4 +1,4 @@
-"""Annotations and balloons of a FreeCAD page, as SVG in millimetres from the page's upper left corner."""
+"""Annotations, balloons, leaders and texts of dimensions of a FreeCAD page, as SVG in mm from its upper left corner."""
 
 from __future__ import annotations
 
@@ -64,6 +64,52 @@ def balloon(thing: Object, place: Point, scale: float, height: float) -> str:
     text = {"x": _n(middle[0]), "y": _n(middle[1] + 0.35 * size), "font-size": _n(size), "font-family": FONT}
     letters = ElementTree.SubElement(group, "text", {**text, "text-anchor": "middle", "fill": color, "stroke": "none"})
     letters.text = words
+    return _written(group)
+
+
+def leader(thing: Object, place: Point, scale: float, height: float) -> str:
+    """A leader of a view; empty where it has no two points. place, scale: of the view; height: of the page."""
+    values, view = thing.values, thing.view
+    # Up to 0.21 the points are kept in tenths of a millimetre, and their view does not scale them; y is down.
+    old = "UseOldCoords" not in view or view.flag("UseOldCoords", False)
+    unit = 0.1 if old else scale if values.flag("Scalable", False) else 1.0
+    x, y = place[0] + scale * values.number("X", 0.0), height - place[1] - scale * values.number("Y", 0.0)
+    points = [(x + unit * dx, y + unit * dy) for dx, dy, _ in values.vectors("WayPoints")]
+    if len(points) < 2:
+        return ""
+    color = _color(view.number("Color", 0.0))
+    group = Element("g", {"stroke": color, "stroke-width": _n(view.number("LineWidth", 0.35)), "fill": "none"})
+    group.set("stroke-linejoin", "round")
+    group.append(_path(points, close=False))
+    group.extend(_end(values.count("StartSymbol"), points[0], points[1], 1.0, color))
+    group.extend(_end(values.count("EndSymbol"), points[-1], points[-2], 1.0, color))
+    return _written(group)
+
+
+def dimension_text(thing: Object, place: Point, height: float) -> str:
+    """The text of a dimension, where a user has written it; a value is not stored. place: of its view."""
+    values, view = thing.values, thing.view
+    if not values.flag("Arbitrary", False) or not values.text("FormatSpec").strip():
+        return ""
+    size = view.number("Fontsize", 5.0)
+    text = Element("text", {"font-size": _n(size), "font-family": FONT, "text-anchor": "middle"})
+    text.set("fill", _color(view.number("Color", 0.0)))
+    # The place of a text is the middle of its box, which is higher than its letters.
+    text.set("x", _n(place[0] + values.number("X", 0.0)))
+    text.set("y", _n(height - place[1] - values.number("Y", 0.0) + 0.9 * size))
+    text.text = values.text("FormatSpec")
+    return _written(text)
+
+
+def frame(thing: Object, height: float) -> str:
+    """The frame of a clip; an empty group where it shows none. height: of the page."""
+    values = thing.values
+    group = Element("g", {"stroke": "#000000", "stroke-width": "0.35", "fill": "none"})
+    if values.flag("ShowFrame", True):
+        wide, high = values.number("Width", 0.0), values.number("Height", 0.0)
+        x, y = values.number("X", 0.0) - 0.5 * wide, height - values.number("Y", 0.0) - 0.5 * high
+        box = {"x": _n(x), "y": _n(y), "width": _n(wide), "height": _n(high)}
+        ElementTree.SubElement(group, "rect", box)
     return _written(group)
 
 

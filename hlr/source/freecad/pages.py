@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 
 from hlr.errors import counted
-from hlr.source.freecad.annotations import annotation, balloon
+from hlr.source.freecad.added_lines import added_lines
 from hlr.source.freecad.document import Document, Object
+from hlr.source.freecad.page_items import Around, printed
 from hlr.source.freecad.properties import Properties, Vector
 from hlr.source.freecad.template import filled_template
 
@@ -28,6 +29,7 @@ class PageView:
     focus        distance of the eye on paper, of a perspective; None: a parallel projection
     lines        of which classes lines are drawn, visible and hidden ones: ("sharp", True)
     widths       of visible and hidden lines; None where the document does not say it
+    window       left, bottom, right and top of the rectangle on the page that a clip leaves of it; None: all of it
     """
 
     name: str
@@ -41,6 +43,7 @@ class PageView:
     focus: float | None
     lines: frozenset[tuple[str, bool]]
     widths: tuple[float, float] | None
+    window: tuple[float, float, float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,48 +73,55 @@ def pages_of(document: Document, path: Path) -> list[DocumentPage]:
 
 
 def _page(page: Object, document: Document, path: Path) -> DocumentPage:
-    template = document.objects.get(page.values.link("Template"))
-    size, svg = None, ""
-    if template is not None:
-        width, height = template.values.number("Width", 0.0), template.values.number("Height", 0.0)
-        size = (width, height) if min(width, height) > 0.0 else None
-        data = template.values.content("PageResult")
-        if size is not None and data:
-            svg = filled_template(data, template.values.texts("EditableTexts"), size, path)
-    found: dict[str, PageView] = {}
-    others: Counter[str] = Counter()
+    size, svg = _template(page, document, path)
     items = list(_items(page, document))
-    clipped = {name for thing, _ in items if thing.type in _CLIPS for name in thing.values.links("Views")}
-    for thing, group in items:
-        if thing.type in _VIEWS and thing.name not in clipped:
-            found[thing.name] = _view(thing, group, page)
-            for name, noun in _ADDED.items():
-                others[noun] += thing.values.count_of(name)
-            if thing.values.count("IsoCount"):
-                others[_ISO] += any(thing.values.flag(name, False) for name in ("IsoVisible", "IsoHidden"))
+    clips = {name: thing for thing, _ in items if thing.type in _CLIPS for name in thing.values.links("Views")}
+    shown = [(thing, group) for thing, group in items if thing.type in _VIEWS]
+    views = {thing.name: _clipped(_view(thing, group, page), clips.get(thing.name)) for thing, group in shown}
+    others: Counter[str] = Counter()
+    for thing, _ in shown:
+        svg += _added(thing, views[thing.name], size, others)
+    around = Around({view.name: (view.place, view.scale) for view in views.values()}, size[1] if size else 0.0, path)
     for thing, _ in items:
-        if thing.name in clipped:
-            others["clipped view"] += 1
-        elif size is not None and (drawn := _texts(thing, found, size[1])):
+        if thing.type not in _VIEWS | _GROUPS:
+            drawn = printed(thing, around) if size and thing.name not in clips else ""
             svg += drawn
-        elif thing.type not in _VIEWS | _GROUPS:
-            others[_NOUNS.get(thing.type, thing.type.rpartition("::")[2])] += 1
+            if not drawn or thing.type in _LINES_OF:
+                noun = _NOUNS.get(thing.type, thing.type.rpartition("::")[2])
+                others[_LINES_OF[thing.type] if drawn else noun] += 1
     # Hatches are on no page, but on the faces of a view.
     others["hatch"] = sum(
-        thing.values.link("Source") in found for thing in document.objects.values() if thing.type in _HATCHES
+        thing.values.link("Source") in views for thing in document.objects.values() if thing.type in _HATCHES
     )
     left_out = [counted(count, noun, _SEVERAL.get(noun, "")) for noun, count in sorted(others.items()) if count]
-    return DocumentPage(page.name, page.label, size, svg, tuple(found.values()), tuple(left_out))
+    return DocumentPage(page.name, page.label, size, svg, tuple(views.values()), tuple(left_out))
 
 
-def _texts(thing: Object, views: Mapping[str, PageView], height: float) -> str:
-    """An annotation or a balloon as SVG; empty where it is none, or belongs to a view that is not drawn."""
-    if thing.type == _ANNOTATION:
-        return annotation(thing, height)
-    view = views.get(thing.values.link("SourceView"))
-    if thing.type == _BALLOON and view is not None:
-        return balloon(thing, view.place, view.scale, height)
-    return ""
+def _template(page: Object, document: Document, path: Path) -> tuple[tuple[float, float] | None, str]:
+    """The size of a page, None where it has no template, and its template as SVG."""
+    template = document.objects.get(page.values.link("Template"))
+    if template is None:
+        return None, ""
+    size = template.values.number("Width", 0.0), template.values.number("Height", 0.0)
+    if min(size) <= 0.0:
+        return None, ""
+    data = template.values.content("PageResult")
+    return size, filled_template(data, template.values.texts("EditableTexts"), size, path) if data else ""
+
+
+def _added(thing: Object, view: PageView, size: tuple[float, float] | None, others: Counter[str]) -> str:
+    """The lines that a user has added to a view, as SVG; those that are not drawn are counted in `others`."""
+    svg = ""
+    for name, noun in _ADDED.items():
+        lines = thing.values.records(name)
+        drawn, unknown = (
+            added_lines(lines, view.place, view.scale, view.rotation, size[1]) if size else ("", len(lines))
+        )
+        svg += drawn
+        others[noun] += unknown
+    if thing.values.count("IsoCount"):
+        others[_ISO] += any(thing.values.flag(name, False) for name in ("IsoVisible", "IsoHidden"))
+    return svg
 
 
 def _items(page: Object, document: Document) -> Iterator[tuple[Object, Object | None]]:
@@ -149,6 +159,15 @@ def _view(view: Object, group: Object | None, page: Object) -> PageView:
         frozenset(_lines(values)),
         _widths(view.view),
     )
+
+
+def _clipped(view: PageView, clip: Object | None) -> PageView:
+    """A view in a clip: its place counts from the middle of that, and what lies outside is cut off."""
+    if clip is None:
+        return view
+    x, y = clip.values.number("X", 0.0), clip.values.number("Y", 0.0)
+    right, up = 0.5 * clip.values.number("Width", 0.0), 0.5 * clip.values.number("Height", 0.0)
+    return replace(view, place=(x + view.place[0], y + view.place[1]), window=(x - right, y - up, x + right, y + up))
 
 
 def _lines(values: Properties) -> Iterator[tuple[str, bool]]:
@@ -194,12 +213,12 @@ _SWITCHES = {
 }
 """Which of a view's switches decides on each class of lines."""
 
-_BALLOON, _ANNOTATION = "TechDraw::DrawViewBalloon", "TechDraw::DrawViewAnnotation"
+_DIMENSION = "TechDraw::DrawViewDimension"
 
 _NOUNS = {
-    "TechDraw::DrawViewDimension": "dimension",
-    _BALLOON: "balloon",
-    _ANNOTATION: "annotation",
+    _DIMENSION: "dimension",
+    "TechDraw::DrawViewBalloon": "balloon",
+    "TechDraw::DrawViewAnnotation": "annotation",
     "TechDraw::DrawRichAnno": "rich text",
     "TechDraw::DrawLeaderLine": "leader",
     "TechDraw::DrawViewSection": "section",
@@ -217,9 +236,17 @@ _NOUNS = {
 
 _CLIPS = {"TechDraw::DrawViewClip"}
 _HATCHES = {"TechDraw::DrawHatch", "TechDraw::DrawGeomHatch"}
-_ADDED = {"CosmeticEdges": "cosmetic line", "CenterLines": "centre line", "CosmeticVertexes": "cosmetic point"}
-"""What a user has added to a view by hand."""
+_ADDED = {"CosmeticEdges": "cosmetic line", "CenterLines": "centre line"}
+"""What a user has added to a view by hand. Points that are added are help for dimensions, and never printed."""
+
+_LINES_OF = {_DIMENSION: "set of dimension lines"}
+"""What of an item is not drawn where its text is."""
 
 _ISO = "set of isoparametric lines"
 
-_SEVERAL = {_ISO: "sets of isoparametric lines", "hatch": "hatches", "rich text": "rich texts"}
+_SEVERAL = {
+    _ISO: "sets of isoparametric lines",
+    "set of dimension lines": "sets of dimension lines",
+    "hatch": "hatches",
+    "rich text": "rich texts",
+}

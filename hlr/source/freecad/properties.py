@@ -107,6 +107,11 @@ class Properties:
         element = self.elements.get(name)
         return [] if element is None else [each.get("value", "") for each in element.iterfind("String")]
 
+    def records(self, name: str) -> list[Element]:
+        """Of a list of records, such as cosmetic lines: an element each."""
+        element = self.elements.get(name)
+        return [] if element is None else [each for each in element if len(each)]
+
     def texts(self, name: str) -> dict[str, str]:
         """Of a map from texts to texts."""
         element = self.elements.get(name)
@@ -124,6 +129,25 @@ class Properties:
     def _value(self, name: str, default: str) -> str:
         element = self.elements.get(name)
         return default if element is None else element.get("value", default)
+
+
+def child_text(record: Element, name: str, default: str) -> str:
+    """The value of a field of a record."""
+    child = record.find(name)
+    return default if child is None else child.get("value", default)
+
+
+def child_number(record: Element, name: str, default: float) -> float:
+    """The same of a number."""
+    return _number(child_text(record, name, str(default)))
+
+
+def child_points(record: Element, path: str) -> list[tuple[float, float]]:
+    """The points of a record, in its plane. Raises DamagedError where there is none."""
+    found = [(_number(each.get("X", "")), _number(each.get("Y", ""))) for each in record.iterfind(path)]
+    if not found:
+        raise DamagedError(f'a line has no "{path.partition("/")[0]}"')
+    return found
 
 
 def records(data: bytes | None, layout: str) -> list[tuple[float, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
@@ -21,20 +21,40 @@ def filled_template(data: bytes, texts: Mapping[str, str], size: tuple[float, fl
     Raises:
         SourceError: it is no sound XML. DamagedError: it is no SVG.
     """
-    root = xml_tree(data, path, "a template", "FreeCAD")
-    if root.tag != f"{SVG}svg":
-        raise DamagedError("a template is no SVG")
-    for field in root.iter(f"{SVG}text"):
-        key = next((value for name, value in field.items() if _local(name) == "editable"), "")
-        if key in texts:
-            _fill(field, texts[key])
+    root = safe_svg(data, lambda _, key: texts.get(key), path, "a template")
     out = Element("svg", {"width": f"{size[0]:g}", "height": f"{size[1]:g}", "overflow": "hidden"})
     for name in ("viewBox", "preserveAspectRatio", "style"):
-        if (value := root.get(name)) is not None and _harmless(value):
+        if (value := root.get(name)) is not None:
             out.set(name, value)
-    out.extend(_cleaned(root))
+    out.extend(root)
     out.tail = "\n"
     return ElementTree.tostring(out, encoding="unicode")
+
+
+def safe_svg(data: bytes, text_of: Callable[[int, str], str | None], path: Path, title: str) -> Element:
+    """An SVG without what could run, or leads out of the file. title: for errors.
+
+    text_of: the text of a field, by its number and its key; None: it keeps its own.
+
+    Raises:
+        SourceError: it is no sound XML. DamagedError: it is no SVG.
+    """
+    root = xml_tree(data, path, title, "FreeCAD")
+    if root.tag != f"{SVG}svg":
+        raise DamagedError(f"{title} is no SVG")
+    fields = [(field, key) for field in root.iter(f"{SVG}text") if (key := _editable(field))]
+    for number, (field, key) in enumerate(fields):
+        if (text := text_of(number, key)) is not None:
+            _fill(field, text)
+    out = Element("svg")
+    out.attrib.update(_attributes(root))
+    out.extend(_cleaned(root))
+    return out
+
+
+def _editable(field: Element) -> str:
+    """The key of a field; empty where it is none."""
+    return next((value for name, value in field.items() if _local(name) == "editable"), "")
 
 
 def _fill(field: Element, text: str) -> None:
