@@ -101,6 +101,12 @@ def test_of_freecad_s_pages_the_hairlines_are_the_edges(tmp_path):
     assert len(rows(file(tmp_path, commands, "another"))) == 2
 
 
+def test_a_file_whose_author_is_no_text_is_read(tmp_path):
+    path = file(tmp_path, b"0 0 m 72 0 l S", "PPPP")
+    path.write_bytes(path.read_bytes().replace(b"(PPPP)", b"<FEFFD800>"))
+    assert rows(path) == [(-1, 0, 0, 25, 0)]
+
+
 HOSTILE = {
     "3 pages": {"commands": b"", "pages": 3},
     "too much memory": {"commands": b"", "stream": zlib.compress(b"0 0 m 9 9 l S " * 100_000)},

@@ -52,13 +52,13 @@ def read_pdf(path: Path, sketch: Sketch) -> About:
     try:
         if len(document) != 1:
             raise SourceError(f"{path.name} has {len(document)} pages: give a file for each page")
-        told, page = document.get_metadata_dict(), document[0]
+        page = document[0]
         left_out: Counter[str] = Counter()
         paths = paths_of(page, left_out, path.name)
-        if told.get("Creator") == "hlr":
+        if _told(document, "Creator") == "hlr":
             about = _read_ours(paths, left_out, sketch)
         else:
-            about = _read_other(paths, left_out, sketch, told.get("Producer", "").startswith("Qt "))
+            about = _read_other(paths, left_out, sketch, _told(document, "Producer").startswith("Qt "))
         page.close()
     except pypdfium2.PdfiumError as error:
         raise SourceError(f"{path.name} cannot be read as PDF: {error}") from None
@@ -67,6 +67,14 @@ def read_pdf(path: Path, sketch: Sketch) -> About:
     if about.foreign and not len(sketch):
         raise SourceError(f"{path.name} has no lines: give the PDF of a drawing, not a picture of one")
     return about
+
+
+def _told(document: Any, key: str) -> str:
+    """What a file says of itself; nothing where that is damaged."""
+    try:
+        return str(document.get_metadata_value(key))
+    except UnicodeDecodeError:
+        return ""
 
 
 def _check(path: Path) -> None:
