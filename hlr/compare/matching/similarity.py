@@ -32,8 +32,8 @@ _ENOUGH = 0.995
 _FOUND = 0.5
 """Share of the length: the place is found, and need not be searched for."""
 
-_BETTER = 1.002
-"""What comes later in the list has to be that much better: as it lies comes first."""
+_BETTER = 1.02
+"""Another way to lay it down has to be that much better, or lay all on all: as it lies comes first."""
 
 _LARGEST = 1e4
 """Scale."""
@@ -68,7 +68,7 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
             found = Registered(replace(motion, shift=_pair(shift)), share)
             if scale is None:
                 found = _fitted(moving, fixed, found, tolerance_mm, _SOME)
-            if found.share > best.share * _BETTER:
+            if found.share > best.share * _BETTER or found.share > _ENOUGH:
                 best = found
             if best.share > _ENOUGH:
                 break
@@ -78,7 +78,7 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
 
 
 def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | None) -> list[Motion]:
-    """The motions that lay bounding rectangles on one another best, without shifts; the best first."""
+    """The motions that lay bounding rectangles on one another best, without shifts: as it lies, then the best first."""
     coarse = max(_COARSE * _size(fixed), tolerance_mm)
     rule = Rule(coarse, coarse)
     found: list[tuple[float, Motion]] = []
@@ -95,7 +95,8 @@ def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | N
             found.append((covered / max(_length(some), 1e-12), motion))
     most = max(score for score, _ in found)
     found = [each for each in found if each[0] >= _AS_GOOD * most]
-    return [motion for _, motion in sorted(found, key=lambda each: -round(each[0], 2))[:_TRIED]]
+    tried = [motion for _, motion in sorted(found, key=lambda each: -round(each[0], 2))[:_TRIED]]
+    return sorted(tried, key=lambda motion: motion.mirrored or motion.turn != 0)
 
 
 def _scales(moving: Pieces, fixed: Pieces) -> list[float]:

@@ -34,7 +34,7 @@ def cells_of(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
 
 def view_cells(view: ComparedView, words: dict[str, str]) -> tuple[str, ...]:
     """Name, length that is the same, how it was moved, what differs."""
-    moved = "" if view.shift is None else ", ".join(f"{value:.3f}" for value in view.shift)
+    moved = "" if view.shift is None else ", ".join(f"{round(value, 3) + 0.0:.3f}" for value in view.shift)
     if view.before != view.after:
         return view.name, "0", moved, f"on the {'first' if view.before else 'second'} page only"
     found = [f"{told(length)} mm {words.get(kind, kind)}" for kind, length in view.mm.items() if length > 0.0]

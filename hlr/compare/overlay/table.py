@@ -10,12 +10,16 @@ _HEADINGS = ("difference", "mm", "at x, y", "class", "part")
 
 
 def rows(found: Comparison, most: int) -> list[str]:
-    """The longest differences of each kind first, at most so many, and how many there are besides."""
-    if not found.differences:
+    """The longest differences of each kind first, at most so many, and how many there are besides.
+
+    What is drawn twice cannot be seen: the summary has its length, JSON and the web page have all of it.
+    """
+    shown = [each for each in found.differences if each.kind != "doubled"]
+    if not shown:
         return []
     words = words_of(found.foreign)
-    lines = _aligned([_HEADINGS, *(cells_of(each, words) for each in found.differences[:most])])
-    more = len(found.differences) - most
+    lines = _aligned([_HEADINGS, *(cells_of(each, words) for each in shown[:most])])
+    more = len(shown) - most
     return ["", *lines, *([f"and {more} more"] if more > 0 else []), ""]
 
 

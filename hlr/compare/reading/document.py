@@ -40,7 +40,7 @@ def _drawn(document: str | os.PathLike[str], page: str, tolerance_mm: float) -> 
     known = {name for pair in page_names(document) for name in pair}
     whole, mark, view = (page, "", "") if page in known else page.rpartition("/")
     accuracy = min(DEFAULT_ACCURACY, ACCURACY_SHARE * tolerance_mm)
-    (drawing,) = draw_pages(document, [whole if mark else page], Options(accuracy=accuracy))
+    (drawing,) = draw_pages(document, [whole if mark else page], Options(accuracy=accuracy, details=True))
     return one_view(drawing, view) if mark else drawing
 
 
