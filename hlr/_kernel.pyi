@@ -835,6 +835,10 @@ def nearest(
     points: Floats, point_key: Ints, segments: Floats, segment_key: Ints, most: float, threads: int
 ) -> tuple[Floats, Ints]: ...
 def blocked(points: Floats, triangles: Ints, origins: Floats, ways: Floats, threads: int) -> Bools: ...
+def first_hits(points: Floats, triangles: Ints, origins: Floats, ways: Floats, threads: int) -> tuple[Floats, Ints]:
+    """Of rays origin + t * way, t from 0 to 1: the least t (n,) at which each meets a triangle, and that triangle (n,);
+    infinite and -1 where it meets none."""
+
 def quadric_row(coefficients: list[int], x0: int, y: int, count: int) -> tuple[npt.NDArray[np.int64], int]: ...
 
 RasterCamera = tuple[tuple[tuple[float, float, float, float], ...], tuple[int, int], tuple[float, float, float], bool]

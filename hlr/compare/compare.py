@@ -18,6 +18,7 @@ from hlr.compare.matching.views import by_view
 from hlr.compare.reading.document import with_pages
 from hlr.compare.reading.model import sides_of, without_undrawn
 from hlr.compare.reading.sides import Side
+from hlr.compare.verdict.verdicts import with_verdicts
 from hlr.errors import OptionError
 from hlr.request.options import View
 
@@ -94,6 +95,7 @@ def compare(
         after = replace(after, pieces=after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift)))
     before, after = without_undrawn(before, after, tolerance_mm), without_undrawn(after, before, tolerance_mm)
     findings = judged(before, after, tolerance_mm)
+    findings = with_verdicts(findings, before, after, motion, tolerance_mm)
     return Comparison.of(before, after, findings, tolerance_mm, motion=motion, scales=scales)
 
 

@@ -116,6 +116,11 @@ class Comparison:
         return self.findings.lengths_mm
 
     @property
+    def verdicts_mm(self) -> dict[str, float]:
+        """Millimetres of differences in which each drawing is right, where one of them was drawn of a model."""
+        return self.findings.verdicts_mm
+
+    @property
     def summary(self) -> str:
         """One line: "12.4 mm gone, 3 mm new"."""
         words = WORDS_OF_TWO_PROGRAMS if self.foreign else {}
@@ -129,6 +134,8 @@ class Comparison:
             text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
         elsewhere = [view.name for view in self.views if view.displaced]
         text += f"; elsewhere on the page: {', '.join(elsewhere)}" if elsewhere else ""
+        judged = ", ".join(f"{verdict} {told(length)} mm" for verdict, length in self.verdicts_mm.items())
+        text += f"; by rays on the model: {judged}" if judged else ""
         text += "" if self.view_found is None else f"; the view is {self.view_found}"
         moved = self._moved()
         return f"{text}; {' and '.join(moved)} to be compared" if moved else text
@@ -159,6 +166,7 @@ class Comparison:
             "view_found": self.view_found,
             "left_out": list(self.left_out),
             "mm": self.lengths_mm,
+            "verdicts_mm": self.verdicts_mm,
             "differences": [each.as_dict() for each in self.differences],
         }
 

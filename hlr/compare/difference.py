@@ -7,6 +7,10 @@ from typing import Any, Literal, get_args
 
 Kind = Literal["gone", "new", "moved", "class changed", "visibility changed", "polyline", "doubled"]
 
+Verdict = Literal["", "first right", "second right", "both right", "neither right", "undecided"]
+
+VERDICTS: tuple[Verdict, ...] = get_args(Verdict)
+
 KINDS: tuple[Kind, ...] = get_args(Kind)
 """In the order of reports."""
 
@@ -40,6 +44,8 @@ class Difference:
     side        "before" or "after": the drawing that the fields above are of
     became      the class or the visibility in the second drawing, where that has changed; else ""
     moved_mm    how far it has moved, across its direction, or how far straight pieces lie off their curve; else 0
+    verdict     which drawing is right, where one of them was drawn of a model; "": not judged
+    reason      why, in a few words
 
     >>> import hlr
     >>> before, after = (hlr.draw("part.step", view=view, scale=1) for view in ("top", "front"))
@@ -58,6 +64,8 @@ class Difference:
     became: str = ""
     moved_mm: float = 0.0
     view: str | None = None
+    verdict: Verdict = ""
+    reason: str = ""
 
     def as_dict(self) -> dict[str, Any]:
         """The fields, for JSON."""

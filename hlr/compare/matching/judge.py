@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from hlr.compare.difference import KINDS, UNKNOWN, Difference, Kind
+from hlr.compare.difference import KINDS, UNKNOWN, VERDICTS, Difference, Kind
 from hlr.compare.lines.pieces import Floats, Pieces, joined
 from hlr.compare.lines.sketch import CHORD_SHARE, About
 from hlr.compare.matching.match import Rule, divided_by, once, partners
@@ -97,6 +97,16 @@ class Findings:
         for each in self.differences:
             out[each.kind] += each.length_mm
         return {kind: round(length, 4) for kind, length in out.items()}
+
+    @property
+    def verdicts_mm(self) -> dict[str, float]:
+        """Millimetres of each verdict; empty where nothing was judged. Lines drawn twice are not."""
+        out: dict[str, float] = {}
+        for verdict in VERDICTS:
+            length = sum(each.length_mm for each in self.differences if each.verdict == verdict)
+            if verdict and length > 0.0:
+                out[verdict] = round(length, 4)
+        return out
 
 
 def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:

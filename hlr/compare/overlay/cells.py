@@ -20,7 +20,7 @@ _WHAT = {
 
 
 def cells_of(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
-    """Difference, mm, place, class, part. words: as of `words_of`."""
+    """Difference, mm, place, class, part, who is right; the last one is empty where nothing was judged."""
     what = _WHAT.get(each.kind, words.get(each.kind, each.kind)).format(told(each.moved_mm))
     seen = {True: "visible", False: "hidden", None: ""}[each.visible]
     line = " ".join(word for word in (seen, "" if each.line_class == UNKNOWN else each.line_class) if word) or UNKNOWN
@@ -28,8 +28,9 @@ def cells_of(each: Difference, words: dict[str, str]) -> tuple[str, ...]:
     name = "".join(c if c.isprintable() else "?" for c in each.part or "")
     edge = "" if each.edge is None else f", edge {each.edge}"
     view = f"{each.view} " if each.view else ""
+    verdict = f"{each.verdict}: {each.reason}" if each.verdict else ""
     x, y = (f"{value:.2f}" for value in each.place)
-    return what, told(each.length_mm), f"{x}, {y}", line + became, f"{view}{name}{edge}"
+    return what, told(each.length_mm), f"{x}, {y}", line + became, f"{view}{name}{edge}", verdict
 
 
 def view_cells(view: ComparedView, words: dict[str, str]) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from hlr.compare.comparison import Comparison
 from hlr.compare.overlay.cells import cells_of, left_out_lines, view_cells, words_of
 
 _VIEW_HEADINGS = ("view", "same mm", "moved by x, y", "differs")
-_HEADINGS = ("difference", "mm", "at x, y", "class", "part")
+_HEADINGS = ("difference", "mm", "at x, y", "class", "part", "who is right")
 
 
 def rows(found: Comparison, most: int) -> list[str]:
@@ -18,7 +18,9 @@ def rows(found: Comparison, most: int) -> list[str]:
     if not shown:
         return []
     words = words_of(found.foreign)
-    lines = _aligned([_HEADINGS, *(cells_of(each, words) for each in shown[:most])])
+    cells = [cells_of(each, words) for each in shown[:most]]
+    columns = len(_HEADINGS) if any(row[-1] for row in cells) else len(_HEADINGS) - 1
+    lines = _aligned([row[:columns] for row in (_HEADINGS, *cells)])
     more = len(shown) - most
     return ["", *lines, *([f"and {more} more"] if more > 0 else []), ""]
 

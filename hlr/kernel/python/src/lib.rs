@@ -77,6 +77,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(meshfile::read_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(measure::nearest, m)?)?;
     m.add_function(wrap_pyfunction!(measure::blocked, m)?)?;
+    m.add_function(wrap_pyfunction!(measure::first_hits, m)?)?;
     m.add_function(wrap_pyfunction!(guard::take_fault, m)?)?;
     m.add_function(wrap_pyfunction!(guard::provoke_fault, m)?)?;
     // Last: anything registered after this is not guarded.

@@ -1,4 +1,4 @@
-//! Binding of `hlr_mesh::measure`: nearest segments and blocked rays.
+//! Binding of `hlr_mesh::measure`: nearest segments, blocked rays and what rays meet first.
 
 use std::collections::HashMap;
 
@@ -70,14 +70,43 @@ pub fn blocked<'py>(
     ways: PyReadonlyArray2<'py, f64>,
     threads: usize,
 ) -> PyResult<Bound<'py, PyArray1<bool>>> {
-    let points = rows::<f64, 3>(&points, "points")?;
-    let triangles = rows::<i32, 3>(&triangles, "triangles")?;
-    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
-    let (origins, ways) = (rows::<f64, 3>(&origins, "origins")?, rows::<f64, 3>(&ways, "ways")?);
-    expect_len("ways", ways.len(), origins.len())?;
-    let found: Vec<bool> = run(py, threads, usize::MAX, |stopped| {
-        let caster = Caster::new(points, triangles);
-        origins.par_iter().zip(ways).map(|(o, w)| !stopped() && caster.is_blocked(o, w)).collect()
-    })?;
+    let found = cast(py, [&points, &origins, &ways], &triangles, threads, |caster, o, w| caster.is_blocked(o, w))?;
     Ok(found.into_pyarray(py))
+}
+
+#[pyfunction]
+#[allow(clippy::type_complexity)] // what it gives is two arrays
+pub fn first_hits<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, i32>,
+    origins: PyReadonlyArray2<'py, f64>,
+    ways: PyReadonlyArray2<'py, f64>,
+    threads: usize,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>)> {
+    let found = cast(py, [&points, &origins, &ways], &triangles, threads, |caster, o, w| {
+        caster.first(o, w).map_or((f64::INFINITY, -1), |(t, i)| (t, i as i32))
+    })?;
+    let (share, triangle): (Vec<f64>, Vec<i32>) = found.into_iter().unzip();
+    Ok((share.into_pyarray(py), triangle.into_pyarray(py)))
+}
+
+/// What `of` says of each ray; the arrays are points of the mesh, origins and ways of the rays.
+fn cast<T: Send + Default>(
+    py: Python<'_>,
+    [points, origins, ways]: [&PyReadonlyArray2<'_, f64>; 3],
+    triangles: &PyReadonlyArray2<'_, i32>,
+    threads: usize,
+    of: impl Fn(&Caster, &[f64; 3], &[f64; 3]) -> T + Sync,
+) -> PyResult<Vec<T>> {
+    let points = rows::<f64, 3>(points, "points")?;
+    let triangles = rows::<i32, 3>(triangles, "triangles")?;
+    expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
+    let (origins, ways) = (rows::<f64, 3>(origins, "origins")?, rows::<f64, 3>(ways, "ways")?);
+    expect_len("ways", ways.len(), origins.len())?;
+    run(py, threads, usize::MAX, |stopped| {
+        let caster = Caster::new(points, triangles);
+        let one = |(o, w)| if stopped() { T::default() } else { of(&caster, o, w) };
+        origins.par_iter().zip(ways).map(one).collect()
+    })
 }

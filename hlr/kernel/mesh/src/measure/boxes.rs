@@ -29,14 +29,14 @@ impl<const N: usize> Bounds<N> {
         (0..N).map(|k| (self.0[k] - p[k]).max(p[k] - self.1[k]).max(0.0)).map(|d| d * d).sum()
     }
 
-    /// Whether origin + t * way is inside the box for some t in 0..1; inverse: 1 / way.
-    pub fn is_hit(&self, origin: &[f64; N], inverse: &[f64; N]) -> bool {
-        let (mut near, mut far) = (0.0f64, 1.0f64);
+    /// The least t in 0..most at which origin + t * way is inside the box, None where it never is; inverse: 1 / way.
+    pub fn entry(&self, origin: &[f64; N], inverse: &[f64; N], most: f64) -> Option<f64> {
+        let (mut near, mut far) = (0.0f64, most);
         for k in 0..N {
             if inverse[k].is_infinite() {
                 // The ray is parallel to these sides: 0 * inf would be NaN.
                 if origin[k] < self.0[k] || origin[k] > self.1[k] {
-                    return false;
+                    return None;
                 }
                 continue;
             }
@@ -44,7 +44,7 @@ impl<const N: usize> Bounds<N> {
             near = near.max(a.min(b));
             far = far.min(a.max(b) * ROUNDED);
         }
-        near <= far
+        (near <= far).then_some(near)
     }
 }
 

@@ -1,7 +1,9 @@
-//! Tells whether a ray meets a triangle mesh.
+//! Tells whether a ray meets a triangle mesh, and where it does so first.
 //!
 //! T. Moeller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997; boxes as in T. Kay, J. Kajiya,
 //! "Ray tracing complex scenes", 1986.
+
+use std::cell::Cell;
 
 use super::boxes::{Bounds, Tree};
 
@@ -40,29 +42,47 @@ impl<'a> Caster<'a> {
         let inverse = way.map(|c| 1.0 / c);
         let mut hit = false;
         self.tree.walk(
-            |bounds, _| bounds.is_hit(origin, &inverse).then_some(0.0),
+            |bounds, _| bounds.entry(origin, &inverse, 1.0).map(|_| 0.0),
             |i| {
-                hit = self.meets(i, origin, way);
+                hit = self.meeting(i, origin, way).is_some();
                 hit
             },
         );
         hit
     }
 
-    fn meets(&self, triangle: u32, origin: &Vec3, way: &Vec3) -> bool {
+    /// The least t in 0..1 at which a triangle meets origin + t * way, and that triangle; of several, the first.
+    pub fn first(&self, origin: &Vec3, way: &Vec3) -> Option<(f64, u32)> {
+        let inverse = way.map(|c| 1.0 / c);
+        let best = Cell::new(None::<(f64, u32)>);
+        self.tree.walk(
+            |bounds, _| bounds.entry(origin, &inverse, best.get().map_or(1.0, |(t, _)| t)),
+            |i| {
+                let nearer = |t: &f64| best.get().is_none_or(|known| (*t, i) < known);
+                if let Some(t) = self.meeting(i, origin, way).filter(nearer) {
+                    best.set(Some((t, i)));
+                }
+                false
+            },
+        );
+        best.get()
+    }
+
+    /// The t in 0..1 at which a triangle meets origin + t * way.
+    fn meeting(&self, triangle: u32, origin: &Vec3, way: &Vec3) -> Option<f64> {
         let [a, b, c] = self.triangles[triangle as usize].map(|i| &self.points[i as usize]);
         let (ab, ac) = (minus(b, a), minus(c, a));
         let across = cross(way, &ac);
         let volume = dot(&ab, &across);
         if volume == 0.0 {
-            return false;
+            return None;
         }
         let from = minus(origin, a);
         let u = dot(&from, &across) / volume;
         let q = cross(&from, &ab);
         let v = dot(way, &q) / volume;
         let t = dot(&ac, &q) / volume;
-        u >= -BESIDE && v >= -BESIDE && u + v <= 1.0 + BESIDE && (0.0..=1.0).contains(&t)
+        (u >= -BESIDE && v >= -BESIDE && u + v <= 1.0 + BESIDE && (0.0..=1.0).contains(&t)).then_some(t)
     }
 }
 
@@ -81,6 +101,26 @@ mod tests {
             assert!(!caster.is_blocked(&[x, y, -1.0], &[0.0, 0.0, 0.9]), "it ends before");
             assert!(!caster.is_blocked(&[x, y, 1.0], &[0.0, 0.0, 2.0]), "it runs away");
         }
+    }
+
+    #[test]
+    fn the_first_of_many_squares_is_met() {
+        let n = 60;
+        let depth = |k: usize| ((k * 37) % n) as f64;
+        let points: Vec<Vec3> = (0..n)
+            .flat_map(|k| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| [x, y, depth(k)]))
+            .collect();
+        let triangles: Vec<[i32; 3]> =
+            (0..n as i32).flat_map(|k| [[4 * k, 4 * k + 1, 4 * k + 2], [4 * k, 4 * k + 2, 4 * k + 3]]).collect();
+        let caster = Caster::new(&points, &triangles);
+        for start in 0..n - 1 {
+            let way = [0.0, 0.0, 100.0];
+            let (t, triangle) = caster.first(&[0.7, 0.2, start as f64 + 0.5], &way).expect("there are squares ahead");
+            assert!((t * 100.0 - 0.5).abs() < 1e-9);
+            assert_eq!(depth(triangle as usize / 2), start as f64 + 1.0);
+        }
+        assert_eq!(caster.first(&[0.7, 0.2, n as f64], &[0.0, 0.0, 100.0]), None);
+        assert_eq!(caster.first(&[0.7, 0.2, -1.0], &[0.0, 0.0, 0.9]), None);
     }
 
     #[test]

@@ -1,0 +1,218 @@
+"""Verdicts: for each difference, which of the two drawings shows what is true of the model.
+
+What is true is asked at points along the line, away from its ends, and each drawing's answer is compared with it. A
+verdict needs most of the points: where too few are clear, or they disagree, it is "undecided".
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.compare.difference import Difference, Verdict, told
+from hlr.compare.lines.motion import Motion
+from hlr.compare.lines.pieces import Index
+from hlr.compare.matching.judge import Findings
+from hlr.compare.reading.sides import Side
+from hlr.compare.verdict.sight import HIDDEN, NOTHING, UNCLEAR, VISIBLE, Truth, truth
+from hlr.compare.verdict.true_lines import TrueLines
+
+_STEP_MM, _FEWEST, _MOST = 0.25, 3, 15
+"""Distance of the points along a line, and how many there are."""
+
+_ENDS = 0.1
+"""Share of a line at each end without points: what is true may change there."""
+
+_MOST_JUDGED = 3_000
+"""Differences, the longest of each kind first."""
+
+_AGREED = 0.75
+"""Share of the clear points that have to agree."""
+
+_CLEAR = 0.4
+"""Share of the points that have to be clear."""
+
+_NEARER = 0.5
+"""Of a displacement: a line is in its place where it is off by less, and the other by more."""
+
+WORDS: dict[tuple[bool, bool], Verdict] = {
+    (True, False): "first right",
+    (False, True): "second right",
+    (True, True): "both right",
+    (False, False): "neither right",
+}
+"""Whether the first drawing is right, and the second."""
+
+COVERED = "it is hidden, and so close to a visible line that it is drawn or not as one likes"
+LIKED = "only a smooth edge or a seam runs there, which is drawn or not as one likes"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a drawing says of a line: whether it draws it, and as visible (1), hidden (0), or not known (-1)."""
+
+    drawn: bool
+    visible: int = -1
+
+
+def with_verdicts(
+    found: Findings, before: Side, after: Side, motion: Motion | None, tolerance_mm: float, threads: int = 0
+) -> Findings:
+    """The differences with verdicts, where one side is a model and the other a drawing of it."""
+    side = before if before.behind is not None else after
+    if side.behind is None or (before.behind is not None and after.behind is not None):
+        return found
+    chosen = [n for n, each in enumerate(found.differences) if each.kind in _JUDGED][:_MOST_JUDGED]
+    model = TrueLines.of(side.behind.source, side.behind.drawing, tolerance_mm) if chosen else None
+    if model is None:
+        return found
+    motion = motion if side is after and motion is not None else Motion()
+    whose, points, ways = _samples([found.traces[n] for n in chosen])
+    hides = bool((before.pieces.visible < 1).any()), bool((after.pieces.visible < 1).any())
+    at = _Asked(model, motion, tolerance_mm, threads)
+    known = at(points, ways)
+    differences = list(found.differences)
+    for n, number in enumerate(chosen):
+        here = np.flatnonzero(whose == n)
+        each = differences[number]
+        judge = _moved if each.kind == "moved" else _seen
+        verdict, reason = judge(each, at, known, here, points, ways, hides)
+        differences[number] = replace(each, verdict=verdict, reason=reason)
+    return replace(found, differences=[_polyline(each, tolerance_mm) for each in differences])
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """Asks what is true at points of the comparison: the motion of the model's drawing is undone first."""
+
+    model: TrueLines
+    motion: Motion
+    tolerance_mm: float
+    threads: int
+
+    def __call__(self, points: Floats, ways: Floats) -> Truth:
+        back = np.linalg.inv(self.motion.matrix).T
+        own = (points - np.array(self.motion.shift)) @ back
+        return truth(self.model, own, ways @ back, self.tolerance_mm / self.motion.scale, self.threads)
+
+
+def _samples(traces: list[Floats]) -> tuple[Index, Floats, Floats]:
+    """Points along lines, each given as segments (k, 2, 2): the line (n,), the point (n, 2), the line's way (n, 2)."""
+    whose, points, ways = [], [], []
+    for number, trace in enumerate(traces):
+        step = trace[:, 1] - trace[:, 0]
+        ends = np.cumsum(np.hypot(*step.T))
+        count = int(np.clip(np.ceil(ends[-1] / _STEP_MM), _FEWEST, _MOST))
+        at = (_ENDS + (1.0 - 2.0 * _ENDS) * (np.arange(count) + 0.5) / count) * ends[-1]
+        k = np.minimum(np.searchsorted(ends, at), len(trace) - 1)
+        rest = (ends[k] - at) / np.maximum(np.hypot(*step[k].T), 1e-300)
+        whose.append(np.full(count, number))
+        points.append(trace[k, 1] - np.clip(rest, 0.0, 1.0)[:, None] * step[k])
+        ways.append(step[k])
+    return np.concatenate(whose), np.concatenate(points), np.concatenate(ways)
+
+
+def _answers(each: Difference) -> tuple[Answer, Answer]:
+    """What the first and the second drawing say of the line of a difference."""
+    own = Answer(True, -1 if each.visible is None else int(each.visible))
+    if each.kind == "visibility changed":
+        return own, Answer(True, 1 - own.visible if own.visible >= 0 else -1)
+    return (own, Answer(False)) if each.side == "before" else (Answer(False), own)
+
+
+def _right(answer: Answer, line: Answer, known: Truth, n: int, alone: bool, hides: bool) -> bool | None:
+    """Whether an answer is true at point n of a line; None where that cannot be said.
+
+    line: as one of the drawings has it; alone: the other one has none there; hides: whether the drawing that answers
+    has hidden lines at all
+    """
+    always, state = int(known.always[n]), max(int(known.always[n]), int(known.optional[n]))
+    if not answer.drawn:
+        if line.visible == 0 and known.covered[n]:
+            return True  # it would be under the ink of a visible line
+        if always == VISIBLE:
+            return False
+        return None if always == UNCLEAR else always == NOTHING or not hides or bool(known.covered[n])
+    if state == NOTHING or answer.visible < 0:
+        return state != NOTHING
+    if alone and answer.visible == 0 and (known.covered[n] or known.hidden[n]):
+        return True
+    return None if state == UNCLEAR else answer.visible == (state == VISIBLE)
+
+
+def _seen(
+    each: Difference, _at: _Asked, known: Truth, here: Index, _points: Floats, _ways: Floats, hides: tuple[bool, bool]
+) -> tuple[Verdict, str]:
+    """The verdict on a line that is in one drawing only, or visible in one and hidden in the other."""
+    votes: Counter[tuple[bool, bool]] = Counter()
+    reasons: Counter[str] = Counter()
+    answers = _answers(each)
+    line = next(answer for answer in answers if answer.drawn)
+    alone = not all(answer.drawn for answer in answers)
+    for n in here.tolist():
+        first, second = (
+            _right(answer, line, known, n, alone, some) for answer, some in zip(answers, hides, strict=True)
+        )
+        if first is not None and second is not None:
+            votes[first, second] += 1
+            reasons[_state(line, known, n, first and second)] += 1
+    clear = sum(votes.values())
+    if clear < _CLEAR * len(here):
+        return "undecided", "what lies there is too close to tell"
+    (most, count), state = votes.most_common(1)[0], reasons.most_common(1)[0][0]
+    if count < _AGREED * clear:
+        return "undecided", f"one part of it is so, another not: {count} of {clear} points say {WORDS[most]}"
+    return WORDS[most], _hidden_by(known, here) if state == "hidden" else state
+
+
+def _state(line: Answer, known: Truth, n: int, both: bool) -> str:
+    """What is true, in words. line: as one of the drawings has it; both: whether both drawings are right."""
+    always, optional = int(known.always[n]), int(known.optional[n])
+    if max(always, optional) == NOTHING:
+        return "no edge or outline of the model runs there"
+    if both:
+        return LIKED if always == NOTHING else COVERED
+    hidden = max(always, optional) == HIDDEN or (line.visible == 0 and always != VISIBLE and known.hidden[n])
+    return "hidden" if hidden else "nothing is in front of it"
+
+
+def _hidden_by(known: Truth, here: Index) -> str:
+    some = here[np.isfinite(known.depth[here])]
+    if not len(some):
+        return "a face is in front of it"
+    middle = some[np.argsort(known.depth[some], kind="stable")[len(some) // 2]]
+    return f"a face is in front of it, by {told(float(known.depth[middle]))} mm"
+
+
+def _moved(
+    each: Difference, at: _Asked, known: Truth, here: Index, points: Floats, ways: Floats, _hides: tuple[bool, bool]
+) -> tuple[Verdict, str]:
+    """The verdict on a displaced line: which of the two lies on a line of the model."""
+    normal = np.stack([-ways[here, 1], ways[here, 0]], axis=1) / np.hypot(*ways[here].T)[:, None]
+    own = float(np.median(known.away[here]))
+    aside = [at(points[here] + side * each.moved_mm * normal, ways[here]).away for side in (1.0, -1.0)]
+    other = min(float(np.median(away)) for away in aside)
+    near, far = min(own, other), max(own, other)
+    if not near <= _NEARER * each.moved_mm < far:
+        return "undecided", "a line of the model runs beside both" if np.isfinite(
+            far
+        ) else "no line of the model is near"
+    reason = f"the line of the model runs {told(near)} mm from it"
+    return ("first right" if own < other else "second right"), reason
+
+
+def _polyline(each: Difference, tolerance_mm: float) -> Difference:
+    """Straight pieces in place of a curve are right as long as they look like it."""
+    if each.kind != "polyline":
+        return each
+    reason = f"straight pieces, off by {told(each.moved_mm)} mm"
+    if each.moved_mm <= tolerance_mm:
+        return replace(each, verdict="both right", reason=reason)
+    return replace(each, verdict="first right" if each.became == "straight pieces" else "second right", reason=reason)
+
+
+_JUDGED = ("gone", "new", "moved", "visibility changed")
+"""Kinds on which rays say something."""
