@@ -71,6 +71,19 @@ class Sources:
         return found
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class PlacedView:
+    """A view of a page before it was put at its place: what it shows, and its drawing. Lines lie at matrix @ (x, y) +
+    shift on the page; cut: whether only those inside a window of the page are there."""
+
+    name: str
+    source: BrepSource
+    drawing: Drawing
+    matrix: Floats
+    shift: Floats
+    cut: bool
+
+
 @dataclass(slots=True)
 class _Content:
     """What is on a page so far."""
@@ -79,11 +92,14 @@ class _Content:
     lines: list[Line]
     notes: list[Note]
     accuracies: list[Accuracy]
+    views: list[PlacedView]
 
 
-def drawn_page(page: DocumentPage, sources: Sources, options: Options, progress: Progress | None) -> Drawing:
-    """The drawing of a page; what of it is not drawn is named in its notes. options: checked."""
-    content = _Content([], [], [], [])
+def drawn_page(
+    page: DocumentPage, sources: Sources, options: Options, progress: Progress | None
+) -> tuple[Drawing, list[PlacedView]]:
+    """The drawing of a page, and its views; what of it is not drawn is named in its notes. options: checked."""
+    content = _Content([], [], [], [], [])
     shown = []
     for number, view in enumerate(page.views):
         told = None if progress is None else part_of(progress, number, len(page.views))
@@ -98,7 +114,7 @@ def drawn_page(page: DocumentPage, sources: Sources, options: Options, progress:
     if page.left_out:
         content.notes.append(_left_out(listed(page.left_out, "and"), page))
     used = max((accuracy.used for accuracy in content.accuracies), default=options.accuracy or DEFAULT_ACCURACY)
-    return Drawing(
+    drawing = Drawing(
         source=sources.name,
         view=DrawnView(page.label, "orthographic", (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
         scale=1.0,
@@ -113,6 +129,7 @@ def drawn_page(page: DocumentPage, sources: Sources, options: Options, progress:
         sheet=Sheet(tuple(shown), page.template),
         style=_style(page) if options.style is None else style_of(options.style),
     )
+    return drawing, content.views
 
 
 def _left_out(what: str, page: DocumentPage) -> Note:
@@ -169,6 +186,7 @@ def _add(view: PageView, source: BrepSource, content: _Content, options: Options
     content.lines += lines if view.window is None else _inside(view.window, lines, drawing.view, view)
     content.notes += [note for note in drawing.notes if note.code not in OF_ONE_VIEW]
     content.accuracies.append(drawing.accuracy)
+    content.views.append(PlacedView(view.name, source, drawing, matrix, shift, view.window is not None))
 
 
 def _inside(window: tuple[float, ...], lines: list[Line], drawn: DrawnView, view: PageView) -> Sequence[Line]:

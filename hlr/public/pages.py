@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, SourceError
-from hlr.pipeline.document_page import Sources, drawn_page, part_of
+from hlr.pipeline.document_page import PlacedView, Sources, drawn_page, part_of
 from hlr.pipeline.session import refuse_warnings
 from hlr.request.check import checked
 from hlr.request.options import Options
@@ -59,19 +59,29 @@ def draw_pages(
     >>> page.save("page.svg").name
     'page.svg'
     """
+    return [drawing for drawing, _ in pages_with_views(source, pages, options, progress)]
+
+
+def pages_with_views(
+    source: str | os.PathLike[str],
+    pages: Sequence[str] | None = None,
+    options: Options | None = None,
+    progress: Progress | None = None,
+) -> list[tuple[Drawing, list[PlacedView]]]:
+    """The same, each with its views as they were drawn."""
     options = _page_options(options or Options())
     path = _path(source)
     with opened_document(path) as document:
         wanted = _chosen(pages_of(document, path), pages, path)
         sources = Sources(document, path)
-        drawings = []
+        found = []
         for number, page in enumerate(wanted):
             told = None if progress is None else part_of(progress, number, len(wanted))
-            drawings.append(drawn_page(page, sources, options, told))
-    for drawing in drawings:
+            found.append(drawn_page(page, sources, options, told))
+    for drawing, _ in found:
         if options.strict:
             refuse_warnings(drawing.notes)
-    return drawings
+    return found
 
 
 def _path(source: Any) -> Path:

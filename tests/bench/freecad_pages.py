@@ -19,17 +19,18 @@ from typing import Any
 
 from bench.table import Table
 
-import hlr
 from hlr.compare import Comparison, compare
-from hlr.compare.reading.document import one_view
-from hlr.drawing.drawing import Drawing
+from hlr.compare.reading.document import one_view, page_of
+from hlr.compare.reading.sides import DrawnPage
 from hlr.errors import HlrError
 from hlr.public.pages import page_names
 
 KINDS = ("gone", "new", "moved", "visibility changed", "polyline")
 HEADINGS = ["page", "view", "file", "same", "FreeCAD only", "ours only", "displaced", "visibility", "straight pieces"]
+VERDICTS = {"first right": "FreeCAD right", "second right": "ours right", "neither right": "neither right"}
+"""Columns for verdicts by rays on the model."""
 EXPORTS = ("svg", "dxf", "pdf")
-EXPLAINED_MM = 0.1
+TOLERANCE_MM, EXPLAINED_MM = 0.1, 0.1
 """A view with less is the same."""
 
 
@@ -41,13 +42,13 @@ def exports(folder: Path, page: str, view: str = "") -> Iterator[Path]:
         yield from (folder / name for name in names if (folder / name).exists())
 
 
-def compared(folder: Path, page: str, drawing: Drawing, overlays: Path | None) -> Iterator[dict[str, Any]]:
+def compared(folder: Path, page: str, shown: DrawnPage, overlays: Path | None) -> Iterator[dict[str, Any]]:
     """A row for each export of a page, and one for each view."""
     for path in exports(folder, page):
-        yield row(page, "", path, compare(path, drawing), overlays)
-    for view in drawing.sheet.views:
+        yield row(page, "", path, compare(path, shown), overlays)
+    for view in shown.drawing.sheet.views:
         for path in exports(folder, page, view.name):
-            yield row(page, view.name, path, compare(path, one_view(drawing, view.name)), overlays)
+            yield row(page, view.name, path, compare(path, one_view(shown, view.name)), overlays)
 
 
 def row(page: str, view: str, path: Path, found: Comparison, overlays: Path | None) -> dict[str, Any]:
@@ -61,6 +62,7 @@ def row(page: str, view: str, path: Path, found: Comparison, overlays: Path | No
         **{kind: found.lengths_mm[kind] for kind in KINDS},
         "elsewhere": [each.name for each in found.views if each.displaced],
         "alone": [each.name for each in found.views if each.before != each.after],
+        "verdicts_mm": found.verdicts_mm,
         "summary": found.summary,
     }
 
@@ -72,20 +74,23 @@ def documents(folder: Path, overlays: Path | None) -> Iterator[dict[str, Any]]:
         for name, label in page_names(path):
             start = time.perf_counter()
             try:
-                (drawing,) = hlr.draw_pages(path, [name])
+                shown = page_of(path, name, TOLERANCE_MM)
             except HlrError as error:
                 yield {"page": f"{path.stem}, {label}", "error": str(error)}
                 continue
             seconds = time.perf_counter() - start
-            rows = list(compared(path.parent, name, drawing, overlays)) if drawing.lines else []
-            notes = [note.text for note in drawing.notes]
+            rows = list(compared(path.parent, name, shown, overlays)) if shown.drawing.lines else []
+            notes = [str(note) for note in shown.drawing.notes]
             yield {"page": f"{path.stem}, {label}", "s": seconds, "freecad_s": theirs.get(label), "notes": notes}
             yield from rows
 
 
 def cells(found: dict[str, Any]) -> list[str]:
     kinds = [f"{found[kind]:.1f}" if found[kind] >= 0.05 else "" for kind in KINDS]
-    return [found["page"], found["view"], found["file"].split(".", 1)[1], f"{found['same_mm']:.1f}", *kinds]
+    right = [
+        f"{found['verdicts_mm'][each]:.1f}" if found["verdicts_mm"].get(each, 0.0) >= 0.05 else "" for each in VERDICTS
+    ]
+    return [found["page"], found["view"], found["file"].split(".", 1)[1], f"{found['same_mm']:.1f}", *kinds, *right]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -107,7 +112,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     pages = [each for each in found if "s" in each]
     remarks = [f"{len(same)} of {len(rows)} are the same within {EXPLAINED_MM} mm of lines."]
     remarks += [f"{each['page']}: {each['s']:.1f} s, FreeCAD {each['freecad_s']} s" for each in pages]
-    print(Table(HEADINGS, [cells(each) for each in rows if each not in same], found, remarks))
+    print(Table([*HEADINGS, *VERDICTS.values()], [cells(each) for each in rows if each not in same], found, remarks))
     return 0
 
 

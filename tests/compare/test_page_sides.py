@@ -1,17 +1,19 @@
 """Pages are compared view by view: each is moved by itself, and each difference names its view."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+import hlr
 from hlr.compare import compare
 from hlr.compare.matching.pairing import BESIDE
 from hlr.drawing.page import Page
 from hlr.drawing.sheet import Sheet, SheetView
 from hlr.errors import OptionError
+from support import freecad_document
 from support.drawings import arc, drawing, line, part
+from support.freecad_document import item, kept, links, number, text, vector, whole
 
 TEMPLATE = '<rect x="10" y="10" width="277" height="190" fill="none" stroke="#000000"/>\n'
 
@@ -126,25 +128,46 @@ def test_a_drawing_without_lines_beside_a_page_is_all_missing():
     assert found.same_mm == 0.0 and {each.kind for each in found.differences} == {"gone"}
 
 
-DATA = Path(__file__).parents[1] / "data"
+def document(path):
+    """A box, 10 x 20 x 30, and a page with two views of it."""
+
+    def view(x, direction, right):
+        at = {"X": number(x), "Y": number(50.0), "ScaleType": whole(2), "Scale": number(1.0)}
+        seen = {"Direction": vector(*direction), "XDirection": vector(*right)}
+        return item("TechDraw::DrawViewPart", Source=links("Box"), **seen, **at)
+
+    objects = {
+        "Box": item("Part::Box", Shape=kept("Part", "box.brp")),
+        "Page": item("TechDraw::DrawPage", Label=text("The page"), Views=links("Front", "Top"), Scale=number(1.0)),
+        "Front": view(60.0, (0, -1, 0), (1, 0, 0)),
+        "Top": view(120.0, (0, 0, 1), (0.6, 0.8, 0)),
+    }
+    return freecad_document.write(path / "box.FCStd", objects, {"box.brp": freecad_document.box(10, 20, 30)})
 
 
 @pytest.mark.slow
-def test_the_page_of_a_document_beside_freecad_s_own_dxf(tmp_path):
-    found = compare(DATA / "trolley_assembly.dxf", DATA / "trolley_assembly.FCStd", page="Page")
-    rows = {view.name: view for view in found.views}
-    assert list(rows)[:3] == ["Front", "Top", "Iso"] and not any(rows[name].displaced for name in ("Front", "Top"))
-    assert all(rows[name].same_mm > 10.0 * rows[name].mm["gone"] for name in ("Front", "Top", "Iso"))
-    one = compare(DATA / "trolley_assembly.FCStd", DATA / "trolley_assembly.FCStd", page="Page/Top")
-    assert one.same and one.before == "trolley_assembly.FCStd, Page/Top" and one.views == ()
-    with pytest.raises(OptionError, match='has no view "Left" that is drawn: it has "Front", "Top"'):
-        compare(DATA / "trolley_assembly.FCStd", page_file(tmp_path), page="Page/Left")
-    with pytest.raises(OptionError, match='no page "Sheet"'):
-        compare(DATA / "trolley_assembly.FCStd", page_file(tmp_path), page="Sheet")
+def test_a_page_of_a_document_is_judged_by_its_shapes_view_by_view(tmp_path):
+    path = document(tmp_path)
+    (drawing,) = hlr.draw_pages(path)
+    lost = next(n for n, each in enumerate(drawing.lines) if drawing.parts[each.part].name.startswith("Top/"))
+    lines = [*drawing.lines[:lost], *drawing.lines[lost + 1 :], line([[50, 60], [68, 42]])]
+    other = replace(drawing, lines=tuple(lines)).save(tmp_path / "other.svg")
+    found = compare(other, path, page="The page")
+    assert [(each.view, each.kind, each.verdict) for each in found.differences] == [
+        ("Front", "gone", "second right"),
+        ("Top", "new", "second right"),
+    ]
+    assert found.differences[0].reason == "no edge or outline of the model runs there"
+    assert compare(path, other, page="Page").differences[0].verdict == "first right"
+    one = compare(other, path, page="Page/Top")
+    assert one.after == "box.FCStd, The page/Top" and one.lengths_mm["new"] == found.lengths_mm["new"]
 
 
-def page_file(tmp_path):
-    return page(PLACES).save(tmp_path / "page.svg")
+def test_pages_and_views_that_are_not_there_are_refused(tmp_path):
+    path = document(tmp_path)
+    for wrong, why in (("Page/Left", 'has no view "Left" that is drawn: it has "Front", "Top"'), ("A", 'no page "A"')):
+        with pytest.raises(OptionError, match=why):
+            compare(path, path, page=wrong)
 
 
 def test_a_page_is_said_only_of_documents():

@@ -65,7 +65,9 @@ def view_of(side: Side, pair: Pair, number: int | None) -> Side:
     which = side.pieces.view == number if number is not None else np.zeros(len(side.pieces), bool)
     pieces = side.pieces.take(which)
     about = replace(side.about, views=(pair.name,))
-    return replace(side, pieces=replace(pieces, view=np.zeros_like(pieces.view)), about=about)
+    own = side.about.views[number] if number is not None and number >= 0 else ""
+    pieces = replace(pieces, view=np.zeros_like(pieces.view))
+    return replace(side, pieces=pieces, about=about, behind=side.behind_views.get(own))
 
 
 def _by_place(before: Side, after: Side) -> dict[int, int]:

@@ -7,11 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from hlr.compare.compared_view import ComparedView
+from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Pieces, joined
 from hlr.compare.matching.judge import Findings, judged
 from hlr.compare.matching.pairing import pairs_of, view_of, with_views_of
 from hlr.compare.matching.register import translation
 from hlr.compare.reading.sides import Side
+from hlr.compare.verdict.verdicts import with_verdicts
 
 DISPLACED_MM = 1.0
 """A view that has to be moved by so much more than the others is displaced."""
@@ -40,7 +42,8 @@ def by_view(
         if register and len(a.pieces) and len(b.pieces):
             b, (x, y) = _laid_on(a, b, tolerance_mm)
             shift = round(whole[0] + x, 4) + 0.0, round(whole[1] + y, 4) + 0.0
-        found = judged(a, b, tolerance_mm)
+        moved = Motion(shift=whole if shift is None else shift)
+        found = with_verdicts(judged(a, b, tolerance_mm), a, b, moved, tolerance_mm)
         findings.append(found)
         lines.append(b.pieces)
         there = len(a.pieces) > 0, len(b.pieces) > 0

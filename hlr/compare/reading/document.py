@@ -7,10 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from hlr.drawing.drawing import Drawing
+from hlr.compare.reading.sides import Behind, DrawnPage
 from hlr.drawing.sheet import Sheet
 from hlr.errors import OptionError
-from hlr.public.pages import draw_pages, page_names
+from hlr.pipeline.document_page import PlacedView
+from hlr.public.pages import page_names, pages_with_views
 from hlr.request.accuracy import DEFAULT_ACCURACY
 from hlr.request.options import Options
 
@@ -19,7 +20,7 @@ ACCURACY_SHARE = 0.2
 
 
 def with_pages(given: tuple[Any, Any], page: str | None, tolerance_mm: float) -> tuple[Any, Any]:
-    """Two sides, documents among them as drawings of their page; page: name or label, or "Page/View" for one view.
+    """Two sides, documents among them with their page drawn; page: name or label, or "Page/View" for one view.
 
     Raises SourceError, OptionError where there is no such document, page or view.
     """
@@ -28,7 +29,7 @@ def with_pages(given: tuple[Any, Any], page: str | None, tolerance_mm: float) ->
     documents = [_is_document(side) for side in given]
     if not any(documents):
         raise OptionError(f'the page "{page}" is said, and no side is a FreeCAD document (.FCStd): leave the page out')
-    a, b = (_drawn(side, page, tolerance_mm) if drawn else side for side, drawn in zip(given, documents, strict=True))
+    a, b = (page_of(side, page, tolerance_mm) if drawn else side for side, drawn in zip(given, documents, strict=True))
     return a, b
 
 
@@ -36,16 +37,23 @@ def _is_document(given: Any) -> bool:
     return isinstance(given, str | os.PathLike) and Path(given).suffix.lower() == ".fcstd"
 
 
-def _drawn(document: str | os.PathLike[str], page: str, tolerance_mm: float) -> Drawing:
+def page_of(document: str | os.PathLike[str], page: str, tolerance_mm: float) -> DrawnPage:
+    """A page of a document, or one view of it, drawn to be compared: as of `with_pages`."""
     known = {name for pair in page_names(document) for name in pair}
     whole, mark, view = (page, "", "") if page in known else page.rpartition("/")
     accuracy = min(DEFAULT_ACCURACY, ACCURACY_SHARE * tolerance_mm)
-    (drawing,) = draw_pages(document, [whole if mark else page], Options(accuracy=accuracy, details=True))
-    return one_view(drawing, view) if mark else drawing
+    ((drawing, placed),) = pages_with_views(document, [whole if mark else page], Options(accuracy=accuracy))
+    shown = DrawnPage(drawing, {each.name: _behind(each) for each in placed if not each.cut})
+    return one_view(shown, view) if mark else shown
 
 
-def one_view(drawing: Drawing, name: str) -> Drawing:
+def _behind(view: PlacedView) -> Behind:
+    return Behind(view.source, view.drawing, view.matrix, view.shift)
+
+
+def one_view(page: DrawnPage, name: str) -> DrawnPage:
     """The lines of one view of a page alone. Raises OptionError where there is no such view."""
+    drawing = page.drawing
     views = drawing.sheet.views if drawing.sheet is not None else ()
     view = next((each for each in views if name in (each.name, each.label)), None)
     if view is None:
@@ -54,4 +62,5 @@ def one_view(drawing: Drawing, name: str) -> Drawing:
     own = [part.name.startswith(f"{view.name}/") for part in drawing.parts]
     lines = tuple(line for line in drawing.lines if own[line.part])
     shown = replace(drawing.view, name=f"{drawing.view.name}/{view.name}")
-    return replace(drawing, lines=lines, view=shown, sheet=Sheet((), ""))
+    alone = replace(drawing, lines=lines, view=shown, sheet=Sheet((), ""))
+    return DrawnPage(alone, {each: behind for each, behind in page.behind.items() if each == view.name})

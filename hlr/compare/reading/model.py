@@ -60,7 +60,9 @@ def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: Vie
     name = Path(given).name if isinstance(given, str | os.PathLike) else source.name
     found = fit.view if view is None and other is not None else None
     about = replace(side.about, view_found=None if found is None else drawing.view.name)
-    return replace(side, title=f"{name}, {drawing.view.name}", about=about, behind=Behind(source, drawing))
+    return replace(
+        side, title=f"{name}, {drawing.view.name}", about=about, behind=Behind(source, drawing, to_suit=True)
+    )
 
 
 def _options(other: Side | None, tolerance_mm: float) -> Options:
@@ -86,7 +88,7 @@ def without_undrawn(model: Side, other: Side, tolerance_mm: float) -> Side:
     Only where the other drawing does not say what its lines are: the sorts it has are found by its lines. Any other
     side stays as it is.
     """
-    if model.behind is None or other.behind is not None or (other.pieces.kind >= 0).all():
+    if model.behind is None or not model.behind.to_suit or other.behind is not None or (other.pieces.kind >= 0).all():
         return model
     pieces, left_out = model.pieces, dict(model.about.left_out)
     choice = np.array([row.option is not None and row.occt != "sharp" for row in by_number()])[pieces.kind]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from hlr.compare.lines.pieces import Pieces
+import numpy as np
+
+from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.lines.sketch import About, Sketch, Trait
 from hlr.compare.lines.views import views_of_parts
 from hlr.compare.reading.svg import read_svg
@@ -27,32 +29,52 @@ MOST_BYTES = 1 << 29
 
 @dataclass(frozen=True, slots=True)
 class Behind:
-    """The model of which a side was drawn: the opened source, and the drawing, which knows its camera and its scale."""
+    """The model of which a side was drawn.
+
+    source         opened
+    drawing        knows its camera and its scale
+    matrix, shift  what lies at (x, y) in it lies at matrix @ (x, y) + shift on the side
+    to_suit        whether its lines were chosen to suit the other side
+    """
 
     source: Source
     drawing: Drawing
+    matrix: Floats = field(default_factory=lambda: np.eye(2))
+    shift: Floats = field(default_factory=lambda: np.zeros(2))
+    to_suit: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnPage:
+    """A page of a document that was drawn to be compared, and the models behind its views, by their names."""
+
+    drawing: Drawing
+    behind: Mapping[str, Behind]
 
 
 @dataclass(frozen=True, slots=True)
 class Side:
-    """One of two drawings: its name, its lines in pieces and as read, what else is known of it, its model."""
+    """One of two drawings: its name, its lines in pieces and as read, what else is known of it, its model or models."""
 
     title: str
     pieces: Pieces
     about: About
     sketch: Sketch
     behind: Behind | None = None
+    behind_views: Mapping[str, Behind] = field(default_factory=dict)
 
 
 def is_drawing(given: Any) -> bool:
     """Whether this is a drawing, or the file of one, and not a model that is still to be drawn."""
     if isinstance(given, str | os.PathLike):
         return Path(given).suffix.lower() in _READERS or not is_model(os.fspath(given))
-    return isinstance(given, Drawing)
+    return isinstance(given, Drawing | DrawnPage)
 
 
 def side_of(given: Any, tolerance_mm: float) -> Side:
     """Read a side: a Drawing, or the path of a file. Raises SourceError where it cannot be read."""
+    if isinstance(given, DrawnPage):
+        return _side_of_page(given, tolerance_mm)
     sketch = Sketch()
     if isinstance(given, Drawing):
         title = f"{given.source}, {given.view.name}"
@@ -61,6 +83,14 @@ def side_of(given: Any, tolerance_mm: float) -> Side:
     path = _path(given)
     about = _READERS[path.suffix.lower()](path, sketch)
     return Side(path.name, sketch.pieces(tolerance_mm, path.name), about, sketch)
+
+
+def _side_of_page(page: DrawnPage, tolerance_mm: float) -> Side:
+    """A page that shows one view alone has its model as any drawing has."""
+    side = side_of(page.drawing, tolerance_mm)
+    if side.about.views:
+        return replace(side, behind_views=page.behind)
+    return replace(side, behind=next(iter(page.behind.values()), None))
 
 
 def _path(given: Any) -> Path:

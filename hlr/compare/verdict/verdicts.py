@@ -16,7 +16,7 @@ from hlr.compare.difference import Difference, Verdict, told
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Index
 from hlr.compare.matching.judge import Findings
-from hlr.compare.reading.sides import Side
+from hlr.compare.reading.sides import Behind, Side
 from hlr.compare.verdict.sight import HIDDEN, NOTHING, UNCLEAR, VISIBLE, Truth, truth
 from hlr.compare.verdict.true_lines import TrueLines
 
@@ -72,7 +72,7 @@ def with_verdicts(
     motion = motion if side is after and motion is not None else Motion()
     whose, points, ways = _samples([found.traces[n] for n in chosen])
     hides = bool((before.pieces.visible < 1).any()), bool((after.pieces.visible < 1).any())
-    at = _Asked(model, motion, tolerance_mm, threads)
+    at = _Asked(model, side.behind, motion, tolerance_mm, threads)
     known = at(points, ways)
     differences = list(found.differences)
     for n, number in enumerate(chosen):
@@ -86,16 +86,17 @@ def with_verdicts(
 
 @dataclass(frozen=True, slots=True)
 class _Asked:
-    """Asks what is true at points of the comparison: the motion of the model's drawing is undone first."""
+    """Asks what is true at points of the comparison: whatever has moved the model's drawing is undone first."""
 
     model: TrueLines
+    behind: Behind
     motion: Motion
     tolerance_mm: float
     threads: int
 
     def __call__(self, points: Floats, ways: Floats) -> Truth:
-        back = np.linalg.inv(self.motion.matrix).T
-        own = (points - np.array(self.motion.shift)) @ back
+        back = np.linalg.inv(self.motion.matrix @ self.behind.matrix).T
+        own = (points - np.array(self.motion.shift) - self.motion.matrix @ self.behind.shift) @ back
         return truth(self.model, own, ways @ back, self.tolerance_mm / self.motion.scale, self.threads)
 
 
