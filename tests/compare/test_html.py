@@ -4,6 +4,7 @@ import base64
 import hashlib
 import re
 import shutil
+from dataclasses import replace
 
 import pytest
 
@@ -44,6 +45,15 @@ def test_each_difference_has_a_row_with_its_place_in_the_picture():
         assert (float(x) + page.corner[0], page.corner[1] - float(y)) == pytest.approx(each.place, abs=1e-3)
 
 
+def test_verdicts_are_layers_of_lines_and_rows():
+    result = found()
+    result.findings.differences[0] = replace(result.findings.differences[0], verdict="second right", reason="hidden")
+    text = result.to_html()
+    assert '<input type="checkbox" checked data-layer="second-right">' in text and "second right: hidden" in text
+    assert '<path class="gone second-right"' in text and '<tr class="gone second-right"' in text
+    assert '<path class="new"' in text and "first-right" not in text
+
+
 def test_two_drawings_that_are_the_same_have_a_page_too(tmp_path):
     same = drawing([line([[0, 0], [10, 0]])])
     path = compare(same, same).save(tmp_path / "same.html")
@@ -64,7 +74,7 @@ def test_in_a_browser_layers_are_switched_and_a_row_leads_to_its_place(tmp_path)
         page.goto(path.as_uri())
         line_of = page.locator("svg path.gone")
         assert line_of.is_visible()
-        page.locator('[data-kind="gone"]').uncheck()
+        page.locator('[data-layer^="gone "]').uncheck()
         assert not line_of.is_visible() and not page.locator("tr.gone").is_visible()
         page.locator("tr.new").click()
         place = page.locator("svg path.new").bounding_box()

@@ -38,7 +38,7 @@ _AROUND, _LEAST_AROUND_MM = 1.6, 12.0
 class _Row:
     """A difference in the table. x, y: its middle in the picture, millimetres; around: how much of that is shown."""
 
-    kind: str
+    classes: str
     cells: tuple[str, ...]
     x: float
     y: float
@@ -73,6 +73,10 @@ def html(found: Told, page: Overlay) -> str:
         found=found,
         picture=Markup(drawn_alone(page)),
         layers=_layers(found.findings.lengths_mm, words),
+        verdicts=[
+            {"classes": class_of(verdict), "word": verdict, "mm": f"{told(length)} mm"}
+            for verdict, length in found.findings.verdicts_mm.items()
+        ],
         rows=[_row(each, trace, page, words) for each, trace in pairs[:MOST_ROWS]],
         more=max(len(pairs) - MOST_ROWS, 0),
         view_rows=[view_cells(view, words) for view in found.views],
@@ -86,12 +90,12 @@ def html(found: Told, page: Overlay) -> str:
 
 def _layers(lengths_mm: Mapping[str, float], words: dict[str, str]) -> list[dict[str, str]]:
     """What can be switched: names of classes, a colour, and words."""
-    rows = [{"classes": "second-drawing", "color": SAME, "word": "second drawing", "mm": "", "kind": ""}]
+    rows = [{"classes": "second-drawing", "color": SAME, "word": "second drawing", "mm": ""}]
     for kind, length in lengths_mm.items():
         if length > 0.0:
             classes = [class_of(kind), class_of(f"{kind}, short"), *(["moved-here"] if kind == "moved" else [])]
             row = {"classes": " ".join(classes), "color": COLORS[kind], "word": words.get(kind, kind)}
-            rows.append(row | {"mm": f"{told(length)} mm", "kind": class_of(kind)})
+            rows.append(row | {"mm": f"{told(length)} mm"})
     return rows
 
 
@@ -100,7 +104,8 @@ def _row(each: Difference, trace: Floats, page: Overlay, words: dict[str, str]) 
     low, high = points.min(axis=0), points.max(axis=0)
     x, y = ((0.5 * (low + high) - page.corner) * (1.0, -1.0)).tolist()
     around = max(_AROUND * float(np.max(high - low)), _LEAST_AROUND_MM)
-    return _Row(class_of(each.kind), cells_of(each, words), round(x, 3), round(y, 3), round(around, 3))
+    classes = " ".join(class_of(name) for name in (each.kind, each.verdict) if name)
+    return _Row(classes, cells_of(each, words), round(x, 3), round(y, 3), round(around, 3))
 
 
 def _digests(texts: list[str]) -> str:

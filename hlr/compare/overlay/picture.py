@@ -6,12 +6,12 @@ It is made of marks, which the writers of SVG and PNG draw one by one. Millimetr
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import compress, pairwise, product
 from textwrap import wrap
 
 import numpy as np
 
-from hlr.compare.difference import KINDS, told
+from hlr.compare.difference import KINDS, VERDICTS, told
 from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.matching.judge import Findings
 
@@ -46,13 +46,14 @@ _RING, _SHORT, _MOST_RINGS = 2.5, 3.0, 300
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """Polylines (n, 2) each, of one colour and width."""
+    """Polylines (n, 2) each, of one colour and width; verdict: on the differences that they are."""
 
     lines: list[Floats]
     color: str
     width: float
     dashed: bool = False
     name: str = ""
+    verdict: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,12 +95,14 @@ def overlay(titles: tuple[str, str], summary: str, found: Findings, second: Piec
         return _chains((segments - corner) * (1.0, -1.0))
 
     marks: list[Stroke | Text] = [Stroke(placed(lines), SAME, 0.25, name="second drawing")]
-    for kind in reversed(KINDS):
-        traces = [trace for each, trace in zip(found.differences, found.traces, strict=True) if each.kind == kind]
+    for kind, verdict in product(reversed(KINDS), VERDICTS):
+        alike = [each.kind == kind and each.verdict == verdict for each in found.differences]
+        traces = list(compress(found.traces, alike))
         if traces:
-            marks.append(Stroke(placed(np.concatenate(traces)), COLORS[kind], 0.6, kind == "moved", kind))
+            lines_of = placed(np.concatenate(traces))
+            marks.append(Stroke(lines_of, COLORS[kind], 0.6, kind == "moved", kind, verdict))
             rings = [ring for trace in traces[:_MOST_RINGS] if (ring := _ring(trace, corner)) is not None]
-            marks.append(Stroke(rings, COLORS[kind], 0.25, name=f"{kind}, short"))
+            marks.append(Stroke(rings, COLORS[kind], 0.25, name=f"{kind}, short", verdict=verdict))
     marks.append(Stroke(placed(found.moved), COLORS["moved"], 0.4, name="moved here"))
     top = float(high[1] - low[1]) + 2.0 * _MARGIN
     legend = _legend(titles, summary, found, top)

@@ -39,7 +39,8 @@ def class_of(name: str) -> str:
 
 def _stroke(mark: Stroke) -> str:
     dash = ' stroke-dasharray="2 1.2"' if mark.dashed else ""
-    name = f' class="{class_of(mark.name)}"' if mark.name else ""
+    names = " ".join(class_of(name) for name in (mark.name, mark.verdict) if name)
+    name = f' class="{names}"' if names else ""
     path = "".join(map(_path, mark.lines))
     return f'<path{name} stroke="{mark.color}" stroke-width="{number(mark.width, 3)}"{dash} d="{path}"/>\n'
 

@@ -7,15 +7,16 @@
   const table = hlr.part("differences");
   const target = hlr.part("target");
 
-  for (const input of document.querySelectorAll("[data-layer]")) {
-    input.addEventListener("change", () => {
-      for (const name of input.dataset.layer.split(" ")) {
-        for (const path of svg.querySelectorAll(`path.${CSS.escape(name)}`)) path.classList.toggle("off", !input.checked);
-      }
-      const kind = input.dataset.kind;
-      if (kind && table) for (const row of table.querySelectorAll(`tr.${CSS.escape(kind)}`)) row.hidden = !input.checked;
-    });
-  }
+  // A line is seen where no layer that it is in is switched off, and so is a row.
+  const layers = [...document.querySelectorAll("[data-layer]")];
+  const rows = table ? [...table.querySelectorAll("tr[data-x]")] : [];
+  const sift = () => {
+    const off = layers.filter((input) => !input.checked).flatMap((input) => input.dataset.layer.split(" "));
+    const isOff = (element) => off.some((name) => element.classList.contains(name));
+    for (const path of svg.querySelectorAll("path[class]")) path.classList.toggle("off", isOff(path));
+    for (const row of rows) row.hidden = isOff(row);
+  };
+  for (const input of layers) input.addEventListener("change", sift);
 
   const show = (row) => {
     const perMillimetre = svg.clientWidth / svg.viewBox.baseVal.width;
