@@ -110,7 +110,7 @@ def _beside(model: TrueLines, points: Floats, ways: Floats, reach_mm: float) -> 
 
     The line has to run about as the drawing's does; outlines of a mesh zigzag and may run in any direction.
     """
-    spots = _as_pieces(points, points, np.arange(len(points)))
+    spots = spots_at(points)
     owner = np.arange(len(model.start))
     lines = _as_pieces(model.start[:, :2], model.end[:, :2], owner).divided(_LONGEST_MM)
     found: list[tuple[Index, Floats, Index, Floats]] = []
@@ -139,6 +139,11 @@ def _beside(model: TrueLines, points: Floats, ways: Floats, reach_mm: float) -> 
         return none, np.zeros((0, 3)), none, np.zeros(0)
     whose, places, number, distance = (np.concatenate(each) for each in zip(*found, strict=True))
     return whose, places, number, distance
+
+
+def spots_at(points: Floats) -> Pieces:
+    """Points (n, 2) as pieces without length."""
+    return _as_pieces(points, points, np.arange(len(points)))
 
 
 def _as_pieces(start: Floats, end: Floats, line: Index) -> Pieces:

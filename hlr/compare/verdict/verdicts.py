@@ -16,9 +16,10 @@ from hlr.compare.difference import Difference, Verdict, told
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Index
 from hlr.compare.matching.judge import Findings
+from hlr.compare.matching.match import Rule, partners
 from hlr.compare.reading.sides import Behind, Side
-from hlr.compare.verdict.sight import HIDDEN, NOTHING, UNCLEAR, VISIBLE, Truth, truth
-from hlr.compare.verdict.true_lines import TrueLines
+from hlr.compare.verdict.sight import HIDDEN, NOTHING, UNCLEAR, VISIBLE, Truth, spots_at, truth
+from hlr.compare.verdict.true_lines import Bools, TrueLines
 
 _STEP_MM, _FEWEST, _MOST = 0.25, 3, 15
 """Distance of the points along a line, and how many there are."""
@@ -71,7 +72,7 @@ def with_verdicts(
         return found
     motion = motion if side is after and motion is not None else Motion()
     whose, points, ways = _samples([found.traces[n] for n in chosen])
-    hides = bool((before.pieces.visible < 1).any()), bool((after.pieces.visible < 1).any())
+    shown = _Shown.of(before, points, tolerance_mm), _Shown.of(after, points, tolerance_mm)
     at = _Asked(model, side.behind, motion, tolerance_mm, threads)
     known = at(points, ways)
     differences = list(found.differences)
@@ -79,7 +80,7 @@ def with_verdicts(
         here = np.flatnonzero(whose == n)
         each = differences[number]
         judge = _moved if each.kind == "moved" else _seen
-        verdict, reason = judge(each, at, known, here, points, ways, hides)
+        verdict, reason = judge(each, at, known, here, points, ways, shown)
         differences[number] = replace(each, verdict=verdict, reason=reason)
     return replace(found, differences=[_polyline(each, tolerance_mm) for each in differences])
 
@@ -98,6 +99,21 @@ class _Asked:
         back = np.linalg.inv(self.motion.matrix @ self.behind.matrix).T
         own = (points - np.array(self.motion.shift) - self.motion.matrix @ self.behind.shift) @ back
         return truth(self.model, own, ways @ back, self.tolerance_mm / self.motion.scale, self.threads)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shown:
+    """What a drawing shows: whether it has hidden lines at all, and at which points (n,) it has a visible line."""
+
+    hides: bool
+    inked: Bools
+
+    @staticmethod
+    def of(side: Side, points: Floats, tolerance_mm: float) -> _Shown:
+        """points: (n, 2)."""
+        visible = side.pieces.take(side.pieces.visible == 1)
+        near, _ = partners(spots_at(points), visible, Rule(tolerance_mm, tolerance_mm, any_way=True))
+        return _Shown(bool((side.pieces.visible < 1).any()), near >= 0)
 
 
 def _samples(traces: list[Floats]) -> tuple[Index, Floats, Floats]:
@@ -124,19 +140,18 @@ def _answers(each: Difference) -> tuple[Answer, Answer]:
     return (own, Answer(False)) if each.side == "before" else (Answer(False), own)
 
 
-def _right(answer: Answer, line: Answer, known: Truth, n: int, alone: bool, hides: bool) -> bool | None:
+def _right(answer: Answer, line: Answer, known: Truth, n: int, alone: bool, shown: _Shown) -> bool | None:
     """Whether an answer is true at point n of a line; None where that cannot be said.
 
-    line: as one of the drawings has it; alone: the other one has none there; hides: whether the drawing that answers
-    has hidden lines at all
+    line: as one of the drawings has it; alone: the other one has none there; shown: by the drawing that answers
     """
     always, state = int(known.always[n]), max(int(known.always[n]), int(known.optional[n]))
     if not answer.drawn:
-        if line.visible == 0 and known.covered[n]:
+        if line.visible == 0 and (known.covered[n] or shown.inked[n]):
             return True  # it would be under the ink of a visible line
         if always == VISIBLE:
             return False
-        return None if always == UNCLEAR else always == NOTHING or not hides or bool(known.covered[n])
+        return None if always == UNCLEAR else always == NOTHING or not shown.hides or bool(known.covered[n])
     if state == NOTHING or answer.visible < 0:
         return state != NOTHING
     if alone and answer.visible == 0 and (known.covered[n] or known.hidden[n]):
@@ -145,7 +160,13 @@ def _right(answer: Answer, line: Answer, known: Truth, n: int, alone: bool, hide
 
 
 def _seen(
-    each: Difference, _at: _Asked, known: Truth, here: Index, _points: Floats, _ways: Floats, hides: tuple[bool, bool]
+    each: Difference,
+    _at: _Asked,
+    known: Truth,
+    here: Index,
+    _points: Floats,
+    _ways: Floats,
+    shown: tuple[_Shown, _Shown],
 ) -> tuple[Verdict, str]:
     """The verdict on a line that is in one drawing only, or visible in one and hidden in the other."""
     votes: Counter[tuple[bool, bool]] = Counter()
@@ -155,7 +176,7 @@ def _seen(
     alone = not all(answer.drawn for answer in answers)
     for n in here.tolist():
         first, second = (
-            _right(answer, line, known, n, alone, some) for answer, some in zip(answers, hides, strict=True)
+            _right(answer, line, known, n, alone, some) for answer, some in zip(answers, shown, strict=True)
         )
         if first is not None and second is not None:
             votes[first, second] += 1
@@ -189,7 +210,7 @@ def _hidden_by(known: Truth, here: Index) -> str:
 
 
 def _moved(
-    each: Difference, at: _Asked, known: Truth, here: Index, points: Floats, ways: Floats, _hides: tuple[bool, bool]
+    each: Difference, at: _Asked, known: Truth, here: Index, points: Floats, ways: Floats, _shown: tuple[_Shown, _Shown]
 ) -> tuple[Verdict, str]:
     """The verdict on a displaced line: which of the two lies on a line of the model."""
     normal = np.stack([-ways[here, 1], ways[here, 0]], axis=1) / np.hypot(*ways[here].T)[:, None]
