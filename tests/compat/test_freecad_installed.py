@@ -10,17 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support.installed_freecad import needs_freecad, run
+from support.installed_freecad import needs_freecad, python_of_freecad, run
 
 SUPPORT = Path(__file__).parents[1] / "support"
-
-
-def python_of_freecad(folder):
-    """The version of the Python that FreeCAD runs."""
-    script = folder / "version.py"
-    script.write_text("import sys\nprint('python', *sys.version_info[:2])\n")
-    said = run(script)
-    return next((line for line in said.splitlines() if line.startswith("python ")), said)
 
 
 @needs_freecad

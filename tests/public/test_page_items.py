@@ -28,7 +28,7 @@ def test_a_symbol_is_as_large_as_freecad_draws_it_and_harmless(tmp_path):
     assert group.attrib == {"transform": "translate(150 30) rotate(-30)"}
     inner = group.find(f"{SVG}svg")
     # 20 mm are 70 whole pixels for Qt, of which 96 lie on an inch: 18.52 mm, twice as large.
-    assert (inner.attrib["width"], inner.attrib["x"], inner.attrib["viewBox"]) == ("37.0417", "-18.5208", "0 0 20 20")
+    assert (inner.attrib["width"], inner.attrib["x"], inner.attrib["viewBox"]) == ("37.0370", "-18.5185", "0 0 20 20")
     assert [each.tag for each in inner] == [f"{SVG}circle"]
     assert "alert" not in drawing.to_svg()
     assert drawing.notes == ()
@@ -36,12 +36,20 @@ def test_a_symbol_is_as_large_as_freecad_draws_it_and_harmless(tmp_path):
 
 
 def test_a_table_is_as_large_as_what_it_holds(tmp_path):
-    svg = '<svg xmlns="http://www.w3.org/2000/svg"><rect x="10" y="20" width="96" height="48"/><text>a</text></svg>'
+    svg = (
+        '<svg xmlns="http://www.w3.org/2000/svg"><rect x="10" y="20" width="94.5" height="47.25"/><text>a</text></svg>'
+    )
     table = item("TechDraw::DrawViewSpreadsheet", Symbol=text(svg), X=number(100.0), Y=number(50.0))
     _, root = drawn(tmp_path, Table=table)
     inner = root.find(f"{SVG}g/{SVG}svg")
     found = {name: inner.attrib[name] for name in ("x", "y", "width", "height", "viewBox")}
-    assert found == {"x": "-12.7000", "y": "-6.3500", "width": "25.4000", "height": "12.7000", "viewBox": "10 20 96 48"}
+    assert found == {
+        "x": "-12.5000",
+        "y": "-6.2500",
+        "width": "25.0000",
+        "height": "12.5000",
+        "viewBox": "10 20 94.5 47.25",
+    }
 
 
 def test_fields_of_a_symbol_are_filled_in_their_order(tmp_path):

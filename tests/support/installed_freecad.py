@@ -23,3 +23,11 @@ def run(script: Path, **environment: str) -> str:
         command, env={**inherited, **environment}, capture_output=True, text=True, timeout=120, check=False
     )
     return done.stdout + done.stderr
+
+
+def python_of_freecad(folder: Path) -> str:
+    """The version of the Python that FreeCAD runs."""
+    script = folder / "version.py"
+    script.write_text("import sys\nprint('python', *sys.version_info[:2])\n")
+    said = run(script)
+    return next((line for line in said.splitlines() if line.startswith("python ")), said)

@@ -11,8 +11,8 @@ from xml.etree.ElementTree import Element
 from hlr.source.freecad.document import Object
 from hlr.source.freecad.template import safe_svg
 
-MM_PER_PIXEL = 25.4 / 96.0
-"""FreeCAD puts pixels on paper by 96 to the inch."""
+MM_PER_PIXEL = 1.0 / 3.78
+"""As FreeCAD puts pixels on paper: 96 to the inch, rounded."""
 
 PIXELS = {"": 1.0, "px": 1.0, "mm": 90.0 / 25.4, "cm": 90.0 / 2.54, "in": 90.0, "pt": 1.25, "pc": 15.0}
 """Of one unit. Qt, with which FreeCAD reads symbols, has 90 pixels to the inch; so 20 mm are 18.5 mm on its paper."""
