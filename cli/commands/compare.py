@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hlr.errors import OptionError
 from hlr.tables.readers import is_model
 
 from ..guard import start
@@ -27,7 +28,7 @@ _MOST_ROWS = 20
 
 @click.command(cls=Verb)
 @click.argument("before", metavar="A")
-@click.argument("after", metavar="B")
+@click.argument("after", metavar="B", required=False)
 @click.option(
     "-o", "--output", "outputs", metavar="FILE", multiple=True,
     help="Overlay as SVG, PNG or HTML, figures as JSON, by the ending; may be repeated.",
@@ -57,15 +58,33 @@ _MOST_ROWS = 20
     metavar="NAME|X,Y,Z",
     help="Of the model that is A or B: a name or a direction. Default: the named view that the other side shows.",
 )
+@click.option(
+    "--against",
+    type=click.Choice(["freecad"]),
+    help="Compare hlr's drawing of the model A with that of an installed FreeCAD, which is run without its window. "
+    "--view is iso then, if none is given.",
+)
+@click.option("--coarse", is_flag=True, help="With --against: FreeCAD's coarse view, which is faster.")
+@click.option(
+    "--time-limit",
+    type=click.FloatRange(min=0.0, min_open=True),
+    metavar="S",
+    default=120.0,
+    help="With --against: seconds that FreeCAD may take. Default: 120.",
+)
 @click.option("-q", "--quiet", is_flag=True, help="Print nothing; the exit code tells.")
-def compare(
+def compare(  # noqa: PLR0913 - one for each option of the command
+    *,
     before: str,
-    after: str,
+    after: str | None,
     outputs: tuple[str, ...],
     tolerance: float,
     register: Registration,
     page: str | None,
     view: View | None,
+    against: str | None,
+    coarse: bool,
+    time_limit: float,
     quiet: bool,
 ) -> int:
     """Tell what differs from drawing A to drawing B.
@@ -81,20 +100,34 @@ def compare(
       hlr compare freecad_view.svg part.step
       hlr compare drawing.dxf part.step --view iso
       hlr compare freecad_page.svg housing.FCStd --page Page
+      hlr compare --against freecad part.step --view front
 
     Exit codes, as those of diff: 0 the same, 1 different, 2 a file or an option was refused.
     """
-    from hlr.compare import compare as compared
     from hlr.compare.overlay.table import left_out, rows, view_rows
 
+    if against is not None and (after is not None or page is not None):
+        raise OptionError(f"--against {against} compares one model: leave out {'B' if after else '--page'}")
+    if against is None and after is None:
+        raise OptionError("a comparison needs two drawings: name B, or say --against freecad")
+    sides = [before] if after is None else [before, after]
     targets = [_target(output) for output in outputs]
-    for source in (before, after):
+    for source in sides:
         check(targets, source)
-    models = [side for side in (before, after) if is_model(side)]
+    models = [side for side in sides if is_model(side)]
     if models:
         start(models[0])
     with result_only() as out:
-        found = compared(before, after, tolerance_mm=tolerance, register=register, page=page, view=view)
+        if after is None:
+            from hlr.compare.freecad import compare_with_freecad
+
+            found = compare_with_freecad(
+                before, view or "iso", coarse=coarse, tolerance_mm=tolerance, time_limit_s=time_limit
+            )
+        else:
+            from hlr.compare import compare as compared
+
+            found = compared(before, after, tolerance_mm=tolerance, register=register, page=page, view=view)
         place([(target, found.rendered(f".{target.format}")) for target in targets])
         if not quiet:
             told = [found.summary, *view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]
