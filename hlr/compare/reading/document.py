@@ -42,7 +42,9 @@ def page_of(document: str | os.PathLike[str], page: str, tolerance_mm: float) ->
     known = {name for pair in page_names(document) for name in pair}
     whole, mark, view = (page, "", "") if page in known else page.rpartition("/")
     accuracy = min(DEFAULT_ACCURACY, ACCURACY_SHARE * tolerance_mm)
-    ((drawing, placed),) = pages_with_views(document, [whole if mark else page], Options(accuracy=accuracy, details=True))
+    ((drawing, placed),) = pages_with_views(
+        document, [whole if mark else page], Options(accuracy=accuracy, details=True)
+    )
     shown = DrawnPage(drawing, {each.name: _behind(each) for each in placed if not each.cut})
     return one_view(shown, view) if mark else shown
 

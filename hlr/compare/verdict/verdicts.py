@@ -16,10 +16,10 @@ from hlr.compare.difference import Difference, Verdict, told
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Index
 from hlr.compare.matching.judge import Findings
-from hlr.compare.matching.match import Rule, partners
 from hlr.compare.reading.sides import Behind, Side
-from hlr.compare.verdict.sight import HIDDEN, NOTHING, UNCLEAR, VISIBLE, Truth, spots_at, truth
-from hlr.compare.verdict.true_lines import Bools, TrueLines
+from hlr.compare.verdict.drawn import Shown, nearest
+from hlr.compare.verdict.sight import HIDDEN, NOTHING, UNCLEAR, VISIBLE, Truth, truth
+from hlr.compare.verdict.true_lines import TrueLines
 
 _STEP_MM, _FEWEST, _MOST = 0.25, 3, 15
 """Distance of the points along a line, and how many there are."""
@@ -35,6 +35,9 @@ _AGREED = 0.75
 
 _CLEAR = 0.4
 """Share of the points that have to be clear."""
+
+_FARTHEST = 2.0
+"""Times its mean: how far a displaced line may lie somewhere."""
 
 _NEARER = 0.5
 """Of a displacement: a line is in its place where it is off by less, and the other by more."""
@@ -72,15 +75,18 @@ def with_verdicts(
         return found
     motion = motion if side is after and motion is not None else Motion()
     whose, points, ways = _samples([found.traces[n] for n in chosen])
-    shown = _Shown.of(before, points, tolerance_mm), _Shown.of(after, points, tolerance_mm)
+    shown = Shown.of(before.pieces, points, tolerance_mm), Shown.of(after.pieces, points, tolerance_mm)
     at = _Asked(model, side.behind, motion, tolerance_mm, threads)
     known = at(points, ways)
     differences = list(found.differences)
     for n, number in enumerate(chosen):
         here = np.flatnonzero(whose == n)
         each = differences[number]
-        judge = _moved if each.kind == "moved" else _seen
-        verdict, reason = judge(each, at, known, here, points, ways, shown)
+        if each.kind == "moved":
+            far, place = nearest(after.pieces, points[here], _FARTHEST * each.moved_mm)
+            verdict, reason = _moved(each, known.away[here], at(place, ways[here]).away[np.isfinite(far)])
+        else:
+            verdict, reason = _seen(each, known, here, shown)
         differences[number] = replace(each, verdict=verdict, reason=reason)
     return replace(found, differences=[_polyline(each, tolerance_mm) for each in differences])
 
@@ -101,21 +107,6 @@ class _Asked:
         return truth(self.model, own, ways @ back, self.tolerance_mm / self.motion.scale, self.threads)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Shown:
-    """What a drawing shows: whether it has hidden lines at all, and at which points (n,) it has a visible line."""
-
-    hides: bool
-    inked: Bools
-
-    @staticmethod
-    def of(side: Side, points: Floats, tolerance_mm: float) -> _Shown:
-        """points: (n, 2)."""
-        visible = side.pieces.take(side.pieces.visible == 1)
-        near, _ = partners(spots_at(points), visible, Rule(tolerance_mm, tolerance_mm, any_way=True))
-        return _Shown(bool((side.pieces.visible < 1).any()), near >= 0)
-
-
 def _samples(traces: list[Floats]) -> tuple[Index, Floats, Floats]:
     """Points along lines, each given as segments (k, 2, 2): the line (n,), the point (n, 2), the line's way (n, 2)."""
     whose, points, ways = [], [], []
@@ -132,51 +123,52 @@ def _samples(traces: list[Floats]) -> tuple[Index, Floats, Floats]:
     return np.concatenate(whose), np.concatenate(points), np.concatenate(ways)
 
 
-def _answers(each: Difference) -> tuple[Answer, Answer]:
-    """What the first and the second drawing say of the line of a difference."""
+def _answers(each: Difference, hidden: bool) -> tuple[Answer, Answer]:
+    """What the first and the second drawing say of the line of a difference.
+
+    hidden: the drawing of which the difference is not told has a hidden line there, and no visible one
+    """
     own = Answer(True, -1 if each.visible is None else int(each.visible))
     if each.kind == "visibility changed":
         return own, Answer(True, 1 - own.visible if own.visible >= 0 else -1)
-    return (own, Answer(False)) if each.side == "before" else (Answer(False), own)
+    other = Answer(True, 0) if hidden and own.visible != 0 else Answer(False)
+    return (own, other) if each.side == "before" else (other, own)
 
 
-def _right(answer: Answer, line: Answer, known: Truth, n: int, alone: bool, shown: _Shown) -> bool | None:
-    """Whether an answer is true at point n of a line; None where that cannot be said.
+def _right(answer: Answer, line: Answer, known: Truth, n: int, hidden: bool, hides: bool) -> bool | None:
+    """Whether an answer is true at point n of a line that one drawing has; None where that cannot be said.
 
-    line: as one of the drawings has it; alone: the other one has none there; shown: by the drawing that answers
+    line: as one of the drawings has it; hidden: a hidden line may be drawn there, or left out by him who draws none,
+    because it is under the ink of a visible one; hides: whether the drawing that answers has hidden lines at all
     """
     always, state = int(known.always[n]), max(int(known.always[n]), int(known.optional[n]))
     if not answer.drawn:
-        if line.visible == 0 and (known.covered[n] or shown.inked[n]):
-            return True  # it would be under the ink of a visible line
+        if line.visible == 0 and hidden:
+            return True
         if always == VISIBLE:
             return False
-        return None if always == UNCLEAR else always == NOTHING or not shown.hides or bool(known.covered[n])
+        return None if always == UNCLEAR else always == NOTHING or not hides or hidden
     if state == NOTHING or answer.visible < 0:
         return state != NOTHING
-    if alone and answer.visible == 0 and (known.covered[n] or known.hidden[n]):
+    if answer.visible == 0 and hidden:
         return True
     return None if state == UNCLEAR else answer.visible == (state == VISIBLE)
 
 
-def _seen(
-    each: Difference,
-    _at: _Asked,
-    known: Truth,
-    here: Index,
-    _points: Floats,
-    _ways: Floats,
-    shown: tuple[_Shown, _Shown],
-) -> tuple[Verdict, str]:
+def _seen(each: Difference, known: Truth, here: Index, shown: tuple[Shown, Shown]) -> tuple[Verdict, str]:
     """The verdict on a line that is in one drawing only, or visible in one and hidden in the other."""
     votes: Counter[tuple[bool, bool]] = Counter()
     reasons: Counter[str] = Counter()
-    answers = _answers(each)
-    line = next(answer for answer in answers if answer.drawn)
-    alone = not all(answer.drawn for answer in answers)
+    other = shown[each.side == "before"]
+    alone = each.kind != "visibility changed"
     for n in here.tolist():
+        answers = _answers(each, bool(other.hidden[n]) and not other.inked[n])
+        line = answers[each.side == "after"]
+        ink = alone and bool(known.covered[n] or other.inked[n])
+        true = alone and line.visible == 0 and (ink or bool(known.hidden[n]))
         first, second = (
-            _right(answer, line, known, n, alone, some) for answer, some in zip(answers, shown, strict=True)
+            _right(answer, line, known, n, true if answer.drawn else ink, some.hides)
+            for answer, some in zip(answers, shown, strict=True)
         )
         if first is not None and second is not None:
             votes[first, second] += 1
@@ -209,21 +201,15 @@ def _hidden_by(known: Truth, here: Index) -> str:
     return f"a face is in front of it, by {told(float(known.depth[middle]))} mm"
 
 
-def _moved(
-    each: Difference, at: _Asked, known: Truth, here: Index, points: Floats, ways: Floats, _shown: tuple[_Shown, _Shown]
-) -> tuple[Verdict, str]:
-    """The verdict on a displaced line: which of the two lies on a line of the model."""
-    normal = np.stack([-ways[here, 1], ways[here, 0]], axis=1) / np.hypot(*ways[here].T)[:, None]
-    own = float(np.median(known.away[here]))
-    aside = [at(points[here] + side * each.moved_mm * normal, ways[here]).away for side in (1.0, -1.0)]
-    other = min(float(np.median(away)) for away in aside)
-    near, far = min(own, other), max(own, other)
-    if not near <= _NEARER * each.moved_mm < far:
-        return "undecided", "a line of the model runs beside both" if np.isfinite(
-            far
-        ) else "no line of the model is near"
+def _moved(each: Difference, own: Floats, other: Floats) -> tuple[Verdict, str]:
+    """The verdict on a displaced line, by how far both lines are from one of the model, at points along them."""
+    first = float(np.median(own))
+    second = float(np.median(other)) if len(other) >= _CLEAR * len(own) else first
+    near, far = min(first, second), max(first, second)
+    if not near <= _NEARER * each.moved_mm <= far:
+        return "undecided", "a line of the model runs beside both" if np.isfinite(far) else "no line runs beside both"
     reason = f"the line of the model runs {told(near)} mm from it"
-    return ("first right" if own < other else "second right"), reason
+    return ("first right" if first < second else "second right"), reason
 
 
 def _polyline(each: Difference, tolerance_mm: float) -> Difference:
