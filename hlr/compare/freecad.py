@@ -28,6 +28,8 @@ from hlr.source import open_source
 
 TIME_LIMIT_S = 120.0
 
+_LONGEST_S = 1e6
+
 VARIABLE = "HLR_FREECAD"
 """Of the environment: the command to run, where it is not on the path."""
 
@@ -39,11 +41,13 @@ _READ = (".step", ".stp", ".iges", ".igs", ".brep", ".brp")
 _TEMPLATE = '<svg xmlns="http://www.w3.org/2000/svg" width="297mm" height="210mm" viewBox="0 0 297 210"/>'
 
 _SCRIPT = """
-import json, os, time
+import json, os, signal, time
 import FreeCAD, Part, TechDraw
 
 with open(os.environ["HLR_JOB"]) as file:
     job = json.load(file)
+if hasattr(signal, "alarm"):
+    signal.alarm(job["seconds"])  # should hlr be killed, nobody else ends this process
 shape = Part.Shape()
 shape.read(job["model"])
 document = FreeCAD.newDocument("compared")
@@ -147,7 +151,8 @@ def drawn_by_freecad(
             "right": right,
             "scale": scale,
             "coarse": coarse,
-            "waits": int(20 * time_limit_s),
+            "waits": int(20 * min(time_limit_s, _LONGEST_S)),
+            "seconds": math.ceil(min(time_limit_s, _LONGEST_S)) + 1,
         }
         (folder / "template.svg").write_text(_TEMPLATE)
         (folder / "job.json").write_text(json.dumps(job))
