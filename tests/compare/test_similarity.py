@@ -8,6 +8,8 @@ import pytest
 
 from hlr.compare import compare
 from hlr.compare.lines.motion import Motion
+from hlr.compare.lines.strays import without_strays
+from hlr.compare.reading.sides import side_of
 
 BOX = Path(__file__).parent.parent / "data/freecad/box_iso.svg"
 MODEL = BOX.with_name("box.step")
@@ -102,3 +104,11 @@ def test_an_empty_or_a_tiny_drawing_has_no_motion(tmp_path):
     dot = tmp_path / "dot.svg"
     dot.write_text('<g stroke="#000" fill="none"><path d="M 0 0 L 0.001 0"/></g>')
     assert np.isfinite(compare(BOX, dot).motion.scale) and np.isfinite(compare(dot, BOX).motion.scale)
+
+
+def test_a_line_to_nowhere_says_nothing_of_the_size(tmp_path):
+    """FreeCAD drew an arc of 20 metres beside a part of 170 millimetres: its scale was taken to be 70."""
+    stray = mutated(tmp_path, re.escape(FIRST_LINE), FIRST_LINE + '<path d="M 0 0 A 10000 10000 0 1 1 3 4"/>')
+    found = compare(BOX, stray)
+    assert kinds(found) == {"new"} and not found.motion.words()
+    assert len(without_strays(side_of(stray, 0.1).pieces)) == len(side_of(BOX, 0.1).pieces)

@@ -13,6 +13,7 @@ import numpy as np
 
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Floats, Index, Pieces
+from hlr.compare.lines.strays import without_strays
 from hlr.compare.matching.match import Rule, divided_by, partners
 from hlr.compare.matching.register import apart, corners, points_of, thinned, translation
 
@@ -58,6 +59,7 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
 
     scale  where it is known; None: it is found
     """
+    moving, fixed = without_strays(moving), without_strays(fixed)
     if min(_size(moving), _size(fixed)) < _SMALLEST * tolerance_mm:
         return Registered(Motion(scale=scale or 1.0), 0.0)
     best = Registered(Motion(scale=scale or 1.0), -1.0)

@@ -11,6 +11,7 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.match import Rule, divided_by
+from hlr.compare.matching.register import points_of
 from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
 from hlr.compare.reading.view import Fit, found_view
 from hlr.errors import OptionError
@@ -21,6 +22,9 @@ from hlr.tables.line_classes import by_number, optional
 
 ACCURACY_SHARE = 0.2
 """Of the tolerance: how exactly a model is drawn to be compared with the drawing of another program."""
+
+_FINEST = 1e-5
+"""Of the size of the other side: a model is drawn no finer, whatever a file says of its size."""
 
 _NICE = 0.01
 """A scale this close to a whole number, or to one over a whole number, is meant to be that."""
@@ -70,11 +74,16 @@ def _options(other: Side | None, tolerance_mm: float) -> Options:
     if other is None:
         return Options()
     # A drawing of hlr was drawn with the usual accuracy, if nothing else was asked for.
-    accuracy = ACCURACY_SHARE * tolerance_mm if other.about.foreign else None
+    finest = _FINEST * _size(other.pieces)
+    accuracy = max(ACCURACY_SHARE * tolerance_mm, finest) if other.about.foreign else None
     kinds, visible = other.pieces.kind, other.pieces.visible
     shown = {row.option: bool(np.isin(kinds, (row.number, -1)).any()) for row in optional() if row.option}
     hidden = bool((visible < 1).any())
     return Options(accuracy=accuracy, hidden=hidden, details=other.about.foreign, **shown)  # type: ignore[arg-type]
+
+
+def _size(pieces: Pieces) -> float:
+    return float(np.ptp(points_of(pieces), axis=0).max()) if len(pieces) else 0.0
 
 
 def _nice(scale: float) -> float:

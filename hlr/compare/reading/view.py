@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Floats, Pieces
+from hlr.compare.lines.strays import without_strays
 from hlr.compare.matching.register import points_of
 from hlr.compare.reading.sides import Side, side_of
 from hlr.pipeline.draw import draw_views
@@ -59,17 +60,16 @@ def found_view(source: Source, options: Options, other: Side, views: Sequence[Vi
     known = other.about.scale
     coarse = _COARSE * size * (known or 1.0)
     rough = replace(options, scale=known or 1.0, accuracy=max(coarse, options.accuracy or 0.0), details=False)
-    drawn = [side_of(drawing, coarse).pieces for drawing in draw_views(source, tried, rough)]
-    apart = bool((other.pieces.visible >= 0).all())
-    fixed = _Picture.of(other.pieces, _diagonal(other.pieces) / _CELLS, apart)
+    drawn = [without_strays(side_of(drawing, coarse).pieces) for drawing in draw_views(source, tried, rough)]
+    shown = without_strays(other.pieces)
+    apart = bool((shown.visible >= 0).all())
+    fixed = _Picture.of(shown, _diagonal(shown) / _CELLS, apart)
     laid = []
     for view, pieces in zip(tried, drawn, strict=True):
-        factor = _diagonal(other.pieces) / max(_diagonal(pieces), 1e-12) if known is None else 1.0
+        factor = _diagonal(shown) / max(_diagonal(pieces), 1e-12) if known is None else 1.0
         for mirrored, turn in itertools.product((False, True), (0, 90, 180, 270)):
             moved = pieces.mapped(Motion(mirrored, turn, factor).matrix)
-            laid.append(
-                (_unlike(moved, other.pieces), Fit(view, (known or 1.0) * factor), moved, mirrored + bool(turn))
-            )
+            laid.append((_unlike(moved, shown), Fit(view, (known or 1.0) * factor), moved, mirrored + bool(turn)))
     most_unlike = max(_SAME_BOX, 2.0 * min(unlike for unlike, *_ in laid))
     best, most = Fit(tried[0], known or 1.0), -1.0
     for unlike, fit, moved, motions in laid:
