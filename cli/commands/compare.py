@@ -12,7 +12,7 @@ from hlr.tables.readers import is_model
 
 from ..guard import start
 from ..outputs import Target, check, place
-from ..parameters import ViewName
+from ..parameters import Scale, ViewName
 from ..streams import result_only
 from ..verb import Verb
 
@@ -59,6 +59,13 @@ _MOST_ROWS = 20
     help="Of the model that is A or B: a name or a direction. Default: the named view that the other side shows.",
 )
 @click.option(
+    "--scale",
+    type=Scale(),
+    metavar="1:2|0.5|2",
+    help="Paper to model, of a drawing of another program. Default: it is found. With --against: of both drawings; "
+    "default: as `hlr draw` puts the view on a page.",
+)
+@click.option(
     "--against",
     type=click.Choice(["freecad"]),
     help="Compare hlr's drawing of the model A with that of an installed FreeCAD, which is run without its window. "
@@ -82,6 +89,7 @@ def compare(  # noqa: PLR0913 - one for each option of the command
     register: Registration,
     page: str | None,
     view: View | None,
+    scale: float | None,
     against: str | None,
     coarse: bool,
     time_limit: float,
@@ -122,12 +130,14 @@ def compare(  # noqa: PLR0913 - one for each option of the command
             from hlr.compare.freecad import compare_with_freecad
 
             found = compare_with_freecad(
-                before, view or "iso", coarse=coarse, tolerance_mm=tolerance, time_limit_s=time_limit
+                before, view or "iso", scale=scale, coarse=coarse, tolerance_mm=tolerance, time_limit_s=time_limit
             )
         else:
             from hlr.compare import compare as compared
 
-            found = compared(before, after, tolerance_mm=tolerance, register=register, page=page, view=view)
+            found = compared(
+                before, after, tolerance_mm=tolerance, register=register, page=page, view=view, scale=scale
+            )
         place([(target, found.rendered(f".{target.format}")) for target in targets])
         if not quiet:
             told = [found.summary, *view_rows(found), *rows(found, _MOST_ROWS)[:-1], *left_out(found)]

@@ -10,10 +10,9 @@ import numpy as np
 
 from hlr.compare.comparison import Comparison
 from hlr.compare.lines.motion import Motion
-from hlr.compare.lines.pieces import Floats
 from hlr.compare.matching.judge import judged
 from hlr.compare.matching.register import translation
-from hlr.compare.matching.similarity import similarity
+from hlr.compare.matching.similarity import laid_share, similarity
 from hlr.compare.matching.views import by_view
 from hlr.compare.reading.document import with_pages
 from hlr.compare.reading.model import sides_of, without_undrawn
@@ -35,6 +34,9 @@ _SAME_SCALE = 1e-5
 _ENLARGED = 1.2
 """A drawing that becomes so many times larger is read once more, with shorter chords."""
 
+ENOUGH_LAID = 0.3
+"""Share of the lines of both that have to lie on one another, else rays would judge lines in the wrong place."""
+
 
 def compare(
     a: Any,
@@ -44,6 +46,7 @@ def compare(
     register: Registration = "auto",
     page: str | None = None,
     view: View | None = None,
+    scale: float | None = None,
 ) -> Comparison:
     """What differs from drawing a to drawing b.
 
@@ -54,8 +57,8 @@ def compare(
                   "similarity": it is turned by quarters, mirrored and scaled as well; "auto": "off" for two drawings
                   of hlr, else "similarity"
     page          name or label of the page of a FreeCAD document (.FCStd) that is a or b; "Page/View": one view of it
-
     view          of the model, as of `hlr.draw`; None: the named view that the other side shows, which is found
+    scale         paper to model, of the drawing of another program; None: it is found
 
     A model is drawn at the scale of the other side, with the lines that it has, hidden or smooth ones for example.
     Pages are compared view by view; unless register is "off", each view is moved onto that of the other page.
@@ -76,7 +79,7 @@ def compare(
     if register not in get_args(Registration):
         raise OptionError(f"register is {register!r}: give {' or '.join(get_args(Registration))}")
     a, b = with_pages((a, b), page, tolerance_mm)
-    before, after = sides_of(a, b, tolerance_mm, view)
+    before, after = sides_of(a, b, tolerance_mm, view, scale)
     scales = _scales(before, after)
     if scales is not None:
         after = replace(after, pieces=after.pieces.mapped(np.eye(2) * (scales[0] / scales[1])))
@@ -92,28 +95,26 @@ def compare(
         after = _divided(before, replace(after, pieces=pieces), tolerance_mm)[1]
         motion = _motion(before, after, tolerance_mm, register)
     if motion is not None:
-        after = replace(after, pieces=after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift)))
+        after = replace(after, pieces=motion.applied(after.pieces))
     before, after = without_undrawn(before, after, tolerance_mm), without_undrawn(after, before, tolerance_mm)
-    findings = judged(before, after, tolerance_mm)
-    findings = with_verdicts(findings, before, after, motion, tolerance_mm)
-    return Comparison.of(before, after, findings, tolerance_mm, motion=motion, scales=scales)
+    findings, laid = judged(before, after, tolerance_mm), None
+    if motion is not None and (before.about.foreign or after.about.foreign):
+        laid = laid_share(before.pieces, after.pieces, tolerance_mm)
+    if laid is None or laid >= ENOUGH_LAID:
+        findings, laid = with_verdicts(findings, before, after, motion, tolerance_mm), None
+    return Comparison.of(before, after, findings, tolerance_mm, motion=motion, scales=scales, badly_laid=laid)
 
 
 def _motion(before: Side, after: Side, tolerance_mm: float, register: Registration) -> Motion:
     """How the second drawing has to be moved to lie on the first."""
     moving, fixed = after.pieces, before.pieces
     if register == "translation":
-        found = Motion(shift=_pair(translation(moving, fixed, tolerance_mm)[0]))
+        found = Motion().with_shift(translation(moving, fixed, tolerance_mm)[0])
     else:
         known = before.about.scale is not None and after.about.scale is not None
         found = similarity(moving, fixed, tolerance_mm, 1.0 if known else None).motion
     x, y = found.shift
     return replace(found, shift=(round(x, 4) + 0.0, round(y, 4) + 0.0))
-
-
-def _pair(shift: Floats) -> tuple[float, float]:
-    x, y = shift.tolist()
-    return x, y
 
 
 def _scales(before: Side, after: Side) -> tuple[float, float] | None:

@@ -36,6 +36,7 @@ class Comparison:
     views          of two pages, each with what was found of it; empty: they were compared as a whole
     same_mm        length that is the same in both
     foreign        whether one of them is of another program: nothing is "new" then, but in one of them only
+    badly_laid     share of the lines that lie on one another, 0 to 1, where that is so little that nothing was judged
     left_out       what of each file is no line of its drawing, counted
     view_found     of a model, where it was not said: the view that the other side shows
     findings       the differences with their pieces, from which the overlay is drawn
@@ -57,6 +58,7 @@ class Comparison:
     views: tuple[ComparedView, ...]
     same_mm: float
     foreign: bool
+    badly_laid: float | None
     left_out: tuple[dict[str, int], dict[str, int]]
     view_found: str | None
     findings: Findings
@@ -72,6 +74,7 @@ class Comparison:
         motion: Motion | None = None,
         scales: tuple[float, float] | None = None,
         views: tuple[ComparedView, ...] = (),
+        badly_laid: float | None = None,
     ) -> Comparison:
         """The record of what was found."""
         found = tuple(findings.differences)
@@ -86,6 +89,7 @@ class Comparison:
             views=views,
             same_mm=findings.same_mm,
             foreign=one.foreign or other.foreign,
+            badly_laid=badly_laid,
             left_out=(one.left_out, other.left_out),
             view_found=one.view_found or other.view_found,
             findings=findings,
@@ -134,6 +138,9 @@ class Comparison:
             text = f"scale {ratio(self.scales[0])}, now {ratio(self.scales[1])}; at the scale of the first: {text}"
         elsewhere = [view.name for view in self.views if view.displaced]
         text += f"; elsewhere on the page: {', '.join(elsewhere)}" if elsewhere else ""
+        if self.badly_laid is not None:
+            share = f"{100.0 * self.badly_laid:.0f} %"
+            text = f"only {share} of the lines lie on one another, too few to say who is right: {text}"
         judged = ", ".join(f"{verdict} {told(length)} mm" for verdict, length in self.verdicts_mm.items())
         text += f"; by rays on the model: {judged}" if judged else ""
         text += "" if self.view_found is None else f"; the view is {self.view_found}"
@@ -164,6 +171,7 @@ class Comparison:
             "same_mm": self.same_mm,
             "views": [each.as_dict() for each in self.views],
             "view_found": self.view_found,
+            "badly_laid": self.badly_laid,
             "left_out": list(self.left_out),
             "mm": self.lengths_mm,
             "verdicts_mm": self.verdicts_mm,

@@ -22,8 +22,9 @@ from typing import Any
 from hlr.compare.compare import compare
 from hlr.compare.comparison import Comparison
 from hlr.errors import OptionError, SourceError
+from hlr.pipeline.draw import draw_views
 from hlr.request.directions import axes, directed
-from hlr.request.options import View
+from hlr.request.options import Options, View
 from hlr.source import open_source
 
 TIME_LIMIT_S = 120.0
@@ -104,7 +105,7 @@ def compare_with_freecad(
     model: Any,
     view: View = "iso",
     *,
-    scale: float = 1.0,
+    scale: float | None = None,
     coarse: bool = False,
     tolerance_mm: float = 0.1,
     time_limit_s: float = TIME_LIMIT_S,
@@ -113,7 +114,7 @@ def compare_with_freecad(
 
     model         as of `hlr.draw`; it needs surfaces: FreeCAD draws no meshes
     view          as of `hlr.draw`
-    scale         paper to model, of both
+    scale         paper to model, of both; None: the one at which `hlr.draw` puts the view on a page
     coarse        by FreeCAD's coarse view, which is faster
     tolerance_mm  as of `compare`
     time_limit_s  seconds that FreeCAD may take
@@ -124,11 +125,15 @@ def compare_with_freecad(
     >>> compare_with_freecad("part.step", "front").summary  # doctest: +SKIP
     'same: 140 mm of lines'
     """
+    _command()
+    source = open_source(model)
+    if scale is None:
+        scale = draw_views(source, [view], Options())[0].scale
     drawn = drawn_by_freecad(model, view, scale=scale, coarse=coarse, time_limit_s=time_limit_s)
     with tempfile.TemporaryDirectory(prefix="hlr-") as folder:
         path = Path(folder) / f"FreeCAD {drawn.version}{', coarse' if coarse else ''}.svg"
         path.write_text(drawn.svg)
-        return compare(path, model, tolerance_mm=tolerance_mm, view=view)
+        return compare(path, source, tolerance_mm=tolerance_mm, view=view, scale=scale)
 
 
 def drawn_by_freecad(

@@ -61,7 +61,7 @@ def one(model: Path, view: str, coarse: bool, limit: float) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "FreeCAD.svg"
         path.write_text(theirs.svg)
-        return {**row, **told(compare(path, source, view=view))}
+        return {**row, **told(compare(path, source, view=view, scale=ours.scale))}
 
 
 def given(drawing: Path, models: list[Path]) -> dict[str, Any] | None:

@@ -1,6 +1,7 @@
 """Who is right where a drawing differs from its model: rays say so, for each kind of fault, and never the wrong way."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +19,8 @@ from hlr.source import open_source
 from support.drawings import line
 from support.fragments import fragment
 from support.models import box, parts
+
+SURFACES = Path(__file__).parent.parent / "data/freecad/box.step"
 
 
 def model():
@@ -99,13 +102,25 @@ def test_the_model_is_judged_too(drawn, tmp_path):
     wrong = longest(drawn.visible)
     before, after = sides_of(path, model(), 0.1, "iso")
     motion = side.motion
-    pieces = after.pieces.mapped(motion.matrix).shifted(np.array(motion.shift))
+    pieces = motion.applied(after.pieces)
     middle = wrong.points.mean(axis=0) + motion.shift
     near = np.hypot(*(0.5 * (pieces.start + pieces.end) - middle).T)
     spoilt = pieces.line == pieces.line[near.argmin()]
     after = replace(after, pieces=replace(pieces, visible=np.where(spoilt, 0, pieces.visible)))
     found = with_verdicts(judge(before, after, 0.1), before, after, motion, 0.1)
     assert {each.verdict for each in found.differences if each.kind == "visibility changed"} == {"first right"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("chord_mm", [0.06, 0.4])
+def test_straight_pieces_are_right_as_long_as_they_look_like_the_curve(chord_mm, tmp_path):
+    path = tmp_path / "other.svg"
+    path.write_text(fragment(hlr.draw(SURFACES, view="iso", scale=2, hidden=True), chord_mm=chord_mm))
+    bent = [each for each in compare(path, SURFACES, view="iso", scale=2).differences if each.kind == "polyline"]
+    assert sum(each.length_mm for each in bent) > 300
+    assert any(each.moved_mm > 0.1 for each in bent) == (chord_mm > 0.1)
+    for each in bent:
+        assert each.verdict == ("both right" if each.moved_mm <= 0.1 else "second right"), each
 
 
 @pytest.mark.slow

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from hlr.compare.lines.pieces import Floats
+from hlr.compare.lines.pieces import Floats, Pieces
 
 _QUARTERS = {
     0: ((1.0, 0.0), (0.0, 1.0)),
@@ -39,6 +39,15 @@ class Motion:
     def matrix(self) -> Floats:
         """(2, 2) what a point becomes before it is shifted: matrix @ point."""
         return self.scale * np.array(_QUARTERS[self.turn]) @ np.diag([-1.0 if self.mirrored else 1.0, 1.0])
+
+    def applied(self, pieces: Pieces) -> Pieces:
+        """Lines, laid down so."""
+        return pieces.mapped(self.matrix).shifted(np.array(self.shift))
+
+    def with_shift(self, shift: Floats) -> Motion:
+        """The same motion to another place, (2,) millimetres."""
+        x, y = shift.tolist()
+        return replace(self, shift=(x, y))
 
     @property
     def scales(self) -> bool:

@@ -66,6 +66,13 @@ class Pieces:
         new[1:] = self.line[1:] != self.line[:-1]
         return np.asarray(np.cumsum(new) - 1)
 
+    @property
+    def extent(self) -> Floats:
+        """(2,) width and height of the rectangle around all of them; zeros where there is none."""
+        if not len(self):
+            return np.zeros(2)
+        return np.asarray(np.maximum(self.start, self.end).max(axis=0) - np.minimum(self.start, self.end).min(axis=0))
+
     def ends_of_lines(self) -> tuple[Floats, Floats]:
         """(m,), (m,) where each line begins and ends when all are laid end to end."""
         if not len(self):

@@ -48,6 +48,9 @@ _MEETING = 20.0
 _BENT = 1.5 * CHORD_SHARE
 """Tolerances: straight pieces that lie farther off a curve are not the curve."""
 
+_ONE_WAY = 0.01
+"""Radians within which pieces have one direction."""
+
 _MOSTLY = 0.8
 """Share of a curve that lies beside straight pieces."""
 
@@ -128,7 +131,7 @@ def judged(before: Side, after: Side, tolerance_mm: float) -> Findings:
             twice = Rule(_TWICE * tolerance_mm, tolerance_mm, stage.same)
             left_a, left_b = once(left_a, twice)[0], once(left_b, twice)[0]
         else:
-            _changed(found, stage.kind, both, b, rule, before.about)
+            _changed(found, stage.kind, both, b, rule, (before.about, after.about))
         if stage.kind == "moved":
             found.moved = _ends(also)
         a, b = left_a, left_b
@@ -184,10 +187,11 @@ def _rank(found: Difference) -> tuple[int, float, float, float]:
     return KINDS.index(found.kind), -found.length_mm, *found.place
 
 
-def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, about: About) -> None:
+def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, abouts: tuple[About, About]) -> None:
     """Add the lines that have a partner in the second drawing, and what has become of them."""
     if not len(both):
         return
+    about, foreign = abouts[0], any(each.foreign for each in abouts)
     near, off = partners(both, b, rule)
     starts = np.flatnonzero(np.append(True, both.line[1:] != both.line[:-1]))
     for first, line in zip(starts, _lines(both), strict=True):
@@ -203,10 +207,18 @@ def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, a
         moved, named = 0.0, kind
         if kind == "moved" and weight.sum() > 0.0:
             moved = float((np.where(fits, off[first:last], 0.0) * weight).sum() / weight.sum())
-            if line.curved[0] != b.curved[best]:
+            pieces_beside = b.take(near[first:last][fits]) if line.curved[0] else line
+            if foreign and line.curved[0] != b.curved[best] and _straight(pieces_beside):
                 named, moved = "polyline", float(np.where(fits, off[first:last], 0.0).max())
                 became = "straight pieces" if line.curved[0] else "a curve"
         found.add(_difference(named, line, about, "before", became, moved), line)
+
+
+def _straight(pieces: Pieces) -> bool:
+    """Whether all pieces have one direction, as those of one chord have."""
+    ways = (pieces.end - pieces.start) / np.maximum(pieces.lengths, 1e-300)[:, None]
+    turned = (ways[:, 0] + 1j * ways[:, 1]) ** 2
+    return bool((np.abs(turned - turned[:1]) < 2.0 * _ONE_WAY).all())
 
 
 def _difference(

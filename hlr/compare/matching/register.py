@@ -38,7 +38,7 @@ def translation(
     )
     few, other = thinned(moving, most_pieces), fixed
     best, most, whole = np.zeros(2), -1.0, 2.0 * float(few.lengths.sum())
-    for guess in chain(apart(corners(moving, fixed), tolerance_mm), _peaks(moving, fixed) if search else ()):
+    for guess in chain(several(corners(moving, fixed), tolerance_mm), _peaks(moving, fixed) if search else ()):
         if most > _ALL * whole:
             break
         for shift in (guess, _fitted(few, other, guess, cell, tolerance_mm)):
@@ -49,7 +49,7 @@ def translation(
     return best, max(most, 0.0) / whole
 
 
-def apart(guesses: list[Floats], tolerance_mm: float) -> list[Floats]:
+def several(guesses: list[Floats], tolerance_mm: float) -> list[Floats]:
     """Those that are not nearly the same as one before them: fitting finds the rest."""
     found: list[Floats] = []
     for guess in guesses:

@@ -15,7 +15,8 @@ from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Floats, Index, Pieces
 from hlr.compare.lines.strays import without_strays
 from hlr.compare.matching.match import Rule, divided_by, partners
-from hlr.compare.matching.register import apart, corners, points_of, thinned, translation
+from hlr.compare.matching.register import corners, several, thinned, translation
+from hlr.compare.matching.scales import different, rectangle_scales, voted_scales
 
 _FEW, _SOME, _MANY = 300, 1_200, 6_000
 """Pieces that are looked at: to choose what is tried, to choose among that, and at the end."""
@@ -36,11 +37,11 @@ _FOUND = 0.5
 _BETTER = 1.02
 """Another way to lay it down has to be that much better, or lay all on all: as it lies comes first."""
 
-_LARGEST = 1e4
-"""Scale."""
-
 _SMALLEST = 10.0
 """Tolerances: a drawing that is not larger lies on everything."""
+
+_FITTED = 0.1
+"""Share of the scale by which fitting may change it."""
 
 _UNLIKE = 1e-3
 """Weight of straight pieces beside a curve."""
@@ -60,14 +61,14 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
     scale  where it is known; None: it is found
     """
     moving, fixed = without_strays(moving), without_strays(fixed)
-    if min(_size(moving), _size(fixed)) < _SMALLEST * tolerance_mm:
+    if min(moving.extent.max(), fixed.extent.max()) < _SMALLEST * tolerance_mm:
         return Registered(Motion(scale=scale or 1.0), 0.0)
     best = Registered(Motion(scale=scale or 1.0), -1.0)
     motions = _to_try(moving, fixed, tolerance_mm, scale)
     for search in (False, True):
         for motion in motions:
             shift, share = translation(moving.mapped(motion.matrix), fixed, tolerance_mm, _SOME, search)
-            found = Registered(replace(motion, shift=_pair(shift)), share)
+            found = Registered(motion.with_shift(shift), share)
             if scale is None:
                 found = _fitted(moving, fixed, found, tolerance_mm, _SOME)
             if found.share > best.share * _BETTER or found.share > _ENOUGH:
@@ -81,18 +82,18 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
 
 def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | None) -> list[Motion]:
     """The motions that lay bounding rectangles on one another best, without shifts: as it lies, then the best first."""
-    coarse = max(_COARSE * _size(fixed), tolerance_mm)
+    coarse = max(_COARSE * float(fixed.extent.max()), tolerance_mm)
     rule = Rule(coarse, coarse)
     found: list[tuple[float, Motion]] = []
-    few = thinned(moving, _FEW)
+    few, voted = thinned(moving, _FEW), [] if scale is not None else voted_scales(moving, fixed)
     for mirrored, turn in itertools.product((False, True), (0, 90, 180, 270)):
-        motion = Motion(mirrored, turn)
-        for factor in [scale] if scale is not None else _scales(moving.mapped(motion.matrix), fixed):
+        turned = moving.mapped(Motion(mirrored, turn).matrix)
+        for factor in [scale] if scale is not None else different([*voted, *rectangle_scales(turned, fixed)]):
             motion = Motion(mirrored, turn, factor)
             whole, some = moving.mapped(motion.matrix), few.mapped(motion.matrix)
             covered = max(
                 _length(divided_by(some.shifted(guess), fixed, rule)[0])
-                for guess in apart(corners(whole, fixed), coarse)
+                for guess in several(corners(whole, fixed), coarse)
             )
             found.append((covered / max(_length(some), 1e-12), motion))
     most = max(score for score, _ in found)
@@ -101,34 +102,25 @@ def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | N
     return sorted(tried, key=lambda motion: motion.mirrored or motion.turn != 0)
 
 
-def _scales(moving: Pieces, fixed: Pieces) -> list[float]:
-    """As large as it is, and as large as the other by width, by height and by length of line."""
-    sizes = [np.ptp(points_of(each), axis=0) for each in (moving, fixed)]
-    wide = [float(other / one) for one, other in zip(*sizes, strict=True) if min(one, other) > 1e-9]
-    found: list[float] = []
-    for factor in [1.0, *wide, _length(fixed) / max(_length(moving), 1e-12)]:
-        usable = 1.0 / _LARGEST < factor < _LARGEST
-        if usable and all(abs(factor / other - 1.0) > 2e-3 for other in found):
-            found.append(factor)
-    return found
-
-
 def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: float, most_pieces: int) -> Registered:
     """The scale and the shift, improved: lines are pulled across their direction onto those nearest to them."""
     some, motion = thinned(moving, most_pieces), start.motion
-    reach = max(_COARSE * _size(fixed), tolerance_mm)
+    reach = max(_COARSE * float(fixed.extent.max()), tolerance_mm)
     for _ in range(16):
-        moved = some.mapped(motion.matrix).shifted(np.array(motion.shift))
+        moved = motion.applied(some)
         near, _off = partners(moved, fixed, Rule(reach, tolerance_mm))
         which = np.flatnonzero(near >= 0)
         if len(which) < 3:
             return start
         scale, shift = _step(moved, fixed, which, near[which], reach)
-        motion = replace(motion, scale=motion.scale * scale, shift=_pair(scale * np.array(motion.shift) + shift))
+        larger = replace(motion, scale=motion.scale * scale)
+        motion = larger.with_shift(scale * np.array(motion.shift) + shift)
         if reach <= tolerance_mm and abs(scale - 1.0) < 1e-7 and float(np.hypot(*shift)) < 1e-5:
             break
         reach = max(0.5 * reach, tolerance_mm)
-    moved = thinned(moving, _SOME).mapped(motion.matrix).shifted(np.array(motion.shift))
+    if abs(motion.scale / start.motion.scale - 1.0) > _FITTED:
+        return start  # small enough, a drawing lies on any line
+    moved = motion.applied(thinned(moving, _SOME))
     share = covered_share(moved, fixed, tolerance_mm)
     return Registered(motion, share) if share >= start.share else start
 
@@ -157,14 +149,12 @@ def covered_share(moved: Pieces, fixed: Pieces, tolerance_mm: float) -> float:
     return sum(map(_length, close)) / max(2.0 * _length(moved), 1e-12)
 
 
-def _size(pieces: Pieces) -> float:
-    return float(np.ptp(points_of(pieces), axis=0).max()) if len(pieces) else 0.0
+def laid_share(one: Pieces, other: Pieces, tolerance_mm: float) -> float:
+    """How much of the length of both lies on the other, 0 to 1."""
+    lengths = _length(one), _length(other)
+    shares = [covered_share(thinned(some, _MANY), rest, tolerance_mm) for some, rest in ((one, other), (other, one))]
+    return float(np.dot(shares, lengths)) / max(sum(lengths), 1e-12)
 
 
 def _length(pieces: Pieces) -> float:
     return float(pieces.lengths.sum())
-
-
-def _pair(shift: Floats) -> tuple[float, float]:
-    x, y = shift.tolist()
-    return x, y

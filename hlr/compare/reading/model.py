@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,6 @@ import numpy as np
 
 from hlr.compare.lines.pieces import Pieces
 from hlr.compare.matching.match import Rule, divided_by
-from hlr.compare.matching.register import points_of
 from hlr.compare.reading.sides import Behind, Side, is_drawing, side_of
 from hlr.compare.reading.view import Fit, found_view
 from hlr.errors import OptionError
@@ -33,22 +33,42 @@ _DRAWN = 0.5
 """Share of the lines of one sort that the other drawing has, where it has such lines at all."""
 
 
-def sides_of(a: Any, b: Any, tolerance_mm: float, view: View | None) -> tuple[Side, Side]:
+def sides_of(a: Any, b: Any, tolerance_mm: float, view: View | None, scale: float | None = None) -> tuple[Side, Side]:
     """Read both sides. A model is drawn in this view, or, where none is said, in the one that the other side shows.
 
-    Raises SourceError where a side cannot be read, OptionError for a view where no side is a model.
+    scale  of a drawing that does not say it itself
+
+    Raises SourceError where a side cannot be read, OptionError for a view where no side is a model, and for a scale
+    where no side is a drawing that does not say its own.
     """
     drawn = is_drawing(a), is_drawing(b)
+    if view is not None and all(drawn):
+        raise OptionError("a view is said, and both sides are drawings already: leave it out, or name a model")
+    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
+        raise OptionError(f"the scale is {scale!r}: give a positive number, paper to model")
     if all(drawn):
-        if view is not None:
-            raise OptionError("a view is said, and both sides are drawings already: leave it out, or name a model")
-        return side_of(a, tolerance_mm), side_of(b, tolerance_mm)
+        one, other = side_of(a, tolerance_mm), side_of(b, tolerance_mm)
+        return _with_scale((one, other), scale)  # type: ignore[return-value]
     if not any(drawn):
+        _with_scale((), scale)
         one = side_of_model(a, None, tolerance_mm, view)
         return one, side_of_model(b, None, tolerance_mm, view)
-    other = side_of(a if drawn[0] else b, tolerance_mm)
+    (other,) = _with_scale((side_of(a if drawn[0] else b, tolerance_mm),), scale)
     model = side_of_model(b if drawn[0] else a, other, tolerance_mm, view)
     return (other, model) if drawn[0] else (model, other)
+
+
+def _with_scale(sides: tuple[Side, ...], scale: float | None) -> tuple[Side, ...]:
+    """The drawings, with this scale where they do not say theirs."""
+    if scale is None:
+        return sides
+    silent = [side.about.scale is None and not side.about.views for side in sides]
+    if not any(silent):
+        raise OptionError("a scale is said, and no side is a drawing that does not say its own: leave the scale out")
+    return tuple(
+        replace(side, about=replace(side.about, scale=scale)) if here else side
+        for side, here in zip(sides, silent, strict=True)
+    )
 
 
 def side_of_model(given: Any, other: Side | None, tolerance_mm: float, view: View | None) -> Side:
@@ -74,16 +94,12 @@ def _options(other: Side | None, tolerance_mm: float) -> Options:
     if other is None:
         return Options()
     # A drawing of hlr was drawn with the usual accuracy, if nothing else was asked for.
-    finest = _FINEST * _size(other.pieces)
+    finest = _FINEST * float(other.pieces.extent.max())
     accuracy = max(ACCURACY_SHARE * tolerance_mm, finest) if other.about.foreign else None
     kinds, visible = other.pieces.kind, other.pieces.visible
     shown = {row.option: bool(np.isin(kinds, (row.number, -1)).any()) for row in optional() if row.option}
     hidden = bool((visible < 1).any())
     return Options(accuracy=accuracy, hidden=hidden, details=other.about.foreign, **shown)  # type: ignore[arg-type]
-
-
-def _size(pieces: Pieces) -> float:
-    return float(np.ptp(points_of(pieces), axis=0).max()) if len(pieces) else 0.0
 
 
 def _nice(scale: float) -> float:

@@ -7,7 +7,7 @@ All shifts of one over the other are tried at once by Fourier transform. What is
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +18,7 @@ from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.pieces import Floats, Pieces
 from hlr.compare.lines.strays import without_strays
 from hlr.compare.matching.register import points_of
+from hlr.compare.matching.scales import different, voted_scales
 from hlr.compare.reading.sides import Side, side_of
 from hlr.pipeline.draw import draw_views
 from hlr.request.directions import NAMED
@@ -63,34 +64,53 @@ def found_view(source: Source, options: Options, other: Side, views: Sequence[Vi
     drawn = [without_strays(side_of(drawing, coarse).pieces) for drawing in draw_views(source, tried, rough)]
     shown = without_strays(other.pieces)
     apart = bool((shown.visible >= 0).all())
-    fixed = _Picture.of(shown, _diagonal(shown) / _CELLS, apart)
-    laid = []
-    for view, pieces in zip(tried, drawn, strict=True):
-        factor = _diagonal(shown) / max(_diagonal(pieces), 1e-12) if known is None else 1.0
-        for mirrored, turn in itertools.product((False, True), (0, 90, 180, 270)):
-            moved = pieces.mapped(Motion(mirrored, turn, factor).matrix)
-            laid.append((_unlike(moved, shown), Fit(view, (known or 1.0) * factor), moved, mirrored + bool(turn)))
-    most_unlike = max(_SAME_BOX, 2.0 * min(unlike for unlike, *_ in laid))
+    fixed = _Picture.of(shown, float(np.hypot(*shown.extent)) / _CELLS, apart)
+    laid = [
+        each
+        for view, pieces in zip(tried, drawn, strict=True)
+        for each in _laid(Fit(view, known or 1.0), pieces, shown, known)
+    ]
+    most_unlike = max(_SAME_BOX, 2.0 * min(each.unlike for each in laid))
     best, most = Fit(tried[0], known or 1.0), -1.0
-    for unlike, fit, moved, motions in laid:
-        if unlike > most_unlike:
+    for each in laid:
+        if each.unlike > most_unlike:
             continue
-        share = fixed.likeness(_Picture.of(moved, fixed.cell, apart)) - _MOVED * motions
+        share = fixed.likeness(_Picture.of(each.pieces, fixed.cell, apart)) - _MOVED * each.motions
         if share > most + _BETTER:
-            best, most = fit, share
+            best, most = each.fit, share
     return best
+
+
+@dataclass(frozen=True, slots=True)
+class _Laid:
+    """A view as it may lie. unlike: how much its rectangle differs; motions: whether mirrored, and whether turned."""
+
+    fit: Fit
+    pieces: Pieces
+    unlike: float
+    motions: int
+
+
+def _laid(fit: Fit, pieces: Pieces, shown: Pieces, known: float | None) -> Iterator[_Laid]:
+    """A view in all ways to lay it down, at the scales that are likely where none is known."""
+    voted, factors = [], [1.0]
+    if known is None:
+        voted = voted_scales(pieces, shown)
+        one, other = (float(np.hypot(*each.extent)) for each in (pieces, shown))
+        factors = different([*voted, other / max(one, 1e-12)])
+    for factor, mirrored, turn in itertools.product(factors, (False, True), (0, 90, 180, 270)):
+        moved = pieces.mapped(Motion(mirrored, turn, factor).matrix)
+        # Rectangles say nothing where one drawing has lines that the other has not: a scale that lines say counts.
+        unlike = 0.0 if factor in voted else _unlike(moved, shown)
+        yield _Laid(Fit(fit.view, fit.scale * factor), moved, unlike, mirrored + bool(turn))
 
 
 def _unlike(one: Pieces, other: Pieces) -> float:
     """How much the rectangles around two drawings differ; 0.1: one is a tenth wider or higher."""
     if not len(one) or not len(other):
         return np.inf
-    a, b = (np.ptp(points_of(each), axis=0) for each in (one, other))
+    a, b = one.extent, other.extent
     return float(np.abs(a - b).max() / max(float(b.max()), 1e-12))
-
-
-def _diagonal(pieces: Pieces) -> float:
-    return float(np.hypot(*np.ptp(points_of(pieces), axis=0))) if len(pieces) else 0.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
