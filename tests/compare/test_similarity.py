@@ -10,6 +10,7 @@ from hlr.compare import compare
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.strays import without_strays
 from hlr.compare.reading.sides import side_of
+from support.drawings import drawing, line
 
 BOX = Path(__file__).parent.parent / "data/freecad/box_iso.svg"
 MODEL = BOX.with_name("box.step")
@@ -112,3 +113,15 @@ def test_a_line_to_nowhere_says_nothing_of_the_size(tmp_path):
     found = compare(BOX, stray)
     assert kinds(found) == {"new"} and not found.motion.words()
     assert len(without_strays(side_of(stray, 0.1).pieces)) == len(side_of(BOX, 0.1).pieces)
+
+
+def test_lines_along_which_a_drawing_can_slide_are_not_enough(tmp_path):
+    """FreeCAD drew loose edges beside a bent sheet: its long lines lay on ours, all others 6 mm beside them."""
+    long = [((0, y), (100, y)) for y in range(0, 30, 5)]
+    short = [((x, 0), (x, 25)) for x in (0, 31, 47, 68, 100)]
+    loose = [((-14, 0), (0, 0)), ((100, 0), (102, 0))]
+    path = tmp_path / "theirs.svg"
+    body = "".join(f'<path d="M {a + 40} {-b - 7} L {c + 40} {-d - 7}"/>' for (a, b), (c, d) in [*long, *short, *loose])
+    path.write_text(f'<g stroke="#000" stroke-width="0.7" fill="none">{body}</g>')
+    found = compare(path, drawing([line(ends) for ends in [*long, *short]]), scale=1.0)
+    assert found.shift == (40.0, 7.0) and found.lengths_mm["gone"] == pytest.approx(16.0, abs=0.2), found

@@ -31,8 +31,8 @@ _AS_GOOD = 0.85
 _ENOUGH = 0.995
 """Share of the length: nothing better will come."""
 
-_FOUND = 0.5
-"""Share of the length: the place is found, and need not be searched for."""
+_FOUND = 0.9
+"""Share of the length: the place need not be searched for. Less may be lines of one direction, which slide along."""
 
 _BETTER = 1.02
 """Another way to lay it down has to be that much better, or lay all on all: as it lies comes first."""
