@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from hlr.common.types import Floats, Ints
+from hlr.compare.verdict.turning import turning_edges
 from hlr.drawing.drawing import Drawing
 from hlr.image.camera import Camera
 from hlr.request.accuracy import ANGLE
@@ -70,7 +71,7 @@ class TrueLines:
             return None
         image = camera.project(scene.points) * (per_model, per_model, -per_model)
         image[:, :2] -= drawing.origin
-        edges, kind = _drawn(scene, image)
+        edges, kind = _drawn(scene, image, error)
         return TrueLines(
             image,
             scene.triangles,
@@ -88,22 +89,15 @@ def _crease(drawing: Drawing) -> float:
     return 30.0 if drawing.request is None else drawing.request.options.crease
 
 
-def _drawn(scene: Scene, image: Floats) -> tuple[Ints, npt.NDArray[np.int64]]:
+def _drawn(scene: Scene, image: Floats, error_mm: float) -> tuple[Ints, npt.NDArray[np.int64]]:
     """(m, 2), (m,) the mesh edges that are edges of the model or lie along its outlines, and their line classes.
 
     An outline runs where the surface turns away from the viewer: between a triangle that faces him and one that does
     not. On a fine mesh that is as near to the true outline as the mesh is to the surface.
     """
-    corners = image[scene.triangles][:, :, :2]
-    ab, ac = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    faces = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0] > 0.0
     kind = scene.edge_kind.astype(np.int64)
-    two = np.flatnonzero(np.diff(scene.offsets) == 2)
-    first = scene.offsets[two]
-    turns = np.zeros(len(kind), bool)
-    turns[two] = faces[scene.incident[first]] != faces[scene.incident[first + 1]]
     surface = np.isin(kind, (INTERIOR, EdgeClass.SMOOTH, EdgeClass.SEAM))
-    kind[turns & surface] = EdgeClass.OUTLINE
+    kind[turning_edges(scene, image, error_mm) & surface] = EdgeClass.OUTLINE
     drawn = kind != INTERIOR
     return scene.edges[drawn], kind[drawn]
 
