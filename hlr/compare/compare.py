@@ -96,12 +96,13 @@ def compare(
         motion = _motion(before, after, tolerance_mm, register)
     if motion is not None:
         after = replace(after, pieces=motion.applied(after.pieces))
+    shown = before.pieces, after.pieces
     before, after = without_undrawn(before, after, tolerance_mm), without_undrawn(after, before, tolerance_mm)
     findings, laid = judged(before, after, tolerance_mm), None
     if motion is not None and (before.about.foreign or after.about.foreign):
         laid = laid_share(before.pieces, after.pieces, tolerance_mm)
     if laid is None or laid >= ENOUGH_LAID:
-        findings, laid = with_verdicts(findings, before, after, motion, tolerance_mm), None
+        findings, laid = with_verdicts(findings, before, after, motion, tolerance_mm, shown), None
     return Comparison.of(before, after, findings, tolerance_mm, motion=motion, scales=scales, badly_laid=laid)
 
 

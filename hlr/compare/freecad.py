@@ -69,16 +69,14 @@ view.CoarseView = job["coarse"]
 page.addView(view)
 started = time.time()
 document.recompute()
-# Later versions remove hidden lines in another thread, which tells its result through the queue of events.
-for _ in range(job["waits"]):
-    if view.getVisibleEdges() or FreeCAD.Version()[:2] == ["0", "20"]:
-        break
-    try:
-        from PySide import QtCore
-        QtCore.QCoreApplication.processEvents()
-    except ImportError:
-        pass
-    time.sleep(0.05)
+# From 0.21 on hidden lines are removed in another thread. It tells its result through Qt's queue of events, which
+# somebody has to work through: without a window FreeCAD has none.
+if FreeCAD.Version()[:2] != ["0", "20"]:
+    from PySide import QtCore
+    events = QtCore.QCoreApplication.instance() or QtCore.QCoreApplication([])
+    while not view.getVisibleEdges() and time.time() - started < job["seconds"]:
+        events.processEvents()
+        time.sleep(0.02)
 seconds = time.time() - started
 lines = len(view.getVisibleEdges()) + len(view.getHiddenEdges())
 answer = {
@@ -156,7 +154,6 @@ def drawn_by_freecad(
             "right": right,
             "scale": scale,
             "coarse": coarse,
-            "waits": int(20 * min(time_limit_s, _LONGEST_S)),
             "seconds": math.ceil(min(time_limit_s, _LONGEST_S)) + 1,
         }
         (folder / "template.svg").write_text(_TEMPLATE)

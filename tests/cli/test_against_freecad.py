@@ -21,7 +21,9 @@ def test_what_is_refused_is_two(hlr_real, monkeypatch):
 @pytest.mark.slow
 def test_both_are_compared(hlr_real, tmp_path):
     out = tmp_path / "d.json"
-    result = hlr_real("compare", "--against", "freecad", SCREW, "--view", "right", "--coarse", "-o", str(out))
+    result = hlr_real(
+        "compare", "--against", "freecad", SCREW, "--view", "right", "--coarse", "--scale", "1", "-o", str(out)
+    )
     found = json.loads(out.read_text())
     assert result.code in (0, 1) and result.err == "", result
     assert found["before"].startswith("FreeCAD ") and found["before"].endswith(", coarse.svg")

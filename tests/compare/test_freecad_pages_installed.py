@@ -16,8 +16,11 @@ SCRIPT = Path(__file__).parents[1] / "support" / "freecad_makes_pages.py"
 OURS_ONLY = {"arrays": 85.0}
 """Millimetres of a view: where bricks of an array pass through one another, FreeCAD draws no line."""
 
-THEIRS_ONLY = {"arrays": 7.0, "linked_groups": 41.0, "projection_group": 41.0, "turned_bodies": 12.0}
-"""Hidden lines that lie closer to visible ones than a pen is wide, and edges within a plane, which are seams to hlr."""
+THEIRS_ONLY = {"arrays": 7.0, "linked_groups": 41.0, "projection_group": 47.0, "turned_bodies": 12.0}
+"""Hidden lines that lie closer to visible ones than a pen is wide, and edges within a plane, which are seams to hlr.
+
+With FreeCAD 1.0.0 also visible ones of those.
+"""
 
 
 @needs_freecad

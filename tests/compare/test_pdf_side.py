@@ -95,8 +95,9 @@ def test_dashes_are_hidden_lines_and_chains_are_axes(tmp_path):
     assert side_of(path, 0.1).about.left_out == {"centre lines": 1}
 
 
-def test_of_freecad_s_pages_the_hairlines_are_the_edges(tmp_path):
-    commands = b"1 J 2 j 0 w 0 0 m 72 0 l S .35 w 0 72 m 72 72 l S"
+@pytest.mark.parametrize("width", [b"0", b"7"], ids=["0.20", "1.0"])
+def test_of_freecad_s_pages_the_lines_with_their_join_are_the_edges(width, tmp_path):
+    commands = b"1 J 2 j %s w 0 0 m 72 0 l S 1 j .35 w 0 72 m 72 72 l S" % width
     assert rows(file(tmp_path, commands, "Qt 5.15.8")) == [(-1, 0, 0, 25, 0)]
     assert len(rows(file(tmp_path, commands, "another"))) == 2
 

@@ -4,6 +4,7 @@ Links in groups, arrays, scaled links, projection groups, and bodies in turned p
 """
 
 import os
+import time
 
 import FreeCAD
 import TechDraw
@@ -139,15 +140,28 @@ def projection_group(document, page):
     group = document.addObject("TechDraw::DrawProjGroup", "Group")
     page.addView(group)
     group.Source = [cut]
+    group.ScaleType, group.Scale = "Custom", 0.5  # before the views: 1.0 draws none anew for it
     group.addProjection("Front")
     group.Anchor.Direction, group.Anchor.XDirection, group.Anchor.RotationVector = V(0, -1, 0), V(1, 0, 0), V(1, 0, 0)
     for name in ("Left", "Right", "Top", "Bottom", "FrontTopRight"):
         group.addProjection(name)
     group.ProjectionType = "Third Angle"
-    group.ScaleType, group.Scale = "Custom", 0.5
     group.X, group.Y = 200, 150
     for each in group.Views:
         each.HardHidden = True
+
+
+def wait_for(view):
+    """From 0.21 on another thread removes hidden lines, and says so through Qt's queue of events."""
+    if FreeCAD.Version()[:2] == ["0", "20"]:
+        return
+    from PySide import QtCore
+
+    events = QtCore.QCoreApplication.instance() or QtCore.QCoreApplication([])
+    until = time.time() + 20
+    while not view.getVisibleEdges() and time.time() < until:
+        events.processEvents()
+        time.sleep(0.02)
 
 
 def main():
@@ -163,6 +177,7 @@ def main():
         os.makedirs(folder, exist_ok=True)
         for thing in document.Objects:
             if thing.isDerivedFrom("TechDraw::DrawViewPart"):
+                wait_for(thing)
                 with open(os.path.join(folder, f"{make.__name__}.{thing.Name}.frag.svg"), "w") as file:
                     file.write(TechDraw.viewPartAsSvg(thing))
         document.saveAs(os.path.join(folder, f"{make.__name__}.FCStd"))

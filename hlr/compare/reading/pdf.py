@@ -2,7 +2,7 @@
 
 A file of ours names the layer of each line: its class, and whether it is visible. In others dashed lines are hidden and
 those without dashes visible; where none is dashed, nothing is known. FreeCAD's pages, which Qt writes, have the edges
-of views as hairlines, and all else with a width.
+of views with another join than all else.
 """
 
 from __future__ import annotations
@@ -130,4 +130,4 @@ def _read_other(paths: Any, left_out: Counter[str], sketch: Sketch, by_qt: bool)
 
 
 def _is_edge_of_freecad(line: Drawn) -> bool:
-    return line.width == 0.0 and (line.cap, line.join) == (_ROUND, _BEVEL)
+    return (line.cap, line.join) == (_ROUND, _BEVEL)

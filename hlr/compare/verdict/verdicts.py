@@ -14,7 +14,7 @@ import numpy as np
 from hlr.common.types import Floats
 from hlr.compare.difference import Difference, Verdict, told
 from hlr.compare.lines.motion import Motion
-from hlr.compare.lines.pieces import Index
+from hlr.compare.lines.pieces import Index, Pieces
 from hlr.compare.matching.judge import Findings
 from hlr.compare.reading.sides import Behind, Side
 from hlr.compare.verdict.drawn import Shown, nearest
@@ -63,9 +63,19 @@ class Answer:
 
 
 def with_verdicts(
-    found: Findings, before: Side, after: Side, motion: Motion | None, tolerance_mm: float, threads: int = 0
+    found: Findings,
+    before: Side,
+    after: Side,
+    motion: Motion | None,
+    tolerance_mm: float,
+    shown: tuple[Pieces, Pieces] | None = None,
+    *,
+    threads: int = 0,
 ) -> Findings:
-    """The differences with verdicts, where one side is a model and the other a drawing of it."""
+    """The differences with verdicts, where one side is a model and the other a drawing of it.
+
+    shown  all lines of both, also those that were left out of the comparison: a visible one hides what runs under it
+    """
     side = before if before.behind is not None else after
     if side.behind is None or (before.behind is not None and after.behind is not None):
         return found
@@ -75,7 +85,8 @@ def with_verdicts(
         return found
     motion = motion if side is after and motion is not None else Motion()
     whose, points, ways = _samples([found.traces[n] for n in chosen])
-    shown = Shown.of(before.pieces, points, tolerance_mm), Shown.of(after.pieces, points, tolerance_mm)
+    one, other = shown or (before.pieces, after.pieces)
+    drawn = Shown.of(one, points, tolerance_mm), Shown.of(other, points, tolerance_mm)
     at = _Asked(model, side.behind, motion, tolerance_mm, threads)
     known = at(points, ways)
     differences = list(found.differences)
@@ -86,7 +97,7 @@ def with_verdicts(
             far, place = nearest(after.pieces, points[here], _FARTHEST * each.moved_mm)
             verdict, reason = _moved(each, known.away[here], at(place, ways[here]).away[np.isfinite(far)])
         else:
-            verdict, reason = _seen(each, known, here, shown)
+            verdict, reason = _seen(each, known, here, drawn)
         differences[number] = replace(each, verdict=verdict, reason=reason)
     return replace(found, differences=[_polyline(each, tolerance_mm) for each in differences])
 
