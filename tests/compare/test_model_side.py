@@ -75,3 +75,13 @@ def test_what_cannot_be_compared_is_refused(model, tmp_path):
         compare(drawn, tmp_path / "none.stl")
     with pytest.raises(SourceError):
         compare(drawn, object())
+
+
+def test_hidden_lines_that_were_left_out_by_mistake_are_differences(model, tmp_path):
+    """A drawing that has one hidden line draws hidden lines: those that it lacks are missing."""
+    drawn = hlr.draw(model, view="iso", scale=1, hidden=True)
+    path = tmp_path / "a.svg"
+    path.write_text(fragment(drawn, keep=lambda line: line.visible or line is drawn.hidden[0]))
+    found = compare(path, model, view="iso")
+    assert {(each.kind, each.visible) for each in found.differences} == {("new", False)}
+    assert len(found.differences) == len(drawn.hidden) - 1

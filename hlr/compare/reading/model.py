@@ -118,7 +118,9 @@ def without_undrawn(model: Side, other: Side, tolerance_mm: float) -> Side:
     pieces, left_out = model.pieces, dict(model.about.left_out)
     choice = np.array([row.option is not None and row.occt != "sharp" for row in by_number()])[pieces.kind]
     always = pieces.take(~choice & (pieces.visible == 1))
-    sorts = [("hidden lines", ~choice & (pieces.visible == 0))]
+    sorts = []
+    if not (other.pieces.visible == 0).any():  # else it draws hidden lines, and may have left some out by mistake
+        sorts.append(("hidden lines", ~choice & (pieces.visible == 0)))
     for row in optional():
         for before, visible in (("", 1), ("hidden ", 0)):
             sorts.append((f"{before}{row.title}", choice & (pieces.kind == row.number) & (pieces.visible == visible)))
