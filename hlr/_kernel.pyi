@@ -601,7 +601,7 @@ class BrepModel:
         self, deflection: float, angle: float, progress: Callable[[float], None] | None = None, threads: int = 0
     ) -> BrepMesh:
         """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
-        faces that are done."""
+        faces that are done. Raises MemoryError where there would be more than 8 million points."""
 
 class BrepMesh:
     """The mesh of a model at one chord error (model units) and turning angle (radians)."""

@@ -31,6 +31,7 @@ No other module of Python defines a number of this kind. Shares that the kernel 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -280,8 +281,10 @@ def derive(accuracy: float, per_model: float, diagonal: float, *, brep: bool) ->
         )
     finest = diagonal * (FINEST_BREP if brep else FINEST_MESH)
     if accuracy < finest:
+        digit = 10.0 ** math.floor(math.log10(finest))
+        given = math.ceil(finest / digit) * digit  # rounded up: the number that is named has to be accepted
         raise OptionError(
-            f"accuracy {accuracy:g} mm is too fine for a drawing of {diagonal:.3g} mm: give at least {finest:.1g}"
+            f"accuracy {accuracy:g} mm is too fine for a drawing of {diagonal:.3g} mm: give at least {given:.1g}"
         )
     model = accuracy / per_model
     deflection = TESSELLATION * model

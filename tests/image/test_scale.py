@@ -157,6 +157,13 @@ def test_an_accuracy_that_cannot_be_kept(accuracy, words):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("size", [0.7, 30.0, 433.0, 61_400.0])
+def test_the_accuracy_that_a_refusal_names_is_accepted(size):
+    with pytest.raises(OptionError, match="give at least") as caught:
+        hlr.draw(box((size, size, size)), "front", accuracy=1e-13, **AT_SIZE)
+    hlr.draw(box((size, size, size)), "front", accuracy=float(str(caught.value).split()[-1]), **AT_SIZE)
+
+
 def test_a_model_without_extent_is_refused():
     with pytest.raises(hlr.SourceError):
         hlr.draw(([[1, 1, 1]], [[0, 0, 0]]), "front", **AT_SIZE)

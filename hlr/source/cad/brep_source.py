@@ -188,10 +188,15 @@ class BrepSource:
         """Tessellate: chord error at most `deflection` (millimetres), turning per chord at most `angle` (radians).
 
         Raises:
-            SourceError: no part could be meshed.
+            SourceError: no part could be meshed, or it would have too many triangles.
         """
         surfaces = self._part_tessellator
-        tables, faults = surfaces.mesh(deflection, angle, progress)
+        try:
+            tables, faults = surfaces.mesh(deflection, angle, progress)
+        except MemoryError:
+            raise SourceError(
+                f"{self._name} would have more than 16 million triangles: give a coarser accuracy, or a smaller scale."
+            ) from None
         number = {prototype: i for i, prototype in enumerate(self._used_prototypes)}
         starts = tables.triangle_start
         counts = (starts[1:] - starts[:-1]).tolist()

@@ -20,8 +20,22 @@ const MOST_ROUNDS: usize = 12;
 /// Limit on the rounds for a face without a proof of its chord error: either its chords or its surface may be the
 /// reason.
 const ROUNDS_UNCERTIFIED: usize = 3;
+/// Points of all edges, and of all faces: 16 million triangles, about 4 GB of a drawing.
+pub const MOST_POINTS: usize = 8_000_000;
+/// Size of a face by the chord error: from here on the wish is the reason that a face needs too many points. Below,
+/// its surface is, and another mesher may fare better.
+const COARSEST_ABSURD: f64 = 1e5;
 /// An edge with more corners is not divided any further.
 const MOST_CORNERS: usize = 100_000;
+
+/// Why there is no mesh.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ended {
+    /// The caller stopped the work.
+    Stopped,
+    /// The mesh would have more points than the limit.
+    TooFine,
+}
 
 pub struct Tessellation {
     /// Polylines by edge; None for an edge without any curve.
@@ -46,15 +60,63 @@ pub struct Watch<'a> {
     pub done: &'a AtomicUsize,
 }
 
-/// The mesh of a model for a chord error and a turning angle in radians; None if it was stopped.
-pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> Option<Tessellation> {
+/// The mesh of a model for a chord error and a turning angle in radians, with at most `most_points` points, which is
+/// `MOST_POINTS` but for tests.
+pub fn tessellate(
+    model: &Model,
+    deflection: f64,
+    angle: f64,
+    most_points: usize,
+    watch: &Watch,
+) -> Result<Tessellation, Ended> {
+    let used = AtomicUsize::new(0);
+    let full = || used.load(Ordering::Relaxed) > most_points;
+    let stopped = || full() || (watch.stopped)();
+    let limited = Watch { stopped: &stopped, done: watch.done };
+    let made = meshed(model, deflection, angle, &used, &limited);
+    // Points are only ever added, and each edge and face has as many on any number of threads.
+    if full() {
+        return Err(Ended::TooFine);
+    }
+    let made = made.ok_or(Ended::Stopped)?;
+    let refused = |(i, face): (usize, &MeshedFace)| {
+        face.fault == Some(Fault::TooFine) && extent(&model.faces[i], &made.lines) > COARSEST_ABSURD * deflection
+    };
+    if made.faces.iter().enumerate().any(refused) { Err(Ended::TooFine) } else { Ok(made) }
+}
+
+/// The diagonal of the box around the border of a face.
+fn extent(face: &Face, lines: &[Option<Polyline>]) -> f64 {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    let border = face.wires.iter().flatten().filter_map(|used| lines[used.edge as usize].as_ref());
+    for point in border.flat_map(|line| &line.points) {
+        for k in 0..3 {
+            low[k] = low[k].min(point[k]);
+            high[k] = high[k].max(point[k]);
+        }
+    }
+    (0..3).map(|k| (high[k] - low[k]).max(0.0).powi(2)).sum::<f64>().sqrt()
+}
+
+/// The mesh; None if it was stopped. `used`: points so far.
+fn meshed(model: &Model, deflection: f64, angle: f64, used: &AtomicUsize, watch: &Watch) -> Option<Tessellation> {
     let shares = shares_of_edges(model);
     let mut lines: Vec<Option<Polyline>> = model
         .edges
         .par_iter()
         .zip(&shares)
-        .map(|(edge, share)| polyline(model, edge, share * deflection, angle))
+        .map(|(edge, share)| {
+            if (watch.stopped)() {
+                return None;
+            }
+            let line = polyline(model, edge, share * deflection, angle);
+            used.fetch_add(line.as_ref().map_or(0, |line| line.points.len()), Ordering::Relaxed);
+            line
+        })
         .collect();
+    if (watch.stopped)() {
+        return None;
+    }
     let faces_of = faces_of_edges(model);
     let mut faces: Vec<MeshedFace> = vec![MeshedFace::default(); model.faces.len()];
     let mut wanted: Vec<usize> = (0..model.faces.len()).collect();
@@ -71,6 +133,8 @@ pub fn tessellate(model: &Model, deflection: f64, angle: f64, watch: &Watch) -> 
                 let steps = Progress::new(watch.stopped, Some(Done { all: watch.done, face: &told[i] }));
                 let face = &model.faces[i];
                 let tried = steps.watched(|| try_face(model, face, &lines, deflection, angle, divisible, &steps))?;
+                let (now, before) = (tried.face.mesh.points.len(), faces[i].mesh.points.len());
+                used.fetch_add(now.saturating_sub(before), Ordering::Relaxed);
                 if !tried.waits {
                     steps.reached(1.0);
                 }
@@ -273,6 +337,33 @@ impl std::fmt::Display for Fault {
             Fault::Degenerate => write!(f, "its surface has no normal"),
             Fault::TooFine => write!(f, "it would need too many points"),
             Fault::NotCertified(error) => write!(f, "its chord error may be {error:.3e}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CYLINDER: &[u8] = include_bytes!("../tests/cylinder_4.bin");
+
+    /// The number of triangles, on so many threads.
+    fn triangles(threads: usize, deflection: f64, most_points: usize) -> Result<usize, Ended> {
+        let model = Model::read(CYLINDER, None).unwrap();
+        let watch = Watch { stopped: &|| false, done: &AtomicUsize::new(0) };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let made = pool.install(|| tessellate(&model, deflection, 0.5, most_points, &watch))?;
+        Ok(made.faces.iter().map(|face| face.mesh.triangles.len()).sum())
+    }
+
+    #[test]
+    fn a_mesh_with_too_many_points_is_refused_on_any_number_of_threads() {
+        for threads in [1, 4] {
+            assert!(triangles(threads, 1e-6, MOST_POINTS).unwrap() > 5_000);
+            for most in [0, 100, 2_000, 10_000] {
+                assert_eq!(triangles(threads, 1e-6, most), Err(Ended::TooFine));
+            }
+            assert_eq!(triangles(threads, 0.01, 1_000), triangles(1, 0.01, MOST_POINTS));
         }
     }
 }

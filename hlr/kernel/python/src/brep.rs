@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows as rows_of};
@@ -18,7 +18,7 @@ use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
 use hlr_brep::model::Model;
 use hlr_brep::shapes::Face;
-use hlr_brep::tessellate::{Tessellation, Watch, tessellate};
+use hlr_brep::tessellate::{Ended, MOST_POINTS, Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
 
 type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
@@ -113,7 +113,8 @@ impl BrepModel {
         Ok((kind.into_pyarray(py), range, offsets.into_pyarray(py), values.into_pyarray(py)))
     }
 
-    /// Meshes all faces. `progress`: called with the share of faces that are done.
+    /// Meshes all faces. `progress`: called with the share of faces that are done. A MemoryError: there would be more
+    /// points than the limit.
     #[pyo3(signature = (deflection, angle, progress = None, threads = 0))]
     fn mesh(
         &self,
@@ -132,13 +133,17 @@ impl BrepModel {
             let share = done.load(Ordering::Relaxed) as f64 / (OF_A_FACE * model.faces.len().max(1)) as f64;
             progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (share,)).map(|_| ()))
         };
-        let work =
-            |stopped: &(dyn Fn() -> bool + Sync)| tessellate(model, deflection, angle, &Watch { stopped, done: &done });
+        let work = |stopped: &(dyn Fn() -> bool + Sync)| {
+            tessellate(model, deflection, angle, MOST_POINTS, &Watch { stopped, done: &done })
+        };
         // A face costs as much as many points; one that bends both ways may have any number inside.
         let bent = |face: &Face| face.surface.as_ref().is_some_and(bends_both_ways);
         let size = 100 * model.faces.len() + if model.faces.iter().any(bent) { FEW } else { 0 };
         let meshed = run_telling(py, threads, size, tell, work)?;
-        let meshed = meshed.ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
+        let meshed = meshed.map_err(|ended| match ended {
+            Ended::Stopped => PyKeyboardInterrupt::new_err("stopped"),
+            Ended::TooFine => PyMemoryError::new_err("the mesh would have too many points"),
+        })?;
         Ok(BrepMesh { model: model.clone(), meshed: Mutex::new(meshed) })
     }
 }
