@@ -17,7 +17,8 @@ from hlr import _kernel
 from hlr.compat.cadquery_options import DEFAULT_DIRECTION, PictureOptions
 from hlr.compat.viewport import ViewportDrawing
 from hlr.drawing.drawing import Drawing
-from hlr.tables.line_classes import by_number
+from hlr.drawing.lines import Lines, held
+from hlr.tables.line_classes import EdgeClass, by_number
 from hlr.writers.number import number
 from hlr.writers.strokes import strokes
 
@@ -70,8 +71,8 @@ class Page:
 def lay_out(picture: ViewportDrawing, options: PictureOptions) -> Page:
     """Size, scale and place of a drawing as CadQuery chooses them."""
     drawing = picture.drawing
-    lines = tuple(line for line in drawing.lines if line.visible or line.kind != "smooth")
-    drawing = replace(drawing, lines=lines)
+    whole = held(drawing.lines)
+    drawing = replace(drawing, lines=Lines(whole.chosen(whole.visible() | (whole.kinds() != EdgeClass.SMOOTH))))
     x0, y0, x1, y1 = drawing.bounds
     scale = options.unit_scale(x1 - x0, y1 - y0)
     width, height = options.size(x1 - x0, y1 - y0)

@@ -11,14 +11,17 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from numbers import Real
 from typing import Any
 
 import numpy as np
 
+from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.line import Line, Points
+from hlr.drawing.lines import Lines, held
 from hlr.errors import OptionError
 from hlr.pipeline.draw import draw_views
 from hlr.request.accuracy import DEFAULT_ACCURACY, SMALL_GEOMETRY
@@ -27,6 +30,7 @@ from hlr.request.directions import normalized
 from hlr.request.options import Options, Perspective, Vector
 from hlr.source import open_source
 from hlr.source.model import Source
+from hlr.tables.line_classes import EdgeClass
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,32 +134,36 @@ def draw_viewport(
     return ViewportDrawing(drawing, shift)
 
 
-def _lines_with_seams(drawing: Drawing, opened: Source, seam: bool) -> tuple[Line, ...]:
+def _lines_with_seams(drawing: Drawing, opened: Source, seam: bool) -> Sequence[Line]:
     """A drawing's lines; smooth edges of curvature continuity (G2) become seams, or are left out where `seam` is False.
 
     Such edges only divide a surface, as those between the halves of a cylinder do.
     """
     from hlr.source.cad.brep_source import BrepSource
 
-    if not isinstance(opened, BrepSource) or all(line.kind != "smooth" for line in drawing.lines):
-        return tuple(drawing.lines)
+    whole = held(drawing.lines)
+    smooth = np.flatnonzero(whole.kinds() == EdgeClass.SMOOTH)
+    if not isinstance(opened, BrepSource) or not len(smooth):
+        return drawing.lines
     from OCP.BRep import BRep_Tool
     from OCP.GeomAbs import GeomAbs_Shape
 
     curvature = int(GeomAbs_Shape.GeomAbs_G2)
-    divides: dict[tuple[int, int], bool] = {}
-    for line in drawing.lines:
-        if line.kind == "smooth" and line.edge is not None and (line.part, line.edge) not in divides:
-            edge = opened.edge_shape(drawing.parts[line.part].name, line.edge)
-            divides[line.part, line.edge] = int(BRep_Tool.MaxContinuity_s(edge)) >= curvature
-    found = []
-    for line in drawing.lines:
-        if line.kind == "smooth" and line.edge is not None and divides[line.part, line.edge]:
-            if not seam:
-                continue
-            line = replace(line, kind="seam")  # noqa: PLW2901
-        found.append(line)
-    return tuple(found)
+
+    @cache
+    def divides(part: int, edge: int) -> bool:
+        shape = opened.edge_shape(drawing.parts[part].name, edge)
+        return int(BRep_Tool.MaxContinuity_s(shape)) >= curvature
+
+    columns = whole.columns()
+    ties = columns["ties"][smooth, :2].tolist()
+    seams = smooth[[edge >= 0 and divides(part, edge) for part, edge in ties]]
+    if not seam:
+        kept = np.ones(len(whole), bool)
+        kept[seams] = False
+        return Lines(whole.chosen(kept))
+    columns["kind"][seams] = EdgeClass.SEAM
+    return Lines(_kernel.Lines(**columns))
 
 
 def flat_extent(bounds: Floats, viewport: Viewport) -> tuple[float, float]:

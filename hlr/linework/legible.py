@@ -28,7 +28,7 @@ from hlr.request.drawing_effects import LEGIBILITY
 from hlr.request.effect import Planner
 from hlr.request.options import Options
 from hlr.request.style import Style
-from hlr.tables.line_classes import LINE_CLASSES
+from hlr.tables.line_classes import in_drawing_order
 from hlr.tables.sheets import standard_scale_from
 
 CROWDED = 0.2
@@ -104,9 +104,8 @@ def legible(
         return Legible(lines)
     pens = usual if style.wide or style.narrow else _group(seen, usual)
     notes = _notes(seen, usual, pens, scale)
-    order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
     kept = held(lines)
-    fates = kept.left_out((pens[1], pens[0]), accuracy, order, options.threads)
+    fates = kept.left_out((pens[1], pens[0]), accuracy, in_drawing_order(), options.threads)
     out = int(np.count_nonzero(fates))
     planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
     if out:

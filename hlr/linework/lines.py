@@ -106,7 +106,7 @@ def _chains(image: Image, plan: Plan, segments: Segments) -> _kernel.Chains:
     )
     return _kernel.Chains(
         walks,
-        plan.drawn_kind.tolist(),
+        plan.drawn_kind,
         segments.mesh,
         segments.groups,
         image.triangle_part,

@@ -189,7 +189,7 @@ def by_view(options: Options, camera: Camera, planner: Planner) -> Options:
     """The options of one view: what was left to the kind of view is yes or no."""
     facts = Facts(pictorial=camera.pictorial)
     found: dict[str, Any] = {name: planner.on(effect, facts) for name, effect in left_to_view().items()}
-    return replace(options, **found)
+    return options if all(getattr(options, name) is on for name, on in found.items()) else replace(options, **found)
 
 
 def refuse_warnings(notes: Sequence[Note]) -> None:

@@ -19,7 +19,7 @@ ASKED, SCENE = "asked", "scene"
 """What calls for an effect: the request, or the model and its view."""
 
 PLAN = "the plan itself"
-"""Name of the last decision: the time that all deciding took."""
+"""Name of the last decision: the time that finding out the facts took."""
 
 
 class Facts(NamedTuple):
@@ -162,7 +162,6 @@ class Planner:
 
     def on(self, name: str, facts: Facts = _NOTHING) -> bool:
         """Decide whether the effect is needed, by these facts; the last decision counts."""
-        begin = perf_counter()
         effect = self._rows[name]
         on, reason = effect.needed(facts, self._options)
         if not on and self._force and effect.origin == SCENE:
@@ -173,12 +172,11 @@ class Planner:
         else:
             # What it has cost so far stays: a model may be meshed twice.
             made.on, made.reason = on, reason
-        self._took += perf_counter() - begin
         return on
 
     @contextmanager
     def deciding(self) -> Iterator[None]:
-        """Time what is done in order to decide."""
+        """Time what is found out in order to decide."""
         begin = perf_counter()
         try:
             yield

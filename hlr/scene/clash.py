@@ -93,4 +93,6 @@ def self_intersecting_parts(met: Clashes, part_of_group: Ints) -> Ints:
 
 def mark_unsound(groups: Groups, which: npt.NDArray[np.bool_]) -> Groups:
     """The groups with those in `which` (g,) marked as self-intersecting: neither sound nor culled."""
+    if not which.any():
+        return groups
     return replace(groups, sound=groups.sound & ~which, cull=groups.cull & ~which)

@@ -126,6 +126,11 @@ def by_number() -> list[LineClass]:
     return sorted(LINE_CLASSES.values(), key=lambda row: row.number)
 
 
+def in_drawing_order() -> list[int]:
+    """The numbers of all classes, in the order in which their lines are drawn."""
+    return [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
+
+
 def names() -> list[Kind]:
     """The names of all classes; each stands at its number."""
     return [row.name for row in by_number()]

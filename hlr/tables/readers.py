@@ -6,6 +6,7 @@ already needs no row: `hlr.draw` takes it as it is.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -126,7 +127,8 @@ BESIDE = (".mtl", ".gltf")
 
 def of_ending(ending: str) -> Reader | None:
     """The reader of files with this ending, of any case; None: there is none."""
-    return next((reader for reader in READERS.values() if ending.lower() in reader.endings), None)
+    ending = ending.lower()
+    return next((reader for reader in READERS.values() if ending in reader.endings), None)
 
 
 def endings() -> list[str]:
@@ -157,5 +159,5 @@ def what_to_pass() -> str:
 
 def is_model(path: Path | str) -> bool:
     """Whether a file is a model, or a part of one, by its ending."""
-    ending = Path(path).suffix.lower()
+    ending = os.path.splitext(path)[1].lower()
     return ending in BESIDE or of_ending(ending) is not None

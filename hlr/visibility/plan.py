@@ -32,7 +32,7 @@ class Plan:
     sound   (g,) bool: the group does not pass through itself, and is not searched for places where it does
     delta   (g,) float64: contact tolerance in view depth: what is hidden by less counts as touching
     cap     (g,) float64: upper limit of the tolerance against this group: half its thickness, in view depth
-    drawn_kind (k,) bool: per line class, whether source edges of that class are drawn as such
+    drawn_kind  of each line class, whether source edges of that class are drawn as such
     step    radians: a crease of a mesh is drawn as a circle where its vertices are less than this apart; 0: never
     fill    visible faces are painted
     contact whether the contact tolerance applies
@@ -47,7 +47,7 @@ class Plan:
     sound: npt.NDArray[np.bool_]
     delta: Floats
     cap: Floats
-    drawn_kind: npt.NDArray[np.bool_]
+    drawn_kind: list[bool]
     step: float
     fill: bool
     contact: bool
@@ -67,9 +67,10 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     """Instructions for one view of a scene; planner: knows what was decided before."""
     tolerances = image.placement.tolerances
     # roles[edge_curved, edge_kind]: where a curved surface goes on across an edge, it may fold over there.
-    roles = np.stack([np.zeros(256, np.uint8), np.where(goes_on(), np.uint8(OUTLINE), np.uint8(0))])
-    drawn_kind = np.array([row.drawn(options) for row in by_number()])
-    roles[:, : len(drawn_kind)] |= np.where(drawn_kind, np.uint8(DRAWN), np.uint8(0))
+    roles = np.zeros((2, 256), np.uint8)
+    roles[1, goes_on()] = OUTLINE
+    drawn_kind = [row.drawn(options) for row in by_number()]
+    roles[:, : len(drawn_kind)] |= DRAWN * np.array(drawn_kind, np.uint8)
     role = roles[image.edge_curved.view(np.uint8), image.edge_kind]
     if image.silhouettes is not None:
         role[image.silhouettes.hidden] = 0
@@ -126,7 +127,7 @@ def _coming_near(image: Image, delta: Floats, lift: float) -> int:
     they are boxes around the images of the corners. lift: how far lines may be off their surfaces, model units.
     """
     groups, camera = image.groups, image.camera
-    used = np.flatnonzero(np.isfinite(groups.low[:, 0]))
+    used = np.isfinite(groups.low[:, 0]).nonzero()[0]
     if len(used) < 2:
         return 0
     low, high = groups.low[used] - lift, groups.high[used] + lift

@@ -20,7 +20,7 @@ from hlr.drawing.line import Line
 from hlr.drawing.lines import divided, held
 from hlr.drawing.pens import Pen, PenSet, pens_of
 from hlr.errors import WriteError
-from hlr.tables.line_classes import LINE_CLASSES, LineClass, by_number
+from hlr.tables.line_classes import LineClass, by_number, in_drawing_order
 from hlr.writers import number
 
 MARGIN = 5.5
@@ -39,23 +39,20 @@ PAGE_PLACES = 3
 class Inked:
     """A layer and its pen: the strokes of one line class and visibility, of all parts or those of one set.
 
+    pens  of its parts
     seen  the visible layers of the same parts, from which dashed lines may go on
     """
 
     layer: _kernel.Layer
     row: LineClass
     pens: PenSet
+    pen: Pen
     seen: tuple[_kernel.Layer, ...] = ()
 
     @property
     def visible(self) -> bool:
         """Whether its lines are visible."""
         return self.layer.visible
-
-    @property
-    def pen(self) -> Pen:
-        """What it is drawn with."""
-        return self.pens.pen(self.row.name, self.visible)
 
     def svg(self) -> bytes:
         """Its elements, with their dashes."""
@@ -134,13 +131,16 @@ def _sets(drawing: Drawing) -> list[tuple[PenSet, _kernel.Lines]]:
 
 
 def _inked(drawing: Drawing, pens: PenSet, lines: _kernel.Lines, places: int, cubic: bool) -> list[Inked]:
-    order = [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
     try:
-        layers = lines.layers(order, places, drawing.accuracy.used, cubic)
+        layers = lines.layers(in_drawing_order(), places, drawing.accuracy.used, cubic)
     except ValueError:
         raise WriteError(number.NOT_FINITE) from None
     seen, rows = tuple(layer for layer in layers if layer.visible), by_number()
-    return [Inked(layer, rows[layer.kind], pens, seen) for layer in layers]
+    inked = []
+    for layer in layers:
+        row = rows[layer.kind]
+        inked.append(Inked(layer, row, pens, pens.pen(row.name, layer.visible), seen))
+    return inked
 
 
 @dataclass(slots=True)

@@ -1,11 +1,11 @@
 //! Which lines meet at their ends. Ends meet where they are no farther apart than a tolerance in x and in y; some that
 //! are up to twice as far apart count as well, so that what belongs together is never taken apart.
 
-use std::collections::HashMap;
+use rayon::prelude::*;
 
 use super::grid::rounded;
 use crate::fit::plane::{Vec2, dot, length, minus};
-use crate::lines::drawing::Lines;
+use crate::lines::drawing::{Line, Lines};
 
 /// Lines go on from one another where they turn by at most 30 degrees: the cosine.
 const STRAIGHT: f64 = 0.866;
@@ -15,6 +15,8 @@ const MOST_ENDS: usize = 16;
 
 struct End {
     line: usize,
+    visible: bool,
+    at: Vec2,
     /// Where the line leaves to, length 1.
     away: Vec2,
 }
@@ -23,45 +25,41 @@ struct End {
 /// where one goes on from the other without a bend. tolerance: steps
 pub fn joined(lines: &Lines, chosen: &[bool], tolerance: f64, straight: bool) -> Vec<usize> {
     let mut sets = Sets((0..lines.0.len()).collect());
+    let ends: Vec<End> =
+        lines.0.iter().enumerate().filter(|(i, _)| chosen[*i]).flat_map(|(i, line)| ends(i, line)).collect();
     // Two ends within half a cell of one another share a cell of at least one of four grids, each shifted by half a cell.
     for shift in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
-        let mut at: HashMap<(bool, [i64; 2]), Vec<End>> = HashMap::new();
-        for (number, line) in lines.0.iter().enumerate().filter(|(i, _)| chosen[*i]) {
-            for (end, away) in ends(&line.flat) {
-                let cell = [0, 1].map(|i| ((end[i] / tolerance + shift[i]) / 2.0).floor() as i64);
-                at.entry((line.visible, cell)).or_default().push(End { line: number, away });
-            }
-        }
-        // The sets do not depend on the order in which cells come: each cell's ends are in the order of lines.
-        for found in at.values() {
+        let cell = |end: &End| [0, 1].map(|i| ((end.at[i] / tolerance + shift[i]) / 2.0).floor() as i64);
+        // Ends of one cell stand side by side, in the order of lines.
+        let mut cells: Vec<_> = ends.iter().enumerate().map(|(n, end)| (end.visible, cell(end), n)).collect();
+        cells.par_sort_unstable();
+        for found in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let first = &ends[found[0].2];
             if !straight || found.len() > MOST_ENDS {
-                found.iter().for_each(|end| sets.unite(found[0].line, end.line));
+                found.iter().for_each(|(_, _, n)| sets.unite(first.line, ends[*n].line));
                 continue;
             }
-            for (i, a) in found.iter().enumerate() {
-                found[..i]
-                    .iter()
-                    .filter(|b| dot(&a.away, &b.away) < -STRAIGHT)
-                    .for_each(|b| sets.unite(a.line, b.line));
+            for (i, (_, _, a)) in found.iter().enumerate() {
+                let a = &ends[*a];
+                let before = found[..i].iter().map(|(_, _, b)| &ends[*b]);
+                before.filter(|b| dot(&a.away, &b.away) < -STRAIGHT).for_each(|b| sets.unite(a.line, b.line));
             }
         }
     }
     (0..lines.0.len()).map(|i| sets.root(i)).collect()
 }
 
-/// Both ends of a line, and where it leaves to from each.
-fn ends(flat: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> {
-    let mut points: Vec<Vec2> = flat.iter().map(rounded).collect();
-    points.dedup();
-    let end = |from: &Vec2, to: &Vec2| {
-        let way = minus(to, from);
-        (*from, way.map(|c| c / length(&way)))
-    };
-    let both = match points.as_slice() {
-        [] | [_] => None,
-        [a, b, ..] => Some([end(a, b), end(&points[points.len() - 1], &points[points.len() - 2])]),
-    };
-    both.into_iter().flatten()
+/// Both ends of a line, and where it leaves to from each; none of a line that is a point.
+fn ends(number: usize, line: &Line) -> impl Iterator<Item = End> {
+    let points = line.flat.iter().map(rounded);
+    end(number, line.visible, points.clone()).into_iter().chain(end(number, line.visible, points.rev()))
+}
+
+/// The end of a line where its points begin.
+fn end(line: usize, visible: bool, mut points: impl Iterator<Item = Vec2>) -> Option<End> {
+    let at = points.next()?;
+    let way = minus(&points.find(|p| *p != at)?, &at);
+    Some(End { line, visible, at, away: way.map(|c| c / length(&way)) })
 }
 
 /// Sets that are united; the least member stands for each.
