@@ -161,7 +161,7 @@ def test_an_accuracy_that_cannot_be_kept(accuracy, words):
 def test_the_accuracy_that_a_refusal_names_is_accepted(size):
     with pytest.raises(OptionError, match="give at least") as caught:
         hlr.draw(box((size, size, size)), "front", accuracy=1e-13, **AT_SIZE)
-    hlr.draw(box((size, size, size)), "front", accuracy=float(str(caught.value).split()[-1]), **AT_SIZE)
+    hlr.draw(box((size, size, size)), "front", accuracy=float(str(caught.value).split()[-1].rstrip(".")), **AT_SIZE)
 
 
 def test_a_model_without_extent_is_refused():

@@ -22,9 +22,9 @@ const MOST_ROUNDS: usize = 12;
 const ROUNDS_UNCERTIFIED: usize = 3;
 /// Points of all edges, and of all faces: 16 million triangles, about 4 GB of a drawing.
 pub const MOST_POINTS: usize = 8_000_000;
-/// Size of a face by the chord error: from here on the wish is the reason that a face needs too many points. Below,
-/// its surface is, and another mesher may fare better.
-const COARSEST_ABSURD: f64 = 1e5;
+/// Chord error by the size of a face: below it, the wish is the reason that a face needs too many points. Above it, its
+/// surface is, and another mesher may fare better.
+const ABSURD: f64 = 1e-5;
 /// An edge with more corners is not divided any further.
 const MOST_CORNERS: usize = 100_000;
 
@@ -80,7 +80,7 @@ pub fn tessellate(
     }
     let made = made.ok_or(Ended::Stopped)?;
     let refused = |(i, face): (usize, &MeshedFace)| {
-        face.fault == Some(Fault::TooFine) && extent(&model.faces[i], &made.lines) > COARSEST_ABSURD * deflection
+        face.fault == Some(Fault::TooFine) && deflection < ABSURD * extent(&model.faces[i], &made.lines)
     };
     if made.faces.iter().enumerate().any(refused) { Err(Ended::TooFine) } else { Ok(made) }
 }
