@@ -570,6 +570,35 @@ class Layer:
     def mirrored(self) -> Layer:
         """The same with y turned around."""
 
+class BrepFile:
+    """The shape of a BREP file. Its pieces are its solids, and what lies outside solids together.
+
+    Raises ValueError where the file is broken, and NotImplementedError where the kernel does not take what it has.
+    """
+
+    def __new__(cls, data: bytes) -> BrepFile: ...
+    @property
+    def root(self) -> tuple[int, int]:
+        """Number and orientation of the root shape."""
+
+    @property
+    def place(self) -> list[float]:
+        """Placement of the root shape: twelve numbers, row by row."""
+
+    @property
+    def pieces(self) -> list[tuple[bool, tuple[int, int] | None, list[float]]]:
+        """Without the placement of the root: whether it is a solid; number and orientation of the shape, None where
+        several shapes are one piece; its placement."""
+
+    def faces(self, piece: int | None = None) -> list[int]:
+        """Numbers of the underlying faces of a piece, of the root where it is None, as an explorer meets them."""
+
+def dump_of_pieces(files: Sequence[BrepFile], roots: Sequence[tuple[int, int]]) -> bytes:
+    """OpenCASCADE's dump of a compound of pieces: for each its file, given once, and its number there."""
+
+def square_placement(rows: Sequence[float]) -> list[float]:
+    """A placement (twelve numbers, row by row) whose turn was rounded, with a turn that is none."""
+
 class BrepModel:
     """Parts, faces and edges of an OpenCASCADE dump of a compound, each underlying face and edge once.
 
@@ -582,6 +611,12 @@ class BrepModel:
     def n_faces(self) -> int: ...
     @property
     def faces_of_parts(self) -> list[int]: ...
+    def counts(self) -> Ints:
+        """(parts, 3) faces, edges and solids in the index maps of each part."""
+
+    def boxes(self, threads: int = 0) -> Floats:
+        """(parts, 2, 3) lower and upper corner of each part's box; the lower is beyond the upper where it has none."""
+
     def planar(self, tolerance: float) -> Bools:
         """(faces,) whether each face departs from a plane by no more than the tolerance."""
 

@@ -25,6 +25,7 @@ from hlr.request.options import Options, Perspective
 from hlr.request.style import STANDARD, LineRule, Style
 from hlr.request.style_file import style_of
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.kernel_shapes import without_opencascade
 from hlr.source.cad.source_builder import build_source
 from hlr.source.freecad.fcstd import leaves_of
 from hlr.source.freecad.pages import DocumentPage, PageView
@@ -54,14 +55,18 @@ class Sources:
 
     def __init__(self, document: Document, path: Path) -> None:
         self.name = path.name
-        self._document, self._shapes = document, Shapes()
+        self._document, self._shapes = document, (Shapes(opencascade=False), Shapes(opencascade=True))
         self._opened: dict[tuple[str, ...], BrepSource | SourceError] = {}
 
     def of(self, names: tuple[str, ...]) -> BrepSource:
         """Raises SourceError where nothing of it can be drawn."""
         if names not in self._opened:
             try:
-                leaves, notes = leaves_of(self._document, self.name, self._shapes, only=names, sketches=True)
+                leaves, notes = without_opencascade(
+                    lambda opencascade: leaves_of(
+                        self._document, self.name, self._shapes[opencascade], only=names, sketches=True
+                    )
+                )
                 self._opened[names] = build_source(self.name, "fcstd", leaves, notes, wires_too=True)
             except SourceError as error:
                 self._opened[names] = error

@@ -45,7 +45,7 @@ def test_every_solid_lies_where_freecad_has_it(tmp_path):
     assert len(documents) == 12
     for path, expected in documents.items():
         with open_document(Path(path)) as document:
-            tree = Tree(document, Shapes(), hidden=False)
+            tree = Tree(document, Shapes(opencascade=True), hidden=False)
         found = {label: [] for label in expected}
         for leaf in tree.leaves:
             found[leaf.name.split("/")[0]] += solids(leaf.shape)

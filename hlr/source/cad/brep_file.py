@@ -1,4 +1,7 @@
-"""OpenCASCADE's BREP files, text and binary: one shape, without names."""
+"""OpenCASCADE's BREP files, text and binary: one shape, without names.
+
+The kernel reads them. What it does not take is left to OpenCASCADE, which is loaded for that alone.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +12,7 @@ from typing import Any
 
 from hlr.errors import SourceError
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.kernel_shapes import KernelShape, read_shape, without_opencascade
 from hlr.source.cad.occt_import import load_occt, silence_stdout
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
@@ -28,11 +32,38 @@ def open_brep(path: Path) -> BrepSource:
     Raises:
         SourceError: not a BREP file, broken, or holding nothing to draw.
     """
+    data = path.read_bytes()
     try:
-        shape = read_brep(path.read_bytes())
+        shape = without_opencascade(lambda opencascade: (read_brep if opencascade else read_lean)(data))
     except ValueError as error:
         raise SourceError(f"{path.name} {error}.") from None
     return build_source(path.name, "brep", [Leaf(shape, path.stem)])
+
+
+def read_lean(data: bytes) -> KernelShape:
+    """The shape of a BREP file's content, text or binary, as the kernel reads it.
+
+    Raises:
+        ValueError: it is none, or broken; the message says why, after the file's name.
+        NeedsOpenCascadeError: it has what only OpenCASCADE may read.
+    """
+    _check_ends(data)
+    try:
+        return read_shape(data)
+    except ValueError as error:
+        raise ValueError(f"cannot be read as BREP: the file is broken ({error}); export it again") from None
+
+
+def _check_ends(data: bytes) -> None:
+    """Raise ValueError where the first or the last lines of a text are not those of BREP."""
+    head = data[:200]
+    if is_binary(data):
+        return
+    if b"DBRep_DrawableShape" not in head and b"CASCADE Topology V" not in head:
+        raise ValueError("is not a BREP file (it does not begin with its header): check the file")
+    # OpenCASCADE's text reader never returns from a file whose last line, the root shape, is missing.
+    if _ROOT_RECORD.search(data[-200:]) is None:
+        raise ValueError("cannot be read as BREP: it is cut short; export or download it again")
 
 
 def read_brep(data: bytes) -> Any:
@@ -42,12 +73,7 @@ def read_brep(data: bytes) -> Any:
         ValueError: it is none, or broken; the message says why, after the file's name.
         SourceError: OpenCASCADE is missing.
     """
-    head, binary = data[:200], is_binary(data)
-    if not binary and b"DBRep_DrawableShape" not in head and b"CASCADE Topology V" not in head:
-        raise ValueError("is not a BREP file (it does not begin with its header): check the file")
-    # OpenCASCADE's text reader never returns from a file whose last line, the root shape, is missing.
-    if not binary and _ROOT_RECORD.search(data[-200:]) is None:
-        raise ValueError("cannot be read as BREP: it is cut short; export or download it again")
+    _check_ends(data)
     load_occt()
     from OCP.BinTools import BinTools
     from OCP.BRep import BRep_Builder
@@ -57,7 +83,7 @@ def read_brep(data: bytes) -> Any:
     shape = TopoDS_Shape()
     try:
         with silence_stdout():
-            if binary:
+            if is_binary(data):
                 BinTools.Read_s(shape, io.BytesIO(data))
             else:
                 BRepTools.Read_s(shape, io.BytesIO(data), BRep_Builder())

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from hlr.common.types import Color, Floats, Rgba
 from hlr.drawing.notes import Note
-from hlr.source.cad.shapes import location_matrix, make_compound, sub_shapes
+from hlr.source.cad.part_shapes import PartShapes
 from hlr.source.model import DEFAULT_COLOR, Appearance, rgba
 from hlr.source.transforms import MatrixRows, compose, matrix4
 
@@ -18,9 +18,9 @@ from hlr.source.transforms import MatrixRows, compose, matrix4
 class Leaf:
     """A named shape of an assembly, a file or a caller, which is not an assembly itself.
 
-    shape      TopoDS_Shape with its placement
+    shape      with its placement: a TopoDS_Shape, or a `hlr.source.cad.kernel_shapes.KernelShape`
     color      of the leaf; opacity: of that colour, 0 to 1
-    colors     of solids and faces, by TShape, where a file has them; opacities: of those that are not opaque
+    colors     of solids and faces, by what underlies them, where a file has them; opacities: of those that have one
     """
 
     shape: Any
@@ -63,12 +63,13 @@ class _Piece:
 
 
 class PartCollector:
-    """Splits leaves into `parts`, instances of distinct `prototypes`. `notes` names leaves that were left out."""
+    """Splits leaves into `parts`, instances of distinct `prototypes`. `notes` names leaves that were left out.
 
-    def __init__(self) -> None:
-        from OCP.TopLoc import TopLoc_Location
+    shapes: knows the shapes of the leaves, which are all of one kind.
+    """
 
-        self._origin = TopLoc_Location()
+    def __init__(self, shapes: PartShapes) -> None:
+        self._shapes = shapes
         self.parts: list[Part] = []
         self.prototypes: list[Any] = []
         self.notes: list[Note] = []
@@ -83,14 +84,17 @@ class PartCollector:
         A leaf without a shape becomes a note, for its geometry is missing. A leaf without faces and edges does not:
         such products carry annotation only, often under the name of the part that they annotate.
         """
-        if leaf.shape is None or leaf.shape.IsNull():
+        if self._shapes.is_null(leaf.shape):
             self.notes.append(Note("part-left-out", f'Part "{leaf.name}" is empty and was left out.'))
             return
-        key = (leaf.shape.TShape(), leaf.shape.Orientation(), id(leaf.colors) if leaf.colors else 0)
+        key = (*self._key(leaf.shape), id(leaf.colors) if leaf.colors else 0)
         pieces = self._pieces.get(key)
         if pieces is None:
-            pieces = self._pieces[key] = self._split(leaf)
-        place = location_matrix(leaf.shape.Location())
+            pieces = self._pieces[key] = [
+                self._piece(shape, leaf, solid)
+                for shape, solid in self._shapes.pieces(self._shapes.unplaced(leaf.shape))
+            ]
+        place = self._shapes.place(leaf.shape)
         several = sum(piece.solid for piece in pieces) > 1
         for piece in pieces:
             suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
@@ -102,9 +106,12 @@ class PartCollector:
                     prototype=piece.prototype,
                     transform=matrix4(compose(place, piece.place)),
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
-                    appearance=partial(_appearance, leaf, self.prototypes[piece.prototype]),
+                    appearance=partial(_appearance, leaf, self.prototypes[piece.prototype], self._shapes),
                 )
             )
+
+    def _key(self, shape: Any) -> tuple[Hashable, Hashable]:
+        return self._shapes.underlying(shape), self._shapes.orientation(shape)
 
     def _unique(self, name: str, numbered: bool) -> str:
         while True:
@@ -114,55 +121,34 @@ class PartCollector:
                 self._names.add(unique)
                 return unique
 
-    def _split(self, leaf: Leaf) -> list[_Piece]:
-        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
-        unplaced = leaf.shape.Located(self._origin, False)
-        if unplaced.ShapeType() in (Kind.TopAbs_SOLID, Kind.TopAbs_SHELL, Kind.TopAbs_FACE):
-            return [self._piece(unplaced, leaf, unplaced.ShapeType() == Kind.TopAbs_SOLID)]
-        solids = sub_shapes(unplaced, Kind.TopAbs_SOLID)
-        shells = sub_shapes(unplaced, Kind.TopAbs_SHELL, Kind.TopAbs_SOLID)
-        faces = sub_shapes(unplaced, Kind.TopAbs_FACE, Kind.TopAbs_SHELL)
-        edges = sub_shapes(unplaced, Kind.TopAbs_EDGE, Kind.TopAbs_FACE)
-        pieces = [self._piece(solid, leaf, True) for solid in solids]
-        loose = shells + faces
-        if loose or edges:
-            # Faces and edges outside solids become one part.
-            pieces.append(self._piece(make_compound(loose + edges) if solids else unplaced, leaf))
-        return pieces
-
-    def _piece(self, shape: Any, leaf: Leaf, solid: bool = False) -> _Piece:
-        key = (shape.TShape(), shape.Orientation())
+    def _piece(self, shape: Any, leaf: Leaf, solid: bool) -> _Piece:
+        key = self._key(shape)
         number = self._numbers.get(key)
         if number is None:
             number = self._numbers[key] = len(self.prototypes)
-            self.prototypes.append(shape.Located(self._origin, False))
-        color = _main_color(shape, leaf) if leaf.colors else None
-        return _Piece(number, location_matrix(shape.Location()), solid, color)
+            self.prototypes.append(self._shapes.unplaced(shape))
+        color = _main_color(shape, leaf, self._shapes) if leaf.colors else None
+        return _Piece(number, self._shapes.place(shape), solid, color)
 
 
-def _main_color(shape: Any, leaf: Leaf) -> Color | None:
+def _main_color(shape: Any, leaf: Leaf, shapes: PartShapes) -> Color | None:
     """The colour of a solid in the file, else the most frequent colour of its faces."""
-    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
-    whole_color = leaf.colors.get(shape.TShape())
+    whole_color = leaf.colors.get(shapes.underlying(shape))
     if whole_color is not None:
         return whole_color
     counts: dict[Color | None, int] = {}
-    for face in sub_shapes(shape, Kind.TopAbs_FACE):
-        color = leaf.colors.get(face.TShape(), leaf.color)
+    for face in shapes.faces(shape):
+        color = leaf.colors.get(face, leaf.color)
         counts[color] = counts.get(color, 0) + 1
     return max(counts, key=lambda color: counts[color]) if counts else None
 
 
-def _appearance(leaf: Leaf, prototype: Any) -> Appearance:
+def _appearance(leaf: Leaf, prototype: Any, shapes: PartShapes) -> Appearance:
     """Colours of a part of a leaf. prototype: its shape without placement."""
-    from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
-    whole_color = _own_color(leaf, prototype)
+    whole_color = _own_color(leaf, shapes.underlying(prototype))
     faces = {}
     if leaf.colors:
-        for i, face in enumerate(sub_shapes(prototype, Kind.TopAbs_FACE)):
+        for i, face in enumerate(shapes.faces(prototype)):
             color = _own_color(leaf, face)
             if color is not None and color != whole_color:
                 faces[i] = color
@@ -172,6 +158,5 @@ def _appearance(leaf: Leaf, prototype: Any) -> Appearance:
     return Appearance(whole, faces)
 
 
-def _own_color(leaf: Leaf, shape: Any) -> Rgba | None:
-    key = shape.TShape()
+def _own_color(leaf: Leaf, key: Hashable) -> Rgba | None:
     return rgba(leaf.colors.get(key), leaf.opacities.get(key, 1.0))

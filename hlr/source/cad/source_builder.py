@@ -8,8 +8,10 @@ from dataclasses import replace
 from hlr.drawing.notes import Note, NoteCode
 from hlr.errors import SourceError, counted
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.kernel_shapes import KernelShape, KernelShapes
+from hlr.source.cad.part_shapes import OcctShapes, PartShapes
 from hlr.source.cad.parts import Leaf, Part, PartCollector
-from hlr.source.cad.prototypes import LivePrototypes
+from hlr.source.cad.prototypes import Prototypes
 from hlr.source.model import Appearance
 
 
@@ -23,10 +25,11 @@ def build_source(
     Raises:
         SourceError: there are no shapes, or none has faces and wires are left out.
     """
-    collector = PartCollector()
+    shapes: PartShapes = KernelShapes() if any(isinstance(leaf.shape, KernelShape) for leaf in leaves) else OcctShapes()
+    collector = PartCollector(shapes)
     for leaf in leaves:
         collector.add(leaf)
-    prototypes = LivePrototypes(collector.prototypes)
+    prototypes = shapes.prototypes(collector.prototypes)
     has_faces = prototypes.has_faces
     parts = [part for part in collector.parts if wires_too or has_faces[part.prototype]]
     wires = [part for part in collector.parts if not wires_too and not has_faces[part.prototype]]
@@ -63,7 +66,7 @@ def with_appearance(part: Part, appearance: Appearance) -> Part:
     return replace(part, appearance=lambda: appearance)
 
 
-def _left_out(code: NoteCode, wires: list[Part], prototypes: LivePrototypes) -> list[Note]:
+def _left_out(code: NoteCode, wires: list[Part], prototypes: Prototypes) -> list[Note]:
     if not wires:
         return []
     names = sorted({part.product for part in wires})
@@ -72,5 +75,5 @@ def _left_out(code: NoteCode, wires: list[Part], prototypes: LivePrototypes) -> 
     return [Note(code, f"{some} without faces ({_edges(wires, prototypes)}){beside} left out.")]
 
 
-def _edges(wires: list[Part], prototypes: LivePrototypes) -> str:
+def _edges(wires: list[Part], prototypes: Prototypes) -> str:
     return counted(int(sum(prototypes.counts[part.prototype, 1] for part in wires)), "edge")

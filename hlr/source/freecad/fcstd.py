@@ -9,7 +9,7 @@ from pathlib import Path
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError, counted
 from hlr.source.cad.brep_source import BrepSource
-from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.kernel_shapes import without_opencascade
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
 from hlr.source.freecad.document import Document, open_document
@@ -24,30 +24,31 @@ def open_fcstd(path: Path, hidden_objects: bool = False) -> BrepSource:
     Raises:
         SourceError: it is no FreeCAD document, broken or hostile, or shows nothing that can be drawn.
     """
-    leaves, notes = read_document(path, hidden_objects)
+    leaves, notes = without_opencascade(lambda opencascade: read_document(path, opencascade, hidden_objects))
     return build_source(path.name, "fcstd", leaves, notes)
 
 
 def read_document(
-    path: Path, hidden_objects: bool = False, only: Sequence[str] | None = None
+    path: Path, opencascade: bool, hidden_objects: bool = False, only: Sequence[str] | None = None
 ) -> tuple[list[Leaf], list[Note]]:
     """What a document shows as leaves of an assembly, and what was left out. only: the names of objects, and no others.
 
+    opencascade: it reads the shapes, not the kernel.
+
     Raises:
-        SourceError: as `open_fcstd`.
+        SourceError: as `open_fcstd`. NeedsOpenCascadeError: the kernel cannot take some shape.
     """
     with opened_document(path) as document:
-        return leaves_of(document, path.name, Shapes(), hidden_objects, only)
+        return leaves_of(document, path.name, Shapes(opencascade), hidden_objects, only)
 
 
 @contextmanager
 def opened_document(path: Path) -> Iterator[Document]:
-    """An open document, with OpenCASCADE; what is broken in it, wherever that shows, is an error in one sentence.
+    """An open document; what is broken in it, wherever that shows, is an error in one sentence.
 
     Raises:
         SourceError: as `open_fcstd`.
     """
-    load_occt()
     with open_document(path) as document:
         try:
             yield document
@@ -72,6 +73,7 @@ def leaves_of(
 
     Raises:
         SourceError: there is nothing to draw. TooManyError, DamagedError: it is broken or hostile.
+        NeedsOpenCascadeError: the kernel reads the shapes, and cannot take one of them.
     """
     tree = Tree(document, shapes, hidden_objects, only)
     notes = list(tree.notes)

@@ -14,8 +14,9 @@ from typing import Any
 
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
-from hlr.source.cad.brep_file import read_brep
+from hlr.source.cad.brep_file import read_brep, read_lean
 from hlr.source.cad.brep_source import BrepSource
+from hlr.source.cad.kernel_shapes import without_opencascade
 from hlr.source.cad.parts import Leaf
 from hlr.source.cad.source_builder import build_source
 from hlr.source.freecad.fcstd import read_document
@@ -46,23 +47,29 @@ def open_freecad(thing: Any) -> BrepSource:
         SourceError: there is nothing to draw.
     """
     items = list(thing) if isinstance(thing, list | tuple) else [thing]
-    leaves = [leaf for item in items if is_a(item, "Part.Shape") for leaf in _of_shape(item)]
-    notes: list[Note] = []
-    documents = [item for item in items if is_a(item, "App.Document")]
-    for document, names in _by_document(item for item in items if is_a(item, "App.DocumentObject")):
-        _add(document, names, leaves, notes)
-    for document in documents:
-        _add(document, None, leaves, notes)
+    leaves, notes = without_opencascade(lambda opencascade: _leaves(items, opencascade))
     (first, *others) = items
     name = "part" if others or is_a(first, "Part.Shape") else " ".join(str(first.Label).split()) or "part"
     return build_source(name, "object", leaves, notes)
 
 
-def _of_shape(shape: Any) -> list[Leaf]:
+def _leaves(items: list[Any], opencascade: bool) -> tuple[list[Leaf], list[Note]]:
+    leaves = [leaf for item in items if is_a(item, "Part.Shape") for leaf in _of_shape(item, opencascade)]
+    notes: list[Note] = []
+    documents = [item for item in items if is_a(item, "App.Document")]
+    for document, names in _by_document(item for item in items if is_a(item, "App.DocumentObject")):
+        _add(document, names, opencascade, leaves, notes)
+    for document in documents:
+        _add(document, None, opencascade, leaves, notes)
+    return leaves, notes
+
+
+def _of_shape(shape: Any, opencascade: bool) -> list[Leaf]:
     if shape.isNull():
         return []
     try:
-        return [Leaf(read_brep(shape.exportBrepToString().encode()), "part")]
+        data = shape.exportBrepToString().encode()
+        return [Leaf((read_brep if opencascade else read_lean)(data), "part")]
     except ValueError as error:
         raise SourceError(f"The shape {error}.") from None
 
@@ -75,11 +82,11 @@ def _by_document(objects: Iterable[Any]) -> list[tuple[Any, list[str]]]:
     return list(found.values())
 
 
-def _add(document: Any, names: Sequence[str] | None, leaves: list[Leaf], notes: list[Note]) -> None:
+def _add(document: Any, names: Sequence[str] | None, opencascade: bool, leaves: list[Leaf], notes: list[Note]) -> None:
     with tempfile.TemporaryDirectory(prefix="hlr-freecad-") as folder:
         path = Path(folder) / f"{document.Name}.FCStd"
         document.saveCopy(str(path))
-        more, said = read_document(path, only=names)
+        more, said = read_document(path, opencascade, only=names)
     leaves += more
     notes += said
 

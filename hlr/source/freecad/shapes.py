@@ -5,64 +5,84 @@ from __future__ import annotations
 import io
 import math
 import struct
+from collections.abc import Hashable
 from typing import Any
 
 import numpy as np
 
 from hlr.common.types import Color, Floats
-from hlr.source.cad.brep_file import is_binary, read_brep
+from hlr.source.cad.brep_file import is_binary, read_brep, read_lean
+from hlr.source.cad.kernel_shapes import KernelShapes, NeedsOpenCascadeError, moved
+from hlr.source.cad.part_shapes import OcctShapes
 from hlr.source.cad.parts import Leaf
-from hlr.source.cad.shapes import location_matrix, sub_shapes
 from hlr.source.freecad.colors import Look
 from hlr.source.freecad.document import Object
 from hlr.source.transforms import IDENTITY, MatrixRows, compose
 
 Colors = tuple[dict[Any, Color], dict[Any, float]]
-"""Colours of faces, and opacities below one, by TShape."""
+"""Colours of faces, and opacities below one, by what underlies them."""
 
 
 class Shapes:
-    """The shapes of a document. What several instances have in common is one shape: read, scaled and coloured once."""
+    """The shapes of a document. What several instances have in common is one shape: read, scaled and coloured once.
 
-    def __init__(self) -> None:
+    opencascade: it reads them, and not the kernel, which scales none and does not know FreeCAD's binary files.
+    """
+
+    def __init__(self, opencascade: bool) -> None:
+        self._opencascade = opencascade
         self._read: dict[str, Any] = {}
         self._scaled: dict[tuple[str, bytes], Any] = {}
         self._colors: dict[tuple[str, bytes], Colors] = {}
 
     def of(self, thing: Object) -> Any:
-        """The TopoDS_Shape of an object, with its own placement; None where it has none.
+        """The shape of an object, with its own placement; None where it has none.
+
+        A TopoDS_Shape, or without OpenCASCADE a `KernelShape`.
 
         Raises:
             ValueError: it is broken; the message says why.
+            NeedsOpenCascadeError: the kernel cannot take it.
         """
         if thing.name not in self._read:
             data = thing.values.content("Shape")
             if data is None:
                 raise ValueError("is missing in the document")
-            self._read[thing.name] = (read_binary if is_binary(data) else read_brep)(data) if data else None
+            self._read[thing.name] = self._shape(data) if data else None
         return self._read[thing.name]
 
+    def _shape(self, data: bytes) -> Any:
+        if self._opencascade:
+            return (read_binary if is_binary(data) else read_brep)(data)
+        if is_binary(data):
+            raise NeedsOpenCascadeError("a binary file of FreeCAD")
+        return read_lean(data)
+
     def leaf(self, thing: Object, name: str, place: MatrixRows, placed: bool, look: Look | None) -> Leaf:
-        """An instance of an object's shape. placed: by its own placement as well, inside `place`."""
-        shape = self.of(thing)
-        whole = compose(place, location_matrix(shape.Location()) if placed else IDENTITY)
+        """An instance of an object's shape. placed: by its own placement as well, inside `place`.
+
+        Raises:
+            ValueError, NeedsOpenCascadeError: as of `of`.
+        """
+        shape, shapes = self.of(thing), OcctShapes() if self._opencascade else KernelShapes()
+        whole = compose(place, shapes.place(shape) if placed else IDENTITY)
         scale, rest = split_scale(whole)
         key = (thing.name, b"" if scale is None else scale.tobytes())
         if key not in self._scaled:
-            self._scaled[key] = _scaled(_moved(shape, None), scale)
+            if scale is not None and not self._opencascade:
+                raise NeedsOpenCascadeError("a scaled shape")
+            bare = shapes.unplaced(shape)
+            self._scaled[key] = bare if scale is None else _scaled(bare, scale)
         bare = self._scaled[key]
-        leaf = Leaf(_moved(bare, rest), name)
+        leaf = Leaf((_moved if self._opencascade else moved)(bare, rest), name)
         if look is not None:
             leaf.color, leaf.opacity = look.whole[:3], look.whole[3]
             if look.faces:
-                leaf.colors, leaf.opacities = self._face_colors(key, bare, look)
+                leaf.colors, leaf.opacities = self._face_colors(key, shapes.faces(bare), look)
         return leaf
 
-    def _face_colors(self, key: tuple[str, bytes], shape: Any, look: Look) -> Colors:
-        from OCP.TopAbs import TopAbs_ShapeEnum as Kind
-
+    def _face_colors(self, key: tuple[str, bytes], faces: list[Hashable], look: Look) -> Colors:
         if key not in self._colors:
-            faces = [face.TShape() for face in sub_shapes(shape, Kind.TopAbs_FACE)]
             # A list of another length is of an earlier shape: FreeCAD does not show it either.
             pairs = list(zip(faces, look.faces, strict=True)) if len(faces) == len(look.faces) else []
             self._colors[key] = (
@@ -121,13 +141,11 @@ def _rows(linear: Floats, shift: Floats) -> MatrixRows:
     return tuple(np.column_stack((linear, shift)).ravel().tolist())
 
 
-def _scaled(shape: Any, scale: Floats | None) -> Any:
+def _scaled(shape: Any, scale: Floats) -> Any:
     """The shape itself made larger or smaller, and not only placed so: OpenCASCADE's tolerances would not follow."""
     from OCP.BRepBuilderAPI import BRepBuilderAPI_GTransform, BRepBuilderAPI_Transform
     from OCP.gp import gp_GTrsf, gp_Trsf
 
-    if scale is None:
-        return shape
     if np.array_equal(scale, np.eye(3) * scale[0, 0]):
         even = gp_Trsf()
         even.SetScaleFactor(float(scale[0, 0]))
@@ -139,12 +157,12 @@ def _scaled(shape: Any, scale: Floats | None) -> Any:
     return BRepBuilderAPI_GTransform(shape, uneven, True).Shape()
 
 
-def _moved(shape: Any, rows: MatrixRows | None) -> Any:
+def _moved(shape: Any, rows: MatrixRows) -> Any:
     """The shape at this placement, a turn and a shift, instead of its own."""
     from OCP.gp import gp_Trsf
     from OCP.TopLoc import TopLoc_Location
 
-    if rows is None or rows is IDENTITY:
+    if rows is IDENTITY:
         return shape.Located(TopLoc_Location(), False)
     move = gp_Trsf()
     move.SetValues(*rows)

@@ -2,9 +2,9 @@
 //!
 //! The order is that of TopExp::MapShapes: a number here is an index into the part's face or edge map.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::format::{Damaged, Dump, Kind, Orientation, Sub};
+use crate::format::{Damaged, Dump, Kind, MOST_FACTORS, Orientation, Sub};
 
 /// A face of a part: number of the underlying face, location, and orientation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,8 @@ pub struct Part {
     pub faces: Vec<PlacedFace>,
     pub edges: Vec<PlacedEdge>,
     pub uses: Vec<PlacedUse>,
+    /// Number of solids; one that is placed several times counts each time.
+    pub solids: usize,
 }
 
 pub struct Explored {
@@ -61,10 +63,11 @@ struct Item {
 pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Damaged> {
     let root = &dump.shapes[dump.root.shape as usize];
     if root.kind != Kind::Compound {
-        return Err(Damaged { what: "the root is no compound", at: 0 });
+        return Err(Damaged { what: "the root is no compound", at: 0, beyond: false });
     }
-    let child =
-        |&i: &u32| root.subs.get(i as usize).copied().ok_or(Damaged { what: "a part that there is not", at: 0 });
+    let child = |&i: &u32| {
+        root.subs.get(i as usize).copied().ok_or(Damaged { what: "a part that there is not", at: 0, beyond: false })
+    };
     let children = chosen.map_or_else(|| Ok(root.subs.clone()), |some| some.iter().map(child).collect())?;
     let mut found = Explored { faces: Vec::new(), edges: Vec::new(), parts: Vec::new() };
     let [mut faces, mut edges] = [0, 1].map(|_| vec![None; dump.shapes.len()]);
@@ -72,6 +75,7 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
     for child in children {
         let mut part = Part::default();
         let (mut placed_faces, mut placed_edges) = (FxHashMap::default(), FxHashMap::default());
+        let mut placed_solids = FxHashSet::default();
         stack.push(Item {
             shape: child.shape,
             location: dump.locations.written(child.location),
@@ -79,7 +83,7 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
             face: None,
         });
         while let Some(item) = stack.pop() {
-            left = left.checked_sub(1).ok_or(Damaged { what: "shapes nested beyond measure", at: 0 })?;
+            left = left.checked_sub(1).ok_or(Damaged { what: "shapes nested beyond measure", at: 0, beyond: false })?;
             let mut face = item.face;
             match dump.shapes[item.shape as usize].kind {
                 Kind::Vertex { .. } => continue,
@@ -104,7 +108,13 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
                         part.faces.len() as u32 - 1
                     }));
                 }
+                Kind::Solid => {
+                    placed_solids.insert(placed_key(item.shape, item.location));
+                }
                 _ => {}
+            }
+            if dump.locations.factors_in_all() > MOST_FACTORS {
+                return Err(Damaged { what: "shapes nested beyond measure", at: 0, beyond: false });
             }
             let subs: &[Sub] = &dump.shapes[item.shape as usize].subs;
             for sub in subs.iter().rev() {
@@ -117,6 +127,7 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
                 });
             }
         }
+        part.solids = placed_solids.len();
         found.parts.push(part);
     }
     Ok(found)

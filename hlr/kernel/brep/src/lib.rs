@@ -1,6 +1,7 @@
 //! Boundary representations: curves, surfaces, edges as polylines, and meshes of faces.
 
 pub mod assemble;
+pub mod bounds;
 pub mod certificate;
 pub mod classes;
 pub mod continued;

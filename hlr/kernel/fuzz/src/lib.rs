@@ -3,6 +3,7 @@
 //! Plain functions without libFuzzer, so that `cargo test` replays the corpus with them on any toolchain.
 
 pub mod brep;
+pub mod brepfile;
 pub mod bytes;
 pub mod clash;
 pub mod linework;

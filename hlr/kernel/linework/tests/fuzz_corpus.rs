@@ -59,6 +59,11 @@ fn brep() {
     replay("brep", fuzz::brep::run);
 }
 
+#[test]
+fn brepfile() {
+    replay("brepfile", fuzz::brepfile::run);
+}
+
 /// The comparison fails where it must: an answer is compared with the same scene seen from behind.
 #[test]
 fn a_wrong_answer_would_be_noticed() {

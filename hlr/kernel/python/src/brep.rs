@@ -3,15 +3,17 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
-use super::arrays::{expect_below, expect_len, flat, rows as rows_of};
+use super::arrays::{expect_below, expect_len, flat, rows as rows_of, table};
 use super::guard::caught;
 use super::parts::PartTables;
 use super::threads::{FEW, run, run_telling};
 use hlr_brep::assemble::assemble;
+use hlr_brep::bounds::boxes;
+use hlr_brep::explore::Part;
 use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
@@ -52,6 +54,21 @@ impl BrepModel {
     #[getter]
     fn faces_of_parts(&self) -> Vec<usize> {
         self.0.parts.iter().map(|part| part.faces.len()).collect()
+    }
+
+    /// (parts, 3) faces, edges and solids in the index maps of each part.
+    fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i32>>> {
+        let of = |part: &Part| [part.faces.len(), part.edges.len(), part.solids].map(|count| count as i32);
+        table(py, self.0.parts.iter().map(of).collect())
+    }
+
+    /// (parts, 2, 3) lower and upper corner of the box around each part; the lower is beyond the upper where it has no
+    /// extent.
+    #[pyo3(signature = (threads = 0))]
+    fn boxes<'py>(&self, py: Python<'py>, threads: usize) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let found = run(py, threads, 10 * self.0.faces.len(), |_| boxes(&self.0))?;
+        let count = found.len();
+        found.into_flattened().into_flattened().into_pyarray(py).reshape([count, 2, 3])
     }
 
     /// (faces,) whether each departs from a plane by no more than the tolerance.

@@ -3,6 +3,7 @@
 mod arrays;
 mod boxes;
 mod brep;
+mod brep_file;
 mod chains;
 mod clash;
 mod drawing;
@@ -56,6 +57,9 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<chains::Walks>()?;
     m.add_class::<chains::Chains>()?;
     m.add_class::<lines::Cut>()?;
+    m.add_class::<brep_file::BrepFile>()?;
+    m.add_function(wrap_pyfunction!(brep_file::dump_of_pieces, m)?)?;
+    m.add_function(wrap_pyfunction!(brep_file::square_placement, m)?)?;
     m.add_class::<brep::BrepModel>()?;
     m.add_class::<brep::BrepMesh>()?;
     m.add_class::<parts::PartTables>()?;

@@ -1,39 +1,34 @@
-//! Reads little-endian numbers from the bytes of a dump; each read checks that the bytes are there.
+//! A binary dump (BinTools): little-endian numbers; each read checks that the bytes are there.
 
-/// What is wrong with the bytes, and where.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Damaged {
-    pub what: &'static str,
-    pub at: usize,
-}
-
-impl std::fmt::Display for Damaged {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} (at byte {})", self.what, self.at)
-    }
-}
-
-pub type Read<T> = Result<T, Damaged>;
+use super::orientation::Orientation;
+use super::tokens::{Damaged, FLAGS, Read, Table, Tokens};
 
 pub struct Bytes<'a> {
     all: &'a [u8],
     at: usize,
+    /// A curve on a surface is followed by the (u, v) of its ends.
+    ends_in_uv: bool,
+    /// A triangulation says whether it has normals.
+    normals: bool,
 }
 
 impl<'a> Bytes<'a> {
-    pub fn new(all: &'a [u8]) -> Bytes<'a> {
-        Bytes { all, at: 0 }
+    /// # Errors
+    /// The bytes do not begin as a dump in a layout that is known here.
+    pub fn new(all: &'a [u8]) -> Read<Bytes<'a>> {
+        let mut bytes = Bytes { all, at: 0, ends_in_uv: true, normals: false };
+        let mut version = bytes.line()?;
+        if version.is_empty() {
+            version = bytes.line()?;
+        }
+        match version.strip_prefix(b"Open CASCADE Topology V").and_then(<[u8]>::first) {
+            Some(b'2' | b'3') => Ok(bytes),
+            Some(b'4') => Ok(Bytes { ends_in_uv: false, normals: true, ..bytes }),
+            _ => bytes.beyond("not a dump in a layout that is known here"),
+        }
     }
 
-    pub fn left(&self) -> usize {
-        self.all.len() - self.at
-    }
-
-    pub fn fault<T>(&self, what: &'static str) -> Read<T> {
-        Err(Damaged { what, at: self.at })
-    }
-
-    pub fn take<const N: usize>(&mut self) -> Read<[u8; N]> {
+    fn take<const N: usize>(&mut self) -> Read<[u8; N]> {
         match self.all[self.at..].first_chunk::<N>() {
             Some(chunk) => {
                 self.at += N;
@@ -43,83 +38,16 @@ impl<'a> Bytes<'a> {
         }
     }
 
-    pub fn skip(&mut self, count: usize) -> Read<()> {
-        if count > self.left() {
+    fn skip(&mut self, count: usize) -> Read<()> {
+        if count > self.all.len() - self.at {
             return self.fault("the dump ends too early");
         }
         self.at += count;
         Ok(())
     }
 
-    pub fn byte(&mut self) -> Read<u8> {
-        Ok(self.take::<1>()?[0])
-    }
-
-    pub fn flag(&mut self) -> Read<bool> {
-        match self.byte()? {
-            0 => Ok(false),
-            1 => Ok(true),
-            _ => self.fault("a flag that is neither 0 nor 1"),
-        }
-    }
-
-    pub fn short(&mut self) -> Read<usize> {
-        Ok(usize::from(u16::from_le_bytes(self.take()?)))
-    }
-
-    pub fn integer(&mut self) -> Read<i32> {
-        Ok(i32::from_le_bytes(self.take()?))
-    }
-
-    pub fn real(&mut self) -> Read<f64> {
-        Ok(f64::from_le_bytes(self.take()?))
-    }
-
-    pub fn finite(&mut self) -> Read<f64> {
-        let value = self.real()?;
-        if value.is_finite() { Ok(value) } else { self.fault("a number that is not finite") }
-    }
-
-    pub fn reals<const N: usize>(&mut self) -> Read<[f64; N]> {
-        let mut out = [0.0; N];
-        for value in &mut out {
-            *value = self.finite()?;
-        }
-        Ok(out)
-    }
-
-    /// Reads a count of items of at least `size` bytes each. It may not exceed what the remaining bytes can hold.
-    pub fn count(&mut self, size: usize) -> Read<usize> {
-        let count = self.integer()?;
-        self.fitting(count, size)
-    }
-
-    pub fn fitting(&self, count: i32, size: usize) -> Read<usize> {
-        match usize::try_from(count) {
-            Ok(count) if count <= self.left() / size => Ok(count),
-            _ => self.fault("a count that the bytes cannot hold"),
-        }
-    }
-
-    /// Reads a number from 1 to `most`, and returns it counted from 0.
-    pub fn index(&mut self, most: usize) -> Read<usize> {
-        match usize::try_from(self.integer()?) {
-            Ok(number) if (1..=most).contains(&number) => Ok(number - 1),
-            _ => self.fault("a reference to nothing"),
-        }
-    }
-
-    /// Reads a number that counts from 1 and returns it counted from 0; None for 0.
-    pub fn maybe_index(&mut self, most: usize) -> Read<Option<usize>> {
-        match usize::try_from(self.integer()?) {
-            Ok(0) => Ok(None),
-            Ok(number) if number <= most => Ok(Some(number - 1)),
-            _ => self.fault("a reference to nothing"),
-        }
-    }
-
     /// The bytes up to the end of the line. The reading position moves behind it.
-    pub fn line(&mut self) -> Read<&'a [u8]> {
+    fn line(&mut self) -> Read<&'a [u8]> {
         let rest = &self.all[self.at..];
         match rest.iter().take(LONGEST_LINE).position(|&b| b == b'\n') {
             Some(length) => {
@@ -129,16 +57,132 @@ impl<'a> Bytes<'a> {
             None => self.fault("a line without an end"),
         }
     }
+}
 
-    /// The header of a section: its name and a count. Each item has at least `size` bytes.
-    pub fn header(&mut self, name: &'static str, size: usize) -> Read<usize> {
+impl Tokens for Bytes<'_> {
+    fn at(&self) -> usize {
+        self.at
+    }
+
+    fn holds(&self, count: usize, size: usize) -> bool {
+        count <= (self.all.len() - self.at) / size
+    }
+
+    fn header(&mut self, table: Table, size: usize) -> Read<usize> {
+        if table == Table::Shapes {
+            self.line()?;
+        }
         let line = self.line()?;
-        let number = line.strip_prefix(name.as_bytes()).and_then(|rest| rest.strip_prefix(b" "));
+        let number = line.strip_prefix(table.name().as_bytes()).and_then(|rest| rest.strip_prefix(b" "));
         let number = number.and_then(|digits| str::from_utf8(digits).ok()).and_then(|digits| digits.parse().ok());
         match number {
             Some(count) => self.fitting(count, size),
-            None => Err(Damaged { what: name, at: self.at }),
+            None => Err(Damaged { what: table.name(), at: self.at, beyond: false }),
         }
+    }
+
+    fn kind(&mut self) -> Read<u8> {
+        Ok(self.take::<1>()?[0])
+    }
+
+    fn flag(&mut self) -> Read<bool> {
+        match self.kind()? {
+            0 => Ok(false),
+            1 => Ok(true),
+            _ => self.fault("a flag that is neither 0 nor 1"),
+        }
+    }
+
+    fn short(&mut self) -> Read<usize> {
+        Ok(usize::from(u16::from_le_bytes(self.take()?)))
+    }
+
+    fn integer(&mut self) -> Read<i32> {
+        Ok(i32::from_le_bytes(self.take()?))
+    }
+
+    fn real(&mut self) -> Read<f64> {
+        Ok(f64::from_le_bytes(self.take()?))
+    }
+
+    fn direction<const N: usize>(&mut self) -> Read<[f64; N]> {
+        self.reals()
+    }
+
+    fn axes(&mut self, _either: bool) -> Read<[[f64; 3]; 3]> {
+        Ok([self.reals()?, self.reals()?, self.reals()?])
+    }
+
+    fn plane_axes(&mut self) -> Read<[[f64; 2]; 2]> {
+        Ok([self.reals()?, self.reals()?])
+    }
+
+    fn placement(&mut self) -> Read<[[f64; 4]; 3]> {
+        Ok([self.reals()?, self.reals()?, self.reals()?])
+    }
+
+    fn skip_polygon_on_triangles(&mut self) -> Read<()> {
+        let size = self.count(4)?;
+        self.skip(4 * size + 8)?;
+        if self.flag()? { self.skip(8 * size) } else { Ok(()) }
+    }
+
+    fn triangulation(&mut self) -> Read<(usize, usize, bool, bool)> {
+        let (nodes, triangles) = (self.count(24)?, self.count(12)?);
+        let has_uv = self.flag()?;
+        let has_normals = self.normals && self.flag()?;
+        self.skip(8)?;
+        Ok((nodes, triangles, has_uv, has_normals))
+    }
+
+    fn skip_normals(&mut self, count: usize) -> Read<()> {
+        self.skip(12 * count)
+    }
+
+    fn shape(&mut self) -> Read<u8> {
+        self.kind()
+    }
+
+    fn place(&mut self) -> Read<(u8, f64)> {
+        match self.kind()? {
+            0 => Ok((0, 0.0)),
+            kind => Ok((kind, self.real()?)),
+        }
+    }
+
+    fn representation(&mut self) -> Read<u8> {
+        self.kind()
+    }
+
+    fn continuity(&mut self) -> Read<u8> {
+        self.kind()
+    }
+
+    fn skip_ends(&mut self) -> Read<()> {
+        self.skip(if self.ends_in_uv { 32 } else { 0 })
+    }
+
+    fn own_triangles(&mut self, _surface: bool) -> Read<i32> {
+        match self.kind()? {
+            0 | 1 => Ok(0),
+            2 => self.number(Table::Triangulations),
+            _ => self.fault("a face of unknown kind"),
+        }
+    }
+
+    fn flags(&mut self) -> Read<[bool; FLAGS]> {
+        Ok(self.take::<FLAGS>()?.map(|flag| flag != 0))
+    }
+
+    fn orientation(&mut self) -> Read<Option<Orientation>> {
+        Ok(Some(match self.kind()? {
+            0 => Orientation::Forward,
+            1 => Orientation::Reversed,
+            2 => Orientation::Internal,
+            3 => Orientation::External,
+            b'*' => return Ok(None),
+            _ => return self.fault("an orientation that there is not"),
+        }))
     }
 }
 

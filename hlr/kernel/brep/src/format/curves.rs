@@ -1,51 +1,58 @@
 //! Reads the sections of curves, in (u, v) and in space.
 
-use super::bytes::{Bytes, Read};
-use super::layout::MOST_NESTED;
+use super::tokens::{Read, Table, Tokens};
 use crate::geometry::curve::{Curve, Vec3};
 use crate::geometry::nurbs::{MOST_DEGREE, Nurbs};
 use crate::geometry::offset_curve::offset_curve;
 use crate::geometry::periodic::unrolled;
 use crate::geometry::vector::scaled;
 
-pub fn section(
-    bytes: &mut Bytes,
-    name: &'static str,
-    one: fn(&mut Bytes, usize) -> Read<Option<Curve>>,
+/// Limit on the nesting of trimmed and offset curves and surfaces.
+pub const MOST_NESTED: usize = 16;
+
+pub fn section<T: Tokens>(
+    tokens: &mut T,
+    table: Table,
+    one: fn(&mut T, usize) -> Read<Option<Curve>>,
 ) -> Read<Vec<Option<Curve>>> {
-    let count = bytes.header(name, 2)?;
-    (0..count).map(|_| one(bytes, 0)).collect()
+    let count = tokens.header(table, 2)?;
+    (0..count).map(|_| one(tokens, 0)).collect()
 }
 
 /// A curve in space; None for a kind that is not supported.
-pub fn space_curve(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>> {
+pub fn space_curve(bytes: &mut impl Tokens, nested: usize) -> Read<Option<Curve>> {
     curve::<3>(bytes, nested)
 }
 
 /// A curve in (u, v), as a curve in space with z = 0.
-pub fn plane_curve(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>> {
+pub fn plane_curve(bytes: &mut impl Tokens, nested: usize) -> Read<Option<Curve>> {
     curve::<2>(bytes, nested)
 }
 
-fn vector<const N: usize>(bytes: &mut Bytes) -> Read<Vec3> {
-    let read = bytes.reals::<N>()?;
+fn vector<const N: usize>(bytes: &mut impl Tokens) -> Read<Vec3> {
+    Ok(spatial(bytes.reals::<N>()?))
+}
+
+fn spatial<const N: usize>(vector: [f64; N]) -> Vec3 {
     let mut out = [0.0; 3];
-    out[..N].copy_from_slice(&read);
-    Ok(out)
+    out[..N].copy_from_slice(&vector);
+    out
 }
 
 /// Origin and the directions of x and y; for a curve in space, the normal is written between them.
-fn axes<const N: usize>(bytes: &mut Bytes) -> Read<(Vec3, Vec3, Vec3)> {
+fn axes<const N: usize>(bytes: &mut impl Tokens) -> Read<(Vec3, Vec3, Vec3)> {
     let origin = vector::<N>(bytes)?;
     if N == 3 {
-        vector::<3>(bytes)?;
+        let [_, x, y] = bytes.axes(false)?;
+        return Ok((origin, x, y));
     }
-    Ok((origin, vector::<N>(bytes)?, vector::<N>(bytes)?))
+    let [x, y] = bytes.plane_axes()?.map(spatial);
+    Ok((origin, x, y))
 }
 
-fn curve<const N: usize>(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>> {
-    Ok(Some(match bytes.byte()? {
-        1 => Curve::Line { p: vector::<N>(bytes)?, a: vector::<N>(bytes)? },
+fn curve<const N: usize>(bytes: &mut impl Tokens, nested: usize) -> Read<Option<Curve>> {
+    Ok(Some(match bytes.kind()? {
+        1 => Curve::Line { p: vector::<N>(bytes)?, a: spatial(bytes.direction::<N>()?) },
         2 => {
             let (p, x, y) = axes::<N>(bytes)?;
             let radius = bytes.finite()?;
@@ -76,47 +83,48 @@ fn curve<const N: usize>(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>
         }
         7 => Curve::Spline(spline::<N>(bytes)?),
         8 => {
-            bytes.reals::<2>()?;
+            bytes.real()?; // may be without end
+            bytes.real()?;
             return basis::<N>(bytes, nested);
         }
         9 => {
             let distance = bytes.finite()?;
-            let way = if N == 3 { vector::<3>(bytes)? } else { [0.0, 0.0, 1.0] };
+            let way = if N == 3 { bytes.direction::<3>()? } else { [0.0, 0.0, 1.0] };
             let basis = basis::<N>(bytes, nested)?;
             // In the plane an offset is to the right of the curve, in space along the tangent x the direction.
             return Ok(basis.and_then(|basis| offset_curve(&basis, distance, &way)));
         }
-        _ => return bytes.fault("a curve of unknown kind"),
+        _ => return bytes.beyond("a curve of unknown kind"),
     }))
 }
 
-fn basis<const N: usize>(bytes: &mut Bytes, nested: usize) -> Read<Option<Curve>> {
+fn basis<const N: usize>(bytes: &mut impl Tokens, nested: usize) -> Read<Option<Curve>> {
     if nested == MOST_NESTED {
         return bytes.fault("curves nested too deep");
     }
     curve::<N>(bytes, nested + 1)
 }
 
-pub fn degree(bytes: &mut Bytes) -> Read<usize> {
+pub fn degree(bytes: &mut impl Tokens) -> Read<usize> {
     let degree = bytes.short()?;
-    if (1..=MOST_DEGREE).contains(&degree) { Ok(degree) } else { bytes.fault("a degree out of range") }
+    if (1..=MOST_DEGREE).contains(&degree) { Ok(degree) } else { bytes.beyond("a degree out of range") }
 }
 
-fn poles<const N: usize>(bytes: &mut Bytes, count: usize, rational: bool) -> Read<Vec<[f64; 4]>> {
+fn poles<const N: usize>(bytes: &mut impl Tokens, count: usize, rational: bool) -> Read<Vec<[f64; 4]>> {
     (0..count).map(|_| pole::<N>(bytes, rational)).collect()
 }
 
 /// A pole times its weight, which follows it in the dump if the curve is rational.
-pub fn pole<const N: usize>(bytes: &mut Bytes, rational: bool) -> Read<[f64; 4]> {
+pub fn pole<const N: usize>(bytes: &mut impl Tokens, rational: bool) -> Read<[f64; 4]> {
     let [x, y, z] = vector::<N>(bytes)?;
     let w = if rational { bytes.finite()? } else { 1.0 };
     if w <= 0.0 {
-        return bytes.fault("a weight that is not positive");
+        return bytes.beyond("a weight that is not positive");
     }
     Ok([x * w, y * w, z * w, w])
 }
 
-fn spline<const N: usize>(bytes: &mut Bytes) -> Read<Nurbs> {
+fn spline<const N: usize>(bytes: &mut impl Tokens) -> Read<Nurbs> {
     let (rational, periodic) = (bytes.flag()?, bytes.flag()?);
     let degree = degree(bytes)?;
     let poles = bytes.count(8 * N)?;
@@ -135,32 +143,32 @@ pub struct Axis {
 }
 
 impl Axis {
-    pub fn read(bytes: &mut Bytes, degree: usize, poles: usize, count: usize, periodic: bool) -> Read<Axis> {
-        let mut knots = Vec::with_capacity(count.min(bytes.left() / 12));
+    pub fn read(bytes: &mut impl Tokens, degree: usize, poles: usize, count: usize, periodic: bool) -> Read<Axis> {
+        let mut knots = Vec::new();
         for _ in 0..count {
             let value = bytes.finite()?;
             let times = bytes.integer()?;
             match usize::try_from(times) {
                 Ok(times) if (1..=degree + 1).contains(&times) => knots.push((value, times)),
-                _ => return bytes.fault("a knot that stands too often"),
+                _ => return bytes.beyond("a knot that stands too often"),
             }
         }
         let total: usize = knots.iter().map(|k| k.1).sum();
         let last = knots.last().map_or(0, |k| k.1);
         let wanted = if periodic { total - last } else { total.saturating_sub(degree + 1) };
         if knots.len() < 2 || wanted != poles || poles == 0 || knots.windows(2).any(|w| w[0].0 >= w[1].0) {
-            return bytes.fault("knots that do not fit their poles");
+            return bytes.beyond("knots that do not fit their poles");
         }
         if !periodic && poles <= degree {
-            return bytes.fault("too few poles");
+            return bytes.beyond("too few poles");
         }
         if periodic && (last > degree || knots[0].1 != last) {
-            return bytes.fault("knots that do not come round");
+            return bytes.beyond("knots that do not come round");
         }
         let axis = Axis { knots, periodic };
         let (flat, order) = axis.flat(degree, poles, 0);
         if flat[degree] >= flat[order.len()] {
-            return bytes.fault("knots without a domain");
+            return bytes.beyond("knots without a domain");
         }
         Ok(axis)
     }

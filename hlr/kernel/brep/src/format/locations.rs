@@ -6,7 +6,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::bytes::{Bytes, Read};
+use super::tokens::{Read, Table, Tokens};
 
 /// Elementary transformations with their powers, from the outermost to the innermost.
 type Chain = Vec<(u32, i32)>;
@@ -14,6 +14,9 @@ pub type Matrix = [[f64; 4]; 3];
 
 /// Limit on the length of a chain and on its powers; a file that exceeds it is damaged.
 const LONGEST: usize = 1000;
+
+/// Limit on the factors of all locations together.
+pub const MOST_FACTORS: usize = 50_000_000;
 
 /// A growing table of locations; number 0 is the identity. Equal chains have equal numbers.
 #[derive(Clone, Debug)]
@@ -23,34 +26,36 @@ pub struct Locations {
     numbers: FxHashMap<Chain, u32>,
     products: FxHashMap<(u32, u32), u32>,
     matrices: FxHashMap<u32, Matrix>,
+    factors: usize,
     /// Numbers in this table by numbers in the dump.
     written: Vec<u32>,
+    /// Numbers in the dump of the elementary transformations.
+    elementary: Vec<u32>,
 }
 
-pub fn read(bytes: &mut Bytes) -> Read<Locations> {
-    let count = bytes.header("Locations", 5)?;
+pub fn read(bytes: &mut impl Tokens) -> Read<Locations> {
+    let count = bytes.header(Table::Locations, 5)?;
     let mut all = Locations {
         datums: Vec::new(),
         chains: vec![Vec::new()],
         numbers: FxHashMap::from_iter([(Vec::new(), 0)]),
         products: FxHashMap::default(),
         matrices: FxHashMap::default(),
+        factors: 0,
         written: vec![0],
+        elementary: Vec::new(),
     };
     for _ in 0..count {
-        let chain = match bytes.byte()? {
+        let chain = match bytes.kind()? {
             1 => {
-                let mut matrix = [[0.0; 4]; 3];
-                for row in &mut matrix {
-                    *row = bytes.reals()?;
-                }
-                all.datums.push(matrix);
+                all.datums.push(bytes.placement()?);
+                all.elementary.push(all.written.len() as u32);
                 vec![(all.datums.len() as u32 - 1, 1)]
             }
             2 => {
                 let mut chain = Chain::new();
                 loop {
-                    let number = bytes.integer()?;
+                    let number = bytes.number(Table::Locations)?;
                     if number == 0 {
                         break;
                     }
@@ -112,11 +117,31 @@ impl Locations {
         self.written[number as usize]
     }
 
+    /// Factors of all locations together.
+    pub fn factors_in_all(&self) -> usize {
+        self.factors
+    }
+
+    /// Numbers in the dump by numbers in this table.
+    pub fn in_dump(&self) -> FxHashMap<u32, u32> {
+        let mut numbers = FxHashMap::default();
+        (0..).zip(&self.written).for_each(|(written, own)| {
+            numbers.entry(*own).or_insert(written);
+        });
+        numbers
+    }
+
+    /// The factors of a location, from the innermost to the outermost: numbers in the dump, and powers.
+    pub fn factors(&self, number: u32) -> impl Iterator<Item = (u32, i32)> {
+        self.chains[number as usize].iter().rev().map(|&(datum, power)| (self.elementary[datum as usize], power))
+    }
+
     fn number(&mut self, chain: Chain) -> u32 {
         if let Some(&known) = self.numbers.get(&chain) {
             return known;
         }
         let number = self.chains.len() as u32;
+        self.factors += chain.len();
         self.chains.push(chain.clone());
         self.numbers.insert(chain, number);
         number
@@ -212,7 +237,9 @@ mod tests {
             numbers: FxHashMap::from_iter([(vec![], 0), (vec![(0, 1)], 1), (vec![(0, 1), (1, 1)], 2)]),
             products: FxHashMap::default(),
             matrices: FxHashMap::default(),
+            factors: 0,
             written: vec![0, 1, 2],
+            elementary: vec![1, 2],
         };
         assert_eq!(all.quotient(1, 1), 0);
         let inner = all.quotient(1, 2);

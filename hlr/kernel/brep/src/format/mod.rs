@@ -1,4 +1,5 @@
-//! OpenCASCADE's binary dump of a shape (BinTools), layouts 2 to 4, read without OpenCASCADE.
+//! OpenCASCADE's dump of a shape, read without OpenCASCADE: binary (BinTools, layouts 2 to 4) and text (BREP, versions 1
+//! to 3). One reader knows what a dump is made of; `bytes` and `text` know how that is written.
 //!
 //! ```text
 //! Locations, Curve2ds, Curves, Polygon3D, PolygonOnTriangulations, Surfaces, Triangulations, TShapes, root
@@ -9,21 +10,33 @@
 
 mod bytes;
 mod curves;
-mod layout;
 mod locations;
+mod merge;
+mod orientation;
+mod pieces;
+mod record;
 mod shapes;
+mod square;
 mod surfaces;
+mod text;
+mod tokens;
 mod triangles;
 
-pub use bytes::Damaged;
-pub use locations::{IDENTITY, Locations, Matrix, chained, determinant, inverted, moved, turned};
-pub use shapes::{Kind, On, Orientation, Shape, Sub};
+pub use locations::{IDENTITY, Locations, MOST_FACTORS, Matrix, chained, determinant, inverted, moved, turned};
+pub use merge::{Root, Source, merged};
+pub use orientation::Orientation;
+pub use pieces::{Piece, faces, pieces};
+pub use shapes::{Kind, On, Shape, Sub};
+pub use square::square_placement;
 pub use surfaces::SurfaceRecord;
+pub use tokens::Damaged;
 pub use triangles::Triangulation;
 
 use crate::geometry::curve::Curve;
-use bytes::{Bytes, Read};
-use layout::Layout;
+use bytes::Bytes;
+use record::Recorder;
+use text::Text;
+use tokens::{Read, Table, Tokens};
 
 /// The content of a dump. Underlying shapes come before the shapes that contain them.
 pub struct Dump {
@@ -44,24 +57,38 @@ pub struct Dump {
 /// # Errors
 /// The bytes are no dump in a supported layout.
 pub fn read(data: &[u8]) -> Read<Dump> {
-    let mut bytes = Bytes::new(data);
-    let mut version = bytes.line()?;
-    if version.is_empty() {
-        version = bytes.line()?;
+    dump(&mut Bytes::new(data)?)
+}
+
+/// Reads the shape of a BREP file, text or binary, and records it in binary. `stopped`: whether to give up.
+///
+/// # Errors
+/// The bytes are none.
+pub fn read_file(data: &[u8], stopped: &dyn Fn() -> bool) -> Read<Source> {
+    if data[..data.len().min(HEAD)].windows(BINARY.len()).any(|head| head == BINARY) {
+        recorded(Bytes::new(data)?)
+    } else {
+        recorded(Text::new(data, stopped)?)
     }
-    let layout = match version.strip_prefix(b"Open CASCADE Topology V").and_then(<[u8]>::first) {
-        Some(b'2' | b'3') => Layout { ends_in_uv: true, normals: false },
-        Some(b'4') => Layout { ends_in_uv: false, normals: true },
-        _ => return bytes.fault("not a dump in a layout that is known here"),
-    };
-    let locations = locations::read(&mut bytes)?;
-    let curves2 = curves::section(&mut bytes, "Curve2ds", curves::plane_curve)?;
-    let curves = curves::section(&mut bytes, "Curves", curves::space_curve)?;
-    let polygons = triangles::polygons(&mut bytes)?;
-    let on_triangles = triangles::skip_polygons_on_triangulations(&mut bytes)?;
-    let surfaces = surfaces::section(&mut bytes)?;
-    let triangulations = triangles::triangulations(&mut bytes, layout)?;
-    bytes.line()?;
+}
+
+/// What the head of a binary file has.
+const BINARY: &[u8] = b"Open CASCADE Topology V";
+const HEAD: usize = 200;
+
+fn recorded(tokens: impl Tokens) -> Read<Source> {
+    let mut recorder = Recorder::new(tokens);
+    Ok(Source { dump: dump(&mut recorder)?, recorded: recorder.recorded })
+}
+
+fn dump(tokens: &mut impl Tokens) -> Read<Dump> {
+    let locations = locations::read(tokens)?;
+    let curves2 = curves::section(tokens, Table::Curves2, curves::plane_curve)?;
+    let curves = curves::section(tokens, Table::Curves, curves::space_curve)?;
+    let polygons = triangles::polygons(tokens)?;
+    let on_triangles = triangles::skip_polygons_on_triangulations(tokens)?;
+    let surfaces = surfaces::section(tokens)?;
+    let triangulations = triangles::triangulations(tokens)?;
     let limits = shapes::Limits {
         locations: locations.count(),
         curves2: curves2.len(),
@@ -70,9 +97,8 @@ pub fn read(data: &[u8]) -> Read<Dump> {
         on_triangles,
         surfaces: surfaces.len(),
         triangulations: triangulations.len(),
-        layout,
     };
-    let (shapes, root) = shapes::read(&mut bytes, &limits)?;
+    let (shapes, root) = shapes::read(tokens, &limits)?;
     Ok(Dump { locations, curves2, curves, polygons, surfaces, triangulations, shapes, root })
 }
 

@@ -1,7 +1,7 @@
 //! Reads the section of underlying shapes (TShapes).
 
-use super::bytes::{Bytes, Read};
-use super::layout::Layout;
+use super::orientation::Orientation;
+use super::tokens::{FLAGS, Read, Table, Tokens};
 
 /// A shape inside another one: its number, orientation and location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,34 +9,6 @@ pub struct Sub {
     pub shape: u32,
     pub orientation: Orientation,
     pub location: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Orientation {
-    Forward,
-    Reversed,
-    Internal,
-    External,
-}
-
-impl Orientation {
-    /// Whether a shape of this orientation bounds the shape that contains it.
-    pub fn bounds(self) -> bool {
-        matches!(self, Orientation::Forward | Orientation::Reversed)
-    }
-
-    /// The orientation of a child, seen from the frame of its parent. Internal and external children keep theirs; a
-    /// reversed parent reverses the others.
-    pub fn compose(self, inner: Orientation) -> Orientation {
-        use Orientation::{Forward, Reversed};
-        match (self, inner) {
-            (Forward, inner) => inner,
-            (Reversed, Forward) => Reversed,
-            (Reversed, Reversed) => Forward,
-            (Reversed, inner) => inner,
-            (outer, _) => outer,
-        }
-    }
 }
 
 /// The geometry of an edge, besides the continuity of the surfaces across it.
@@ -77,16 +49,13 @@ pub struct Limits {
     pub on_triangles: usize,
     pub surfaces: usize,
     pub triangulations: usize,
-    pub layout: Layout,
 }
 
-const FLAGS: usize = 7;
-
-pub fn read(bytes: &mut Bytes, limits: &Limits) -> Read<(Vec<Shape>, Sub)> {
-    let count = bytes.header("TShapes", 1 + FLAGS + 1)?;
-    let mut shapes: Vec<Shape> = Vec::with_capacity(count);
+pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Sub)> {
+    let count = bytes.header(Table::Shapes, 1 + FLAGS + 1)?;
+    let mut shapes: Vec<Shape> = Vec::new();
     for number in 0..count {
-        let kind = match bytes.byte()? {
+        let kind = match bytes.shape()? {
             0 => Kind::Compound,
             1 => Kind::CompSolid,
             2 => Kind::Solid,
@@ -97,12 +66,12 @@ pub fn read(bytes: &mut Bytes, limits: &Limits) -> Read<(Vec<Shape>, Sub)> {
             7 => vertex(bytes, limits)?,
             _ => return bytes.fault("a shape of unknown kind"),
         };
-        bytes.skip(FLAGS)?;
+        bytes.flags()?;
         let mut subs = Vec::new();
         while let Some(sub) = sub(bytes, count, limits)? {
             // A shape may refer only to shapes before it, so it cannot contain itself.
             if sub.shape as usize >= number || !may_hold(&kind, &shapes[sub.shape as usize].kind) {
-                return bytes.fault("a shape where it cannot be");
+                return bytes.beyond("a shape where it cannot be");
             }
             subs.push(sub);
         }
@@ -125,47 +94,38 @@ fn may_hold(outer: &Kind, inner: &Kind) -> bool {
     }
 }
 
-fn sub(bytes: &mut Bytes, count: usize, limits: &Limits) -> Read<Option<Sub>> {
-    let orientation = match bytes.byte()? {
-        0 => Orientation::Forward,
-        1 => Orientation::Reversed,
-        2 => Orientation::Internal,
-        3 => Orientation::External,
-        b'*' => return Ok(None),
-        _ => return bytes.fault("an orientation that there is not"),
-    };
+fn sub(bytes: &mut impl Tokens, count: usize, limits: &Limits) -> Read<Option<Sub>> {
+    let Some(orientation) = bytes.orientation()? else { return Ok(None) };
     // Shapes are numbered from the last one.
-    let shape = (count - 1 - bytes.index(count)?) as u32;
+    let shape = (count - 1 - bytes.index(Table::Shapes, count)?) as u32;
     Ok(Some(Sub { shape, orientation, location: location(bytes, limits)? }))
 }
 
 /// The number of a location; 0 is the identity.
-fn location(bytes: &mut Bytes, limits: &Limits) -> Read<u32> {
-    match usize::try_from(bytes.integer()?) {
+fn location(bytes: &mut impl Tokens, limits: &Limits) -> Read<u32> {
+    match usize::try_from(bytes.number(Table::Locations)?) {
         Ok(number) if number < limits.locations => Ok(number as u32),
         _ => bytes.fault("a reference to nothing"),
     }
 }
 
-fn vertex(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
+fn vertex(bytes: &mut impl Tokens, limits: &Limits) -> Read<Kind> {
     let tolerance = bytes.finite()?;
     let point = bytes.reals()?;
     // Parameters of the vertex on curves and surfaces are skipped: the edges give its place.
     loop {
-        match bytes.byte()? {
+        match bytes.place()?.0 {
             0 => return Ok(Kind::Vertex { tolerance, point }),
             1 => {
-                bytes.skip(8)?;
-                bytes.maybe_index(limits.curves)?;
+                bytes.maybe_index(Table::Curves, limits.curves)?;
             }
             2 => {
-                bytes.skip(8)?;
-                bytes.maybe_index(limits.curves2)?;
-                bytes.maybe_index(limits.surfaces)?;
+                bytes.maybe_index(Table::Curves2, limits.curves2)?;
+                bytes.maybe_index(Table::Surfaces, limits.surfaces)?;
             }
             3 => {
-                bytes.skip(16)?;
-                bytes.maybe_index(limits.surfaces)?;
+                bytes.real()?;
+                bytes.maybe_index(Table::Surfaces, limits.surfaces)?;
             }
             _ => return bytes.fault("a vertex on something unknown"),
         }
@@ -173,16 +133,16 @@ fn vertex(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
     }
 }
 
-fn edge(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
+fn edge(bytes: &mut impl Tokens, limits: &Limits) -> Read<Kind> {
     let tolerance = bytes.finite()?;
     let (same_parameter, _same_range, degenerate) = (bytes.flag()?, bytes.flag()?, bytes.flag()?);
     let (mut on, mut continuity) = (Vec::new(), 0);
     loop {
-        let kind = bytes.byte()?;
+        let kind = bytes.representation()?;
         match kind {
             0 => return Ok(Kind::Edge { tolerance, same_parameter, degenerate, on, continuity }),
             1 => {
-                let curve = bytes.maybe_index(limits.curves)?;
+                let curve = bytes.maybe_index(Table::Curves, limits.curves)?;
                 let location = location(bytes, limits)?;
                 let range = [bytes.real()?, bytes.real()?];
                 if let Some(curve) = curve {
@@ -190,35 +150,33 @@ fn edge(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
                 }
             }
             2 | 3 => {
-                let one = bytes.index(limits.curves2)?;
-                let two = if kind == 3 { bytes.index(limits.curves2)? } else { one };
+                let one = bytes.index(Table::Curves2, limits.curves2)?;
+                let two = if kind == 3 { bytes.index(Table::Curves2, limits.curves2)? } else { one };
                 if kind == 3 {
-                    bytes.byte()?;
+                    bytes.continuity()?;
                 }
-                let surface = bytes.index(limits.surfaces)?;
+                let surface = bytes.index(Table::Surfaces, limits.surfaces)?;
                 let location = location(bytes, limits)?;
                 let range = [bytes.real()?, bytes.real()?];
-                if limits.layout.ends_in_uv {
-                    bytes.skip(32)?;
-                }
+                bytes.skip_ends()?;
                 on.push(On::Surface { curves: [one, two], surface, location, range });
             }
             4 => {
-                continuity = continuity.max(1 + bytes.byte()?.min(100));
+                continuity = continuity.max(1 + bytes.continuity()?.min(100));
                 for _ in 0..2 {
-                    bytes.maybe_index(limits.surfaces)?;
+                    bytes.maybe_index(Table::Surfaces, limits.surfaces)?;
                     location(bytes, limits)?;
                 }
             }
             5 => {
-                let polygon = bytes.index(limits.polygons)?;
+                let polygon = bytes.index(Table::Polygons, limits.polygons)?;
                 on.push(On::Polygon { polygon, location: location(bytes, limits)? });
             }
             6 | 7 => {
                 for _ in 0..kind - 5 {
-                    bytes.index(limits.on_triangles)?;
+                    bytes.index(Table::OnTriangles, limits.on_triangles)?;
                 }
-                bytes.index(limits.triangulations)?;
+                bytes.index(Table::Triangulations, limits.triangulations)?;
                 location(bytes, limits)?;
             }
             _ => return bytes.fault("an edge on something unknown"),
@@ -226,15 +184,12 @@ fn edge(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
     }
 }
 
-fn face(bytes: &mut Bytes, limits: &Limits) -> Read<Kind> {
+fn face(bytes: &mut impl Tokens, limits: &Limits) -> Read<Kind> {
     bytes.flag()?;
     let tolerance = bytes.finite()?;
-    let surface = bytes.maybe_index(limits.surfaces)?;
+    let surface = bytes.maybe_index(Table::Surfaces, limits.surfaces)?;
     let location = location(bytes, limits)?;
-    let triangulation = match bytes.byte()? {
-        0 | 1 => None,
-        2 => Some(bytes.index(limits.triangulations)?),
-        _ => return bytes.fault("a face of unknown kind"),
-    };
+    let number = bytes.own_triangles(surface.is_some())?;
+    let triangulation = bytes.counted(number, limits.triangulations)?;
     Ok(Kind::Face { tolerance, surface, location, triangulation })
 }

@@ -1,8 +1,25 @@
 use super::*;
+use crate::model::Model;
 
 /// A compound of a cylinder of radius 1 and height 2, in either layout, as OpenCASCADE writes it.
 const CYLINDERS: [&[u8]; 2] =
     [include_bytes!("../../tests/cylinder_3.bin"), include_bytes!("../../tests/cylinder_4.bin")];
+
+/// The same cylinder as text of each version, the first and the last with triangles. Two boxes, one of them mirrored,
+/// and a loose face, in a compound of compounds.
+const TEXTS: [&[u8]; 4] = [
+    include_bytes!("../../tests/cylinder_1.brep"),
+    include_bytes!("../../tests/cylinder_2.brep"),
+    include_bytes!("../../tests/cylinder_3.brep"),
+    include_bytes!("../../tests/boxes.brep"),
+];
+
+fn whole(text: &[u8]) -> Vec<u8> {
+    let mut source = read_file(text, &|| false).unwrap();
+    let pieces = pieces(&mut source.dump).unwrap();
+    let roots: Vec<Root> = pieces.iter().map(|piece| Root { source: 0, piece }).collect();
+    merged(&[&source], &roots).unwrap()
+}
 
 #[test]
 fn both_layouts_say_the_same() {
@@ -12,6 +29,38 @@ fn both_layouts_say_the_same() {
     assert_eq!(new.shapes.len(), 14);
     let kinds: Vec<u8> = new.surfaces.iter().flatten().map(|s| s.kind).collect();
     assert_eq!(kinds, [2, 1, 1]);
+}
+
+#[test]
+fn a_file_becomes_the_dump_that_opencascade_writes() {
+    for text in TEXTS[..3].iter().chain(&CYLINDERS) {
+        let (found, wanted) = (read(&whole(text)).unwrap(), read(CYLINDERS[1]).unwrap());
+        assert_eq!(found.curves, wanted.curves);
+        assert_eq!(found.surfaces, wanted.surfaces);
+        assert!(found.shapes.len() >= wanted.shapes.len());
+        assert!(found.triangulations.is_empty());
+    }
+}
+
+#[test]
+fn several_files_become_the_parts_of_one() {
+    let mut sources: Vec<Source> = [TEXTS[0], TEXTS[3]].map(|text| read_file(text, &|| false).unwrap()).into();
+    let pieces: Vec<Vec<Piece>> = sources.iter_mut().map(|source| pieces(&mut source.dump).unwrap()).collect();
+    assert_eq!(pieces.iter().map(Vec::len).collect::<Vec<_>>(), [1, 3]);
+    assert!(determinant(&pieces[1][1].place) < 0.0, "one of the boxes is mirrored");
+    let roots: Vec<Root> = (0..)
+        .zip(&pieces)
+        .flat_map(|(source, pieces)| pieces.iter().map(move |piece| Root { source, piece }))
+        .collect();
+    let dump = merged(&[&sources[0], &sources[1]], &roots).unwrap();
+    let model = Model::read(&dump, None).unwrap();
+    assert_eq!(model.parts.iter().map(|part| part.faces.len()).collect::<Vec<_>>(), [3, 6, 6, 1]);
+    assert_eq!(model.parts.iter().map(|part| part.solids).collect::<Vec<_>>(), [1, 1, 1, 0]);
+    let boxes = crate::bounds::boxes(&model);
+    assert_eq!(boxes[0], [[-1.0, -1.0, 0.0], [1.0, 1.0, 2.0]]);
+    assert_eq!(boxes[1], [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]]);
+    // The face that is loose is moved up by 7, turned, and moved up by 9.
+    assert!(boxes[3][0][2] > 10.5 && boxes[3][1][2] < 11.8, "{:?}", boxes[3]);
 }
 
 #[test]
@@ -31,7 +80,54 @@ fn no_byte_of_damage_does_more_than_an_error() {
 }
 
 #[test]
+fn no_damage_to_a_text_does_more_than_an_error() {
+    for text in TEXTS {
+        let last = text.iter().rposition(|b| *b == b'+' || *b == b'-').unwrap();
+        for end in (0..last).step_by(7) {
+            assert!(read_file(&text[..end], &|| false).is_err(), "cut at {end}");
+        }
+        for at in 0..text.len() {
+            for new in [[b' ', b'-'], [b'9', b'*'], [b'0', b'2']][at % 3] {
+                let mut changed = text.to_vec();
+                changed[at] = new;
+                if let Ok(mut source) = read_file(&changed, &|| false)
+                    && let Ok(pieces) = pieces(&mut source.dump)
+                {
+                    let roots: Vec<Root> = pieces.iter().map(|piece| Root { source: 0, piece }).collect();
+                    let dump = merged(&[&source], &roots).unwrap();
+                    // What is read as text can be read again in binary.
+                    assert!(read(&dump).is_ok(), "{at} {new}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn counts_without_bytes_take_no_memory() {
     let text = b"\nOpen CASCADE Topology V4, (c) Open Cascade\nLocations 999999999\n";
     assert_eq!(read(text).err().unwrap().what, "a count that the bytes cannot hold");
+    let text = b"CASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 1\n7 0 0 3 999999 9 \n";
+    assert_eq!(read_file(text, &|| false).err().unwrap().what, "a count that the bytes cannot hold");
+}
+
+#[test]
+fn a_rounded_direction_is_a_unit_vector_again() {
+    let text = b"CASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 2\n\
+                 1 0 0 0 2 0 0\n2 0 0 0 0 0 1 1 1e-3 1e-3 0 1 0 5\n";
+    let mut text = Text::new(text, &|| false).unwrap();
+    locations::read(&mut text).unwrap();
+    curves::section(&mut text, Table::Curves2, curves::plane_curve).unwrap();
+    let found = curves::section(&mut text, Table::Curves, curves::space_curve).unwrap();
+    assert_eq!(found[0], Some(Curve::Line { p: [0.0; 3], a: [1.0, 0.0, 0.0] }));
+    let Some(Curve::Ellipse { a, b, .. }) = found[1] else { panic!() };
+    assert!((a[0].hypot(a[1]) - 5.0).abs() < 1e-14 && a[2] == 0.0 && (a[0] * b[0] + a[1] * b[1]).abs() < 1e-14);
+}
+
+#[test]
+fn reading_stops_when_asked() {
+    let many = "1 0 0 0 1 0 0\n".repeat(20_000);
+    let text = format!("CASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 20000\n{many}");
+    assert_eq!(read_file(text.as_bytes(), &|| true).err().unwrap().what, "stopped");
+    assert_eq!(read_file(text.as_bytes(), &|| false).err().unwrap().what, "Polygon3D");
 }

@@ -37,6 +37,17 @@ pub fn find_span(knots: &[f64], degree: usize, poles: usize, t: f64) -> usize {
     low
 }
 
+/// The poles of a spline that have a say over a range of its parameter.
+pub fn used_poles(knots: &[f64], degree: usize, poles: usize, [first, last]: [f64; 2]) -> std::ops::Range<usize> {
+    let low = find_span(knots, degree, poles, first.max(knots[degree]));
+    let mut high = find_span(knots, degree, poles, last.min(knots[poles])).max(low);
+    // A span that begins where the range ends has no say.
+    while high > low && knots[high] >= last {
+        high -= 1;
+    }
+    low - degree..high + 1
+}
+
 /// The nonzero basis functions on a span, with their first derivatives: out[k][j] is the k-th derivative of
 /// N(span - degree + j). N: at least one more than the degree; short arrays are much faster.
 pub fn basis<const N: usize>(knots: &[f64], degree: usize, span: usize, t: f64) -> [[f64; N]; 2] {
@@ -174,6 +185,15 @@ mod tests {
                 close(d2[k], (after[1][k] - before[1][k]) / (2.0 * h), 1e-5);
             }
         }
+    }
+
+    #[test]
+    fn poles_are_used_where_their_spans_are() {
+        let knots = [0.0, 0.0, 0.0, 1.0, 2.0, 3.0, 3.0, 3.0];
+        assert_eq!(used_poles(&knots, 2, 5, [0.0, 3.0]), 0..5);
+        assert_eq!(used_poles(&knots, 2, 5, [0.0, 1.0]), 0..3);
+        assert_eq!(used_poles(&knots, 2, 5, [1.2, 1.8]), 1..4);
+        assert_eq!(used_poles(&knots, 2, 5, [f64::NEG_INFINITY, f64::INFINITY]), 0..5);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 
 use super::basis::Basis;
 use super::jet::Jet;
+use super::nurbs::used_poles;
 use super::spans::{Slopes, Spans};
 use super::vector::{Vector, along, dot, length, scaled, sub};
 
@@ -53,6 +54,28 @@ impl SplineSurface {
     /// Periods of u and v; 0 where it is not periodic.
     pub fn period(&self) -> [f64; 2] {
         self.period
+    }
+
+    /// Whether straight lines lead from side to side.
+    pub fn is_ruled(&self) -> bool {
+        (0..2).any(|k| self.degree[k] == 1 && self.count[k] == 2)
+    }
+
+    /// The poles that have a say over ranges of u and v; all of them beyond the domain.
+    pub fn poles_over(&self, ranges: [[f64; 2]; 2]) -> impl Iterator<Item = Vector> {
+        let [rows, columns] =
+            [0, 1].map(|k| used_poles(&self.knots[k], self.degree[k], self.count[k], self.within(k, ranges[k])));
+        let width = self.count[1];
+        rows.flat_map(move |row| columns.clone().map(move |column| row * width + column)).map(|i| {
+            let [x, y, z, w] = self.poles[i];
+            [x / w, y / w, z / w]
+        })
+    }
+
+    fn within(&self, k: usize, [first, last]: [f64; 2]) -> [f64; 2] {
+        let [low, high] = self.domain()[k];
+        let slack = 1e-9 * (high - low);
+        if first >= low - slack && last <= high + slack { [first, last] } else { [low, high] }
     }
 
     /// Degrees along u and v, counts of poles, and the poles (x w, y w, z w, w), v fastest.

@@ -202,6 +202,11 @@ impl Frame {
         cross(&self.x, &self.y)
     }
 
+    /// Origin, and the directions of x, y and z.
+    pub fn vectors(&self) -> [Vector; 4] {
+        [self.origin, self.x, self.y, self.z]
+    }
+
     /// Radial and tangential directions at the angle u about z.
     pub(super) fn around(&self, u: f64) -> (Vector, Vector) {
         let (sin, cos) = u.sin_cos();

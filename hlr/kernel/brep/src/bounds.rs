@@ -1,0 +1,306 @@
+//! The box around each part, from its geometry and not from a mesh: the accuracy of the mesh depends on it.
+//!
+//! Planes, cylinders, cones and other ruled surfaces reach farthest on their edges. Spheres, tori and surfaces of
+//! revolution are taken over the (u, v) range of the face, free-form surfaces by their control points there.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use rayon::prelude::*;
+
+use crate::format::{IDENTITY, Matrix, moved, turned};
+use crate::geometry::curve::Curve;
+use crate::geometry::nurbs::used_poles;
+use crate::geometry::surface::Surface;
+use crate::geometry::vector::{Vector, add, along, cross, dot, scaled, sub};
+use crate::model::Model;
+use crate::part_topology::PartTopology;
+use crate::shapes::{Edge, Face};
+
+/// Lower and upper corner; the lower is beyond the upper where nothing is inside.
+pub type Box3 = [Vector; 2];
+
+pub const EMPTY: Box3 = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+
+type Range = [f64; 2];
+
+const WHOLE: Range = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// The box of each part.
+pub fn boxes(model: &Model) -> Vec<Box3> {
+    model.topology.par_iter().map(|part| around(model, part)).collect()
+}
+
+fn around(model: &Model, part: &PartTopology) -> Box3 {
+    let mut found = EMPTY;
+    for placed in &part.edges {
+        add_edge(model, &model.edges[placed.edge as usize], &placed.place.unwrap_or(IDENTITY), &mut found);
+    }
+    for placed in &part.faces {
+        add_face(model, &model.faces[placed.face as usize], &placed.place.unwrap_or(IDENTITY), &mut found);
+    }
+    found
+}
+
+fn add_point(point: &Vector, found: &mut Box3) {
+    for k in 0..3 {
+        found[0][k] = found[0][k].min(point[k]);
+        found[1][k] = found[1][k].max(point[k]);
+    }
+}
+
+fn add_range(k: usize, range: Range, found: &mut Box3) {
+    found[0][k] = found[0][k].min(range[0]);
+    found[1][k] = found[1][k].max(range[1]);
+}
+
+fn add_edge(model: &Model, edge: &Edge, place: &Matrix, found: &mut Box3) {
+    let points = edge.end_points.iter().flatten().chain(edge.polygon.iter().flatten());
+    points.for_each(|point| add_point(&moved(place, point), found));
+    if let Some(curve) = &edge.curve {
+        add_curve(&curve.moved(place), edge.range, found);
+    } else if let Some((number, surface)) = &edge.only_on
+        && let (Some(curve), Some(on)) = (&model.curves2[*number], edge.on.first())
+    {
+        for t in steps(on.range, SAMPLES) {
+            let [u, v, _] = curve.point(t);
+            add_point(&moved(place, &surface.point([u, v])), found);
+        }
+    }
+}
+
+/// Pieces of a curve that is only sampled.
+const SAMPLES: usize = 32;
+
+fn steps([first, last]: Range, count: usize) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |k| if k == count { last } else { first + (last - first) * (k as f64 / count as f64) })
+}
+
+fn add_curve(curve: &Curve, range: Range, found: &mut Box3) {
+    range.iter().for_each(|t| add_point(&curve.point(*t), found));
+    match curve {
+        Curve::Line { .. } => {}
+        Curve::Ellipse { p, a, b } => {
+            for k in 0..3 {
+                let reach = waves(a[k], b[k], range);
+                add_range(k, [p[k] + reach[0], p[k] + reach[1]], found);
+            }
+        }
+        Curve::Spline(n) => {
+            let (first, last) = n.domain();
+            let [first, last] = [range[0].max(first), range[1].min(last)];
+            let mut breaks = vec![first];
+            breaks.extend(n.knots.iter().copied().filter(|k| (first..last).contains(k)));
+            breaks.push(last);
+            breaks.dedup();
+            breaks.windows(2).for_each(|span| add_turns(curve, [span[0], span[1]], 2 * n.degree, found));
+        }
+        _ => add_turns(curve, range, SAMPLES, found),
+    }
+}
+
+/// Adds the samples of a curve, and where it turns back between two of them.
+fn add_turns(curve: &Curve, range: Range, count: usize, found: &mut Box3) {
+    let mut before: Option<(f64, Vector)> = None;
+    for t in steps(range, count) {
+        let [point, slope, _] = curve.derivatives(t);
+        add_point(&point, found);
+        if let Some((from, earlier)) = before {
+            for k in (0..3).filter(|&k| earlier[k] * slope[k] < 0.0) {
+                let (mut low, mut high) = (from, t);
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (low + high);
+                    let same = curve.derivatives(middle)[1][k] * earlier[k] > 0.0;
+                    if same { low = middle } else { high = middle }
+                }
+                add_point(&curve.point(0.5 * (low + high)), found);
+            }
+        }
+        before = Some((t, slope));
+    }
+}
+
+/// The value where a slope is zero is right to the square of what is left of the parameter.
+const HALVINGS: usize = 30;
+
+/// The range of a cos t + b sin t.
+fn waves(a: f64, b: f64, [first, last]: Range) -> Range {
+    let (size, top) = (a.hypot(b), b.atan2(a));
+    let ends = [first, last].map(|t| if t.is_finite() { a * t.cos() + b * t.sin() } else { 0.0 });
+    let reaches = |at: f64| !(last - first).is_finite() || at + TAU * ((first - at) / TAU).ceil() <= last;
+    let high = if reaches(top) { size } else { ends[0].max(ends[1]) };
+    let low = if reaches(top + PI) { -size } else { ends[0].min(ends[1]) };
+    [low, high]
+}
+
+fn add_face(model: &Model, face: &Face, place: &Matrix, found: &mut Box3) {
+    if let Some(own) = &face.own {
+        own.points.iter().for_each(|point| add_point(&moved(place, point), found));
+    }
+    let Some(surface) = &face.surface else { return };
+    if !reaches_on_edges(surface) {
+        add_surface(surface, uv_range(model, face, surface), place, found);
+    }
+}
+
+fn reaches_on_edges(surface: &Surface) -> bool {
+    match surface {
+        Surface::Plane(_) | Surface::Cylinder(..) | Surface::Cone(..) | Surface::Extrusion(..) => true,
+        Surface::Offset(basis, _) => reaches_on_edges(basis),
+        Surface::Spline(spline) => spline.is_ruled(),
+        _ => false,
+    }
+}
+
+/// The ranges of u and v of a face, from its curves in (u, v). Where an outline goes once around in one direction, it
+/// says nothing of where the face ends in the other.
+fn uv_range(model: &Model, face: &Face, surface: &Surface) -> [Range; 2] {
+    let mut all = EMPTY;
+    let (mut around, periods) = ([false; 2], surface.periods());
+    for wire in &face.wires {
+        let mut way = [0.0; 2];
+        for used in wire {
+            let found = used.curve2.and_then(|(number, range)| Some((model.curves2[number].as_ref()?, range)));
+            let Some((curve, range)) = found else { return [WHOLE; 2] };
+            add_curve(curve, range, &mut all);
+            let gone = sub(&curve.point(range[1]), &curve.point(range[0]));
+            let sign = if used.orientation == crate::format::Orientation::Reversed { -1.0 } else { 1.0 };
+            for k in (0..2).filter(|_| used.orientation.bounds()) {
+                way[k] += sign * gone[k];
+            }
+        }
+        for k in 0..2 {
+            around[k] |= periods[k] > 0.0 && way[k].abs() > 0.5 * periods[k];
+        }
+    }
+    [0, 1].map(|k| if around[1 - k] || all[0][k] > all[1][k] { WHOLE } else { [all[0][k], all[1][k]] })
+}
+
+fn add_surface(surface: &Surface, [u, v]: [Range; 2], place: &Matrix, found: &mut Box3) {
+    match surface {
+        Surface::Sphere(frame, radius) => {
+            let v = [v[0].max(-FRAC_PI_2), v[1].min(FRAC_PI_2)];
+            add_ring(frame.vectors(), 0.0, *radius, [u, v], place, found);
+        }
+        Surface::Torus(frame, major, minor) => add_ring(frame.vectors(), *major, *minor, [u, v], place, found),
+        Surface::Revolution(origin, axis, curve) => {
+            for point in hull(curve, v) {
+                let arm = sub(&point, origin);
+                let upright = scaled(axis, dot(axis, &arm));
+                let (out, side) = (sub(&arm, &upright), cross(axis, &arm));
+                let middle = moved(place, &add(origin, &upright));
+                let [a, b] = [out, side].map(|way| turned(place, &way));
+                for k in 0..3 {
+                    let reach = waves(a[k], b[k], u);
+                    add_range(k, [middle[k] + reach[0], middle[k] + reach[1]], found);
+                }
+            }
+        }
+        Surface::Spline(spline) => {
+            spline.poles_over([u, v]).for_each(|pole| add_point(&moved(place, &pole), found));
+        }
+        Surface::Offset(basis, distance) => {
+            let mut inner = EMPTY;
+            add_surface(basis, [u, v], place, &mut inner);
+            // The offset lies in the frame of the surface.
+            let most = place.iter().map(|row| row[..3].iter().map(|c| c * c).sum::<f64>().sqrt()).fold(0.0, f64::max);
+            let by = distance.abs() * most;
+            for k in (0..3).filter(|k| inner[0][*k] <= inner[1][*k]) {
+                add_range(k, [inner[0][k] - by, inner[1][k] + by], found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Adds origin + (major + minor cos v) (cos u x + sin u y) + minor sin v z.
+fn add_ring(
+    [origin, x, y, z]: [Vector; 4],
+    major: f64,
+    minor: f64,
+    [u, v]: [Range; 2],
+    place: &Matrix,
+    out: &mut Box3,
+) {
+    let middle = moved(place, &origin);
+    let [x, y, z] = [x, y, z].map(|way| turned(place, &way));
+    for k in 0..3 {
+        for wave in waves(x[k], y[k], u) {
+            let reach = waves(minor * wave, minor * z[k], v);
+            add_range(k, [middle[k] + major * wave + reach[0], middle[k] + major * wave + reach[1]], out);
+        }
+    }
+}
+
+/// Points whose convex hull holds the curve over a range.
+fn hull(curve: &Curve, range: Range) -> Vec<Vector> {
+    let domain = curve.domain(0.0);
+    let [first, last] = [range[0].max(domain[0]), range[1].min(domain[1])];
+    match curve {
+        Curve::Line { .. } => range.iter().filter(|t| t.is_finite()).map(|t| curve.point(*t)).collect(),
+        Curve::Ellipse { p, a, b } => {
+            let [first, last] = if range[1] - range[0] < TAU { range } else { domain };
+            let middles = steps([first, last], ARCS).take(ARCS).flat_map(|t| {
+                // Two tangents meet over the middle of the arc between them.
+                let half = 0.5 * (last - first) / ARCS as f64;
+                let (sin, cos) = (t + half).sin_cos();
+                let over = 1.0 / half.cos();
+                [curve.point(t), along(&along(p, a, cos * over), b, sin * over)]
+            });
+            middles.chain([curve.point(last)]).collect()
+        }
+        Curve::Spline(n) => {
+            let used = used_poles(&n.knots, n.degree, n.poles.len(), [first, last]);
+            n.poles[used].iter().map(|[x, y, z, w]| [x / w, y / w, z / w]).collect()
+        }
+        _ => steps([first, last], SAMPLES).map(|t| curve.point(t)).collect(),
+    }
+}
+
+/// Arcs that an ellipse is divided into.
+const ARCS: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FULL: Range = [0.0, TAU];
+
+    #[test]
+    fn a_wave_reaches_its_crests_where_the_range_holds_them() {
+        assert_eq!(waves(2.0, 0.0, FULL), [-2.0, 2.0]);
+        let [low, high] = waves(2.0, 0.0, [0.5, 1.0]);
+        assert!((low - 2.0 * 1f64.cos()).abs() < 1e-15 && (high - 2.0 * 0.5f64.cos()).abs() < 1e-15);
+        let [low, high] = waves(0.0, 1.0, [TAU + 1.0, TAU + 2.0]);
+        assert!(high == 1.0 && (low - 1f64.sin()).abs() < 1e-12);
+        assert_eq!(waves(3.0, 4.0, WHOLE), [-5.0, 5.0]);
+    }
+
+    #[test]
+    fn a_ring_reaches_as_far_as_its_points() {
+        let frame = [[1.0, 2.0, 3.0], [0.6, 0.8, 0.0], [-0.48, 0.36, 0.8], [0.64, -0.48, 0.6]];
+        for (u, v) in [(FULL, FULL), ([0.2, 1.4], [2.0, 4.5]), ([5.0, 7.0], [-1.0, 0.3])] {
+            let mut exact = EMPTY;
+            add_ring(frame, 3.0, 1.0, [u, v], &IDENTITY, &mut exact);
+            let mut sampled = EMPTY;
+            for s in steps(u, 400) {
+                for t in steps(v, 400) {
+                    let out = along(&scaled(&frame[1], s.cos()), &frame[2], s.sin());
+                    let point = along(&along(&frame[0], &out, 3.0 + t.cos()), &frame[3], t.sin());
+                    add_point(&point, &mut sampled);
+                }
+            }
+            for k in 0..3 {
+                let off = [sampled[0][k] - exact[0][k], exact[1][k] - sampled[1][k]];
+                assert!(off.iter().all(|off| (-1e-12..2e-4).contains(off)), "{off:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_hull_of_an_arc_holds_it_closely() {
+        let arc = Curve::Ellipse { p: [0.0; 3], a: [1.0, 0.0, 0.0], b: [0.0, 1.0, 0.0] };
+        let points = hull(&arc, [0.0, PI]);
+        let top = points.iter().map(|p| p[1]).fold(0.0, f64::max);
+        assert!((1.0..1.02).contains(&top), "{top}");
+    }
+}

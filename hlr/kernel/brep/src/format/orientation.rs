@@ -1,0 +1,29 @@
+//! The orientation of a shape inside another one.
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    Forward,
+    Reversed,
+    Internal,
+    External,
+}
+
+impl Orientation {
+    /// Whether a shape of this orientation bounds the shape that contains it.
+    pub fn bounds(self) -> bool {
+        matches!(self, Orientation::Forward | Orientation::Reversed)
+    }
+
+    /// The orientation of a child, seen from the frame of its parent. Internal and external children keep theirs; a
+    /// reversed parent reverses the others.
+    pub fn compose(self, inner: Orientation) -> Orientation {
+        use Orientation::{Forward, Reversed};
+        match (self, inner) {
+            (Forward, inner) => inner,
+            (Reversed, Forward) => Reversed,
+            (Reversed, Reversed) => Forward,
+            (Reversed, inner) => inner,
+            (outer, _) => outer,
+        }
+    }
+}
