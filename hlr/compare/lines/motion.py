@@ -50,6 +50,11 @@ class Motion:
         return replace(self, shift=(x, y))
 
     @property
+    def upright(self) -> bool:
+        """Whether it stays as it lies, neither mirrored nor turned."""
+        return not self.mirrored and self.turn == 0
+
+    @property
     def scales(self) -> bool:
         """Whether the size changes."""
         return abs(self.scale - 1.0) > _NO_SCALE

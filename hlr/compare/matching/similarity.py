@@ -32,7 +32,10 @@ _ENOUGH = 0.995
 """Share of the length: nothing better will come."""
 
 _FOUND = 0.9
-"""Share of the length: the place need not be searched for. Less may be lines of one direction, which slide along."""
+"""Share of the length: the place need not be searched for. Less may be lines of one direction, which slide along.
+
+A drawing that lies so mirrored or turned may be nearly symmetrical: as it lies is searched for then.
+"""
 
 _BETTER = 1.02
 """Another way to lay it down has to be that much better, or lay all on all: as it lies comes first."""
@@ -75,7 +78,7 @@ def similarity(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float 
                 best = found
             if best.share > _ENOUGH:
                 break
-        if best.share > _FOUND:
+        if best.share > (_FOUND if best.motion.upright else _ENOUGH):
             break
     return best if scale is not None else _fitted(moving, fixed, best, tolerance_mm, _MANY)
 
@@ -85,7 +88,8 @@ def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | N
     coarse = max(_COARSE * float(fixed.extent.max()), tolerance_mm)
     rule = Rule(coarse, coarse)
     found: list[tuple[float, Motion]] = []
-    few, voted = thinned(moving, _FEW), [] if scale is not None else voted_scales(moving, fixed)
+    few = thinned(moving, _FEW)
+    voted = [scale] if scale is not None else voted_scales(moving, fixed)
     for mirrored, turn in itertools.product((False, True), (0, 90, 180, 270)):
         turned = moving.mapped(Motion(mirrored, turn).matrix)
         for factor in [scale] if scale is not None else different([*voted, *rectangle_scales(turned, fixed)]):
@@ -97,9 +101,14 @@ def _to_try(moving: Pieces, fixed: Pieces, tolerance_mm: float, scale: float | N
             )
             found.append((covered / max(_length(some), 1e-12), motion))
     most = max(score for score, _ in found)
-    found = [each for each in found if each[0] >= _AS_GOOD * most]
-    tried = [motion for _, motion in sorted(found, key=lambda each: -round(each[0], 2))[:_TRIED]]
-    return sorted(tried, key=lambda motion: motion.mirrored or motion.turn != 0)
+
+    def sure(motion: Motion) -> bool:
+        """As it lies is tried anyway, at the scale of its lines: lines that one drawing has alone spoil rectangles."""
+        return motion.upright and motion.scale in voted
+
+    found = [each for each in found if each[0] >= _AS_GOOD * most or sure(each[1])]
+    found.sort(key=lambda each: (not sure(each[1]), -round(each[0], 2)))
+    return sorted((motion for _, motion in found[:_TRIED]), key=lambda motion: not motion.upright)
 
 
 def _fitted(moving: Pieces, fixed: Pieces, start: Registered, tolerance_mm: float, most_pieces: int) -> Registered:
