@@ -35,8 +35,9 @@ def table(rows: list[dict[str, Any]]) -> Iterator[str]:
 
 def _cells(row: dict[str, Any], timed: bool) -> list[str]:
     if "failed" in row:
-        late = "did not draw" in row["failed"]
-        return ["not in time" if late else "no lines", number(row["our_s"]), *[""] * len(WORDS)]
+        words = {"did not draw": "not in time", "ended without": "fails"}
+        told = next((word for said, word in words.items() if said in row["failed"]), "no lines")
+        return [told, number(row["our_s"]), *[""] * len(WORDS)]
     by = row.get("verdicts_mm", {})
     lengths = [row["same_mm"], *(by.get(f"{who} right", 0.0) for who in ("second", "first", "both"))]
     lengths += [by.get("neither right", 0.0) + by.get("undecided", 0.0), row["mm"]["doubled"]]

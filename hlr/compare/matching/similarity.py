@@ -159,7 +159,8 @@ def covered_share(moved: Pieces, fixed: Pieces, tolerance_mm: float) -> float:
 
 
 def laid_share(one: Pieces, other: Pieces, tolerance_mm: float) -> float:
-    """How much of the length of both lies on the other, 0 to 1."""
+    """How much of the length of both lies on the other, 0 to 1. Lines to nowhere do not count."""
+    one, other = without_strays(one), without_strays(other)
     lengths = _length(one), _length(other)
     shares = [covered_share(thinned(some, _MANY), rest, tolerance_mm) for some, rest in ((one, other), (other, one))]
     return float(np.dot(shares, lengths)) / max(sum(lengths), 1e-12)

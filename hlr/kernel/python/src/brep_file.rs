@@ -26,10 +26,10 @@ struct Kept {
 #[pymethods]
 impl BrepFile {
     #[new]
-    fn new(py: Python<'_>, text: &[u8]) -> PyResult<BrepFile> {
+    fn new(py: Python<'_>, data: &[u8]) -> PyResult<BrepFile> {
         caught(py, || {
-            let read = run(py, 1, text.len() / 64, |stopped| {
-                let mut source = read_file(text, stopped)?;
+            let read = run(py, 1, data.len() / 64, |stopped| {
+                let mut source = read_file(data, stopped)?;
                 let pieces = pieces(&mut source.dump)?;
                 Ok(Kept { source, pieces })
             })?;
