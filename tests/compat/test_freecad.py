@@ -85,6 +85,27 @@ def test_edges_that_only_divide_a_surface_are_sewn():
     assert "smooth" not in getSVG(halves()) and "seam" not in getSVG(halves())
 
 
+@pytest.mark.parametrize("seam", [True, False])
+def test_tangent_edges_of_equal_curvature_are_seams(seam):
+    """Here the shape says that its one tangent edge is of curvature continuity, as OpenCASCADE records it."""
+    import cadquery as cq
+    from OCP.BRep import BRep_Builder
+    from OCP.GeomAbs import GeomAbs_C2
+
+    from hlr.compat.viewport import draw_viewport, viewport_along
+
+    path = cq.Workplane().spline([(0, 0), (2, 1), (4, 0)], tangents=[(1, 0), (1, 0)]).lineTo(8, 0)
+    solid = path.lineTo(8, -3).lineTo(0, -3).close().extrude(4).val()
+    flat = next(face for face in solid.Faces() if face.geomType() == "PLANE" and face.normalAt().y > 0.99)
+    top = next(face for face in solid.Faces() if face.geomType() != "PLANE")
+    (edge,) = (e for e in top.Edges() if any(e.isSame(other) for other in flat.Edges()))
+    before = draw_viewport(solid.wrapped, viewport_along((1, 1, 1), "direction"), seam=seam)
+    BRep_Builder().Continuity(edge.wrapped, top.wrapped, flat.wrapped, GeomAbs_C2)
+    after = draw_viewport(solid.wrapped, viewport_along((1, 1, 1), "direction"), seam=seam)
+    assert [len(each.lines(["smooth"], True)) for each in (before, after)] == [1, 0]
+    assert [len(each.lines(["seam"], True)) for each in (before, after)] == [0, int(seam)]
+
+
 def test_shapes_of_all_neighbours():
     build123d = pytest.importorskip("build123d")
     expected = sum(map(originals.length, project_ex(box(), (1, 2, 3))))

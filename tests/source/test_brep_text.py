@@ -78,6 +78,7 @@ def shapes():
         "mirrored": placed(rounded, mirrored=True),
         "scaled": placed(rounded, scale=1.5),
         "reversed": block.Reversed(),
+        "both ways round": make_compound([block, placed(block.Reversed()), placed(block)]),
         "shell": placed(shell),
         "wire": placed(ring),
         "compound": placed(make_compound([inner, placed(inner, mirrored=True), torus])),
