@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from hlr.batch.page import scripts
-from hlr.common.web import shared
+from hlr.common.web import ASSETS, shared, template
 from hlr.drawing import files
 from hlr.errors import counted
 
@@ -48,17 +48,8 @@ def write(found: dict[str, Any], report: bytes, output: Path) -> None:
 
 
 def _html(found: dict[str, Any], shown: list[Any], made_of: str) -> bytes:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    templates = Environment(
-        loader=FileSystemLoader(_HOME / "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     counts = found["counts"]
-    text = templates.get_template("index.html").render(
+    text = template(_HOME / "templates", "index.html").render(
         report=found,
         drawings=counted(counts["drawings"], "drawing"),
         sources=counted(counts["sources"], "source"),
@@ -99,7 +90,7 @@ def _remove_others(folder: Path, names: Iterable[str]) -> None:
 
 def _own_files() -> list[Path]:
     """What the page is made of besides the report: templates, style and scripts."""
-    return [*sorted((_HOME / "templates").iterdir()), *_assets()]
+    return [*sorted((_HOME / "templates").iterdir()), *sorted(ASSETS.glob("*.html")), *_assets()]
 
 
 def _assets() -> list[Path]:

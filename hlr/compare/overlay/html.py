@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hlr.common.web import ASSETS
+from hlr.common.web import ASSETS, template
 from hlr.compare.compared_view import ComparedView
 from hlr.compare.difference import Difference, told
 from hlr.compare.lines.pieces import Floats
@@ -27,7 +27,7 @@ MOST_ROWS = 2000
 """Of the table, the longest differences of each kind first; the picture has all."""
 
 _HOME = Path(__file__).parent / "page"
-_STYLES = (ASSETS / "base.css", _HOME / "difference.css")
+_STYLES = (ASSETS / "base.css", ASSETS / "stage.css", _HOME / "difference.css")
 _SCRIPTS = (ASSETS / "start.js", ASSETS / "theme.js", ASSETS / "zoom.js", _HOME / "difference.js")
 
 _AROUND, _LEAST_AROUND_MM = 1.6, 12.0
@@ -60,16 +60,12 @@ class Told:
 
 def html(found: Told, page: Overlay) -> str:
     """The text of the file."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup
 
     style, *scripts = ("".join(_text(path) for path in _STYLES), *(_text(path) for path in _SCRIPTS))
-    templates = Environment(
-        loader=FileSystemLoader(_HOME), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
     words = words_of(found.foreign)
     pairs = list(zip(found.findings.differences, found.findings.traces, strict=True))
-    return templates.get_template("difference.html").render(
+    return template(_HOME, "difference.html").render(
         found=found,
         picture=Markup(drawn_alone(page)),
         layers=_layers(found.findings.lengths_mm, words),
