@@ -626,6 +626,9 @@ class BrepModel:
     def spindles(self) -> list[tuple[int, float, float]]:
         """Faces on tori whose tube reaches beyond the axis: number, major and minor radius."""
 
+    def is_one_sphere(self) -> bool:
+        """Whether the model is one part, and that one whole sphere, turned outward; true only where it is certain."""
+
     def edge_curves(self, part: Ints, edge: Ints) -> tuple[Bytes, Floats, Ints, Floats]:
         """kind, range, offsets and values of edges' curves, as in `Curves`, in the frame of the part.
 

@@ -34,7 +34,7 @@ def draw_views(
     if noted is not None:
         noted([note for placement in session.placements for note in placement.notes])
     drawings = []
-    for i, (view, draft) in enumerate(zip(views, session.drafts(), strict=True)):
+    for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
         session.progress("visibility", i / len(views))
         drawings.append(session.drawing(draft, Request(view, options)))
     session.progress("linework", 1.0)

@@ -34,13 +34,13 @@ from hlr.linework.curves import EdgeCurveLookup
 from hlr.linework.lines import draw_lines
 from hlr.pipeline.facts import note_meshing, note_reading, note_rescue
 from hlr.pipeline.finish import Solved, finished
-from hlr.request.accuracy import ANGLE, REMESH, SMALL_DRAWING
+from hlr.request.accuracy import ANGLE, REMESH, SMALL_DRAWING, SPHERE_MESH
 from hlr.request.drawing_effects import drawing_effects, left_to_view
 from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
-from hlr.source.model import Appearance, Source, Tessellation
+from hlr.source.model import Appearance, Source, Spherical, Tessellation
 from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
 from hlr.visibility.segments import solve
@@ -100,11 +100,14 @@ class Session:
         self.placements = [placing(camera, options, self.source, self.bounds) for camera in self.cameras]
 
     def scene_at(
-        self, deflection: float, angle: float = ANGLE, planner: Planner | None = None
+        self, deflection: float, angle: float = ANGLE, planner: Planner | None = None, coarser: float = 1.0
     ) -> tuple[Scene, Tessellation]:
-        """The source meshed with this chord error (model units) and turning (radians), and the scene of the mesh."""
+        """The source meshed with this chord error (model units) and turning (radians), and the scene of the mesh.
+
+        coarser: times the chord error of the mesh, where no tolerance depends on it.
+        """
         started = perf_counter()
-        meshed = self.source.mesh(deflection, angle, self.progress)
+        meshed = self.source.mesh(coarser * deflection, angle, self.progress)
         started = lap(self.clock, "tessellate", started)
         self.progress("scene", 0.0)
         scene = build(meshed, self.options.crease, deflection, planner)
@@ -116,16 +119,21 @@ class Session:
         size = float(((self.bounds[1] - self.bounds[0]) ** 2).sum() ** 0.5)
         return self.scene_at(size / SMALL_DRAWING)[0]
 
-    def drafts(self) -> list[Draft]:
+    def drafts(self, lines_alone: bool = False) -> list[Draft]:
         """One draft per view, of one scene, meshed finely enough for all.
 
         With a page or a size to fit into, the scale depends on the outlines: these are then traced here.
+        lines_alone: nothing but lines is made of the drafts, so a sphere may be meshed coarsely.
         """
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
+        with planner.deciding():
+            sphere = lines_alone and isinstance(self.source, Spherical) and self.source.is_one_sphere()
+            perspective = any(camera.eye is not None for camera in self.cameras)
+        coarser = 1.0 if planner.on("fine mesh", Facts(sphere=sphere, perspective=perspective)) else SPHERE_MESH
         for _ in range(MOST_MESHINGS):
             finest = min(at.tolerances.deflection for at in self.placements)
-            self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner)
+            self.scene, meshed = self.scene_at(finest, self.placements[0].tolerances.angle, planner, coarser)
             note_meshing(planner, self.scene)
             pairs = zip(self.cameras, self.placements, strict=True)
             drafts = [self._fitted(camera, placement, planner.fork()) for camera, placement in pairs]

@@ -67,6 +67,10 @@ REMESH = 0.8
 ANGLE = 0.5
 """Radians between neighbouring chords: 13 for a full circle, however small it is on paper."""
 
+SPHERE_MESH = 256.0
+"""Times: how much coarser the mesh of a sphere is of which only the outline is drawn. The outline is traced on the
+surface, where each chord of the mesh is halved up to six times: its own chord error is 4096 times smaller."""
+
 EACH_SURFACE = 0.5
 """Of the deflection: chord error of each B-rep surface. Two surfaces that touch, one inside the other, are then no
 further apart than one deflection."""

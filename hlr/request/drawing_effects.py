@@ -72,6 +72,16 @@ def _mesh(f: Facts, _o: Options) -> Answer:
     return not is_brep(f.kind), f"the source is {_noun(f.kind)}"
 
 
+def _fine(f: Facts, options: Options) -> Answer:
+    if not f.sphere:
+        return True, "what is hidden, and where edges end, is found on the mesh"
+    if f.perspective:
+        return True, "an eye may see less of a sphere than a coarse triangle holds"
+    if options.fill or options.seam or options.fit is not None or options.window is not None:
+        return True, "fill, seams, a size to fit into and a window need more than the outline"
+    return False, "one sphere: its outline is the only line, and is computed on the surface itself"
+
+
 def _curved(f: Facts, _o: Options) -> Answer:
     if not f.faces:
         return False, "a mesh is drawn as it is"
@@ -209,6 +219,7 @@ def _colours(_f: Facts, options: Options) -> Answer:
 _BEFORE: tuple[Effect, ...] = (
     Effect("B-rep reader", ASKED, _brep, ("brep_parts",)),
     Effect("mesh reader", ASKED, _mesh, ("mesh_parts",)),
+    Effect("fine mesh", SCENE, _fine),
     Effect("meshing of curved faces", SCENE, _curved, ("curved_triangles",)),
     Effect("triangulation of planar faces", SCENE, _planar, ("planar_triangles",)),
     Effect("rescue of faces", SCENE, _rescue, ("rescued_faces", "lost_faces")),

@@ -37,6 +37,7 @@ class Facts(NamedTuple):
     culled         number of groups that are closed and oriented outward
     convex         the whole model is one convex body
     unsound        number of groups that may pass through themselves
+    sphere         the whole model is one sphere, and lines are all that is asked of its mesh
     perspective    the view is in perspective
     pictorial      the view is in perspective, or oblique to the model's axes
     crossed        number of planes of the view volume that the model crosses
@@ -60,6 +61,7 @@ class Facts(NamedTuple):
     culled: int = 0
     convex: bool = False
     unsound: int = 0
+    sphere: bool = False
     perspective: bool = False
     pictorial: bool = False
     crossed: int = 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -180,6 +180,14 @@ class Tessellation:
 
 Choice = tuple[tuple[str, ...], tuple[str, ...]]
 """Patterns of parts that are drawn, and of those that are left out."""
+
+
+@runtime_checkable
+class Spherical(Protocol):
+    """What a source may have beyond the protocol `Source`: it can tell whether it is a sphere."""
+
+    def is_one_sphere(self) -> bool:
+        """There is one part, and it is one whole sphere; cheap, and sure where it says yes."""
 
 
 class Source(Protocol):

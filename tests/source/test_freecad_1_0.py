@@ -1,5 +1,7 @@
 """A document that FreeCAD 1.0.0 made in its window: binary shapes, appearances of faces, a link, a page of views."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +10,8 @@ import pytest
 from hlr.compare import compare
 from hlr.compare.reading.document import page_of
 from hlr.source import open_source
+from hlr.source.cad.source_builder import build_source
+from hlr.source.freecad.fcstd import read_document
 
 FOLDER = Path(__file__).parents[1] / "data" / "freecad" / "version_1_0"
 DOCUMENT = FOLDER / "document.FCStd"
@@ -17,6 +21,16 @@ def test_its_parts_lie_where_freecad_has_them():
     source = open_source(DOCUMENT)
     assert source.names() == ["Cut", "Group/Ball", "Link"]
     assert np.allclose(source.bounds(), [[-15.0, 0.0, 0.0], [68.0, 105.981, 20.0]], atol=0.001)
+
+
+def test_opencascade_is_not_loaded_and_would_read_the_same():
+    code = f"import sys; from hlr.source import open_source; open_source({str(DOCUMENT)!r}); print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "numpy" in done.stdout.split() and "OCP" not in done.stdout.split()
+    leaves, notes = read_document(DOCUMENT, opencascade=True)
+    loaded, lean = build_source(DOCUMENT.name, "fcstd", leaves, notes), open_source(DOCUMENT)
+    pairs = zip(loaded.mesh(0.05, 0.3).parts, lean.mesh(0.05, 0.3).parts, strict=True)
+    assert all(np.array_equal(a.points, b.points) and np.array_equal(a.triangles, b.triangles) for a, b in pairs)
 
 
 def test_each_face_has_its_own_colour():

@@ -184,6 +184,10 @@ class BrepSource:
             )
         return self._tessellator
 
+    def is_one_sphere(self) -> bool:
+        """There is one part, and it is one whole sphere: no other line of it than its outline is ever drawn."""
+        return len(self._parts) == 1 and self._part_tessellator.is_one_sphere()
+
     def mesh(self, deflection: float, angle: float, progress: Progress | None = None) -> Tessellation:
         """Tessellate: chord error at most `deflection` (millimetres), turning per chord at most `angle` (radians).
 

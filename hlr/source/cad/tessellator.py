@@ -68,6 +68,10 @@ class Tessellator:
         """Faces on tori whose tube reaches beyond their axis: number, major and minor radius."""
         return self._model.spindles()
 
+    def is_one_sphere(self) -> bool:
+        """Whether the prototypes are one, and that one whole sphere."""
+        return self._model.is_one_sphere()
+
     def edge_curves(self, prototypes: Ints, edges: Ints) -> Curves:
         """Curves of edges: (m,) prototypes, and (m,) indices in their TopExp edge maps."""
         return Curves(*self._model.edge_curves(prototypes, edges))

@@ -26,7 +26,7 @@ Colors = tuple[dict[Any, Color], dict[Any, float]]
 class Shapes:
     """The shapes of a document. What several instances have in common is one shape: read, scaled and coloured once.
 
-    opencascade: it reads them, and not the kernel, which scales none and does not know FreeCAD's binary files.
+    opencascade: it reads them, and not the kernel, which scales none.
     """
 
     def __init__(self, opencascade: bool) -> None:
@@ -54,8 +54,6 @@ class Shapes:
     def _shape(self, data: bytes) -> Any:
         if self._opencascade:
             return (read_binary if is_binary(data) else read_brep)(data)
-        if is_binary(data):
-            raise NeedsOpenCascadeError("a binary file of FreeCAD")
         return read_lean(data)
 
     def leaf(self, thing: Object, name: str, place: MatrixRows, placed: bool, look: Look | None) -> Leaf:

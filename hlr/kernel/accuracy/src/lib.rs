@@ -50,8 +50,6 @@ pub const OUTLINE_GAP: f64 = 0.5;
 pub const OUTLINE_CIRCLE: f64 = 1e-3;
 /// Of the chord tolerance: the step over which tangents of outlines are differentiated.
 pub const OUTLINE_TANGENT_STEP: f64 = 0.05;
-/// Of the chord tolerance: the step over which the curvature along the sight is differentiated.
-pub const OUTLINE_CURVATURE_STEP: f64 = 0.1;
 /// Of the chord tolerance, of which an accuracy has ten: a wrinkle of a surface that rises by less is no outline.
 pub const OUTLINE_WRINKLE: f64 = 15.0;
 

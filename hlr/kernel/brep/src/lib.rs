@@ -13,6 +13,7 @@ pub mod format;
 pub mod geometry;
 pub mod mesh;
 pub mod model;
+pub mod one_sphere;
 pub mod part_topology;
 pub mod shapes;
 pub mod tangency;

@@ -19,6 +19,7 @@ use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
 use hlr_brep::model::Model;
+use hlr_brep::one_sphere::is_one_sphere;
 use hlr_brep::shapes::Face;
 use hlr_brep::tessellate::{Ended, MOST_POINTS, Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
@@ -128,6 +129,11 @@ impl BrepModel {
         }
         let range = range.into_pyarray(py).reshape([part.len(), 2])?;
         Ok((kind.into_pyarray(py), range, offsets.into_pyarray(py), values.into_pyarray(py)))
+    }
+
+    /// Whether the model is one part, and that one whole sphere.
+    fn is_one_sphere(&self) -> bool {
+        is_one_sphere(&self.0)
     }
 
     /// Meshes all faces. `progress`: called with the share of faces that are done. A MemoryError: there would be more

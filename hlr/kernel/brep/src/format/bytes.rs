@@ -1,4 +1,7 @@
 //! A binary dump (BinTools): little-endian numbers; each read checks that the bytes are there.
+//!
+//! The files of FreeCAD's documents are such dumps, but they name the root in another way: its number counted from the
+//! first shape, its location and its orientation, four bytes each. No other root is as long.
 
 use super::orientation::Orientation;
 use super::tokens::{Damaged, FLAGS, Read, Table, Tokens};
@@ -10,13 +13,17 @@ pub struct Bytes<'a> {
     ends_in_uv: bool,
     /// A triangulation says whether it has normals.
     normals: bool,
+    /// How many shapes there are.
+    shapes: i32,
+    /// Number and location of a root as FreeCAD names it: counted from the last shape, as those of other roots.
+    freecad_root: Option<[i32; 2]>,
 }
 
 impl<'a> Bytes<'a> {
     /// # Errors
     /// The bytes do not begin as a dump in a layout that is known here.
     pub fn new(all: &'a [u8]) -> Read<Bytes<'a>> {
-        let mut bytes = Bytes { all, at: 0, ends_in_uv: true, normals: false };
+        let mut bytes = Bytes { all, at: 0, ends_in_uv: true, normals: false, shapes: 0, freecad_root: None };
         let mut version = bytes.line()?;
         if version.is_empty() {
             version = bytes.line()?;
@@ -76,7 +83,10 @@ impl Tokens for Bytes<'_> {
         let number = line.strip_prefix(table.name().as_bytes()).and_then(|rest| rest.strip_prefix(b" "));
         let number = number.and_then(|digits| str::from_utf8(digits).ok()).and_then(|digits| digits.parse().ok());
         match number {
-            Some(count) => self.fitting(count, size),
+            Some(count) => {
+                self.shapes = count;
+                self.fitting(count, size)
+            }
             None => Err(Damaged { what: table.name(), at: self.at, beyond: false }),
         }
     }
@@ -103,6 +113,14 @@ impl Tokens for Bytes<'_> {
 
     fn real(&mut self) -> Read<f64> {
         Ok(f64::from_le_bytes(self.take()?))
+    }
+
+    fn number(&mut self, table: Table) -> Read<i32> {
+        match (table, self.freecad_root) {
+            (Table::Shapes, Some([number, _])) => Ok(number),
+            (Table::Locations, Some([_, location])) => Ok(location),
+            _ => self.integer(),
+        }
     }
 
     fn direction<const N: usize>(&mut self) -> Read<[f64; N]> {
@@ -175,7 +193,14 @@ impl Tokens for Bytes<'_> {
     }
 
     fn orientation(&mut self) -> Read<Option<Orientation>> {
-        Ok(Some(match self.kind()? {
+        let named = if self.all.len() - self.at == FREECAD_ROOT {
+            let number = self.shapes.wrapping_sub(self.integer()?).wrapping_add(1);
+            self.freecad_root = Some([number, self.integer()?]);
+            u8::try_from(self.integer()?).unwrap_or(u8::MAX)
+        } else {
+            self.kind()?
+        };
+        Ok(Some(match named {
             0 => Orientation::Forward,
             1 => Orientation::Reversed,
             2 => Orientation::Internal,
@@ -187,3 +212,6 @@ impl Tokens for Bytes<'_> {
 }
 
 const LONGEST_LINE: usize = 200;
+
+/// Bytes of a root as FreeCAD names it.
+const FREECAD_ROOT: usize = 12;

@@ -79,6 +79,38 @@ fn no_byte_of_damage_does_more_than_an_error() {
     }
 }
 
+/// The same dump with its root as FreeCAD names it.
+fn as_freecad(bytes: &[u8]) -> Vec<u8> {
+    let (tables, root) = bytes.split_at(bytes.len() - 9);
+    let count = read(bytes).unwrap().shapes.len() as i32;
+    let written = i32::from_le_bytes(*root[1..].first_chunk().unwrap());
+    let orientation = i32::from(root[0]).to_le_bytes();
+    [tables, &(count - written + 1).to_le_bytes(), &root[5..], &orientation].concat()
+}
+
+#[test]
+fn the_root_of_a_freecad_file_is_the_same_and_its_damage_an_error() {
+    for bytes in CYLINDERS {
+        let own = as_freecad(bytes);
+        assert_eq!(read(&own).unwrap().root, read(bytes).unwrap().root);
+        let recorded = |data: &[u8]| read_file(data, &|| false).unwrap().recorded.bytes;
+        assert_eq!(recorded(&own), recorded(bytes));
+        for at in own.len() - 12..own.len() {
+            for value in 0..=255 {
+                let mut changed = own.clone();
+                changed[at] = value;
+                let _ = read(&changed);
+            }
+        }
+        for number in [0, -1, i32::MIN, i32::MAX, read(bytes).unwrap().shapes.len() as i32 + 1] {
+            let mut changed = own.clone();
+            let at = own.len() - 12;
+            changed[at..at + 4].copy_from_slice(&number.to_le_bytes());
+            assert!(read(&changed).is_err(), "{number}");
+        }
+    }
+}
+
 #[test]
 fn no_damage_to_a_text_does_more_than_an_error() {
     for text in TEXTS {

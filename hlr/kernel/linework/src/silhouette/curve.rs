@@ -1,7 +1,10 @@
 //! The curve along a silhouette: a circle where that is exact, otherwise cubic pieces through its points with their
 //! tangents.
 
-use super::face::Face;
+use std::f64::consts::{PI, TAU};
+
+use super::TIE;
+use super::face::{Face, SeenCircle};
 use hlr_accuracy::{OUTLINE_CIRCLE, OUTLINE_TANGENT_STEP};
 use hlr_brep::geometry::curve::Curve;
 use hlr_brep::geometry::nurbs::Nurbs;
@@ -9,6 +12,9 @@ use hlr_brep::geometry::vector::{Vector, add, along, cross, dot, length, scaled,
 
 /// Cosine of the angle between a tangent and the chord to the next point; below this the tangent is not used.
 const ASTRAY: f64 = 0.3;
+
+/// Points on a whole circle, at least.
+const FEWEST: f64 = 12.0;
 
 /// The direction on the surface along which f stays constant; None where the gradient of f vanishes.
 pub fn tangent(face: &Face, uv: [f64; 2], chord: f64) -> Option<Vector> {
@@ -35,18 +41,48 @@ pub fn circle(face: &Face, points: &[Vector], chord: f64) -> Option<Curve> {
     }
     let (centre, axis) = match face.axis() {
         Some((origin, axis)) => (along(&origin, &axis, dot(&sub(&points[0], &origin), &axis)), axis),
-        None => face.circle_of_sphere(&points[0])?,
+        None => face.circle_of_sphere().map(|seen| (seen.centre, seen.axis))?,
     };
     let arm = sub(&points[0], &centre);
     let radius = length(&arm);
+    // Nodes of the mesh at which |N . v| counts as 0 are points of the outline as they are.
+    let near = OUTLINE_CIRCLE * chord + TIE * radius;
     let on = |p: &Vector| {
         let q = sub(p, &centre);
-        dot(&q, &axis).abs() <= OUTLINE_CIRCLE * chord && (length(&q) - radius).abs() <= OUTLINE_CIRCLE * chord
+        dot(&q, &axis).abs() <= near && (length(&q) - radius).abs() <= near
     };
     // The circle runs in the order of the points.
     let way = cross(&arm, &sub(&points[1], &points[0]));
     let axis = if dot(&way, &axis) < 0.0 { scaled(&axis, -1.0) } else { axis };
     points.iter().all(on).then(|| Curve::Ellipse { p: centre, a: arm, b: cross(&axis, &arm) })
+}
+
+/// A circle with points of its own, evenly spaced.
+pub struct Whole {
+    pub curve: Curve,
+    /// The last point is the first.
+    pub points: Vec<Vector>,
+    /// Unit normals of the surface at the points.
+    pub normals: Vec<Vector>,
+}
+
+/// The circle in which a whole sphere is seen edge-on, the same for any mesh of the sphere; None for any other curve.
+/// `normal`: of the surface at the first of the points.
+pub fn whole_circle(face: &Face, points: &[Vector], normal: &Vector, chord: f64) -> Option<Whole> {
+    let SeenCircle { sphere, centre, axis, radius } = face.circle_of_sphere()?;
+    if points.first() != points.last() || circle(face, points, chord).is_none() {
+        return None;
+    }
+    let sign = dot(normal, &sub(&points[0], &sphere)).signum();
+    let least = (0..3).min_by(|&i, &j| axis[i].abs().total_cmp(&axis[j].abs()))?;
+    let side = [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 });
+    let arm = scaled(&unit(&cross(&axis, &side))?, radius);
+    let curve = Curve::Ellipse { p: centre, a: arm, b: cross(&axis, &arm) };
+    let count = (PI / (1.0 - chord / radius).max(0.0).acos()).ceil().max(FEWEST);
+    let mut points: Vec<Vector> = (0..count as u32).map(|k| curve.point(TAU * f64::from(k) / count)).collect();
+    points.push(points[0]);
+    let normals = points.iter().map(|p| unit(&scaled(&sub(p, &sphere), sign))).collect::<Option<_>>()?;
+    Some(Whole { curve, points, normals })
 }
 
 /// Cubic pieces through the points, as a B-spline with a continuous tangent.

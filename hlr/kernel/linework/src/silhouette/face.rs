@@ -1,7 +1,6 @@
 //! f = N . v on the surface of one face, in model coordinates, with its roots and derivatives.
 
 use super::Model;
-use hlr_accuracy::OUTLINE_CURVATURE_STEP;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, along, cross, dot, length, scaled, sub, unit};
 
@@ -18,6 +17,14 @@ pub struct Place {
     pub uv: [f64; 2],
     pub point: Vector,
     pub normal: Vector,
+}
+
+/// The circle in which a sphere is seen edge-on, and the sphere's centre.
+pub struct SeenCircle {
+    pub sphere: Vector,
+    pub centre: Vector,
+    pub axis: Vector,
+    pub radius: f64,
 }
 
 impl<'a> Face<'a> {
@@ -93,16 +100,23 @@ impl<'a> Face<'a> {
         Some((self.moved(&origin), unit(&self.turned(&axis))?))
     }
 
-    /// Centre and axis of the circle in which a sphere through p is seen edge-on.
-    pub fn circle_of_sphere(&self, p: &Vector) -> Option<(Vector, Vector)> {
-        let centre = self.moved(&self.surface.centre()?);
+    /// The circle in which a sphere is seen edge-on; None for other surfaces, and from within the sphere.
+    pub fn circle_of_sphere(&self) -> Option<SeenCircle> {
+        let sphere = self.moved(&self.surface.centre()?);
+        let radius = length(&sub(&self.point([0.0; 2]), &sphere));
         if !self.model.view.perspective {
-            return Some((centre, self.model.view.away));
+            return Some(SeenCircle { sphere, centre: sphere, axis: self.model.view.away, radius });
         }
-        let away = sub(&centre, &self.model.view.origin);
-        let arm = sub(p, &centre);
+        let away = sub(&sphere, &self.model.view.origin);
         // The circle of contact of the cone from the eye.
-        Some((along(&centre, &away, -dot(&arm, &arm) / dot(&away, &away)), unit(&away)?))
+        let share = radius * radius / dot(&away, &away);
+        let centre = along(&sphere, &away, -share);
+        (share < 1.0).then_some(SeenCircle {
+            sphere,
+            centre,
+            axis: unit(&away)?,
+            radius: radius * (1.0 - share).sqrt(),
+        })
     }
 
     /// How far the fold between two places rises above its chord, where that is known in closed form: on a cylinder or
@@ -129,18 +143,15 @@ impl<'a> Face<'a> {
         way.iter().all(|x| x.is_finite()).then_some(way)
     }
 
-    /// The growth of f per length along the line of sight. Positive: the surface bends away from its normal, and the
-    /// line of sight passes outside the body. Negative: the surface bends toward its normal, and the line of sight
-    /// lies within the body.
+    /// The growth of f per length along the line of sight: the curvature of the surface's normal section there.
+    /// Positive: the surface bends away from its normal, and the line of sight passes outside the body. Negative: the
+    /// surface bends toward its normal, and the line of sight lies within the body. 0 at a pole, where the parameters
+    /// do not tell.
     pub fn radial(&self, uv: [f64; 2]) -> f64 {
-        let Some([a, b]) = self.along_sight(uv) else { return 0.0 };
-        let sight = self.model.sight(&self.point(uv));
-        let step = OUTLINE_CURVATURE_STEP * self.model.chord;
-        let at = |s: f64| self.normal([uv[0] + s * a, uv[1] + s * b]).map(|n| dot(&n, &sight));
-        match (at(step), at(-step)) {
-            (Some(ahead), Some(back)) => (ahead - back) / (2.0 * step),
-            _ => 0.0,
-        }
+        let (Some([a, b]), Some(normal)) = (self.along_sight(uv), self.normal(uv)) else { return 0.0 };
+        let jet = self.surface.jet(uv);
+        let bend = |d: &Vector| dot(&normal, &self.turned(d));
+        -(a * a * bend(&jet.duu) + 2.0 * a * b * bend(&jet.duv) + b * b * bend(&jet.dvv))
     }
 }
 

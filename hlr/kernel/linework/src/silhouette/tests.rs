@@ -7,6 +7,7 @@ use hlr_brep::geometry::surface::Surface;
 use hlr_brep::geometry::vector::{Vector, dot, length, sub};
 use hlr_mesh::topology::topology;
 
+use super::face::Face;
 use super::trace::{Traced, trace};
 use super::{FaceRecord, Model};
 use crate::lines::View;
@@ -54,6 +55,10 @@ impl Body {
     }
 
     fn traced(&self, inward: bool, stop: bool) -> Option<Traced> {
+        self.seen(inward, |model| trace(model, &|| stop))
+    }
+
+    fn seen<T>(&self, inward: bool, ask: impl Fn(&Model) -> T) -> T {
         let t = topology(&self.triangles, self.points.len());
         let model = Model {
             points: &self.points,
@@ -76,7 +81,7 @@ impl Body {
             view: View { origin: [0.0; 3], away: [0.0, 1.0, 0.0], perspective: false },
             chord: 0.01,
         };
-        trace(&model, &|| stop)
+        ask(&model)
     }
 }
 
@@ -129,6 +134,23 @@ fn outlines_of_a_sphere_are_circles_on_it_where_it_is_seen_edge_on() {
         }
         let Some(Curve::Ellipse { p, a, b }) = &line.curve else { panic!("{:?}", line.curve) };
         assert!(length(p) < 1e-9 && (length(a) - RADIUS).abs() < 1e-9 && (length(b) - RADIUS).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_sphere_bends_alike_everywhere_up_to_its_poles() {
+    for (inward, sign) in [(false, 1.0), (true, -1.0)] {
+        for from_pole in [1.0, 1e-3, 1e-5, 1e-6] {
+            let uv = [0.2, 0.25 * TAU - from_pole];
+            let (bend, f) = zone().seen(inward, |model| {
+                let face = Face::new(model, 0).expect("a face");
+                (face.radial(uv), face.f(uv).expect("a normal"))
+            });
+            let want = sign * (1.0 - f * f) / RADIUS;
+            assert!((bend - want).abs() < 1e-9, "{from_pole} {bend} {want}");
+        }
+        let at_pole = zone().seen(inward, |model| Face::new(model, 0).map(|face| face.radial([0.2, 0.25 * TAU])));
+        assert_eq!(at_pole, Some(0.0));
     }
 }
 

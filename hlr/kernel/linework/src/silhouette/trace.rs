@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
-use super::curve::{circle, tangent, through};
+use super::curve::{Whole, circle, tangent, through, whole_circle};
 use super::face::Face;
 use super::grazing::Grazing;
 use super::refine::{Stretch, outward, rise, stretches};
@@ -320,8 +320,15 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
             uv.push(s.uv[1]);
         }
         let (face, Stretch { concave, source, .. }) = (run[0].0, run[0].1);
-        let curve = if source >= 0 { None } else { along_points(model, face, &points, &uv) };
-        out.push(Silhouette { face, concave, points, normals, rise, curve, source });
+        let whole = || whole_circle(&Face::new(model, face)?, &points, &normals[0], model.chord);
+        out.push(if let Some(Whole { curve, points, normals }) = if source < 0 { whole() } else { None } {
+            // Corners of a sphere's triangles lie on it, and none stands out beyond a plane that touches it.
+            let rise = vec![0.0; points.len()];
+            Silhouette { face, concave, points, normals, rise, curve: Some(curve), source }
+        } else {
+            let curve = if source >= 0 { None } else { along_points(model, face, &points, &uv) };
+            Silhouette { face, concave, points, normals, rise, curve, source }
+        });
     }
 }
 
