@@ -9,11 +9,12 @@ import trimesh
 
 import hlr
 from hlr.compare import compare
+from hlr.compare.difference import Difference
 from hlr.compare.matching.judge import judged as judge
 from hlr.compare.reading.model import sides_of
 from hlr.compare.verdict.sight import HIDDEN, NOTHING, VISIBLE, truth
 from hlr.compare.verdict.true_lines import TrueLines
-from hlr.compare.verdict.verdicts import with_verdicts
+from hlr.compare.verdict.verdicts import _polyline, with_verdicts
 from hlr.drawing.chords import chords
 from hlr.source import open_source
 from support.drawings import line
@@ -153,3 +154,18 @@ def test_rays_agree_with_every_line_that_is_drawn(view):
     assert (state != NOTHING).all()
     off = truth(TrueLines.of(source, drawing, 0.1), middle + (500.0, 0.0), ways, 0.1)
     assert (off.always == NOTHING).all() and not np.isfinite(off.away).any()
+
+
+@pytest.mark.parametrize(
+    ("side", "became", "verdict"),
+    [
+        ("before", "straight pieces", "first right"),
+        ("before", "a curve", "second right"),
+        ("after", "straight pieces", "second right"),
+        ("after", "a curve", "first right"),
+    ],
+)
+def test_the_drawing_with_the_curve_is_right_whichever_it_is_told_of(side, became, verdict):
+    bent = Difference("polyline", (0.0, 0.0), 5.0, "sharp", True, None, None, side, became, 0.3)
+    assert _polyline(bent, 0.1).verdict == verdict
+    assert _polyline(replace(bent, moved_mm=0.05), 0.1).verdict == "both right"

@@ -10,7 +10,7 @@ from typing import Any
 from hlr.compare.reading.sides import Behind, DrawnPage
 from hlr.drawing.sheet import Sheet
 from hlr.errors import OptionError
-from hlr.pipeline.document_page import PlacedView
+from hlr.pipeline.page.placed_view import PlacedView
 from hlr.public.pages import page_names, pages_with_views
 from hlr.request.accuracy import DEFAULT_ACCURACY
 from hlr.request.options import Options
@@ -45,7 +45,7 @@ def page_of(document: str | os.PathLike[str], page: str, tolerance_mm: float) ->
     ((drawing, placed),) = pages_with_views(
         document, [whole if mark else page], Options(accuracy=accuracy, details=True)
     )
-    shown = DrawnPage(drawing, {each.name: _behind(each) for each in placed if not each.cut})
+    shown = DrawnPage(drawing, {each.view.name: _behind(each) for each in placed if not each.cut})
     return one_view(shown, view) if mark else shown
 
 

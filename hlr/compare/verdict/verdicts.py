@@ -230,7 +230,9 @@ def _polyline(each: Difference, tolerance_mm: float) -> Difference:
     reason = f"straight pieces, off by {told(each.moved_mm)} mm"
     if each.moved_mm <= tolerance_mm:
         return replace(each, verdict="both right", reason=reason)
-    return replace(each, verdict="first right" if each.became == "straight pieces" else "second right", reason=reason)
+    # The drawing of which the difference is told has the curve, or the straight pieces.
+    told_of_first, has_curve = each.side == "before", each.became == "straight pieces"
+    return replace(each, verdict="first right" if told_of_first == has_curve else "second right", reason=reason)
 
 
 _JUDGED = ("gone", "new", "moved", "visibility changed")
