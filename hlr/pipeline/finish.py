@@ -84,7 +84,7 @@ def finished(
         planner.spent("fill", perf_counter() - started)
         planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")
     stated = drawn_view(camera)
-    frame = None if window is None else Frame(window, stated, placement.per_model)
+    frame = None if window is None else Frame(stated, placement.per_model, window)
     lines, fill, empty = cut_at_window(lines, fill, frame, planner)
     empty = empty or _empty(lines, fill)
     page, misfit = (None, ()) if window is not None else page_of(placement, lines)

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, SourceError
-from hlr.pipeline.document_page import PlacedView, Sources, drawn_page, part_of
+from hlr.pipeline.page.page import drawn_page, part_of
+from hlr.pipeline.page.placed_view import PlacedView
+from hlr.pipeline.page.sources import Sources
 from hlr.pipeline.session import refuse_warnings
 from hlr.request.check import checked
 from hlr.request.options import Options

@@ -45,7 +45,7 @@ def plan_views(
         return []
     session = Session(source, views, options, progress)
     out = []
-    for draft in session.drafts():
+    for draft in session.drafts(lines_alone=True):
         image = session.shown(draft)
         draft.planner.on("window")
         if options.window is not None:

@@ -14,8 +14,8 @@ from hlr.drawing.lines import bounds_of
 from hlr.drawing.notes import Note
 from hlr.request.effect import Facts, Planner
 from hlr.window.fill import cut_fill
-from hlr.window.frame import Frame
-from hlr.window.lines import SLACK, cut_lines
+from hlr.window.frame import SLACK, Frame
+from hlr.window.lines import cut_lines
 
 EFFECT = "window"
 """The row of the table of effects."""

@@ -1,4 +1,4 @@
-"""Cuts lines at the sides of a window: polylines, arcs and Bezier chains, each exactly where it crosses a side."""
+"""Cuts lines at the border of a window: polylines, arcs and Bezier chains, each exactly where it crosses."""
 
 from __future__ import annotations
 
@@ -11,17 +11,13 @@ import numpy.typing as npt
 from hlr.common.distinct import distinct
 from hlr.drawing.curve import Arc, Bezier, Curve
 from hlr.drawing.line import Line
-from hlr.window.frame import Frame
+from hlr.window.frame import Window
 from hlr.window.tracks import Track, track_of
 
 Floats = npt.NDArray[np.float64]
 
-SLACK = 1e-6
-"""Millimetres: what lies beyond a side by less than this lies on it. A line along the side is drawn, whatever the last
-digit of its coordinates."""
 
-
-def cut_lines(lines: Sequence[Line], frame: Frame) -> tuple[tuple[Line, ...], int]:
+def cut_lines(lines: Sequence[Line], window: Window) -> tuple[tuple[Line, ...], int]:
     """The parts of the lines inside the window, in their order, and how many lines were cut or left out.
 
     A line wholly inside the window stays the same object.
@@ -29,16 +25,14 @@ def cut_lines(lines: Sequence[Line], frame: Frame) -> tuple[tuple[Line, ...], in
     if not lines:
         return (), 0
     boxes = _boxes(lines)
-    low, high = frame.low, frame.high
-    inside = np.all((boxes[:, :2] >= low - SLACK) & (boxes[:, 2:] <= high + SLACK), axis=1).tolist()
-    outside = np.any((boxes[:, 2:] < low - SLACK) | (boxes[:, :2] > high + SLACK), axis=1).tolist()
+    inside, outside = (which.tolist() for which in window.apart(boxes))
     out: list[Line] = []
     cuts = 0
     for i, line in enumerate(lines):
         if inside[i]:
             out.append(line)
             continue
-        pieces = [] if outside[i] else _cut(line, frame)
+        pieces = [] if outside[i] else _cut(line, window)
         cuts += not (len(pieces) == 1 and pieces[0] is line)
         out += pieces
     return tuple(out), cuts
@@ -62,28 +56,28 @@ def _around(curve: Curve | None, points: Floats) -> Floats:
     return points
 
 
-def _cut(line: Line, frame: Frame) -> list[Line]:
+def _cut(line: Line, window: Window) -> list[Line]:
     track = track_of(line)
-    breaks = distinct(np.concatenate([track.breaks, *(track.crossings(*side) for side in frame.sides)]))
-    # Between two breaks the line crosses no side of the window: its middle tells whether it is inside.
+    breaks = distinct(np.concatenate([track.breaks, *window.crossings(track)]))
+    # Between two breaks the line crosses no border of the window: its middle tells whether it is inside.
     middle = track.at(0.5 * (breaks[:-1] + breaks[1:]))
-    kept = np.all((middle >= frame.low - SLACK) & (middle <= frame.high + SLACK), axis=1).tolist()
+    kept = window.holds(middle).tolist()
     if all(kept):
         return [line]
     change = np.flatnonzero(np.diff(np.concatenate([[False], kept, [False]])))
     runs = [(float(breaks[a]), float(breaks[b])) for a, b in zip(change[::2], change[1::2], strict=True)]
-    pieces = [piece for a, b in runs if (piece := _piece(line, track, a, b, frame)) is not None]
+    pieces = [piece for a, b in runs if (piece := _piece(line, track, a, b, window)) is not None]
     closed = bool((line.points[0] == line.points[-1]).all()) or (isinstance(line.curve, Arc) and line.curve.whole)
     if closed and len(pieces) > 1 and kept[0] and kept[-1]:
         return [*pieces[1:-1], _joined(pieces[-1], pieces[0])]
     return pieces
 
 
-def _piece(line: Line, track: Track, a: float, b: float, frame: Frame) -> Line | None:
+def _piece(line: Line, track: Track, a: float, b: float, window: Window) -> Line | None:
     """The piece of the line from parameter a to b; None where that is a single point."""
     between = (track.params > a) & (track.params < b)
-    ends = [_end(line, track, t, frame) for t in (a, b)]
-    points = np.clip(np.stack([ends[0][0], *line.points[between], ends[1][0]]), frame.low, frame.high)
+    ends = [_end(line, track, t, window) for t in (a, b)]
+    points = window.within(np.stack([ends[0][0], *line.points[between], ends[1][0]]))
     if (points == points[0]).all():
         return None
     space = np.stack([ends[0][1], *line.points3[between], ends[1][1]])
@@ -96,20 +90,17 @@ def _piece(line: Line, track: Track, a: float, b: float, frame: Frame) -> Line |
     return replace(line, points=points, points3=space, curve=curve)
 
 
-def _end(line: Line, track: Track, t: float, frame: Frame) -> tuple[Floats, Floats]:
+def _end(line: Line, track: Track, t: float, window: Window) -> tuple[Floats, Floats]:
     """Where the piece ends, on paper and in the model."""
     for which in (0, -1):
         if t == track.params[which]:
             return line.points[which], line.points3[which]
-    place = track.at(np.array([t]))[0]
-    for axis, value in frame.sides:
-        if abs(place[axis] - value) <= 1e-9 * (1.0 + abs(value)):
-            place[axis] = value
+    place = window.onto(track.at(np.array([t]))[0])
     i = int(np.clip(np.searchsorted(track.params, t, side="right") - 1, 0, len(track.params) - 2))
     width = track.params[i + 1] - track.params[i]
     s = float((t - track.params[i]) / width) if width > 0.0 else 0.0
     (p, q), (u, v) = line.points[i : i + 2], line.points3[i : i + 2]
-    return place, frame.to_model(u, v, s, place - (p + (q - p) * s))
+    return place, window.to_model(u, v, s, place - (p + (q - p) * s))
 
 
 def _joined(first: Line, second: Line) -> Line:

@@ -22,6 +22,15 @@ SAMPLES = 16
 ROWS = 256
 """Points that are located at once: bounds the memory."""
 
+ON_CIRCLE = 1e-6
+"""How far a root may be from the unit circle, or from the real numbers, by rounding: two that nearly coincide are."""
+
+_POWERS = {
+    2: np.array([[1.0, 0.0, 0.0], [-2.0, 2.0, 0.0], [1.0, -2.0, 1.0]]),
+    3: np.array([[1.0, 0.0, 0.0, 0.0], [-3.0, 3.0, 0.0, 0.0], [3.0, -6.0, 3.0, 0.0], [-1.0, 3.0, -3.0, 1.0]]),
+}
+"""From control points to the coefficients of 1, t, t^2, t^3, by degree."""
+
 
 class Track(Protocol):
     """What polylines, arcs and Bezier chains have in common."""
@@ -39,6 +48,9 @@ class Track(Protocol):
 
     def crossings(self, axis: int, value: float) -> Floats:
         """Parameters where the coordinate crosses a value; those where it only touches may be among them."""
+
+    def round_crossings(self, middle: Floats, radius: float) -> Floats:
+        """Parameters where the line crosses a circle; those where it only touches may be among them."""
 
     def between(self, a: float, b: float) -> Curve | None:
         """The part of the curve; None of a polyline."""
@@ -69,6 +81,15 @@ class Polyline:
         height = self.points[:, axis] - value
         i = np.flatnonzero(height[:-1] * height[1:] < 0.0)
         return np.asarray(i + height[i] / (height[i] - height[i + 1]))
+
+    def round_crossings(self, middle: Floats, radius: float) -> Floats:
+        """See Track. |p + s d| = radius is a quadratic equation in s."""
+        p, d = self.points[:-1] - middle, np.diff(self.points, axis=0)
+        a, b, c = (d * d).sum(axis=1), (p * d).sum(axis=1), (p * p).sum(axis=1) - radius * radius
+        root = b * b - a * c
+        i = np.flatnonzero((root > 0.0) & (a > 0.0))
+        s = (-b[i] + np.array([[-1.0], [1.0]]) * np.sqrt(root[i])) / a[i]
+        return np.asarray((i + s)[(s >= 0.0) & (s < 1.0)])
 
     def between(self, a: float, b: float) -> Curve | None:
         """See Track."""
@@ -107,6 +128,18 @@ class ArcTrack:
         found = (first[:, None] + turns).ravel()
         return np.asarray(found[found < self.breaks[1]])
 
+    def round_crossings(self, middle: Floats, radius: float) -> Floats:
+        """See Track. With z = cos t + i sin t the equation |p + a cos t + b sin t| = radius is one of degree 4 in z."""
+        p, (a, b) = self.arc.centre - middle, self.arc.axes
+        # The square of the distance is even + Re(once z) + Re(twice z^2).
+        even = float(p @ p + 0.5 * (a @ a + b @ b)) - radius * radius
+        once, twice = complex(2.0 * p @ a, -2.0 * p @ b), complex(0.5 * (a @ a - b @ b), -(a @ b))
+        z = np.roots([twice, once, 2.0 * even, once.conjugate(), twice.conjugate()])
+        angles = np.angle(z[np.abs(np.abs(z) - 1.0) < ON_CIRCLE])
+        first = (self.sign * (angles - self.start)) % tau
+        found = (first[:, None] + np.arange(int(self.breaks[1] / tau) + 1) * tau).ravel()
+        return np.asarray(found[found < self.breaks[1]])
+
     def between(self, a: float, b: float) -> Curve | None:
         """See Track."""
         return Arc(self.arc.centre, self.arc.axes, self.start + self.sign * np.array([a, b]))
@@ -140,6 +173,18 @@ class BezierTrack:
                 if heights[k] * heights[k + 1] < 0.0:
                     found.append(i + _root(own, stops[k], stops[k + 1]))
         return np.array(found)
+
+    def round_crossings(self, middle: Floats, radius: float) -> Floats:
+        """See Track. The square of the distance is a polynomial of twice the degree."""
+        degree, found = self.chain.degree, [np.zeros(0)]
+        for i in range(self.count):
+            own = self.chain.points[degree * i : degree * i + degree + 1] - middle
+            powers = _POWERS[degree] @ own
+            square = sum(np.polymul(powers[::-1, axis], powers[::-1, axis]) for axis in (0, 1))
+            roots = np.roots(np.polysub(square, [radius * radius]))
+            real = roots.real[np.abs(roots.imag) < ON_CIRCLE]
+            found.append(i + real[(real >= 0.0) & (real <= 1.0)])
+        return np.concatenate(found)
 
     def between(self, a: float, b: float) -> Curve | None:
         """See Track."""

@@ -32,7 +32,7 @@ def housing():
 
 
 def frame(x0, y0, x1, y1):
-    return Frame(Bounds(x0, y0, x1, y1), FLAT, 1.0)
+    return Frame(FLAT, 1.0, Bounds(x0, y0, x1, y1))
 
 
 def line(points, curve=None):

@@ -15,6 +15,7 @@ COLLECTION_CLASSES = {
         "IndexedDataMap_TopoDS_Shape_List_TopoDS_Shape_TopTools_ShapeMapHasher",
         "TopTools.TopTools_IndexedDataMapOfShapeListOfShape",
     ),
+    "shapes": ("List_TopoDS_Shape", "TopTools.TopTools_ListOfShape"),
     "labels": ("Sequence_TDF_Label", "TDF.TDF_LabelSequence"),
     "points": ("Array1_gp_Pnt", "TColgp.TColgp_Array1OfPnt"),
     "point_net": ("Array2_gp_Pnt", "TColgp.TColgp_Array2OfPnt"),

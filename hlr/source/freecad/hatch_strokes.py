@@ -1,0 +1,99 @@
+"""The strokes of a hatch within a box, and what of them lies inside a face."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from hlr.common.types import Floats
+from hlr.source.freecad.hatch import Row, Tiles
+
+MOST_STROKES = 100_000
+"""Of one section."""
+
+CROSSINGS = 1_000_000
+"""Strokes times sides that are looked at together: bounds the memory."""
+
+
+def strokes_within(pattern: tuple[Row, ...] | Tiles, low: Floats, high: Floats) -> Floats | None:
+    """The strokes (n, 2, 2) of a pattern that may reach into the box from low to high (2,), in its own coordinates.
+
+    None: there would be more than MOST_STROKES.
+    """
+    corners = np.array([[low[0], low[1]], [high[0], low[1]], [low[0], high[1]], [high[0], high[1]]])
+    if isinstance(pattern, Tiles):
+        return _tiled(pattern, corners)
+    rows = [_ruled(row, corners) for row in pattern]
+    if any(row is None for row in rows):
+        return None
+    strokes = np.concatenate([row for row in rows if row is not None])
+    return strokes if len(strokes) <= MOST_STROKES else None
+
+
+def _ruled(row: Row, corners: Floats) -> Floats | None:
+    across = np.array([-row.direction[1], row.direction[0]])
+    spacing = float(row.offset @ across)
+    heights = (corners - row.origin) @ across / spacing
+    first, last = math.ceil(float(heights.min())), math.floor(float(heights.max()))
+    if last - first >= MOST_STROKES:
+        return None
+    numbers = np.arange(first, last + 1, dtype=np.float64)
+    starts = row.origin + numbers[:, None] * row.offset
+    along = (corners - row.origin) @ row.direction
+    skipped = (starts - row.origin) @ row.direction
+    low, high = float(along.min()) - skipped, float(along.max()) - skipped
+    if not row.dashes:
+        spans = np.stack([low, high], axis=1)
+        return np.asarray(starts[:, None] + spans[..., None] * row.direction)
+    ends = np.cumsum(np.abs(row.dashes))
+    period = float(ends[-1])
+    if period <= 0.0 or float((high - low).sum()) / period * len(ends) > MOST_STROKES:
+        return None
+    dashes = [(end - abs(length), end) for end, length in zip(ends.tolist(), row.dashes, strict=True) if length >= 0.0]
+    parts = [np.zeros((0, 2, 2))]
+    for start, a, b in zip(starts, low.tolist(), high.tolist(), strict=True):
+        turns = np.arange(math.floor(a / period), math.ceil(b / period)) * period
+        spans = (turns[:, None, None] + np.array(dashes)).reshape(-1, 2)
+        parts.append(start + spans[..., None] * row.direction)
+    return np.concatenate(parts)
+
+
+def _tiled(tiles: Tiles, corners: Floats) -> Floats | None:
+    numbers = np.linalg.solve(tiles.steps.T, corners.T).T
+    low, high = np.floor(numbers.min(axis=0)) - 1, np.ceil(numbers.max(axis=0)) + 1
+    if float(np.prod(high - low)) * len(tiles.strokes) > MOST_STROKES:
+        return None
+    right, up = np.meshgrid(*(np.arange(a, b) for a, b in zip(low, high, strict=True)))
+    shifts = np.stack([right.ravel(), up.ravel()], axis=1) @ tiles.steps
+    return np.asarray((shifts[:, None, None] + tiles.strokes).reshape(-1, 2, 2))
+
+
+def inside(strokes: Floats, sides: Floats) -> Floats:
+    """What of strokes (n, 2, 2) lies inside a face, by the even-odd rule: (k, 2, 2).
+
+    sides (m, 2, 2): of all its loops
+    """
+    rows = max(1, CROSSINGS // max(len(sides), 1))
+    parts = [np.zeros((0, 2, 2))]
+    parts += [_inside(strokes[k : k + rows], sides) for k in range(0, len(strokes), rows)]
+    return np.concatenate(parts)
+
+
+def _inside(strokes: Floats, sides: Floats) -> Floats:
+    start, along = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    # How far the ends of each side lie to the left of each stroke. An end on it counts as left, once and for all.
+    left = np.einsum("nk,mek->nme", across, sides) - np.einsum("nk,nk->n", across, start)[:, None, None]
+    crossed = (left[..., 0] >= 0.0) != (left[..., 1] >= 0.0)
+    share = np.where(crossed, left[..., 0], 0.0) / np.where(crossed, left[..., 0] - left[..., 1], 1.0)
+    places = sides[None, :, 0] + share[..., None] * (sides[:, 1] - sides[:, 0])[None]
+    length = np.maximum(np.einsum("nk,nk->n", along, along), 1e-300)
+    t = np.einsum("nmk,nk->nm", places - start[:, None], along) / length[:, None]
+    t = np.sort(np.where(crossed, t, np.inf), axis=1)
+    # Along its straight line the face is entered at the first crossing, left at the second, and so on.
+    t = t[:, : t.shape[1] // 2 * 2].reshape(len(t), -1, 2)
+    t = np.clip(np.where(np.isfinite(t), t, 2.0), 0.0, 1.0)
+    which, pair = np.nonzero(t[..., 1] > t[..., 0])
+    spans = t[which, pair]
+    return np.asarray(start[which, None] + spans[..., None] * along[which, None])
