@@ -25,7 +25,7 @@ def test_its_parts_lie_where_freecad_has_them():
 
 def test_opencascade_is_not_loaded_and_would_read_the_same():
     code = f"import sys; from hlr.source import open_source; open_source({str(DOCUMENT)!r}); print(*sys.modules)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, check=True)
     assert "numpy" in done.stdout.split() and "OCP" not in done.stdout.split()
     leaves, notes = read_document(DOCUMENT, opencascade=True)
     loaded, lean = build_source(DOCUMENT.name, "fcstd", leaves, notes), open_source(DOCUMENT)

@@ -44,7 +44,7 @@ def test_an_interrupt_ends_the_work_within_the_face(dump, seconds, tmp_path):
         except KeyboardInterrupt:
             print(time.monotonic() - sent[0])
     """
-    command = [sys.executable, "-c", textwrap.dedent(program)]
+    command = [sys.executable, "-P", "-c", textwrap.dedent(program)]
     done = subprocess.run(command, check=False, capture_output=True, text=True, timeout=200, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     # 0.02 to 0.1 s; a busy machine takes its time.
