@@ -17,7 +17,7 @@ from hlr.errors import WriteError
 def path_of(file: Any) -> Path:
     """The path that a caller gave; raises WriteError for anything else, named as it was given."""
     try:
-        path = Path(file)
+        path = file if isinstance(file, Path) else Path(file)
     except TypeError:
         raise WriteError(f"cannot write into {file!r}: give a path or a binary file object") from None
     if "\0" in str(path):

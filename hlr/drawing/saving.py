@@ -5,6 +5,7 @@ Drawings and pictures are plain objects here: their records import this module, 
 
 from __future__ import annotations
 
+import os
 from itertools import combinations
 from pathlib import Path
 from typing import Any, Literal
@@ -19,7 +20,7 @@ Format = Literal["svg", "pdf", "dxf", "png", "json"]
 
 def format_of(path: str | Path) -> str:
     """The format that the ending of `path` names. Raises WriteError for any other ending."""
-    ending = Path(path).suffix.lower().removeprefix(".")
+    ending = os.path.splitext(path)[1].lower().removeprefix(".")
     if ending in WRITERS:
         return ending
     has = f"the ending .{ending} is unknown" if ending else "the name has no ending"

@@ -105,7 +105,7 @@ def legible(
     pens = usual if style.wide or style.narrow else _group(seen, usual)
     notes = _notes(seen, usual, pens, scale)
     kept = held(lines)
-    fates = kept.left_out((pens[1], pens[0]), accuracy, in_drawing_order(), options.threads)
+    fates = kept.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()), options.threads)
     out = int(np.count_nonzero(fates))
     planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
     if out:

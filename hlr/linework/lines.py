@@ -14,7 +14,7 @@ from hlr.drawing.lines import Lines
 from hlr.image.image import Image
 from hlr.linework.curves import EdgeCurveLookup, guides
 from hlr.request.accuracy import CLOSED, CURVE_CHORD
-from hlr.tables.line_classes import by_number
+from hlr.tables.line_classes import ranks
 from hlr.visibility.plan import Plan
 from hlr.visibility.segments import Segments
 
@@ -43,7 +43,7 @@ def draw_lines(
     """
     per_model, tolerances = image.placement.per_model, image.placement.tolerances
     chains = _chains(image, plan, segments)
-    rank = np.array([row.rank for row in by_number()], np.uint8)[chains.kind]
+    rank = ranks()[chains.kind]
     if image.silhouettes is not None:
         # Where a shaft's outline lies on that of its bore, the shaft's is drawn.
         rank += image.silhouettes.hidden[chains.first]

@@ -40,7 +40,7 @@ from hlr.request.effect import Facts, Planner
 from hlr.request.options import Options, Request, View
 from hlr.scene.build import build
 from hlr.scene.scene import Scene
-from hlr.source.model import Appearance, Source, Spherical, Tessellation
+from hlr.source.model import Appearance, Source, Tessellation
 from hlr.source.selection import open_selected
 from hlr.visibility.plan import Plan, decide
 from hlr.visibility.segments import solve
@@ -128,7 +128,9 @@ class Session:
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
         with planner.deciding():
-            sphere = lines_alone and isinstance(self.source, Spherical) and self.source.is_one_sphere()
+            # Beyond the protocol a source may tell this: there is one part, and it is one whole sphere.
+            ask = getattr(self.source, "is_one_sphere", None) if lines_alone else None
+            sphere = ask is not None and bool(ask())
             perspective = any(camera.eye is not None for camera in self.cameras)
         coarser = 1.0 if planner.on("fine mesh", Facts(sphere=sphere, perspective=perspective)) else SPHERE_MESH
         for _ in range(MOST_MESHINGS):

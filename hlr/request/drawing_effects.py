@@ -5,9 +5,11 @@ The table imports no stage, so that every stage can ask it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from hlr.request.effect import ASKED, SCENE, Effect, Facts
 from hlr.request.options import Options
-from hlr.tables.line_classes import LineClass, counted
+from hlr.tables.line_classes import LINE_CLASSES, LineClass, counted
 from hlr.tables.readers import is_brep, of_kind
 
 DEEP_GROUPS, DEEP_EDGES = 400, 8000
@@ -249,12 +251,14 @@ _AFTER: tuple[Effect, ...] = (
 )
 
 
-def left_to_view() -> dict[str, str]:
+@LINE_CLASSES.derived
+def left_to_view() -> Mapping[str, str]:
     """Options that may be left to the kind of view, and their effects."""
     rows = {row.option: row.title for row in counted() if row.option is not None and row.by_default is None}
     return {"hidden": "hidden lines", **rows}
 
 
+@LINE_CLASSES.derived
 def drawing_effects() -> tuple[Effect, ...]:
     """The table; the line classes that are counted have a row each."""
     return (*_BEFORE, *map(_lines_of, counted()), *_AFTER)

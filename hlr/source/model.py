@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -182,14 +182,6 @@ Choice = tuple[tuple[str, ...], tuple[str, ...]]
 """Patterns of parts that are drawn, and of those that are left out."""
 
 
-@runtime_checkable
-class Spherical(Protocol):
-    """What a source may have beyond the protocol `Source`: it can tell whether it is a sphere."""
-
-    def is_one_sphere(self) -> bool:
-        """There is one part, and it is one whole sphere; cheap, and sure where it says yes."""
-
-
 class Source(Protocol):
     """An opened source: read once, meshed as finely as each request needs.
 
@@ -238,9 +230,13 @@ class Source(Protocol):
         """How the parts look, by name; gathered only when asked for, because most drawings do not need it."""
 
 
+MEMBERS = tuple(name for name in vars(Source) if not name.startswith("_"))
+"""The names that the protocol `Source` asks for."""
+
+
 def missing_of_source(thing: object) -> list[str]:
     """What an object lacks of the protocol `Source`, by name; nothing is called, and no property read."""
-    found = {name for cls in type(thing).__mro__ for name in vars(cls)} | set(getattr(thing, "__dict__", ()))
-    missing = [name for name in vars(Source) if not name.startswith("_") and name not in found]
+    places = [*map(vars, type(thing).__mro__), getattr(thing, "__dict__", ())]
+    missing = [name for name in MEMBERS if not any(name in place for place in places)]
     # A proxy forwards the attributes that it does not have itself.
     return [name for name in missing if not hasattr(type(thing), "__getattr__") or not hasattr(thing, name)]

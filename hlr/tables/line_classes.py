@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import TYPE_CHECKING, Literal
 
+from hlr.tables.entry import Table
+
 if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
@@ -73,8 +75,8 @@ class LineClass:
         return self.option is None or bool(getattr(options, self.option))
 
 
-LINE_CLASSES: dict[str, LineClass] = {
-    row.name: row
+LINE_CLASSES: Table[LineClass] = Table(
+    (row.name, row)
     for row in (
         LineClass(EdgeClass.SHARP, "sharp", "sharp edges", rank=0, place=4, border=True),
         LineClass(
@@ -117,33 +119,48 @@ LINE_CLASSES: dict[str, LineClass] = {
             counter="intersection_lines",
         ),
     )
-}
+)
 """All classes, by name."""
 
 
-def by_number() -> list[LineClass]:
+@LINE_CLASSES.derived
+def by_number() -> tuple[LineClass, ...]:
     """All classes; each stands at its number."""
-    return sorted(LINE_CLASSES.values(), key=lambda row: row.number)
+    return tuple(sorted(LINE_CLASSES.values(), key=lambda row: row.number))
 
 
-def in_drawing_order() -> list[int]:
+@LINE_CLASSES.derived
+def in_drawing_order() -> tuple[int, ...]:
     """The numbers of all classes, in the order in which their lines are drawn."""
-    return [row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place)]
+    return tuple(row.number for row in sorted(LINE_CLASSES.values(), key=lambda row: row.place))
 
 
-def names() -> list[Kind]:
+@LINE_CLASSES.derived
+def names() -> tuple[Kind, ...]:
     """The names of all classes; each stands at its number."""
-    return [row.name for row in by_number()]
+    return tuple(row.name for row in by_number())
 
 
-def optional() -> list[LineClass]:
+@LINE_CLASSES.derived
+def optional() -> tuple[LineClass, ...]:
     """Classes that an option asks for, in the order of their numbers."""
-    return [row for row in by_number() if row.option is not None]
+    return tuple(row for row in by_number() if row.option is not None)
 
 
-def counted() -> list[LineClass]:
+@LINE_CLASSES.derived
+def counted() -> tuple[LineClass, ...]:
     """Classes whose lines are counted, in the order of their numbers."""
-    return [row for row in by_number() if row.counter is not None]
+    return tuple(row for row in by_number() if row.counter is not None)
+
+
+@LINE_CLASSES.derived
+def ranks() -> npt.NDArray[np.uint8]:
+    """The rank of each class, at its number; not to be changed."""
+    import numpy as np
+
+    found = np.array([row.rank for row in by_number()], np.uint8)
+    found.flags.writeable = False
+    return found
 
 
 def where(fits: Callable[[LineClass], bool], interior: bool = False) -> npt.NDArray[np.bool_]:
@@ -156,6 +173,9 @@ def where(fits: Callable[[LineClass], bool], interior: bool = False) -> npt.NDAr
     return out
 
 
+@LINE_CLASSES.derived
 def goes_on() -> npt.NDArray[np.bool_]:
-    """(256,) by the class of an edge: the surface goes on there without a fold."""
-    return where(lambda row: row.tangent, interior=True)
+    """(256,) by the class of an edge: the surface goes on there without a fold; not to be changed."""
+    found = where(lambda row: row.tangent, interior=True)
+    found.flags.writeable = False
+    return found

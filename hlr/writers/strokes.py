@@ -132,7 +132,7 @@ def _sets(drawing: Drawing) -> list[tuple[PenSet, _kernel.Lines]]:
 
 def _inked(drawing: Drawing, pens: PenSet, lines: _kernel.Lines, places: int, cubic: bool) -> list[Inked]:
     try:
-        layers = lines.layers(in_drawing_order(), places, drawing.accuracy.used, cubic)
+        layers = lines.layers(list(in_drawing_order()), places, drawing.accuracy.used, cubic)
     except ValueError:
         raise WriteError(number.NOT_FINITE) from None
     seen, rows = tuple(layer for layer in layers if layer.visible), by_number()

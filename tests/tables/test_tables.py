@@ -16,6 +16,7 @@ import hlr
 from hlr import Options
 from hlr.drawing.saving import Format
 from hlr.source.model import Frame, PartInfo, PartMesh, Tessellation
+from hlr.tables.entry import Table
 from hlr.tables.line_classes import LINE_CLASSES, EdgeClass, Kind, LineClass, by_number, names, optional
 from hlr.tables.readers import READERS, Reader
 from hlr.tables.writers import WRITERS, Writer
@@ -132,11 +133,27 @@ def command(path, *arguments):
     )
 
 
+def test_what_is_derived_from_a_table_follows_its_rows():
+    table = Table([("a", 1), ("b", 2)])
+    made = []
+
+    @table.derived
+    def total():
+        made.append(1)
+        return sum(table.values())
+
+    assert (total(), total(), len(made)) == (3, 3, 1)
+    table.update({"c": 4})
+    assert (total(), len(made)) == (7, 2)
+    del table["a"]
+    assert (total(), total(), len(made)) == (6, 6, 3)
+
+
 def test_rows_of_line_classes_say_what_the_types_and_options_say():
     """Static types cannot be made from a table: they are held against it."""
     assert [row.number for row in by_number()] == list(range(len(LINE_CLASSES)))
     assert set(get_args(Kind)) == set(names())
-    assert [kind.name.lower() for kind in EdgeClass] == names()
+    assert tuple(kind.name.lower() for kind in EdgeClass) == names()
     assert set(get_args(Format)) == set(WRITERS)
     assert len({row.place for row in by_number()}) == len(LINE_CLASSES)
     # An outline that its own body hides ranks one lower.

@@ -63,10 +63,14 @@ struct Item {
 pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Damaged> {
     let root = &dump.shapes[dump.root.shape as usize];
     if root.kind != Kind::Compound {
-        return Err(Damaged { what: "the root is no compound", at: 0, beyond: false });
+        return Err(Damaged { what: "the root is no compound", at: 0, unsupported: false });
     }
     let child = |&i: &u32| {
-        root.subs.get(i as usize).copied().ok_or(Damaged { what: "a part that there is not", at: 0, beyond: false })
+        root.subs.get(i as usize).copied().ok_or(Damaged {
+            what: "a part that there is not",
+            at: 0,
+            unsupported: false,
+        })
     };
     let children = chosen.map_or_else(|| Ok(root.subs.clone()), |some| some.iter().map(child).collect())?;
     let mut found = Explored { faces: Vec::new(), edges: Vec::new(), parts: Vec::new() };
@@ -83,7 +87,11 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
             face: None,
         });
         while let Some(item) = stack.pop() {
-            left = left.checked_sub(1).ok_or(Damaged { what: "shapes nested beyond measure", at: 0, beyond: false })?;
+            left = left.checked_sub(1).ok_or(Damaged {
+                what: "shapes nested beyond measure",
+                at: 0,
+                unsupported: false,
+            })?;
             let mut face = item.face;
             match dump.shapes[item.shape as usize].kind {
                 Kind::Vertex { .. } => continue,
@@ -114,7 +122,7 @@ pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Dama
                 _ => {}
             }
             if dump.locations.factors_in_all() > MOST_FACTORS {
-                return Err(Damaged { what: "shapes nested beyond measure", at: 0, beyond: false });
+                return Err(Damaged { what: "shapes nested beyond measure", at: 0, unsupported: false });
             }
             let subs: &[Sub] = &dump.shapes[item.shape as usize].subs;
             for sub in subs.iter().rev() {

@@ -98,7 +98,7 @@ pub fn square_placement(rows: [f64; 12]) -> PyResult<Vec<f64>> {
 
 fn damaged(damage: hlr_brep::format::Damaged) -> PyErr {
     let text = damage.to_string();
-    if damage.beyond { PyNotImplementedError::new_err(text) } else { PyValueError::new_err(text) }
+    if damage.unsupported { PyNotImplementedError::new_err(text) } else { PyValueError::new_err(text) }
 }
 
 fn rows(matrix: &Matrix) -> Vec<f64> {

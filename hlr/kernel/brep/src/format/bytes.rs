@@ -31,7 +31,7 @@ impl<'a> Bytes<'a> {
         match version.strip_prefix(b"Open CASCADE Topology V").and_then(<[u8]>::first) {
             Some(b'2' | b'3') => Ok(bytes),
             Some(b'4') => Ok(Bytes { ends_in_uv: false, normals: true, ..bytes }),
-            _ => bytes.beyond("not a dump in a layout that is known here"),
+            _ => bytes.unsupported("not a dump in a layout that is known here"),
         }
     }
 
@@ -87,7 +87,7 @@ impl Tokens for Bytes<'_> {
                 self.shapes = count;
                 self.fitting(count, size)
             }
-            None => Err(Damaged { what: table.name(), at: self.at, beyond: false }),
+            None => Err(Damaged { what: table.name(), at: self.at, unsupported: false }),
         }
     }
 

@@ -94,7 +94,7 @@ fn curve<const N: usize>(bytes: &mut impl Tokens, nested: usize) -> Read<Option<
             // In the plane an offset is to the right of the curve, in space along the tangent x the direction.
             return Ok(basis.and_then(|basis| offset_curve(&basis, distance, &way)));
         }
-        _ => return bytes.beyond("a curve of unknown kind"),
+        _ => return bytes.unsupported("a curve of unknown kind"),
     }))
 }
 
@@ -107,7 +107,7 @@ fn basis<const N: usize>(bytes: &mut impl Tokens, nested: usize) -> Read<Option<
 
 pub fn degree(bytes: &mut impl Tokens) -> Read<usize> {
     let degree = bytes.short()?;
-    if (1..=MOST_DEGREE).contains(&degree) { Ok(degree) } else { bytes.beyond("a degree out of range") }
+    if (1..=MOST_DEGREE).contains(&degree) { Ok(degree) } else { bytes.unsupported("a degree out of range") }
 }
 
 fn poles<const N: usize>(bytes: &mut impl Tokens, count: usize, rational: bool) -> Read<Vec<[f64; 4]>> {
@@ -119,7 +119,7 @@ pub fn pole<const N: usize>(bytes: &mut impl Tokens, rational: bool) -> Read<[f6
     let [x, y, z] = vector::<N>(bytes)?;
     let w = if rational { bytes.finite()? } else { 1.0 };
     if w <= 0.0 {
-        return bytes.beyond("a weight that is not positive");
+        return bytes.unsupported("a weight that is not positive");
     }
     Ok([x * w, y * w, z * w, w])
 }
@@ -150,25 +150,25 @@ impl Axis {
             let times = bytes.integer()?;
             match usize::try_from(times) {
                 Ok(times) if (1..=degree + 1).contains(&times) => knots.push((value, times)),
-                _ => return bytes.beyond("a knot that stands too often"),
+                _ => return bytes.unsupported("a knot that stands too often"),
             }
         }
         let total: usize = knots.iter().map(|k| k.1).sum();
         let last = knots.last().map_or(0, |k| k.1);
         let wanted = if periodic { total - last } else { total.saturating_sub(degree + 1) };
         if knots.len() < 2 || wanted != poles || poles == 0 || knots.windows(2).any(|w| w[0].0 >= w[1].0) {
-            return bytes.beyond("knots that do not fit their poles");
+            return bytes.unsupported("knots that do not fit their poles");
         }
         if !periodic && poles <= degree {
-            return bytes.beyond("too few poles");
+            return bytes.unsupported("too few poles");
         }
         if periodic && (last > degree || knots[0].1 != last) {
-            return bytes.beyond("knots that do not come round");
+            return bytes.unsupported("knots that do not come round");
         }
         let axis = Axis { knots, periodic };
         let (flat, order) = axis.flat(degree, poles, 0);
         if flat[degree] >= flat[order.len()] {
-            return bytes.beyond("knots without a domain");
+            return bytes.unsupported("knots without a domain");
         }
         Ok(axis)
     }

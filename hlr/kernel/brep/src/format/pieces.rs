@@ -87,7 +87,8 @@ fn found(dump: &mut Dump, root: Sub, kind: u8, avoid: Option<u8>) -> Read<Vec<Su
     let (mut out, mut known, mut stack) = (Vec::new(), FxHashSet::default(), vec![root]);
     let mut left = MOST;
     while let Some(item) = stack.pop() {
-        left = left.checked_sub(1).ok_or(Damaged { what: "shapes nested beyond measure", at: 0, beyond: false })?;
+        left =
+            left.checked_sub(1).ok_or(Damaged { what: "shapes nested beyond measure", at: 0, unsupported: false })?;
         let shape = &dump.shapes[item.shape as usize];
         let own = rank(&shape.kind);
         if Some(own) == avoid || own > kind || !known.insert((item.shape, item.location)) {
@@ -104,7 +105,7 @@ fn found(dump: &mut Dump, root: Sub, kind: u8, avoid: Option<u8>) -> Read<Vec<Su
             stack.push(Sub { shape: sub.shape, orientation, location });
         }
         if dump.locations.factors_in_all() > MOST_FACTORS {
-            return Err(Damaged { what: "shapes nested beyond measure", at: 0, beyond: false });
+            return Err(Damaged { what: "shapes nested beyond measure", at: 0, unsupported: false });
         }
     }
     Ok(out)

@@ -71,7 +71,7 @@ pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Sub)>
         while let Some(sub) = sub(bytes, count, limits)? {
             // A shape may refer only to shapes before it, so it cannot contain itself.
             if sub.shape as usize >= number || !may_hold(&kind, &shapes[sub.shape as usize].kind) {
-                return bytes.beyond("a shape where it cannot be");
+                return bytes.unsupported("a shape where it cannot be");
             }
             subs.push(sub);
         }
@@ -96,8 +96,9 @@ fn may_hold(outer: &Kind, inner: &Kind) -> bool {
 
 fn sub(bytes: &mut impl Tokens, count: usize, limits: &Limits) -> Read<Option<Sub>> {
     let Some(orientation) = bytes.orientation()? else { return Ok(None) };
-    // Shapes are numbered from the last one.
-    let shape = (count - 1 - bytes.index(Table::Shapes, count)?) as u32;
+    // Shapes are numbered from the last one. Where there is none, every number is a fault.
+    let from_last = bytes.index(Table::Shapes, count)?;
+    let shape = (count - 1 - from_last) as u32;
     Ok(Some(Sub { shape, orientation, location: location(bytes, limits)? }))
 }
 

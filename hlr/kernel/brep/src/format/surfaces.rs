@@ -75,7 +75,7 @@ fn surface(bytes: &mut impl Tokens, nested: usize) -> Read<Option<SurfaceRecord>
                 data: [&[distance, f64::from(basis.kind)], &basis.data[..]].concat(),
             }))
         }
-        _ => bytes.beyond("a surface of unknown kind"),
+        _ => bytes.unsupported("a surface of unknown kind"),
     }
 }
 

@@ -144,6 +144,13 @@ fn counts_without_bytes_take_no_memory() {
 }
 
 #[test]
+fn a_root_among_no_shapes_is_an_error() {
+    let text = b"CASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 0\nPolygon3D 0\n\
+                 PolygonOnTriangulations 0\nSurfaces 0\nTriangulations 0\n\nTShapes 0\n+1 0 *\n";
+    assert_eq!(read_file(text, &|| false).err().unwrap().what, "a reference to nothing");
+}
+
+#[test]
 fn a_rounded_direction_is_a_unit_vector_again() {
     let text = b"CASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 2\n\
                  1 0 0 0 2 0 0\n2 0 0 0 0 0 1 1 1e-3 1e-3 0 1 0 5\n";

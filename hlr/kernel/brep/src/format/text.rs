@@ -33,7 +33,7 @@ impl<'a> Text<'a> {
                 return Ok(text);
             }
         }
-        text.beyond("no version of BREP that is known here")
+        text.unsupported("no version of BREP that is known here")
     }
 
     /// The characters up to the next white space; none at the end of the text.
@@ -63,7 +63,7 @@ impl<'a> Text<'a> {
     fn unit<const N: usize>(&self, vector: [f64; N]) -> Read<[f64; N]> {
         match unit(vector) {
             Some(vector) => Ok(vector),
-            None => self.beyond("a direction without length"),
+            None => self.unsupported("a direction without length"),
         }
     }
 }
@@ -152,7 +152,7 @@ impl Tokens for Text<'_> {
         let rows: [[f64; 4]; 3] = [self.reals()?, self.reals()?, self.reals()?];
         match square_placement(&rows) {
             Some(placement) => Ok(placement),
-            None => self.beyond("a placement without volume"),
+            None => self.unsupported("a placement without volume"),
         }
     }
 

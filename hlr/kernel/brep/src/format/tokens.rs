@@ -9,7 +9,7 @@ pub struct Damaged {
     pub what: &'static str,
     pub at: usize,
     /// Its form is right, but it says what the kernel does not take; OpenCASCADE may.
-    pub beyond: bool,
+    pub unsupported: bool,
 }
 
 impl std::fmt::Display for Damaged {
@@ -130,12 +130,12 @@ pub trait Tokens {
     fn orientation(&mut self) -> Read<Option<Orientation>>;
 
     fn fault<T>(&self, what: &'static str) -> Read<T> {
-        Err(Damaged { what, at: self.at(), beyond: false })
+        Err(Damaged { what, at: self.at(), unsupported: false })
     }
 
     /// The error for what is in the right form, but is nothing that the kernel takes.
-    fn beyond<T>(&self, what: &'static str) -> Read<T> {
-        Err(Damaged { what, at: self.at(), beyond: true })
+    fn unsupported<T>(&self, what: &'static str) -> Read<T> {
+        Err(Damaged { what, at: self.at(), unsupported: true })
     }
 
     fn finite(&mut self) -> Read<f64> {
