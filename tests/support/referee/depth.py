@@ -89,6 +89,11 @@ class Sheet:
         return np.asarray(np.clip(at, 0, [self.rows - 1, self.columns - 1]))
 
 
+def dots(a: Floats, b: Floats) -> Floats:
+    """Scalar products along the last axis: faster than a sum over so few numbers."""
+    return np.asarray(np.einsum("...i,...i->...", a, b))
+
+
 class Depths:
     """Casts rays through points on the paper of one drawing."""
 
@@ -102,14 +107,15 @@ class Depths:
         starts, toward = self.drawing.rays(flat, self._back)
         far, triangle = self._caster.first(starts, toward)
         normal = self._caster.normals[triangle]
-        normal = np.where((normal * toward).sum(axis=1)[:, None] > 0, -normal, normal)
+        away = dots(normal, toward)
+        normal = normal * np.where(away > 0, -1.0, 1.0)[:, None]
         met = triangle >= 0
         depth = np.full(len(flat), np.inf)
         if met.any():
             place = starts[met] + far[met, None] * toward[met]
             depth[met] = far[met] * self.drawing.magnification(place)
-        facing = np.minimum((normal * toward).sum(axis=1), -STEEPEST)
+        facing = np.minimum(-np.abs(away), -STEEPEST)
         camera = self.drawing.camera
-        slope = -np.stack([normal @ camera.right, normal @ camera.up], axis=1) / facing[:, None]
+        slope = normal @ np.stack([camera.right, camera.up], axis=1) / -facing[:, None]
         shape = paper.shape[:-1]
         return Hits(depth.reshape(shape), normal.reshape(*shape, 3), slope.reshape(*shape, 2))

@@ -98,7 +98,7 @@ class Exchange:
         """
         camera = self.camera
         flat = (paper + self.origin) / self.factor
-        aside = flat[:, :1] * camera.right + flat[:, 1:] * camera.up
+        aside = flat @ np.stack([camera.right, camera.up])
         if camera.eye is None:
             return aside + back * camera.direction, np.broadcast_to(-camera.direction, aside.shape)
         toward = aside - camera.distance * camera.direction

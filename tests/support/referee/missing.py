@@ -16,7 +16,7 @@ import numpy.typing as npt
 from scipy.ndimage import label
 from scipy.spatial import cKDTree
 
-from support.referee.depth import Depths, Hits, Sheet
+from support.referee.depth import Depths, Hits, Sheet, dots
 from support.referee.exchange import Exchange, Floats
 
 NEAR = 2.5
@@ -158,13 +158,13 @@ def _off_plane(a: Hits, b: Hits, way: Floats) -> Floats:
     """Difference of depth, less the difference that the tangent planes of both hits explain."""
     with np.errstate(invalid="ignore"):
         rise = b.depth - a.depth
-        apart = [np.abs(rise - (hits.slope * way).sum(axis=-1)) for hits in (a, b)]
+        apart = [np.abs(rise - dots(hits.slope, way)) for hits in (a, b)]
         return np.where(a.met & b.met, np.maximum(*apart), np.where(a.met == b.met, 0.0, np.inf))
 
 
 def _turn(a: Hits, b: Hits) -> Floats:
     """Cosine between normals; 1 where either ray hit nothing."""
-    return np.where(a.met & b.met, (a.normal * b.normal).sum(axis=-1), 1.0)
+    return np.where(a.met & b.met, dots(a.normal, b.normal), 1.0)
 
 
 def runs(crossings: Sequence[Floats], sheet: Sheet) -> list[Run]:
