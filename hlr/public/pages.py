@@ -76,10 +76,15 @@ def pages_with_views(
     with opened_document(path) as document:
         wanted = _chosen(pages_of(document, path), pages, path)
         sources = Sources(document, path)
-        found = []
+        found, refused = [], []
         for number, page in enumerate(wanted):
             told = None if progress is None else part_of(progress, number, len(wanted))
-            found.append(drawn_page(page, sources, options, told))
+            drawing, views, errors = drawn_page(page, sources, options, told)
+            found.append((drawing, views))
+            refused += errors
+    if refused and not any(views for _, views in found):
+        # Sheets with nothing but their frames are no drawings.
+        raise refused[0]
     for drawing, _ in found:
         if options.strict:
             refuse_warnings(drawing.notes)

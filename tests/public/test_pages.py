@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from xml.etree import ElementTree
+from zipfile import ZipFile
 
 import numpy as np
 import pytest
@@ -324,3 +325,20 @@ def test_a_real_page():
     for label, corners in expected.items():
         assert np.allclose(about[label], corners, atol=1e-3), label
     assert [str(note) for note in drawing.notes] == ['Page "Page": 3 dimensions not drawn.']
+
+
+def without_shapes(name, tmp_path):
+    """A document whose shapes were lost."""
+    path = tmp_path / name
+    with ZipFile(DATA / name) as whole_file, ZipFile(path, "w") as left:
+        for entry in whole_file.namelist():
+            if not entry.endswith(".brp"):
+                left.writestr(entry, whole_file.read(entry))
+    return path
+
+
+def test_pages_of_which_no_view_can_be_drawn_are_refused(tmp_path):
+    path = without_shapes("housing_body.FCStd", tmp_path)
+    with pytest.raises(SourceError, match=r"^housing_body\.FCStd shows no shapes that can be drawn") as told:
+        hlr.draw_pages(path)
+    assert str(told.value).count("housing_body.FCStd") == 1

@@ -209,8 +209,11 @@ def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, a
             moved = float((np.where(fits, off[first:last], 0.0) * weight).sum() / weight.sum())
             pieces_beside = b.take(near[first:last][fits]) if line.curved[0] else line
             if foreign and line.curved[0] != b.curved[best] and _straight(pieces_beside):
-                named, moved = "polyline", float(np.where(fits, off[first:last], 0.0).max())
-                became = "straight pieces" if line.curved[0] else "a curve"
+                farthest = float(np.where(fits, off[first:last], 0.0).max())
+                # An arc is longer than twice its rise above the chord: a line that is not merely crosses the other.
+                if line.lengths.sum() > 2.0 * farthest:
+                    named, moved = "polyline", farthest
+                    became = "straight pieces" if line.curved[0] else "a curve"
         found.add(_difference(named, line, about, "before", became, moved), line)
 
 

@@ -116,6 +116,8 @@ def _read_other(paths: Any, left_out: Counter[str], sketch: Sketch, by_qt: bool)
         else:
             left_out["filled areas"] += 1
     edges = [line for line in lines if _is_edge_of_freecad(line)] if by_qt else []
+    # Without a window FreeCAD gives edges no width. Section lines and leaders, drawn by the same kind of pen, have one.
+    edges = [line for line in edges if line.width == 0.0] or edges
     if edges:
         left_out["lines of template and dimensions"] += len(lines) - len(edges)
         lines = edges

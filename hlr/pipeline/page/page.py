@@ -51,14 +51,18 @@ class _Content:
 
 def drawn_page(
     page: DocumentPage, sources: Sources, options: Options, progress: Progress | None
-) -> tuple[Drawing, list[PlacedView]]:
-    """The drawing of a page, and its views; what of it is not drawn is named in its notes. options: checked."""
-    content = _Content(page.template, [], [], [], [])
+) -> tuple[Drawing, list[PlacedView], list[SourceError]]:
+    """The drawing of a page, its views, and why others cannot be drawn; what is not drawn is named in its notes.
+
+    options: checked
+    """
+    content, refused = _Content(page.template, [], [], [], []), []
     for number, view in enumerate(page.views):
         told = None if progress is None else part_of(progress, number, len(page.views))
         try:
             _add(placed_view(view, sources.of(view.sources, view.cuts), options, told), content)
         except SourceError as error:
+            refused.append(error)
             content.notes.append(_left_out(f'view "{view.label}" ({str(error).rstrip(".")})', page))
     _print(content, page)
     if page.left_out:
@@ -79,7 +83,7 @@ def drawn_page(
         sheet=Sheet(tuple(_shown(each) for each in content.views), content.template),
         style=_style(page) if options.style is None else style_of(options.style),
     )
-    return drawing, content.views
+    return drawing, content.views, refused
 
 
 def _add(placed: PlacedView, content: _Content) -> None:
