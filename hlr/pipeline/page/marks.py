@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from hlr.source.freecad.view_marks import BEYOND, border_circle, detail_circle, section_line
+from hlr.pipeline.page.placed_view import lines_on_page
+from hlr.source.freecad.view_marks import BEYOND, LETTER, border_circle, detail_circle, section_line
 
 if TYPE_CHECKING:
     from hlr.common.types import Floats
@@ -16,6 +17,12 @@ if TYPE_CHECKING:
 
 EDGE_ON = 1e-6
 """Sine of the angle by which the plane of a section may be turned to be seen as a line."""
+
+TURNS = (45.0, 135.0, 225.0, 315.0, 0.0, 90.0, 180.0, 270.0)
+"""Degrees: where the letter of a detail may be placed around its circle, the usual place first."""
+
+FROM_CIRCLE, ROOM = 0.85, 0.7
+"""In sizes of letters: from the circle to the middle of the letter, and from there to the nearest line."""
 
 BORDER = 0.35
 """Millimetres: the width of a detail's border where the document says none."""
@@ -43,8 +50,27 @@ def _circle(placed: PlacedView, base: PlacedView, height: float) -> str:
     assert view.mark is not None
     whole = np.zeros(2) if base.view.detail is None else np.array(base.view.detail.middle)
     away = base.matrix @ (np.array(view.detail.middle) - whole) * base.view.scale
-    x, y = (np.array(base.view.place) + away).tolist()
-    return detail_circle(view.mark, (x, y), view.detail.radius * base.view.scale, height)
+    middle, radius = np.array(base.view.place) + away, view.detail.radius * base.view.scale
+    letter = free_place(middle, radius + FROM_CIRCLE * LETTER, [line.points for line in lines_on_page(base, 0)])
+    return detail_circle(view.mark, _pair(middle), radius, _pair(letter), height)
+
+
+def free_place(middle: Floats, reach: float, lines: Sequence[Floats]) -> Floats:
+    """(2,) where a letter is placed so that no line runs through it: the first of eight places around a point.
+
+    middle (2,), lines (n, 2) each, on the page; reach: from the middle, millimetres. Where lines run through all eight,
+    it is the one farthest from them.
+    """
+    places = middle + reach * np.array([[np.cos(turn), np.sin(turn)] for turn in np.radians(TURNS)])
+    starts = [line[:-1] for line in lines if len(line) > 1]
+    if not starts:
+        return np.asarray(places[0])
+    a, b = np.concatenate(starts), np.concatenate([line[1:] for line in lines if len(line) > 1])
+    way = b - a
+    along = np.einsum("psi,si->ps", places[:, None] - a, way) / np.maximum((way * way).sum(axis=1), 1e-300)
+    nearest = a + np.clip(along, 0.0, 1.0)[:, :, None] * way
+    room = np.hypot(*np.moveaxis(places[:, None] - nearest, 2, 0)).min(axis=1)
+    return np.asarray(places[int(np.argmax(np.minimum(room, ROOM * LETTER)))])
 
 
 def _line(placed: PlacedView, base: PlacedView, faces: Sequence[CutFace], height: float) -> str:

@@ -68,13 +68,15 @@ def section_line(mark: Mark, ends: tuple[Point, Point], back: Point, height: flo
     return _written(group)
 
 
-def detail_circle(mark: Mark, middle: Point, radius: float, height: float) -> str:
-    """The circle around what a detail shows, as SVG. middle: on the page; radius: millimetres; height: of the page."""
+def detail_circle(mark: Mark, middle: Point, radius: float, letter: Point, height: float) -> str:
+    """The circle around what a detail shows, and its letter, as SVG.
+
+    middle, letter: on the page; radius: millimetres; height: of the page
+    """
     group = _group(mark)
     circle = ElementTree.SubElement(group, "circle", {"cx": _n(middle[0]), "cy": _n(height - middle[1])})
     circle.attrib.update({"r": _n(radius), **_dashed(mark)})
-    far = 0.75 * (radius + LETTER)
-    _letter(group, mark, (middle[0] + far, middle[1] + far), height)
+    _letter(group, mark, letter, height)
     return _written(group)
 
 
