@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from typing import Any
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
 
 from hlr.common.text_width import text_width
 from hlr.errors import WriteError
 from hlr.writers.number import number
+
+_REFERENCE = re.compile(r"""url\(\s*["']?#([^)"']+?)["']?\s*\)""")
+_STOP_COLOR = re.compile(r"(?:^|;)\s*stop-color\s*:\s*([^;]+)")
 
 FONT = "T"
 """The name of the font among the resources of the page."""
@@ -31,7 +37,8 @@ def template_commands(template: str, left: float, top: float) -> bytes:
 
     out = [f"q 1 0 0 -1 {number(left)} {number(top)} cm"]
     try:
-        for element in SVG.parse(io.StringIO(f"<svg>{template}</svg>"), reify=False).elements():
+        whole = _without_gradients(f"<svg>{template}</svg>")
+        for element in SVG.parse(io.StringIO(whole), reify=False).elements():
             if element.values.get("visibility") == "hidden" or element.values.get("display") == "none":
                 continue
             if isinstance(element, Text):
@@ -43,6 +50,34 @@ def template_commands(template: str, left: float, top: float) -> bytes:
             f"the template of the page cannot be drawn in PDF ({type(error).__name__}): write SVG or DXF"
         ) from None
     return "\n".join([*out, "Q\n"]).encode("ascii")
+
+
+def _without_gradients(svg: str) -> str:
+    """Gradients become the mean of their colours: what PDF fills here has one."""
+    if "Gradient" not in svg:
+        return svg
+    elements = ElementTree.fromstring(svg).iter()
+    gradients = {each.get("id"): each for each in elements if each.tag in ("linearGradient", "radialGradient")}
+    return _REFERENCE.sub(lambda found: _mean(gradients, found[1]) if found[1] in gradients else found[0], svg)
+
+
+def _mean(gradients: Mapping[str | None, Element], name: str) -> str:
+    """#rrggbb, or none for a gradient without colours, which paints nothing."""
+    from svgelements import Color
+
+    own, left = gradients.get(name), len(gradients)
+    # A gradient may take its colours from another one; those that refer to one another have none.
+    while own is not None and own.find("stop") is None and left > 0:
+        own, left = gradients.get(own.get("href", "").removeprefix("#")), left - 1
+    stops = [] if own is None else own.findall("stop")
+    told = [_STOP_COLOR.search(stop.get("style", "")) for stop in stops]
+    colors = [
+        Color(found[1] if found else stop.get("stop-color", "black")) for stop, found in zip(stops, told, strict=True)
+    ]
+    if not colors:
+        return "none"
+    channels = zip(*((each.red, each.green, each.blue) for each in colors), strict=True)
+    return "#" + "".join(f"{round(sum(channel) / len(colors)):02x}" for channel in channels)
 
 
 def _shape(shape: Any, path: Any) -> Iterator[str]:

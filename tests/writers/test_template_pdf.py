@@ -82,3 +82,26 @@ def test_the_same_bytes():
 def test_what_is_no_svg_is_refused():
     with pytest.raises(WriteError, match="template of the page cannot be drawn in PDF"):
         sheet('<svg viewBox="0 0 1 1"><path d="M 0 0 L 1').to_pdf()
+
+
+def of_gradients(*defined):
+    """Two squares, filled with the gradients a and b."""
+    return f"""<svg width="100" height="80"><defs>{"".join(defined)}</defs>
+<rect x="10" y="10" width="20" height="20" style="fill:url(#a);stroke:none"/>
+<rect x="50" y="10" width="20" height="20" fill="url('#b')"/></svg>"""
+
+
+STOPS = '<stop offset="0" style="stop-opacity:1;stop-color:#ff0000"/><stop offset="1" stop-color="#0000ff"/>'
+
+
+def test_gradients_have_the_mean_of_their_colours():
+    """The logo in the default template of FreeCAD was a black blot."""
+    stated = f'<linearGradient id="a">{STOPS}</linearGradient>'
+    at = pixels(sheet(of_gradients(stated, '<radialGradient id="b" href="#a"/>')))
+    assert at(20, 20) == at(60, 20) == (128, 0, 128)
+
+
+@pytest.mark.parametrize("own", ['<linearGradient id="a" href="#b"/><radialGradient id="b" href="#a"/>'])
+def test_gradients_without_colours_paint_nothing(own):
+    at = pixels(sheet(of_gradients(own)))
+    assert at(20, 20) == at(60, 20) == WHITE
