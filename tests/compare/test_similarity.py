@@ -1,6 +1,7 @@
 """Drawings of two programs are laid on one another, and what then differs is named."""
 
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from hlr.compare import compare
 from hlr.compare.lines.motion import Motion
 from hlr.compare.lines.strays import without_strays
 from hlr.compare.reading.sides import side_of
-from support.drawings import drawing, line
+from support.drawings import arc, drawing, line
 
 BOX = Path(__file__).parent.parent / "data/freecad/box_iso.svg"
 MODEL = BOX.with_name("box.step")
@@ -125,3 +126,17 @@ def test_lines_along_which_a_drawing_can_slide_are_not_enough(tmp_path):
     path.write_text(f'<g stroke="#000" stroke-width="0.7" fill="none">{body}</g>')
     found = compare(path, drawing([line(ends) for ends in [*long, *short]]), scale=1.0)
     assert found.shift == (40.0, 7.0) and found.lengths_mm["gone"] == pytest.approx(16.0, abs=0.2), found
+
+
+@pytest.mark.parametrize(("x", "half", "kind"), [(9.8, 3.0, "polyline"), (10.45, 0.1, "moved"), (9.6, 0.2, "moved")])
+def test_a_short_line_beside_a_curve_is_no_chord_of_it(tmp_path, x, half, kind):
+    """FreeCAD drew a view in another place: a bit of a line there, 0.47 mm beside a curve, was its chord."""
+    corners = [(-30, -20), (30, -20), (30, 20), (-30, 20), (-30, -20)]
+    sides = [line(ends) for ends in pairwise(corners)]
+    path = tmp_path / "theirs.svg"
+    theirs = [*pairwise(corners), ((x, -half), (x, half))]
+    body = "".join(f'<path d="M {a} {-b} L {c} {-d}"/>' for (a, b), (c, d) in theirs)
+    path.write_text(f'<g stroke="#000" stroke-width="0.7" fill="none">{body}</g>')
+    ours = drawing([*sides, arc((0, 0), 10, 10, (0.0, 2.0 * np.pi))])
+    found = compare(path, ours, scale=1.0)
+    assert kinds(found) - {"new"} == {kind}, found

@@ -210,7 +210,7 @@ def _changed(found: Findings, kind: Kind, both: Pieces, b: Pieces, rule: Rule, a
             pieces_beside = b.take(near[first:last][fits]) if line.curved[0] else line
             if foreign and line.curved[0] != b.curved[best] and _straight(pieces_beside):
                 farthest = float(np.where(fits, off[first:last], 0.0).max())
-                # An arc is longer than twice its rise above the chord: a line that is not merely crosses the other.
+                # An arc is longer than twice its rise above the chord: a shorter line lies beside the other by chance.
                 if line.lengths.sum() > 2.0 * farthest:
                     named, moved = "polyline", farthest
                     became = "straight pieces" if line.curved[0] else "a curve"
