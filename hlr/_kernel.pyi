@@ -507,11 +507,14 @@ class Lines:
     def chosen(self, chosen: Bools) -> Lines:
         """Those lines that are chosen (n,)."""
 
-    def spacing(self, visible: bool, reach: float, threads: int) -> tuple[Floats, float, float] | None:
-        """How close the lines of one visibility run: None where there are more than 2 km of them.
+    def spacings(
+        self, reaches: tuple[float, float], threads: int
+    ) -> tuple[tuple[Floats, float, float] | None, tuple[Floats, float, float] | None]:
+        """How close the hidden lines run, and the visible ones: None where there are more than 2 km of them.
 
-        (k,) millimetres of ink whose nearest line alongside is i/64 to (i + 1)/64 mm away, up to `reach`; all ink;
-        the side of the square around the smallest line, infinite where there are none. ValueError for a bad length.
+        reaches: up to which distances is looked, millimetres. (k,) millimetres of ink whose nearest line alongside is
+        i/64 to (i + 1)/64 mm away; all ink; the side of the square around the smallest line, infinite where there are
+        none. ValueError for a bad length.
         """
 
     def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int], threads: int) -> Bytes:

@@ -18,6 +18,7 @@ from time import perf_counter
 
 import numpy as np
 
+from hlr import _kernel
 from hlr.common.types import Floats
 from hlr.drawing.line import Line
 from hlr.drawing.lines import Lines, held
@@ -98,13 +99,12 @@ def legible(
         return Legible(lines)
     begun = perf_counter()
     usual = widths_of(style, sheet)
-    seen = _spacing(lines, True, usual[0], options.threads)
-    behind = _spacing(lines, False, usual[1], options.threads)
+    kept = held(lines)
+    behind, seen = _spacings(kept, (usual[1], usual[0]), options.threads)
     if seen is None or behind is None or not (seen.close(usual[0]) or behind.close(usual[1])):
         return Legible(lines)
     pens = usual if style.wide or style.narrow else _group(seen, usual)
     notes = _notes(seen, usual, pens, scale)
-    kept = held(lines)
     fates = kept.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()), options.threads)
     out = int(np.count_nonzero(fates))
     planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
@@ -125,13 +125,14 @@ def _bins(pen: float) -> int:
     return ceil(APART * pen * BINS_PER_MM)
 
 
-def _spacing(lines: Sequence[Line], visible: bool, pen: float, threads: int) -> Spacing | None:
-    """None where there is more ink than any page has room for."""
-    found = held(lines).spacing(visible, _bins(pen) / BINS_PER_MM, threads)
-    if found is None:
-        return None
-    bins, ink, smallest = found
-    return Spacing(np.cumsum(bins) / max(ink, 1.0), smallest)
+def _spacings(lines: _kernel.Lines, pens: Pens, threads: int) -> list[Spacing | None]:
+    """Of hidden and of visible lines, for pens so wide; None where there is more ink than any page has room for."""
+    narrow, wide = pens
+    reaches = (_bins(narrow) / BINS_PER_MM, _bins(wide) / BINS_PER_MM)
+    return [
+        None if found is None else Spacing(np.cumsum(found[0]) / max(found[1], 1.0), found[2])
+        for found in lines.spacings(reaches, threads)
+    ]
 
 
 def _notes(seen: Spacing, usual: Pens, pens: Pens, scale: float) -> tuple[Note, ...]:

@@ -17,7 +17,7 @@ use hlr_linework::curves::rows::rows_of;
 use hlr_linework::curves::{pdf, svg};
 use hlr_linework::fit::bezier::Chain;
 use hlr_linework::legible::left_out::left_out;
-use hlr_linework::legible::spacing::spacing;
+use hlr_linework::legible::spacing::spacings;
 use hlr_linework::lines::drawing::{Curve, Kind, Line, Lines as Drawn};
 
 /// Ink by its distance to the nearest line alongside, all ink, and the size of the smallest line.
@@ -150,18 +150,19 @@ impl Lines {
         Ok(Lines(Shared::new(Drawn(lines.collect()))))
     }
 
-    /// Ink by its distance to the nearest line alongside, all ink, and the size of the smallest line; None where there
-    /// is too much ink.
-    fn spacing<'py>(
+    /// Of hidden and of visible lines: ink by its distance to the nearest line alongside, all ink, and the size of the
+    /// smallest line; None where there is too much ink.
+    fn spacings<'py>(
         &self,
         py: Python<'py>,
-        visible: bool,
-        reach: f64,
+        reaches: [f64; 2],
         threads: usize,
-    ) -> PyResult<Option<Spacing<'py>>> {
-        width("reach", reach)?;
-        let found = run(py, threads, self.0.0.len(), |_| spacing(&self.0, visible, reach))?;
-        Ok(found.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest)))
+    ) -> PyResult<(Option<Spacing<'py>>, Option<Spacing<'py>>)> {
+        for reach in reaches {
+            width("reach", reach)?;
+        }
+        let found = run(py, threads, self.0.0.len(), |_| spacings(&self.0, reaches))?;
+        Ok(found.map(|s| s.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest))).into())
     }
 
     /// (n,) the fate of each line: 0 drawn, 1 smaller than the pen, 2 between others.

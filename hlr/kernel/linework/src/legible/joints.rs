@@ -26,12 +26,12 @@ struct End {
 pub fn joined(lines: &Lines, chosen: &[bool], tolerance: f64, straight: bool) -> Vec<usize> {
     let mut sets = Sets((0..lines.0.len()).collect());
     let ends: Vec<End> =
-        lines.0.iter().enumerate().filter(|(i, _)| chosen[*i]).flat_map(|(i, line)| ends(i, line)).collect();
+        lines.0.par_iter().enumerate().filter(|(i, _)| chosen[*i]).flat_map_iter(|(i, line)| ends(i, line)).collect();
     // Two ends within half a cell of one another share a cell of at least one of four grids, each shifted by half a cell.
     for shift in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
         let cell = |end: &End| [0, 1].map(|i| ((end.at[i] / tolerance + shift[i]) / 2.0).floor() as i64);
         // Ends of one cell stand side by side, in the order of lines.
-        let mut cells: Vec<_> = ends.iter().enumerate().map(|(n, end)| (end.visible, cell(end), n)).collect();
+        let mut cells: Vec<_> = ends.par_iter().enumerate().map(|(n, end)| (end.visible, cell(end), n)).collect();
         cells.par_sort_unstable();
         for found in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
             let first = &ends[found[0].2];

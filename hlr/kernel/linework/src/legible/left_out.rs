@@ -50,24 +50,35 @@ pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) ->
         // All of the drawing is smaller than the pen: a dot is better than nothing.
         return vec![Fate::Drawn; lines.0.len()];
     }
-    for visible in [false, true] {
-        leave_out_between(lines, visible, pens[usize::from(visible)] * STEPS, tolerance, order, &mut fates);
-    }
+    let of = |visible: bool| {
+        let pen = pens[usize::from(visible)] * STEPS;
+        between_others(lines, visible, pen, tolerance, order, &fates)
+    };
+    let (hidden, visible) = rayon::join(|| of(false), || of(true));
+    hidden.into_iter().chain(visible).for_each(|line| fates[line as usize] = Fate::Between);
     fates
 }
 
-fn leave_out_between(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order: &[Kind], fates: &mut [Fate]) {
+/// The lines of one visibility that lie between others closer than the pen is wide, steps.
+fn between_others(
+    lines: &Lines,
+    visible: bool,
+    pen: f64,
+    tolerance: f64,
+    order: &[Kind],
+    fates: &[Fate],
+) -> Vec<u32> {
     let looked_at: Vec<bool> =
         lines.0.iter().zip(fates.iter()).map(|(l, f)| l.visible == visible && *f == Fate::Drawn).collect();
     let all = segments(lines.0.iter().enumerate().filter(|(i, _)| looked_at[*i]));
     if !measurable(&all) {
-        return;
+        return Vec::new();
     }
     let grid = Grid::new(&all, pen);
     let of: Vec<&[Segment]> = all.chunk_by(|a, b| a.line == b.line).collect();
     let between: Vec<bool> = of.par_iter().map(|own| everywhere(&grid, own, pen, |_| true, true)).collect();
     if !between.contains(&true) {
-        return;
+        return Vec::new();
     }
     let run = joined(lines, &looked_at, tolerance, true);
     let mut open = vec![true; lines.0.len()];
@@ -83,15 +94,17 @@ fn leave_out_between(lines: &Lines, visible: bool, pen: f64, tolerance: f64, ord
         .map(|r| (key(lines, &runs[r], pen, order), r))
         .collect();
     candidates.sort_unstable();
+    let mut out = Vec::new();
     // A run is open until it is decided to stay: lines in it cannot stand for others.
     for (_, r) in candidates {
         let stays = |line: u32| !open[run[line as usize]];
         if runs[r].iter().all(|own| everywhere(&grid, own, pen, stays, false)) {
-            runs[r].iter().for_each(|own| fates[own[0].line as usize] = Fate::Between);
+            out.extend(runs[r].iter().map(|own| own[0].line));
         } else {
             open[r] = false;
         }
     }
+    out
 }
 
 /// Whether everywhere along a line one of the `counting` lines lies within a pen: on both sides, or on one.

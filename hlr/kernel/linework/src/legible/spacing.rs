@@ -10,8 +10,11 @@ use crate::lines::drawing::Lines;
 /// Bins per millimetre of the distance.
 pub const BINS: f64 = 64.0;
 
-/// Longest piece of a line of which one place is looked at, millimetres.
+/// The longest piece of a line of which one place is looked at, millimetres.
 const PIECE: f64 = 0.5;
+
+/// Pieces are longer where there would be more than this many: so many places tell a share to a fraction of a percent.
+const PLACES: f64 = 65_536.0;
 
 /// Nearer than this, a place is crowded with any pen: nothing nearer is sought, so that blots take no longer. Steps.
 const NEAR: f64 = STEPS / BINS;
@@ -26,6 +29,12 @@ pub struct Spacing {
     pub smallest: f64,
 }
 
+/// Of hidden and of visible lines; reaches: as below, for each.
+pub fn spacings(lines: &Lines, reaches: [f64; 2]) -> [Option<Spacing>; 2] {
+    let [hidden, visible] = reaches;
+    rayon::join(|| spacing(lines, false, hidden), || spacing(lines, true, visible)).into()
+}
+
 /// reach: up to which distance is looked, millimetres. None where there is too much ink to be measured.
 pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
     let all = segments(lines.0.iter().enumerate().filter(|(_, line)| line.visible == visible));
@@ -36,20 +45,22 @@ pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
     let smallest = chosen.map(|line| size(&line.flat)).fold(f64::INFINITY, f64::min);
     let grid = Grid::new(&all, reach * STEPS);
     let count = (reach * BINS) as usize;
+    let all_ink = ink(&all);
+    let step = (PIECE * STEPS).max(all_ink / PLACES);
     let bins = all
         .par_iter()
         .with_min_len(256)
         .fold(
             || vec![0u64; count],
             |mut bins, segment| {
-                add(&grid, segment, reach * STEPS, &mut bins);
+                add(&grid, segment, step, reach * STEPS, &mut bins);
                 bins
             },
         )
         .reduce(|| vec![0u64; count], |a, b| a.iter().zip(&b).map(|(x, y)| x + y).collect());
     Some(Spacing {
         bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(),
-        ink: ink(&all) / STEPS,
+        ink: all_ink / STEPS,
         smallest,
     })
 }
@@ -61,8 +72,8 @@ fn size(points: &[Vec2]) -> f64 {
     (around[1][0] - around[0][0]).max(around[1][1] - around[0][1]) / STEPS
 }
 
-fn add(grid: &Grid<'_>, segment: &Segment, reach: f64, bins: &mut [u64]) {
-    let (places, piece) = segment.places(PIECE * STEPS);
+fn add(grid: &Grid<'_>, segment: &Segment, step: f64, reach: f64, bins: &mut [u64]) {
+    let (places, piece) = segment.places(step);
     for place in places {
         let mut nearest = reach;
         grid.beside(segment, &place, reach, |offset, _| {
