@@ -227,47 +227,16 @@ def chain(edges: Ints, key: Ints, points: Floats | None = None, turn: float = 0.
     """
 
 class Outlines:
-    """Outlines: the curves where true surfaces are seen edge-on. Outline o is points[offsets[o]:offsets[o + 1]].
+    """Outlines: the curves where true surfaces are seen edge-on; and borders of faces that are seen nearly edge-on.
 
-    points (n, 3), normals (n, 3): outward; rise (n,): how far triangles there stand out beyond the surface; face (o,);
-    source (o,): the source edge that it runs along, -1 for none; concave (o,): its own body hides it; curve_*: records
-    of their curves, as in `Curves`; traced (f,): faces that were searched. grazing: borders of faces seen nearly
-    edge-on.
+    source (o,): the source edge that it runs along, -1 for none; curve_*: records of their curves, as in `Curves`.
     """
 
-    offsets: Ints
-    points: Floats
-    normals: Floats
-    rise: Floats
-    face: Ints
     source: Ints
-    concave: Bools
     curve_kind: Bytes
     curve_range: Floats
     curve_offsets: Ints
     curve_values: Floats
-    traced: Bools
-    grazing: GrazingBorders
-
-    def __len__(self) -> int: ...
-
-class GrazingBorders:
-    """Stretches of borders of faces that are seen nearly edge-on, between places where a face turns over.
-
-    edge (k,), range (k, 2): parameters of the stretch; face (k,); normals (k, 2, 3): outward ones of the face at both
-    ends; front (k,): its outer side is seen; beside (k,): the faces there show the edge (1), hide it (2), or it is not
-    known (0); dented (k,): turned toward the viewer, but its triangle is not; rise (k, 2): as in `Outlines`, -1 where
-    no outline ends.
-    """
-
-    edge: Ints
-    range: Floats
-    face: Ints
-    normals: Floats
-    front: Bools
-    beside: Bytes
-    dented: Bools
-    rise: Floats
 
     def __len__(self) -> int: ...
 
@@ -279,6 +248,60 @@ def silhouettes(
     smooth (e,): the surface goes on smoothly across the edge; source (e,): the source edge of which it is a chord, -1
     for none; chord: how far chords may stay off an outline. ValueError where they do not fit, KeyboardInterrupt within
     milliseconds of Ctrl-C.
+    """
+
+class Outlined:
+    """An image with its outlines, which are edges without triangles.
+
+    points (n, 3), lift (n, 3): how far points are moved before visibility is decided; edges (e, 2), offsets (e + 1,),
+    part, group, kind, curved, hidden and number (e,): the columns of `hlr.image.image.Image` and of its `Silhouettes`.
+    own_*: the columns of its `OwnFaces`, empty where nothing is seen nearly edge-on. outline_starts (o + 1,): where
+    each outline begins among the edges of all outlines, outline_part and outline_face (o,): its part, and its face.
+    """
+
+    points: Floats
+    lift: Floats
+    edges: Ints
+    offsets: Ints
+    part: Ints
+    group: Ints
+    kind: Bytes
+    curved: Bools
+    hidden: Bools
+    number: Ints
+    own_edge: Ints
+    own_range: Floats
+    own_line: Ints
+    own_beside: Bytes
+    own_dented: Bools
+    own_offsets: Ints
+    own_face: Ints
+    own_off: Ints
+    own_sheet: Ints
+    outline_starts: Ints
+    outline_part: Ints
+    outline_face: Ints
+
+def outlined(
+    outlines: Outlines,
+    mesh: Mesh,
+    on: TrueSurfaces,
+    columns: tuple[Bytes, Ints, Ints, Bools, Ints],
+    first: Ints,
+    closed: Bools,
+    convex: bool,
+    kinds: tuple[Bools, Bools, int, int],
+    camera: Camera,
+    lengths: tuple[float, float, float],
+) -> Outlined:
+    """The image with these outlines.
+
+    columns: class, part and group of each edge, and whether a curved surface may show its outline there; group of each
+    triangle. first (p,): the first face of each part; closed (g,): groups that are closed bodies; convex: all is one
+    convex body. kinds: (256,) by the class of an edge, whether it bounds faces, and whether they join smoothly there;
+    the class of outlines, and that of edges inside faces. lengths, model units: how far points are moved beyond the
+    triangles that stand out, at most, and off a face before a line is compared with it. ValueError where they do not
+    fit.
     """
 
 _Vector = tuple[float, float, float]

@@ -16,6 +16,7 @@ mod mesh;
 mod mesh_input;
 mod meshfile;
 mod methods;
+mod outlined;
 mod painters;
 mod parts;
 mod preview;
@@ -76,8 +77,9 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_class::<true_surfaces::Surfaces>()?;
     m.add_class::<true_surfaces::TrueSurfaces>()?;
     m.add_class::<silhouette::Outlines>()?;
-    m.add_class::<silhouette::GrazingBorders>()?;
     m.add_function(wrap_pyfunction!(silhouette::silhouettes, m)?)?;
+    m.add_class::<outlined::Outlined>()?;
+    m.add_function(wrap_pyfunction!(outlined::outlined, m)?)?;
     m.add_function(wrap_pyfunction!(meshfile::read_mesh, m)?)?;
     m.add_function(wrap_pyfunction!(measure::nearest, m)?)?;
     m.add_function(wrap_pyfunction!(measure::blocked, m)?)?;

@@ -1,6 +1,6 @@
 //! Binding of `hlr_linework::silhouette`: outlines of true surfaces.
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 
@@ -11,7 +11,7 @@ use super::threads::run;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
 use hlr_brep::geometry::curve::Curve;
-use hlr_linework::silhouette::grazing::Grazing as Stretch;
+use hlr_linework::silhouette::grazing::Grazing;
 use hlr_linework::silhouette::trace::{Silhouette, Traced, trace};
 use hlr_linework::silhouette::{FaceRecord, Model};
 
@@ -64,7 +64,7 @@ pub fn silhouettes<'py>(
     };
     let Traced { silhouettes, grazing } = run(py, threads, model.triangles.len(), |stopped| trace(&model, stopped))?
         .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
-    Ok(Outlines { columns: Columns::of(&silhouettes), lines: silhouettes, stretches: grazing, traced })
+    Ok(Outlines { columns: Columns::of(&silhouettes), lines: silhouettes, grazing, traced })
 }
 
 fn record(on: &TrueSurfaces, face: usize) -> FaceRecord {
@@ -81,18 +81,14 @@ fn record(on: &TrueSurfaces, face: usize) -> FaceRecord {
 /// Outlines one after another.
 #[pyclass(frozen)]
 pub struct Outlines {
-    lines: Vec<Silhouette>,
+    pub(super) lines: Vec<Silhouette>,
     columns: Columns,
-    stretches: Vec<Stretch>,
-    traced: Vec<bool>,
+    pub(super) grazing: Vec<Grazing>,
+    pub(super) traced: Vec<bool>,
 }
 
-/// Points of all outlines, and records of their curves.
+/// Records of the curves.
 struct Columns {
-    offsets: Vec<i32>,
-    points: Vec<[f64; 3]>,
-    normals: Vec<[f64; 3]>,
-    rise: Vec<f64>,
     curve_kind: Vec<u8>,
     curve_range: Vec<[f64; 2]>,
     curve_offsets: Vec<i32>,
@@ -102,20 +98,12 @@ struct Columns {
 impl Columns {
     fn of(lines: &[Silhouette]) -> Columns {
         let mut out = Columns {
-            offsets: vec![0],
-            points: Vec::new(),
-            normals: Vec::new(),
-            rise: Vec::new(),
             curve_kind: Vec::new(),
             curve_range: Vec::new(),
             curve_offsets: vec![0],
             curve_values: Vec::new(),
         };
         for line in lines {
-            out.points.extend(&line.points);
-            out.normals.extend(&line.normals);
-            out.rise.extend(&line.rise);
-            out.offsets.push(out.points.len() as i32);
             let range = |c: &Curve| if let Curve::Spline(n) = c { n.domain().into() } else { TURN };
             out.curve_range.push(line.curve.as_ref().map_or([0.0; 2], range));
             out.curve_kind.push(line.curve.as_ref().map_or(0, |c| c.record(&mut out.curve_values)));
@@ -126,15 +114,10 @@ impl Columns {
 }
 
 arrays! { Outlines {
-    offsets: flat Flat<'py, i32> = |o| &o.columns.offsets;
-    points: rows Rows<'py, f64> = |o| &o.columns.points;
-    normals: rows Rows<'py, f64> = |o| &o.columns.normals;
-    rise: flat Flat<'py, f64> = |o| &o.columns.rise;
     curve_kind: flat Flat<'py, u8> = |o| &o.columns.curve_kind;
     curve_range: rows Rows<'py, f64> = |o| &o.columns.curve_range;
     curve_offsets: flat Flat<'py, i32> = |o| &o.columns.curve_offsets;
     curve_values: flat Flat<'py, f64> = |o| &o.columns.curve_values;
-    traced: flat Flat<'py, bool> = |o| &o.traced;
 }
 
     fn __len__(&self) -> usize {
@@ -142,85 +125,7 @@ arrays! { Outlines {
     }
 
     #[getter]
-    fn face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        self.lines.iter().map(|s| s.face).collect::<Vec<_>>().into_pyarray(py)
-    }
-
-    #[getter]
     fn source<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
         self.lines.iter().map(|s| s.source).collect::<Vec<_>>().into_pyarray(py)
-    }
-
-    #[getter]
-    fn concave<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        self.lines.iter().map(|s| s.concave).collect::<Vec<_>>().into_pyarray(py)
-    }
-
-    /// The borders of faces that are seen nearly edge-on.
-    #[getter]
-    fn grazing(&self) -> GrazingBorders {
-        GrazingBorders(self.stretches.clone())
-    }
-}
-
-/// Stretches of borders of faces that are seen nearly edge-on.
-#[pyclass(frozen)]
-pub struct GrazingBorders(Vec<Stretch>);
-
-impl GrazingBorders {
-    fn column<'py, T: numpy::Element>(&self, py: Python<'py>, of: impl Fn(&Stretch) -> T) -> Bound<'py, PyArray1<T>> {
-        self.0.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
-    }
-
-    fn pairs<'py>(&self, py: Python<'py>, of: impl Fn(&Stretch) -> [f64; 2]) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.0.iter().flat_map(of).collect::<Vec<f64>>().into_pyarray(py).reshape([self.0.len(), 2])
-    }
-}
-
-#[pymethods]
-impl GrazingBorders {
-    fn __len__(&self) -> usize {
-        self.0.len()
-    }
-
-    #[getter]
-    fn edge<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        self.column(py, |g| g.edge as i32)
-    }
-
-    #[getter]
-    fn range<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.pairs(py, |g| g.range)
-    }
-
-    #[getter]
-    fn face<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i32>> {
-        self.column(py, |g| g.face)
-    }
-
-    #[getter]
-    fn normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let all: Vec<f64> = self.0.iter().flat_map(|g| g.normals).flatten().collect();
-        all.into_pyarray(py).reshape([self.0.len(), 2, 3])
-    }
-
-    #[getter]
-    fn front<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        self.column(py, |g| g.front)
-    }
-
-    #[getter]
-    fn beside<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<u8>> {
-        self.column(py, |g| g.beside as u8)
-    }
-
-    #[getter]
-    fn dented<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        self.column(py, |g| g.dented)
-    }
-
-    #[getter]
-    fn rise<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.pairs(py, |g| g.rise.unwrap_or([-1.0; 2]))
     }
 }

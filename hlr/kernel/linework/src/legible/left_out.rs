@@ -60,14 +60,7 @@ pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) ->
 }
 
 /// The lines of one visibility that lie between others closer than the pen is wide, steps.
-fn between_others(
-    lines: &Lines,
-    visible: bool,
-    pen: f64,
-    tolerance: f64,
-    order: &[Kind],
-    fates: &[Fate],
-) -> Vec<u32> {
+fn between_others(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order: &[Kind], fates: &[Fate]) -> Vec<u32> {
     let looked_at: Vec<bool> =
         lines.0.iter().zip(fates.iter()).map(|(l, f)| l.visible == visible && *f == Fate::Drawn).collect();
     let all = segments(lines.0.iter().enumerate().filter(|(i, _)| looked_at[*i]));

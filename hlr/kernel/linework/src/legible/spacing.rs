@@ -58,11 +58,7 @@ pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
             },
         )
         .reduce(|| vec![0u64; count], |a, b| a.iter().zip(&b).map(|(x, y)| x + y).collect());
-    Some(Spacing {
-        bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(),
-        ink: all_ink / STEPS,
-        smallest,
-    })
+    Some(Spacing { bins: bins.into_iter().map(|steps| steps as f64 / STEPS).collect(), ink: all_ink / STEPS, smallest })
 }
 
 /// The side of the square that holds all points, millimetres.

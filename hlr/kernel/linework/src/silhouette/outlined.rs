@@ -1,0 +1,225 @@
+//! Outlines as further edges of the image.
+//!
+//! Visibility is decided on the tessellation, which the true outline runs in and out of. So its points are moved outward
+//! by a little more than that before (`lift`): its own facets are then beside it and cannot hide it. Where edges and
+//! outlines lie when they are compared with their own faces is worked out in `own_lines`.
+
+use super::grazing::Grazing;
+use super::own_lines::{self, OwnLines, Stretch};
+use super::trace::Silhouette;
+use crate::lines::View;
+use hlr_brep::geometry::vector::{Vector, scaled, sub};
+use hlr_visibility::scan::own_faces::Beside;
+
+/// The image without its outlines.
+pub struct Image<'a> {
+    pub points: &'a [Vector],
+    pub edges: &'a [[i32; 2]],
+    /// Triangles at edge e: incident[offsets[e]..offsets[e + 1]].
+    pub offsets: &'a [i32],
+    pub incident: &'a [i32],
+    /// Per edge its class, part and group, and whether a curved surface may show its outline there.
+    pub kind: &'a [u8],
+    pub part: &'a [i32],
+    pub group: &'a [i32],
+    pub curved: &'a [bool],
+    /// Per triangle its face, numbered through all parts, and its group.
+    pub triangle_face: &'a [i32],
+    pub triangle_group: &'a [i32],
+    /// The first face of each part.
+    pub first: &'a [i32],
+    /// Faces that have their outlines.
+    pub traced: &'a [bool],
+    /// Groups that are closed bodies.
+    pub closed: &'a [bool],
+    /// All is one convex body.
+    pub convex: bool,
+    pub view: View,
+}
+
+/// What is true of the classes of edges, by their numbers.
+pub struct Classes<'a> {
+    /// It bounds faces, and the surface goes on there without a fold.
+    pub border: &'a [bool],
+    pub tangent: &'a [bool],
+    pub outline: u8,
+    pub interior: u8,
+}
+
+/// How far points are moved, model units.
+pub struct Lengths {
+    /// Beyond the triangles that stand out at an outline, but at most so far in all.
+    pub spare: f64,
+    pub most: f64,
+    /// Off a face before a line is compared with the triangles of that face.
+    pub own: f64,
+}
+
+impl Lengths {
+    /// How far a point is moved where triangles stand out by `rise`.
+    pub fn lift(&self, rise: f64) -> f64 {
+        (rise + self.spare).min(self.most)
+    }
+}
+
+/// The image with its outlines: the columns of its points and edges, then those of the outlines.
+#[derive(Default)]
+pub struct Outlined {
+    pub points: Vec<Vector>,
+    /// How far points are moved before visibility is decided.
+    pub lift: Vec<Vector>,
+    pub edges: Vec<[i32; 2]>,
+    pub offsets: Vec<i32>,
+    pub part: Vec<i32>,
+    pub group: Vec<i32>,
+    pub kind: Vec<u8>,
+    pub curved: Vec<bool>,
+    /// Hidden by the outline's own body.
+    pub hidden: Vec<bool>,
+    /// The outline to which an edge belongs, -1 for none.
+    pub number: Vec<i32>,
+    pub own: OwnLines,
+    /// Where each outline begins among the edges of all outlines; its part, and its face within the part.
+    pub starts: Vec<i32>,
+    pub part_of_outline: Vec<i32>,
+    pub face_in_part: Vec<i32>,
+}
+
+/// The image with these outlines. grazing: borders of faces that are seen nearly edge-on.
+pub fn outlined(
+    image: &Image,
+    classes: &Classes,
+    lines: &[Silhouette],
+    grazing: &[Grazing],
+    lengths: &Lengths,
+) -> Outlined {
+    let mut out = Outlined {
+        points: image.points.to_vec(),
+        lift: vec![[0.0; 3]; image.points.len()],
+        edges: image.edges.to_vec(),
+        offsets: image.offsets.to_vec(),
+        part: image.part.to_vec(),
+        group: image.group.to_vec(),
+        kind: image.kind.to_vec(),
+        curved: untraced(image),
+        hidden: vec![false; image.edges.len()],
+        number: vec![-1; image.edges.len()],
+        starts: vec![0],
+        ..Outlined::default()
+    };
+    let mut groups = vec![0; image.traced.len()];
+    // All triangles of a face are in one group.
+    image.triangle_face.iter().zip(image.triangle_group).for_each(|(&face, &group)| groups[face as usize] = group);
+    let mut beyond = Vec::new();
+    for (number, line) in (0..).zip(lines) {
+        let part = image.first.partition_point(|&first| first <= line.face) as i32 - 1;
+        let group = groups[line.face as usize];
+        let closed = image.closed[group as usize];
+        let side = if line.concave && !closed { -1.0 } else { 1.0 };
+        let before = out.points.len() as i32;
+        for ((point, normal), &rise) in line.points.iter().zip(&line.normals).zip(&line.rise) {
+            let (outward, distance) = (scaled(normal, side), lengths.lift(rise));
+            out.points.push(*point);
+            out.lift.push(scaled(&outward, distance));
+            // At least as far as from all other triangles: those of its own face may stand out by more.
+            beyond.push(scaled(&outward, distance.max(lengths.own)));
+        }
+        for from in before..out.points.len() as i32 - 1 {
+            let kind = classes.outline;
+            out.push(Edge { ends: [from, from + 1], part, group, kind, hidden: line.concave && closed, number });
+        }
+        out.starts.push((out.edges.len() - image.edges.len()) as i32);
+        out.part_of_outline.push(part);
+        out.face_in_part.push(line.face - image.first[part as usize]);
+    }
+    let bare: Vec<&Grazing> = grazing.iter().filter(|g| classes.border[image.kind[g.edge as usize] as usize]).collect();
+    // For one convex body culling alone decides: no edge needs its own faces.
+    if !image.convex || !bare.is_empty() {
+        let mut stretches: Vec<Stretch> = bare.into_iter().map(|g| of_border(image, g, lengths)).collect();
+        let (first, points) = (image.edges.len(), image.points.len());
+        // Outlines that their own body hides anyway need no own faces.
+        let free = (first..out.edges.len()).filter(|&e| !out.hidden[e]);
+        stretches.extend(free.map(|e| Stretch {
+            edge: e as i32,
+            range: [0.0, 1.0],
+            face: lines[out.number[e] as usize].face,
+            off: out.edges[e].map(|p| beyond[p as usize - points]),
+            lift: [[0.0; 3]; 2],
+            beside: Beside::Unknown as u8,
+            dented: false,
+        }));
+        own_lines::add(&mut out, image, classes, &stretches);
+    }
+    out
+}
+
+/// An edge without triangles.
+pub(super) struct Edge {
+    pub ends: [i32; 2],
+    pub part: i32,
+    pub group: i32,
+    pub kind: u8,
+    pub hidden: bool,
+    pub number: i32,
+}
+
+impl Outlined {
+    pub(super) fn push(&mut self, edge: Edge) {
+        self.edges.push(edge.ends);
+        self.offsets.push(self.offsets[self.offsets.len() - 1]);
+        self.part.push(edge.part);
+        self.group.push(edge.group);
+        self.kind.push(edge.kind);
+        self.curved.push(false);
+        self.hidden.push(edge.hidden);
+        self.number.push(edge.number);
+    }
+}
+
+/// Edges at which a contour of the mesh is still an outline, because no face there has been traced: a traced face has
+/// its own outline, and mesh edges, also those beside a planar face, no longer stand for it.
+fn untraced(image: &Image) -> Vec<bool> {
+    let known = |e: usize| {
+        let around = &image.incident[image.offsets[e] as usize..image.offsets[e + 1] as usize];
+        around.iter().any(|&t| image.traced[image.triangle_face[t as usize] as usize])
+    };
+    image.curved.iter().enumerate().map(|(e, &curved)| curved && !known(e)).collect()
+}
+
+/// A border of a face that is seen nearly edge-on, as it is compared with that face.
+fn of_border(image: &Image, border: &Grazing, lengths: &Lengths) -> Stretch {
+    let edge = border.edge as usize;
+    let closed = image.closed[image.group[edge] as usize];
+    let beside = if closed { border.beside } else { Beside::Unknown };
+    // Only the outer side of a closed body is seen; of an open one, the side that faces the viewer.
+    let side = if closed || border.front { 1.0 } else { -1.0 };
+    // Beside the end of an outline the edge is moved like the outline: what touches the face there has facets too. It is
+    // also moved toward the viewer: off its curved face it might lie in the plane of the other face.
+    let turns = border.rise.filter(|rise| beside == Beside::Visible && rise.iter().all(|r| *r >= 0.0));
+    let lift = turns.map_or([[0.0; 3]; 2], |rise| {
+        [0, 1].map(|k| {
+            let normal = scaled(&border.normals[k], lengths.lift(rise[k]));
+            let toward = scaled(&toward(&image.view, &image.points[image.edges[edge][k] as usize]), lengths.spare);
+            [0, 1, 2].map(|i| normal[i] + toward[i])
+        })
+    });
+    Stretch {
+        edge: border.edge as i32,
+        range: border.range,
+        face: border.face,
+        off: border.normals.map(|normal| scaled(&normal, lengths.own * side)),
+        lift,
+        beside: beside as u8,
+        dented: border.dented,
+    }
+}
+
+/// The unit vector from a point toward the viewer.
+fn toward(view: &View, point: &Vector) -> Vector {
+    if !view.perspective {
+        return view.away.map(|c| -c);
+    }
+    let way = sub(&view.origin, point);
+    let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
+    way.map(|c| c / length.max(f64::MIN_POSITIVE))
+}

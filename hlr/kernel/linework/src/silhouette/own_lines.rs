@@ -1,0 +1,109 @@
+//! Where edges and outlines lie when they are compared with the triangles of the faces that they bound.
+//!
+//! The visibility pass compares them polygon by polygon (`hlr_visibility::scan::own_faces`). Edges without triangles,
+//! which are added to the image and never drawn, give it their places.
+
+use super::outlined::{Classes, Edge, Image, Outlined};
+use hlr_brep::geometry::vector::Vector;
+use hlr_mesh::topology::components;
+
+/// A stretch of an edge with one of the faces that the edge bounds.
+pub struct Stretch {
+    pub edge: i32,
+    /// Parameters from the edge's first to its second vertex.
+    pub range: [f64; 2],
+    /// Numbered through all parts.
+    pub face: i32,
+    /// How its ends are moved off that face before it is compared with it, model units.
+    pub off: [Vector; 2],
+    /// How its ends are moved before it is compared with everything else; summed over the faces of a stretch, and used
+    /// only where the stretch is not the whole edge.
+    pub lift: [Vector; 2],
+    /// As in `OwnFaces`.
+    pub beside: u8,
+    pub dented: bool,
+}
+
+/// The columns of `hlr_visibility::scan::own_faces::OwnFaces`.
+#[derive(Default)]
+pub struct OwnLines {
+    pub edge: Vec<i32>,
+    pub range: Vec<[f64; 2]>,
+    pub line: Vec<i32>,
+    pub beside: Vec<u8>,
+    pub dented: Vec<bool>,
+    pub offsets: Vec<i32>,
+    pub face: Vec<i32>,
+    pub off: Vec<i32>,
+    pub sheet: Vec<i32>,
+}
+
+/// Adds these stretches, sorted by edge, then by parameter; nothing where there are none.
+pub(super) fn add(out: &mut Outlined, image: &Image, classes: &Classes, all: &[Stretch]) {
+    if all.is_empty() {
+        return;
+    }
+    let same = |a: &Stretch, b: &Stretch| a.edge == b.edge && a.range == b.range;
+    let mut own = OwnLines { offsets: vec![0], sheet: sheets(image, classes), ..OwnLines::default() };
+    // Stretches that are not the whole edge get points of their own.
+    for stretch in all.chunk_by(same) {
+        let first = &stretch[0];
+        let whole = first.range == [0.0, 1.0];
+        let lift = || {
+            let sum = |k: usize, i: usize| stretch[1..].iter().fold(first.lift[k][i], |sum, s| sum + s.lift[k][i]);
+            [0, 1].map(|k| [0, 1, 2].map(|i| sum(k, i)))
+        };
+        own.line.push(if whole { first.edge } else { along(out, classes, first, lift()) });
+        own.edge.push(first.edge);
+        own.range.push(on_paper(out, image, first));
+        own.beside.push(first.beside);
+        own.dented.push(stretch.iter().any(|s| s.dented));
+        own.face.extend(stretch.iter().map(|s| s.face));
+        own.offsets.push(own.face.len() as i32);
+    }
+    own.off = all.iter().map(|stretch| along(out, classes, stretch, stretch.off)).collect();
+    out.own = own;
+}
+
+/// Adds an edge along a stretch whose ends are moved; its number.
+fn along(out: &mut Outlined, classes: &Classes, stretch: &Stretch, moved: [Vector; 2]) -> i32 {
+    let edge = stretch.edge as usize;
+    let [a, b] = out.edges[edge].map(|p| out.points[p as usize]);
+    let next = out.points.len() as i32;
+    for (t, moved) in stretch.range.into_iter().zip(moved) {
+        out.points.push([0, 1, 2].map(|i| a[i] * (1.0 - t) + b[i] * t));
+        out.lift.push(moved);
+    }
+    let (part, group) = (out.part[edge], out.group[edge]);
+    out.push(Edge { ends: [next, next + 1], part, group, kind: classes.interior, hidden: false, number: -1 });
+    out.edges.len() as i32 - 1
+}
+
+/// The parameters of a stretch along the edge's image.
+fn on_paper(out: &Outlined, image: &Image, stretch: &Stretch) -> [f64; 2] {
+    if !image.view.perspective {
+        return stretch.range;
+    }
+    let [a, b] = out.edges[stretch.edge as usize].map(|p| image.view.depth(&out.points[p as usize]));
+    stretch.range.map(|t| t * b / (t * b + (1.0 - t) * a))
+}
+
+/// Per face a number, the same for all faces that join smoothly.
+fn sheets(image: &Image, classes: &Classes) -> Vec<i32> {
+    let around = |e: usize| &image.incident[image.offsets[e] as usize..image.offsets[e + 1] as usize];
+    let tangent = (0..image.edges.len()).filter(|&e| classes.tangent[image.kind[e] as usize]);
+    let mut pairs: Vec<[i32; 2]> = tangent
+        .filter_map(|e| <[i32; 2]>::try_from(around(e)).ok())
+        .map(|pair| pair.map(|t| image.triangle_face[t as usize]))
+        .collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let mut joined = vec![-1; image.traced.len()];
+    for (pair, label) in pairs.iter().zip(components(&pairs, image.traced.len())) {
+        pair.iter().for_each(|&face| joined[face as usize] = label);
+    }
+    // Faces that stand alone first, then the sheets.
+    let alone = joined.iter().filter(|label| **label < 0).count() as i32;
+    let mut next = 0..alone;
+    joined.into_iter().map(|label| if label < 0 { next.next().unwrap_or(alone) } else { alone + label }).collect()
+}
