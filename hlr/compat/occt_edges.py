@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import cache
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,6 +19,17 @@ CIRCLE_TOLERANCE = 1e-9
 
 SHORTEST_EDGE = 1e-7
 """Model units: OpenCASCADE makes no edge between points closer than this."""
+
+
+@cache
+def _occt() -> SimpleNamespace:
+    """What makes edges, imported once: an import statement for each line takes as long as some edges."""
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
+    from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Elips, gp_Pnt
+
+    return SimpleNamespace(
+        make=BRepBuilderAPI_MakeEdge, place=gp_Ax2, circle=gp_Circ, way=gp_Dir, ellipse=gp_Elips, point=gp_Pnt
+    )
 
 
 def occt_edges(line: Line, shift: Points) -> list[Any]:
@@ -42,24 +55,20 @@ def occt_compound(lines: Iterable[Line], shift: Points) -> Any:
 
 
 def _polyline(points: Points) -> list[Any]:
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
-    from OCP.gp import gp_Pnt
-
+    make, point = _occt().make, _occt().point
     made = []
     x0, y0 = points[0].tolist()
     for x, y in points[1:].tolist():
         if math.hypot(x - x0, y - y0) <= SHORTEST_EDGE:
             continue
-        made.append(BRepBuilderAPI_MakeEdge(gp_Pnt(x0, y0, 0.0), gp_Pnt(x, y, 0.0)).Edge())
+        made.append(make(point(x0, y0, 0.0), point(x, y, 0.0)).Edge())
         x0, y0 = x, y
     return made
 
 
 def _arc(arc: Arc, shift: Points) -> Any:
     """A trimmed circle or ellipse about +z, the longer axis first, as exporters expect it."""
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
-    from OCP.gp import gp_Ax2, gp_Circ, gp_Dir, gp_Elips, gp_Pnt
-
+    occt = _occt()
     major, minor = arc.radii
     if minor <= SHORTEST_EDGE:
         return None
@@ -70,22 +79,22 @@ def _arc(arc: Arc, shift: Points) -> Any:
     start, end = sorted(sign * t for t in arc.angles.tolist())
     turn = math.floor(start / math.tau) * math.tau
     start, end = start - turn, end - turn
-    place = gp_Ax2(gp_Pnt(x, y, 0.0), gp_Dir(0.0, 0.0, 1.0), gp_Dir(ux, uy, 0.0))
-    conic = gp_Circ(place, major) if major - minor <= CIRCLE_TOLERANCE * major else gp_Elips(place, major, minor)
-    maker = BRepBuilderAPI_MakeEdge(conic) if arc.whole else BRepBuilderAPI_MakeEdge(conic, start, end)
+    place = occt.place(occt.point(x, y, 0.0), occt.way(0.0, 0.0, 1.0), occt.way(ux, uy, 0.0))
+    circle = major - minor <= CIRCLE_TOLERANCE * major
+    conic = occt.circle(place, major) if circle else occt.ellipse(place, major, minor)
+    maker = occt.make(conic) if arc.whole else occt.make(conic, start, end)
     return maker.Edge() if maker.IsDone() else None
 
 
 def _bezier(chain: Bezier, shift: Points) -> Any:
     """One piece as a Bezier curve, several as a B-spline with the pieces' ends as knots."""
-    from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeEdge
     from OCP.Geom import Geom_BezierCurve, Geom_BSplineCurve
-    from OCP.gp import gp_Pnt
 
+    occt = _occt()
     moved = chain.points + shift
     poles = new_collection("points", 1, len(moved))
     for i, (x, y) in enumerate(moved.tolist(), 1):
-        poles.SetValue(i, gp_Pnt(x, y, 0.0))
+        poles.SetValue(i, occt.point(x, y, 0.0))
     if np.ptp(moved, axis=0).max() <= SHORTEST_EDGE:
         return None
     degree = chain.degree
@@ -99,5 +108,5 @@ def _bezier(chain: Bezier, shift: Points) -> Any:
             knots.SetValue(i + 1, float(i))
             multiplicities.SetValue(i + 1, degree + 1 if i in (0, count) else degree)
         curve = Geom_BSplineCurve(poles, knots, multiplicities, degree)
-    maker = BRepBuilderAPI_MakeEdge(curve)
+    maker = occt.make(curve)
     return maker.Edge() if maker.IsDone() else None

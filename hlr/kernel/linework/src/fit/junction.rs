@@ -9,8 +9,6 @@
 //! Where two lines touch, as an outline touches the rim of its face, the change lies at the point of contact. If the
 //! last bit of an outline was left out because it coincides with the rim, the outline is extended to that point.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
 
 use super::Placed;
@@ -116,8 +114,8 @@ struct Change {
 pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> Vec<Move> {
     let changes = changes(routes);
     let near = near(routes, &changes, JUNCTION_OUTLINE * accuracy);
-    near.chunk_by(|a, b| a.0 == b.0)
-        .flat_map(|group| {
+    near.par_chunk_by(|a, b| a.0 == b.0)
+        .flat_map_iter(|group| {
             let Change { at, ends } = &changes[group[0].0];
             let (i, end) = ends[0];
             let own = &routes[i];
@@ -171,27 +169,31 @@ pub fn junctions(routes: &[Route], accuracy: f64, contact: f64, view: &View) -> 
 }
 
 fn changes(routes: &[Route]) -> Vec<Change> {
-    let mut meeting: HashMap<(i32, u64, u64), Vec<(usize, usize)>> = HashMap::new();
-    for (i, route) in routes.iter().enumerate().filter(|(_, r)| r.flat.len() > 1) {
-        for end in [0, 1] {
+    let of_line = |(i, route): (usize, &Route)| {
+        [0, 1].map(|end| {
             let p = route.flat[end * (route.flat.len() - 1)];
-            meeting.entry((route.chain, p[0].to_bits(), p[1].to_bits())).or_default().push((i, end));
-        }
-    }
+            ((route.chain, p[0].to_bits(), p[1].to_bits()), (i, end))
+        })
+    };
+    let lines = routes.par_iter().enumerate().filter(|(_, route)| route.flat.len() > 1);
+    let mut meeting: Vec<_> = lines.flat_map_iter(of_line).collect();
+    meeting.par_sort_unstable();
     // Where a visible and a hidden line of one edge meet, both ends move together.
     let mut out: Vec<Change> = meeting
-        .into_values()
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|met| met.iter().map(|(_, end)| *end))
         .filter(|ends| {
-            let alone = ends.len() == 1 && routes[ends[0].0].border == Border::Outline;
-            let any_is = |visible| ends.iter().any(|e| routes[e.0].visible == visible);
+            let alone = ends.len() == 1 && ends.clone().all(|(i, _)| routes[i].border == Border::Outline);
+            let any_is = |visible| ends.clone().any(|(i, _)| routes[i].visible == visible);
             (alone || any_is(false)) && any_is(true)
         })
         .map(|ends| {
+            let ends: Vec<(usize, usize)> = ends.collect();
             let (i, end) = ends[0];
             Change { at: routes[i].flat[end * (routes[i].flat.len() - 1)], ends }
         })
         .collect();
-    out.sort_by(|a, b| a.at[0].total_cmp(&b.at[0]).then(a.at[1].total_cmp(&b.at[1])).then(a.ends.cmp(&b.ends)));
+    out.par_sort_by(|a, b| a.at[0].total_cmp(&b.at[0]).then(a.at[1].total_cmp(&b.at[1])).then(a.ends.cmp(&b.ends)));
     out
 }
 
@@ -209,7 +211,7 @@ fn near(routes: &[Route], changes: &[Change], reach: f64) -> Vec<(usize, usize, 
             })
         })
         .collect();
-    out.sort_unstable();
+    out.par_sort_unstable();
     out
 }
 

@@ -118,7 +118,7 @@ pub fn on_curves(lines: &[Polyline], guides: &[Guide], curves: &Curves, camera: 
         .collect();
     share_ends(&routes, &mut drawn, accuracy);
     routes
-        .into_iter()
+        .into_par_iter()
         .zip(drawn)
         .zip(moved)
         .map(|((route, drawn), moved)| match (drawn, &route.curve) {

@@ -49,16 +49,15 @@ fn covered_by_better(lines: &[Polyline], order: &[usize], widths: Widths, view: 
     }
     let mut gone = vec![Vec::new(); lines.len()];
     let Some(mut drawn) = Drawn::none_of(&sides, widths.under.max(widths.same)) else { return gone };
-    let (mut near, mut covered) = (Vec::new(), Vec::new());
+    let mut covered = Vec::new();
     for &i in order {
         let own = first_side[i]..first_side[i + 1];
         covered.clear();
         for id in own.clone() {
             let side = &sides[id];
-            drawn.near(id as u32, &mut near);
-            for &other in &near {
+            drawn.each_near(id as u32, |other| {
                 cover(side, &sides[other as usize], other, &gone, widths, &mut covered);
-            }
+            });
             // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
             drawn.add(id as u32);
         }

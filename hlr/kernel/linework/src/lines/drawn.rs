@@ -15,6 +15,8 @@ pub(super) struct Drawn<'a> {
     members: Vec<Vec<u32>>,
     /// How far beside a side is looked, mm.
     reach: f64,
+    /// The last side that each side was near to.
+    met: Vec<u32>,
 }
 
 impl<'a> Drawn<'a> {
@@ -36,7 +38,8 @@ impl<'a> Drawn<'a> {
         let cell = (long / sides.len() as f64).max(reach).max((size[0] * size[1] / most).sqrt());
         let cell = cell.max(size[0].max(size[1]) / most);
         let [columns, rows] = size.map(|s| (s / cell) as usize + 1);
-        Some(Drawn { sides, low, cell, columns, rows, members: vec![Vec::new(); columns * rows], reach })
+        let (members, met) = (vec![Vec::new(); columns * rows], vec![u32::MAX; sides.len()]);
+        Some(Drawn { sides, low, cell, columns, rows, members, reach, met })
     }
 
     pub(super) fn add(&mut self, side: u32) {
@@ -51,12 +54,18 @@ impl<'a> Drawn<'a> {
         self.each(side, 0.0, |members| members.retain(|&s| s != side));
     }
 
-    /// The drawn sides that may come within reach of a side, ascending.
-    pub(super) fn near(&mut self, side: u32, found: &mut Vec<u32>) {
-        found.clear();
-        self.each(side, self.reach, |members| found.extend_from_slice(members));
-        found.sort_unstable();
-        found.dedup();
+    /// Calls `visit` with each drawn side that may come within reach of a side.
+    pub(super) fn each_near(&mut self, side: u32, mut visit: impl FnMut(u32)) {
+        let mut met = std::mem::take(&mut self.met);
+        self.each(side, self.reach, |members| {
+            for &other in members.iter() {
+                if met[other as usize] != side {
+                    met[other as usize] = side;
+                    visit(other);
+                }
+            }
+        });
+        self.met = met;
     }
 
     /// Calls `visit` with the members of the cells that a side comes as near to as `reach`, maybe more than once.
@@ -116,11 +125,16 @@ mod tests {
         let mut drawn = Drawn::none_of(&sides, 0.4).expect("numbers");
         (0..200).for_each(|side| drawn.add(side));
         (0..200).step_by(5).for_each(|side| drawn.remove(side));
-        let mut found = Vec::new();
+        let mut near = |side: u32| {
+            let mut found = Vec::new();
+            drawn.each_near(side, |other| found.push(other));
+            found.sort_unstable();
+            found
+        };
         let mut close = 0;
         for side in 200..300 {
-            drawn.near(side, &mut found);
-            assert!(found.is_sorted() && found.iter().all(|s| s % 5 != 0 && *s < 200));
+            let found = near(side);
+            assert!(found.windows(2).all(|w| w[0] < w[1]) && found.iter().all(|s| s % 5 != 0 && *s < 200));
             for other in (0..200).filter(|s| s % 5 != 0) {
                 if nearest(&sides[side as usize], &sides[other as usize]) < 0.4 {
                     close += 1;
@@ -129,7 +143,7 @@ mod tests {
             }
         }
         assert!(close > 100);
-        drawn.near(299, &mut found);
+        let found = near(299);
         assert!(found.len() < 80, "{} of 160 are looked at", found.len());
     }
 

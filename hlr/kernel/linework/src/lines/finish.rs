@@ -1,6 +1,8 @@
 //! Finishes the drawing: puts each line on its curve, moves the drawing's lower left corner to the origin, and sorts
 //! the lines.
 
+use rayon::prelude::*;
+
 use super::Polyline;
 use super::camera::Camera;
 use super::candidates::About;
@@ -58,7 +60,7 @@ pub fn finish(
         cut.lines.into_iter().map(|line| Made { bounds: around(&line), line, curve: None }).collect()
     } else {
         let found = on_curves(&cut.lines, &own, curves, camera, fit);
-        let made = cut.lines.into_iter().zip(cut.smooth).zip(&own).zip(found);
+        let made = cut.lines.into_par_iter().zip(cut.smooth).zip(&own).zip(found);
         made.map(|(((line, smooth), guide), found)| bent(line, smooth, guide, found, curves, camera, fit)).collect()
     };
     made.retain(|m| m.line.visible || hidden);
@@ -68,11 +70,11 @@ pub fn finish(
         low = [0.0; 2];
     }
     // The sort is stable: lines with equal keys keep their order.
-    made.sort_by_key(|m| {
+    made.par_sort_by_key(|m| {
         let a = &about[m.line.chain as usize];
         (a.part, a.kind, a.edge, a.face, a.other)
     });
-    (Lines(made.into_iter().map(|m| line(m, about, &low)).collect()), low)
+    (Lines(made.into_par_iter().map(|m| line(m, about, &low)).collect()), low)
 }
 
 fn around(line: &Polyline) -> [Vec2; 2] {

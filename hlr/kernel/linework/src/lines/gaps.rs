@@ -90,7 +90,7 @@ pub(super) fn gaps(
     widths: Widths,
     view: &View,
 ) -> Vec<Covered> {
-    covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
+    covered.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)).then(a.by.cmp(&b.by)));
     let (total, width) = (line.length(), if line.visible { widths.same } else { widths.under });
     let goes = |from: f64, to: f64, beside: [u32; 2]| {
         to - from <= 2.0 * widths.same

@@ -107,3 +107,84 @@ fn sheets(image: &Image, classes: &Classes) -> Vec<i32> {
     let mut next = 0..alone;
     joined.into_iter().map(|label| if label < 0 { next.next().unwrap_or(alone) } else { alone + label }).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::outlined::{Lengths, outlined};
+    use super::*;
+    use crate::lines::View;
+    use hlr_visibility::scan::own_faces::Beside;
+
+    const TANGENT: u8 = 1;
+    const OUTLINE: u8 = 2;
+    const INTERIOR: u8 = 3;
+
+    /// Two triangles side by side, each a face of its own, and the edge between them.
+    fn image<'a>(kind: &'a [u8], perspective: bool) -> Image<'a> {
+        Image {
+            points: &[[0.0, 0.0, -1.0], [0.0, 4.0, -3.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]],
+            edges: &[[0, 1]],
+            offsets: &[0, 2],
+            incident: &[0, 1],
+            kind,
+            part: &[0],
+            group: &[0],
+            curved: &[true],
+            triangle_face: &[1, 2],
+            triangle_group: &[0, 0],
+            first: &[0],
+            traced: &[false; 4],
+            closed: &[true],
+            convex: false,
+            view: View { origin: [0.0; 3], away: [0.0, 0.0, -1.0], perspective },
+        }
+    }
+
+    fn added(kind: u8, perspective: bool, stretches: &[Stretch]) -> Outlined {
+        let (mut border, mut tangent) = ([true; 256], [false; 256]);
+        (border[INTERIOR as usize], tangent[TANGENT as usize]) = (false, true);
+        let classes = Classes { border: &border, tangent: &tangent, outline: OUTLINE, interior: INTERIOR };
+        let (kinds, lengths) = ([kind], Lengths { spare: 0.1, most: 1.0, own: 0.5 });
+        let image = image(&kinds, perspective);
+        let mut out = outlined(&image, &classes, &[], &[], &lengths);
+        assert_eq!((out.points.len(), out.edges.len(), &out.curved[..]), (4, 1, &[true][..]));
+        add(&mut out, &image, &classes, stretches);
+        out
+    }
+
+    fn stretch(range: [f64; 2], face: i32, lift: f64) -> Stretch {
+        let off = [[0.0, 0.0, f64::from(face)]; 2];
+        let lift = [[lift, 0.0, 0.0]; 2];
+        Stretch { edge: 0, range, face, off, lift, beside: Beside::Visible as u8, dented: face == 2 }
+    }
+
+    #[test]
+    fn a_part_of_an_edge_gets_points_of_its_own_and_the_sum_of_its_lifts() {
+        let all = [stretch([0.0, 0.5], 1, 0.25), stretch([0.0, 0.5], 2, 0.5), stretch([0.5, 1.0], 1, 0.0)];
+        let out = added(0, false, &all);
+        assert_eq!((&out.own.edge[..], &out.own.offsets[..]), (&[0, 0][..], &[0, 2, 3][..]));
+        assert_eq!((&out.own.line[..], &out.own.off[..]), (&[1, 2][..], &[3, 4, 5][..]));
+        assert_eq!((&out.own.face[..], &out.own.dented[..]), (&[1, 2, 1][..], &[true, false][..]));
+        assert_eq!(out.edges[1..], [[4, 5], [6, 7], [8, 9], [10, 11], [12, 13]]);
+        assert_eq!((out.points[5], out.lift[5]), ([0.0, 2.0, -2.0], [0.75, 0.0, 0.0]));
+        assert_eq!((out.points[11], out.lift[11]), ([0.0, 2.0, -2.0], [0.0, 0.0, 2.0]));
+        assert!(out.kind[1..].iter().all(|kind| *kind == INTERIOR) && out.offsets[1..].iter().all(|at| *at == 2));
+        // The whole edge is its own line.
+        assert_eq!(added(0, false, &[stretch([0.0, 1.0], 1, 0.5)]).own.line, [0]);
+    }
+
+    #[test]
+    fn parameters_on_paper_follow_the_perspective() {
+        // The depths of the ends are 1 and 3: the middle in space is three quarters of the way on paper.
+        assert_eq!(added(0, true, &[stretch([0.0, 0.5], 1, 0.0)]).own.range, [[0.0, 0.75]]);
+        assert_eq!(added(0, false, &[stretch([0.0, 0.5], 1, 0.0)]).own.range, [[0.0, 0.5]]);
+    }
+
+    #[test]
+    fn faces_that_join_smoothly_are_one_sheet() {
+        let all = [stretch([0.0, 1.0], 1, 0.0)];
+        assert_eq!(added(0, false, &all).own.sheet, [0, 1, 2, 3]);
+        assert_eq!(added(TANGENT, false, &all).own.sheet, [0, 2, 2, 1]);
+        assert!(added(TANGENT, false, &[]).own.sheet.is_empty());
+    }
+}
