@@ -110,10 +110,11 @@ fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f
     let (a, b, p, q) = (&worse.from, &worse.to, &better.from, &better.to);
     let (vx, vy) = (q[0] - p[0], q[1] - p[1]);
     let (ux, uy) = (b[0] - a[0], b[1] - a[1]);
-    let (m, l) = ((vx * vx + vy * vy).sqrt(), (ux * ux + uy * uy).sqrt());
-    if m == 0.0 || l == 0.0 || (vx * uy - vy * ux).abs() > PARALLEL * m * l {
+    let (m2, l2, cross) = (vx * vx + vy * vy, ux * ux + uy * uy, vx * uy - vy * ux);
+    if m2 == 0.0 || l2 == 0.0 || cross * cross > PARALLEL * PARALLEL * m2 * l2 {
         return None;
     }
+    let m = m2.sqrt();
     let away = |x: &[f64; 2]| (vx * (x[1] - p[1]) - vy * (x[0] - p[0])) / m;
     let along = |x: &[f64; 2]| (vx * (x[0] - p[0]) + vy * (x[1] - p[1])) / m;
     let (mut u0, mut u1) = (0.0f64, 1.0f64);
