@@ -13,8 +13,9 @@ pub const BINS: f64 = 64.0;
 /// The longest piece of a line of which one place is looked at, millimetres.
 const PIECE: f64 = 0.5;
 
-/// Pieces are longer where there would be more than this many: so many places tell a share to a fraction of a percent.
-const PLACES: f64 = 65_536.0;
+/// Pieces are longer where there would be more than this many: so many places tell a share to half a percent. A line that
+/// is crowded all along is found wherever it is looked at.
+const PLACES: f64 = 16_384.0;
 
 /// Nearer than this, a place is crowded with any pen: nothing nearer is sought, so that blots take no longer. Steps.
 const NEAR: f64 = STEPS / BINS;
