@@ -10,7 +10,8 @@ use super::mesh_input::Mesh;
 use super::silhouette::Outlines;
 use super::true_surfaces::TrueSurfaces;
 use super::view::{Flat, Rows, arrays, flat, rows};
-use hlr_linework::silhouette::outlined::{Classes, Image, Lengths, Outlined as Found, outlined as add};
+use hlr_linework::silhouette::image::{Classes, Image, Outlined as Found};
+use hlr_linework::silhouette::outlined::{Lengths, outlined as add};
 
 /// Per edge its class, part and group, and whether a curved surface may show its outline there; per triangle its group.
 type Columns<'py> = (

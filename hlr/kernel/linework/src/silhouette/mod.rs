@@ -15,7 +15,7 @@
 //! 4. `trace`    joins them into curves, divided where the face, the edge or the sign of the curvature changes,
 //!    `split`    and where the image of a curve would lie on itself
 //! 5. `curve`    a circle where that is exact, else cubic pieces through the points with their tangents
-//! 6. `outlined` adds them to the image as edges, and `own_lines` where edges are compared with their own faces
+//! 6. `outlined` adds them to the `image` as edges, and `own_lines` where edges are compared with their own faces
 //! ```
 //!
 //! It departs from the paper in that the crossings are not those of the linear interpolant but are moved onto the
@@ -26,6 +26,7 @@ pub mod contour;
 pub mod curve;
 pub mod face;
 pub mod grazing;
+pub mod image;
 pub mod outlined;
 pub mod own_lines;
 pub mod refine;

@@ -3,7 +3,7 @@
 //! The visibility pass compares them polygon by polygon (`hlr_visibility::scan::own_faces`). Edges without triangles,
 //! which are added to the image and never drawn, give it their places.
 
-use super::outlined::{Classes, Edge, Image, Outlined};
+use super::image::{Classes, Edge, Image, Outlined, OwnLines};
 use hlr_brep::geometry::vector::Vector;
 use hlr_mesh::topology::components;
 
@@ -22,20 +22,6 @@ pub struct Stretch {
     /// As in `OwnFaces`.
     pub beside: u8,
     pub dented: bool,
-}
-
-/// The columns of `hlr_visibility::scan::own_faces::OwnFaces`.
-#[derive(Default)]
-pub struct OwnLines {
-    pub edge: Vec<i32>,
-    pub range: Vec<[f64; 2]>,
-    pub line: Vec<i32>,
-    pub beside: Vec<u8>,
-    pub dented: Vec<bool>,
-    pub offsets: Vec<i32>,
-    pub face: Vec<i32>,
-    pub off: Vec<i32>,
-    pub sheet: Vec<i32>,
 }
 
 /// Adds these stretches, sorted by edge, then by parameter; nothing where there are none.
@@ -110,7 +96,6 @@ fn sheets(image: &Image, classes: &Classes) -> Vec<i32> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::outlined::{Lengths, outlined};
     use super::*;
     use crate::lines::View;
     use hlr_visibility::scan::own_faces::Beside;
@@ -144,9 +129,9 @@ mod tests {
         let (mut border, mut tangent) = ([true; 256], [false; 256]);
         (border[INTERIOR as usize], tangent[TANGENT as usize]) = (false, true);
         let classes = Classes { border: &border, tangent: &tangent, outline: OUTLINE, interior: INTERIOR };
-        let (kinds, lengths) = ([kind], Lengths { spare: 0.1, most: 1.0, own: 0.5 });
+        let kinds = [kind];
         let image = image(&kinds, perspective);
-        let mut out = outlined(&image, &classes, &[], &[], &lengths);
+        let mut out = Outlined::of(&image);
         assert_eq!((out.points.len(), out.edges.len(), &out.curved[..]), (4, 1, &[true][..]));
         add(&mut out, &image, &classes, stretches);
         out

@@ -1,0 +1,127 @@
+//! The image that outlines are added to, and what comes of it.
+
+use crate::lines::View;
+use hlr_brep::geometry::vector::Vector;
+
+/// The image without its outlines.
+pub struct Image<'a> {
+    pub points: &'a [Vector],
+    pub edges: &'a [[i32; 2]],
+    /// Triangles at edge e: incident[offsets[e]..offsets[e + 1]].
+    pub offsets: &'a [i32],
+    pub incident: &'a [i32],
+    /// Per edge its class, part and group, and whether a curved surface may show its outline there.
+    pub kind: &'a [u8],
+    pub part: &'a [i32],
+    pub group: &'a [i32],
+    pub curved: &'a [bool],
+    /// Per triangle its face, numbered through all parts, and its group.
+    pub triangle_face: &'a [i32],
+    pub triangle_group: &'a [i32],
+    /// The first face of each part.
+    pub first: &'a [i32],
+    /// Faces that have their outlines.
+    pub traced: &'a [bool],
+    /// Groups that are closed bodies.
+    pub closed: &'a [bool],
+    /// All is one convex body.
+    pub convex: bool,
+    pub view: View,
+}
+
+/// What is true of the classes of edges, by their numbers.
+pub struct Classes<'a> {
+    /// It bounds faces, and the surface goes on there without a fold.
+    pub border: &'a [bool],
+    pub tangent: &'a [bool],
+    pub outline: u8,
+    pub interior: u8,
+}
+
+/// The image with its outlines: the columns of its points and edges, then those of the outlines.
+#[derive(Default)]
+pub struct Outlined {
+    pub points: Vec<Vector>,
+    /// How far points are moved before visibility is decided.
+    pub lift: Vec<Vector>,
+    pub edges: Vec<[i32; 2]>,
+    pub offsets: Vec<i32>,
+    pub part: Vec<i32>,
+    pub group: Vec<i32>,
+    pub kind: Vec<u8>,
+    pub curved: Vec<bool>,
+    /// Hidden by the outline's own body.
+    pub hidden: Vec<bool>,
+    /// The outline to which an edge belongs, -1 for none.
+    pub number: Vec<i32>,
+    pub own: OwnLines,
+    /// Where each outline begins among the edges of all outlines; its part, and its face within the part.
+    pub starts: Vec<i32>,
+    pub part_of_outline: Vec<i32>,
+    pub face_in_part: Vec<i32>,
+}
+
+/// The columns of `hlr_visibility::scan::own_faces::OwnFaces`.
+#[derive(Default)]
+pub struct OwnLines {
+    pub edge: Vec<i32>,
+    pub range: Vec<[f64; 2]>,
+    pub line: Vec<i32>,
+    pub beside: Vec<u8>,
+    pub dented: Vec<bool>,
+    pub offsets: Vec<i32>,
+    pub face: Vec<i32>,
+    pub off: Vec<i32>,
+    pub sheet: Vec<i32>,
+}
+
+/// An edge without triangles.
+pub(super) struct Edge {
+    pub ends: [i32; 2],
+    pub part: i32,
+    pub group: i32,
+    pub kind: u8,
+    pub hidden: bool,
+    pub number: i32,
+}
+
+impl Outlined {
+    /// The image as it is, without any outline.
+    pub(super) fn of(image: &Image) -> Outlined {
+        Outlined {
+            points: image.points.to_vec(),
+            lift: vec![[0.0; 3]; image.points.len()],
+            edges: image.edges.to_vec(),
+            offsets: image.offsets.to_vec(),
+            part: image.part.to_vec(),
+            group: image.group.to_vec(),
+            kind: image.kind.to_vec(),
+            curved: untraced(image),
+            hidden: vec![false; image.edges.len()],
+            number: vec![-1; image.edges.len()],
+            starts: vec![0],
+            ..Outlined::default()
+        }
+    }
+
+    pub(super) fn push(&mut self, edge: Edge) {
+        self.edges.push(edge.ends);
+        self.offsets.push(self.offsets[self.offsets.len() - 1]);
+        self.part.push(edge.part);
+        self.group.push(edge.group);
+        self.kind.push(edge.kind);
+        self.curved.push(false);
+        self.hidden.push(edge.hidden);
+        self.number.push(edge.number);
+    }
+}
+
+/// Edges at which a contour of the mesh is still an outline, because no face there has been traced: a traced face has
+/// its own outline, and mesh edges, also those beside a planar face, no longer stand for it.
+fn untraced(image: &Image) -> Vec<bool> {
+    let known = |e: usize| {
+        let around = &image.incident[image.offsets[e] as usize..image.offsets[e + 1] as usize];
+        around.iter().any(|&t| image.traced[image.triangle_face[t as usize] as usize])
+    };
+    image.curved.iter().enumerate().map(|(e, &curved)| curved && !known(e)).collect()
+}
