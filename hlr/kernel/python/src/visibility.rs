@@ -61,6 +61,7 @@ impl OwnFaces {
             expect_len("off", own.off.len(), own.face.len())?;
             expect_below("offsets", own.offsets.iter().copied(), own.face.len() + 1)?;
             expect_below("face", own.triangle_face.iter().chain(&own.face).copied(), own.sheet.len())?;
+            expect_below("sheet", own.sheet.iter().copied(), own.sheet.len())?;
             expect_ascending("edge", &own.edge)?;
             expect_ascending("offsets", &own.offsets)?;
             Ok(OwnFaces(own))

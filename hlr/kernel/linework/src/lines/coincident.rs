@@ -15,6 +15,7 @@ use rayon::prelude::*;
 use super::drawn::Drawn;
 pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
+use super::pairs::{Pair, pairs};
 use super::{Polyline, View, distance};
 
 /// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
@@ -23,9 +24,7 @@ const PARALLEL: f64 = 0.5;
 
 /// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
 pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
-    let mut order: Vec<usize> = (0..lines.len()).collect();
-    order.sort_unstable_by_key(|&i| rank[i]);
-    let gone = covered_by_better(&lines, &order, widths, view);
+    let gone = covered_by_better(&lines, rank, widths, view);
     lines
         .into_par_iter()
         .zip(gone.into_par_iter())
@@ -33,11 +32,39 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
         .collect()
 }
 
-/// The stretches of each line that better ones cover, ascending. order: the best line first.
+/// What side covers what stretch of which other one.
+pub(super) struct Stretches<'a> {
+    /// A strict order of lines.
+    rank: &'a [u32],
+    widths: Widths,
+    /// The larger of the widths, mm.
+    pub reach: f64,
+}
+
+impl Stretches<'_> {
+    /// Two sides as (worse, better); None where the one can never cover the other.
+    pub fn order(&self, sides: &[Side], a: u32, b: u32) -> Option<(u32, u32)> {
+        let (s, t) = (&sides[a as usize], &sides[b as usize]);
+        if s.line == t.line {
+            // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
+            return (heading(s, t) < 0.0).then_some((a.max(b), a.min(b)));
+        }
+        Some(if self.rank[s.line as usize] < self.rank[t.line as usize] { (b, a) } else { (a, b) })
+    }
+
+    /// The stretch of a worse side that a better one covers, as parameters on the worse.
+    pub fn covered(&self, worse: &Side, better: &Side) -> Option<(f64, f64)> {
+        let width = if worse.visible == better.visible { self.widths.same } else { self.widths.under };
+        covered(worse, better, width, self.widths.same)
+    }
+}
+
+/// The stretches of each line that better ones cover, ascending.
 ///
-/// Lines are decided one after another, and each is compared with what is drawn so far alone. So a thousand lines that
-/// all cover one another take a thousand comparisons, and not a million.
-fn covered_by_better(lines: &[Polyline], order: &[usize], widths: Widths, view: &View) -> Vec<Vec<Covered>> {
+/// Lines are decided one after another, the best first, and a side covers nothing once it is left out itself. Which sides
+/// cover which others is found before, for all at once. If there are too many, each line is compared with what is drawn
+/// so far alone: so a thousand lines that all cover one another take a thousand comparisons, and not a million.
+fn covered_by_better(lines: &[Polyline], rank: &[u32], widths: Widths, view: &View) -> Vec<Vec<Covered>> {
     let (mut sides, mut first_side) = (Vec::new(), vec![0]);
     for (i, line) in lines.iter().enumerate() {
         let mut start = 0.0;
@@ -47,51 +74,101 @@ fn covered_by_better(lines: &[Polyline], order: &[usize], widths: Widths, view: 
         }
         first_side.push(sides.len());
     }
-    let mut gone = vec![Vec::new(); lines.len()];
-    let Some(mut drawn) = Drawn::none_of(&sides, widths.under.max(widths.same)) else { return gone };
-    let mut covered = Vec::new();
-    for &i in order {
-        let own = first_side[i]..first_side[i + 1];
-        covered.clear();
-        for id in own.clone() {
-            let side = &sides[id];
-            drawn.each_near(id as u32, |other| {
-                cover(side, &sides[other as usize], other, &gone, widths, &mut covered);
-            });
-            // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
-            drawn.add(id as u32);
-        }
-        if covered.is_empty() {
-            continue;
-        }
-        gone[i] = gaps(&mut covered, &lines[i], &sides, widths, view);
-        for id in own.filter(|&id| sides[id].within_one_of(&gone[i])) {
-            drawn.remove(id as u32);
-        }
+    let stretches = Stretches { rank, widths, reach: widths.under.max(widths.same) };
+    let cutting = Cutting { lines, sides: &sides, first_side: &first_side, stretches, view };
+    match pairs(&sides, &cutting.stretches) {
+        Some(pairs) => cutting.by_pairs(&pairs),
+        None => cutting.by_drawn(),
     }
-    gone
 }
 
-/// Adds the stretches of a side that a side of a better line covers, or an earlier one of its own line.
-///
-/// other: the number of the better side; gone: of each line the stretches that are left out, where it covers nothing
-fn cover(side: &Side, better: &Side, other: u32, gone: &[Vec<Covered>], widths: Widths, out: &mut Vec<Covered>) {
-    let own = side.line == better.line;
-    if own && heading(side, better) >= 0.0 {
-        return;
+/// The lines, side by side, of which stretches are cut out. The sides of line i are first_side[i]..first_side[i + 1].
+struct Cutting<'a> {
+    lines: &'a [Polyline],
+    sides: &'a [Side],
+    first_side: &'a [usize],
+    stretches: Stretches<'a>,
+    view: &'a View,
+}
+
+impl Cutting<'_> {
+    /// The numbers of the lines, the best first.
+    fn order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.lines.len()).collect();
+        order.par_sort_unstable_by_key(|&i| self.stretches.rank[i]);
+        order
     }
-    let width = if side.visible == better.visible { widths.same } else { widths.under };
-    let Some((from, to)) = covered(side, better, width, widths.same) else { return };
-    let length = side.length();
-    let mut put = |from: f64, to: f64| {
-        out.push(Covered { from: side.start + from * length, to: side.start + to * length, own, by: [other; 2] });
-    };
-    let gone = &gone[better.line as usize];
-    if own || gone.is_empty() {
-        return put(from, to);
+
+    fn by_pairs(&self, pairs: &[Pair]) -> Vec<Vec<Covered>> {
+        let (mut gone, mut removed) = (vec![Vec::new(); self.lines.len()], vec![false; self.sides.len()]);
+        // The pairs of each line are a run: their sides ascend.
+        let mut runs = vec![0..0; self.lines.len()];
+        let mut end = 0;
+        for run in pairs.chunk_by(|a, b| self.line_of(a.side) == self.line_of(b.side)) {
+            runs[self.line_of(run[0].side)] = end..end + run.len();
+            end += run.len();
+        }
+        let mut covered = Vec::new();
+        for i in self.order() {
+            covered.clear();
+            for pair in pairs[runs[i].clone()].iter().filter(|pair| !removed[pair.by as usize]) {
+                self.cover(pair, &gone, &mut covered);
+            }
+            if !covered.is_empty() {
+                self.cut_out(i, &mut covered, &mut gone, |side| removed[side] = true);
+            }
+        }
+        gone
     }
-    let place = |u: f64| better.start + along(better, &at(side, u)).clamp(0.0, 1.0) * better.length();
-    still_there(from, to, [place(from), place(to)], gone, put);
+
+    fn by_drawn(&self) -> Vec<Vec<Covered>> {
+        let mut gone = vec![Vec::new(); self.lines.len()];
+        let Some(mut drawn) = Drawn::none_of(self.sides, self.stretches.reach) else { return gone };
+        let mut covered = Vec::new();
+        for i in self.order() {
+            covered.clear();
+            for side in (self.first_side[i] as u32)..self.first_side[i + 1] as u32 {
+                drawn.each_near(side, |by| {
+                    let own = self.stretches.order(self.sides, side, by) == Some((side, by));
+                    let [worse, better] = [side, by].map(|s| &self.sides[s as usize]);
+                    if own && let Some((from, to)) = self.stretches.covered(worse, better) {
+                        self.cover(&Pair { side, by, from, to }, &gone, &mut covered);
+                    }
+                });
+                drawn.add(side);
+            }
+            if !covered.is_empty() {
+                self.cut_out(i, &mut covered, &mut gone, |side| drawn.remove(side as u32));
+            }
+        }
+        gone
+    }
+
+    fn line_of(&self, side: u32) -> usize {
+        self.sides[side as usize].line as usize
+    }
+
+    /// Leaves the covered stretches out of line i, and tells which of its sides are left out whole.
+    fn cut_out(&self, i: usize, covered: &mut [Covered], gone: &mut [Vec<Covered>], mut left_out: impl FnMut(usize)) {
+        gone[i] = gaps(covered, &self.lines[i], self.sides, self.stretches.widths, self.view);
+        let own = self.first_side[i]..self.first_side[i + 1];
+        own.filter(|&side| self.sides[side].within_one_of(&gone[i])).for_each(&mut left_out);
+    }
+
+    /// Adds what a pair covers. gone: of each line the stretches that are left out, where it covers nothing.
+    fn cover(&self, pair: &Pair, gone: &[Vec<Covered>], out: &mut Vec<Covered>) {
+        let [side, better] = [pair.side, pair.by].map(|s| &self.sides[s as usize]);
+        let (length, own) = (side.length(), side.line == better.line);
+        let mut put = |from: f64, to: f64| {
+            out.push(Covered { from: side.start + from * length, to: side.start + to * length, own, by: [pair.by; 2] });
+        };
+        let gone = &gone[better.line as usize];
+        if own || gone.is_empty() {
+            return put(pair.from, pair.to);
+        }
+        let place = |u: f64| better.start + along(better, &at(side, u)).clamp(0.0, 1.0) * better.length();
+        still_there(pair.from, pair.to, [place(pair.from), place(pair.to)], gone, put);
+    }
 }
 
 /// Positive if two sides run in the same direction.
@@ -180,5 +257,54 @@ mod tests {
         let lines = vec![line(true, &[[0.0, 0.0], [10.0, 0.0]]), line(false, &[[0.0, -2.0], [10.0, 2.0]])];
         let rest = uncovered(lines.clone(), &[0, 1], Widths { same: 0.01, under: 0.01 }, &PARALLEL_VIEW);
         assert_eq!(rest, lines);
+    }
+
+    #[test]
+    fn the_pairs_of_all_sides_give_what_is_drawn_one_by_one() {
+        // Short lines in few directions, rounded to a coarse grid: many coincide.
+        let mut state = 7u32;
+        let mut next = |most: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from((state >> 10) % most)
+        };
+        let lines: Vec<Polyline> = (0..900)
+            .map(|_| {
+                let at = [next(60), next(40)];
+                let to = [at[0] + next(9), at[1] + next(2)];
+                line(next(2) > 0.0, &[at, to, [to[0] + next(3) - 4.0, to[1]]])
+            })
+            .collect();
+        let rank: Vec<u32> = (0..lines.len() as u32).map(|i| i * 7 % 900).collect();
+        let (mut sides, mut first_side) = (Vec::new(), vec![0]);
+        for (i, one) in lines.iter().enumerate() {
+            let mut start = 0.0;
+            for w in one.flat.windows(2) {
+                sides.push(Side { visible: one.visible, line: i as u32, from: w[0], to: w[1], start });
+                start += distance(&w[0], &w[1]);
+            }
+            first_side.push(sides.len());
+        }
+        let widths = Widths { same: 0.01, under: 0.2 };
+        let stretches = Stretches { rank: &rank, widths, reach: 0.2 };
+        let all = pairs(&sides, &stretches).expect("not too many");
+        let cutting =
+            Cutting { lines: &lines, sides: &sides, first_side: &first_side, stretches, view: &PARALLEL_VIEW };
+        let plain = |gone: Vec<Vec<Covered>>| -> Vec<Vec<(f64, f64)>> {
+            gone.iter().map(|line| line.iter().map(|c| (c.from, c.to)).collect()).collect()
+        };
+        let (found, wanted) = (plain(cutting.by_pairs(&all)), plain(cutting.by_drawn()));
+        assert!(found.iter().filter(|line| !line.is_empty()).count() > 300);
+        assert_eq!(found, wanted);
+    }
+
+    #[test]
+    fn a_stack_of_lines_is_too_many_for_pairs_and_is_drawn_once() {
+        let lines: Vec<Polyline> = (0..3000).map(|_| line(true, &[[0.0, 0.0], [10.0, 0.0]])).collect();
+        let sides: Vec<Side> =
+            (0..3000).map(|line| Side { visible: true, line, from: [0.0, 0.0], to: [10.0, 0.0], start: 0.0 }).collect();
+        let rank: Vec<u32> = (0..3000).collect();
+        let widths = Widths { same: 0.01, under: 0.2 };
+        assert_eq!(pairs(&sides, &Stretches { rank: &rank, widths, reach: 0.2 }), None);
+        assert_eq!(uncovered(lines, &rank, widths, &PARALLEL_VIEW).len(), 1);
     }
 }

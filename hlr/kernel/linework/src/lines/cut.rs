@@ -71,7 +71,8 @@ pub fn cut(
     let ranks = ranked(&lines, traits, view, t.space);
     let mut lines = uncovered(lines, &ranks, t.widths, view);
     drop_specks(&mut lines, t.short);
-    let ends = Ends::of(&lines);
+    let of_meshes = traits.iter().any(|of| of.without_brep);
+    let ends = Ends::of(if of_meshes { &lines } else { &[] });
     let smooth = lines
         .par_iter_mut()
         .map(|line| {

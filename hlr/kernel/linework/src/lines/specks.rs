@@ -8,41 +8,99 @@
 
 use std::collections::HashMap;
 
+use rayon::prelude::*;
+
 use super::Polyline;
 use hlr_accuracy::SPECK_DOT;
 
 pub fn drop_specks(lines: &mut Vec<Polyline>, shortest: f64) {
-    drop_small(lines, |line| line.length() < SPECK_DOT * shortest, SPECK_DOT * shortest);
-    drop_small(lines, |_| true, shortest);
+    drop_dots(lines, SPECK_DOT * shortest);
+    drop_figures(lines, shortest);
 }
 
-/// Drops figures shorter than `shortest` made of `chosen` lines, even where they meet lines that are not chosen.
-fn drop_small(lines: &mut Vec<Polyline>, chosen: impl Fn(&Polyline) -> bool, shortest: f64) {
-    let chosen: Vec<bool> = lines.iter().map(chosen).collect();
-    let mut group: Vec<usize> = (0..lines.len()).collect();
-    fn root(group: &mut [usize], mut i: usize) -> usize {
-        while group[i] != i {
-            group[i] = group[group[i]];
-            i = group[i];
+/// Drops lines shorter than `shortest`, unless together with others so short that they meet they are longer.
+fn drop_dots(lines: &mut Vec<Polyline>, shortest: f64) {
+    let lengths: Vec<f64> = lines.par_iter().map(Polyline::length).collect();
+    let short: Vec<usize> = (0..lines.len()).filter(|&i| lengths[i] < shortest).collect();
+    let Figures { total, .. } = Figures::of(lines, &short, &lengths);
+    drop_all(lines, short.iter().zip(total).filter(|&(_, total)| total < shortest).map(|(&i, _)| i));
+}
+
+/// Drops lines shorter than `shortest` with all they connect to, where that is shorter in all.
+fn drop_figures(lines: &mut Vec<Polyline>, shortest: f64) {
+    let lengths: Vec<f64> = lines.par_iter().map(Polyline::length).collect();
+    let is_short = |i: usize| lengths[i] < shortest;
+    let short: Vec<usize> = (0..lines.len()).filter(|&i| is_short(i)).collect();
+    if short.is_empty() {
+        return;
+    }
+    let Figures { total, figure, at } = Figures::of(lines, &short, &lengths);
+    // A figure that a longer line meets is long enough.
+    let mut long = vec![false; short.len()];
+    for line in (0..lines.len()).filter(|&i| !is_short(i)).map(|i| &lines[i]) {
+        ends(line).iter().filter_map(|end| at.get(end)).for_each(|&k| long[figure[k]] = true);
+    }
+    let gone = |k: usize| total[k] < shortest && !long[figure[k]];
+    drop_all(lines, (0..short.len()).filter(|&k| gone(k)).map(|k| short[k]));
+}
+
+/// Removes lines, by their numbers in ascending order.
+fn drop_all(lines: &mut Vec<Polyline>, gone: impl Iterator<Item = usize>) {
+    let (mut gone, mut i) = (gone.peekable(), 0..);
+    if gone.peek().is_some() {
+        lines.retain(|_| {
+            let i = i.next();
+            gone.next_if(|&g| Some(g) == i).is_none()
+        });
+    }
+}
+
+/// An end of a line: its visibility and the place on paper.
+type End = (bool, u64, u64);
+
+fn ends(line: &Polyline) -> [End; 2] {
+    [0, line.flat.len() - 1].map(|k| {
+        let [x, y] = line.flat[k].map(|c| (c + 0.0).to_bits());
+        (line.visible, x, y)
+    })
+}
+
+/// How some of the lines hang together.
+struct Figures {
+    /// Per chosen line the length of its figure.
+    total: Vec<f64>,
+    /// Per chosen line the first of its figure, as a number among the chosen ones.
+    figure: Vec<usize>,
+    /// The first chosen line that ends at a place.
+    at: HashMap<End, usize>,
+}
+
+impl Figures {
+    /// The figures that the chosen lines make up; lengths: of all lines.
+    fn of(lines: &[Polyline], chosen: &[usize], lengths: &[f64]) -> Figures {
+        fn root(group: &mut [usize], mut i: usize) -> usize {
+            while group[i] != i {
+                group[i] = group[group[i]];
+                i = group[i];
+            }
+            i
         }
-        i
-    }
-    let mut at: HashMap<(bool, u64, u64), usize> = HashMap::new();
-    for (i, line) in lines.iter().enumerate().filter(|(i, _)| chosen[*i]) {
-        for end in [&line.flat[0], &line.flat[line.flat.len() - 1]] {
-            let key = (line.visible, (end[0] + 0.0).to_bits(), (end[1] + 0.0).to_bits());
-            let other = *at.entry(key).or_insert(i);
-            let (a, b) = (root(&mut group, i), root(&mut group, other));
-            group[a.max(b)] = a.min(b);
+        let mut group: Vec<usize> = (0..chosen.len()).collect();
+        let mut at = HashMap::new();
+        for (k, &i) in chosen.iter().enumerate() {
+            for end in ends(&lines[i]) {
+                let other = *at.entry(end).or_insert(k);
+                let (a, b) = (root(&mut group, k), root(&mut group, other));
+                group[a.max(b)] = a.min(b);
+            }
         }
+        let figure: Vec<usize> = (0..chosen.len()).map(|k| root(&mut group, k)).collect();
+        let mut sum = vec![0.0; chosen.len()];
+        for (&f, &i) in figure.iter().zip(chosen) {
+            sum[f] += lengths[i];
+        }
+        Figures { total: figure.iter().map(|&f| sum[f]).collect(), figure, at }
     }
-    let mut total = vec![0.0; lines.len()];
-    let roots: Vec<usize> = (0..lines.len()).map(|i| root(&mut group, i)).collect();
-    for (line, &r) in lines.iter().zip(&roots) {
-        total[r] += line.length();
-    }
-    let mut i = 0..lines.len();
-    lines.retain(|_| i.next().is_none_or(|i| !chosen[i] || total[roots[i]] >= shortest));
 }
 
 #[cfg(test)]

@@ -67,10 +67,15 @@ const LEAF: usize = 8;
 impl BoxTree {
     pub fn new(mut items: Vec<(Aabb, u32)>) -> BoxTree {
         let mut nodes = Vec::with_capacity(items.len() / 2 + 1);
-        let n = items.len();
-        if n > 0 {
-            split(&mut items, 0, n, &mut nodes);
+        if !items.is_empty() {
+            split(&mut items, 0, &mut nodes);
         }
+        BoxTree { nodes, items }
+    }
+
+    /// The same tree, built on all threads: not while others wait for it within a lock.
+    pub fn by_all_threads(mut items: Vec<(Aabb, u32)>) -> BoxTree {
+        let nodes = if items.is_empty() { Vec::new() } else { halved(&mut items, 0) };
         BoxTree { nodes, items }
     }
 
@@ -104,21 +109,54 @@ impl BoxTree {
     }
 }
 
-fn split(items: &mut [(Aabb, u32)], first: usize, end: usize, nodes: &mut Vec<Node>) {
-    let bounds = items[first..end].iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
-    let here = nodes.len();
-    let count = end - first;
-    if count <= LEAF {
-        nodes.push(Node { bounds, link: first as u32, count: count as u32 });
+/// More items than this are divided on several threads.
+const MANY: usize = 1 << 13;
+
+/// The nodes of items that begin at number `first`; the same in whatever order they are made.
+fn halved(items: &mut [(Aabb, u32)], first: usize) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(items.len() / 2 + 1);
+    if items.len() <= MANY {
+        split(items, first, &mut nodes);
+        return nodes;
+    }
+    let (bounds, half) = (around(items), halve(items));
+    let (left, right) = items.split_at_mut(half);
+    let (left, right) = rayon::join(|| halved(left, first), || halved(right, first + half));
+    nodes.push(Node { bounds, link: left.len() as u32 + 1, count: 0 });
+    for part in [left, right] {
+        let begin = nodes.len() as u32;
+        // The links of inner nodes are places among the nodes.
+        let moved = |node: Node| if node.count > 0 { node } else { Node { link: node.link + begin, ..node } };
+        nodes.extend(part.into_iter().map(moved));
+    }
+    nodes
+}
+
+fn around(items: &[(Aabb, u32)]) -> Aabb {
+    items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a))
+}
+
+/// Puts the lower half along the longest side first; returns how many these are.
+fn halve(items: &mut [(Aabb, u32)]) -> usize {
+    let bounds = around(items);
+    let axis = (0..3).max_by_key(|&k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).unwrap_or(0);
+    let half = items.len() / 2;
+    items.select_nth_unstable_by_key(half, |(b, i)| (i64::from(b.low[axis]) + i64::from(b.high[axis]), *i));
+    half
+}
+
+fn split(items: &mut [(Aabb, u32)], first: usize, nodes: &mut Vec<Node>) {
+    let (bounds, here) = (around(items), nodes.len());
+    if items.len() <= LEAF {
+        nodes.push(Node { bounds, link: first as u32, count: items.len() as u32 });
         return;
     }
     nodes.push(Node { bounds, link: 0, count: 0 });
-    let axis = (0..3).max_by_key(|&k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).unwrap_or(0);
-    let half = count / 2;
-    items[first..end].select_nth_unstable_by_key(half, |(b, i)| (i64::from(b.low[axis]) + i64::from(b.high[axis]), *i));
-    split(items, first, first + half, nodes);
+    let half = halve(items);
+    let (left, right) = items.split_at_mut(half);
+    split(left, first, nodes);
     nodes[here].link = nodes.len() as u32;
-    split(items, first + half, end, nodes);
+    split(right, first + half, nodes);
 }
 
 #[cfg(test)]
@@ -136,15 +174,17 @@ mod tests {
             let low = [random(100), random(100), random(100)];
             Aabb { low, high: [low[0] + random(size), low[1] + random(size), low[2] + random(size)] }
         };
-        let boxes: Vec<(Aabb, u32)> = (0..500).map(|i| (cube(20), i)).collect();
-        let tree = BoxTree::new(boxes.clone());
-        for _ in 0..200 {
-            let q = cube(30);
-            let mut found = Vec::new();
-            tree.query(&q, |i| found.push(i));
-            found.sort_unstable();
-            let expected: Vec<u32> = boxes.iter().filter(|(b, _)| b.overlaps(&q)).map(|&(_, i)| i).collect();
-            assert_eq!(found, expected);
+        for count in [500, 3 * MANY as u32] {
+            let boxes: Vec<(Aabb, u32)> = (0..count).map(|i| (cube(20), i)).collect();
+            let tree = if count > 500 { BoxTree::by_all_threads(boxes.clone()) } else { BoxTree::new(boxes.clone()) };
+            for _ in 0..if count > 500 { 20 } else { 200 } {
+                let q = cube(30);
+                let mut found = Vec::new();
+                tree.query(&q, |i| found.push(i));
+                found.sort_unstable();
+                let expected: Vec<u32> = boxes.iter().filter(|(b, _)| b.overlaps(&q)).map(|&(_, i)| i).collect();
+                assert_eq!(found, expected);
+            }
         }
     }
 }

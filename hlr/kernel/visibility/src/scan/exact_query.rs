@@ -26,42 +26,56 @@ impl<'a> ExactQuery<'a> {
         ExactQuery { mesh, table, tree: OnceLock::new() }
     }
 
-    fn tree(&self) -> &BoxTree {
-        self.tree.get_or_init(|| {
-            let items = (0..self.mesh.triangles.len())
-                .filter(|&t| self.table.counted(self.mesh, t))
-                .map(|t| {
-                    let (p, q, r) = self.mesh.corners(t);
-                    (Aabb::of(&[p, q, r]), t as u32)
-                })
-                .collect();
-            BoxTree::new(items)
-        })
+    /// All polygons.
+    pub fn tree(&self) -> &BoxTree {
+        self.tree.get_or_init(|| BoxTree::new(self.boxes(0..self.mesh.triangles.len() as u32)))
+    }
+
+    /// Makes the tree of all polygons on all threads, before these ask for it.
+    pub fn prepare(&self) {
+        if self.tree.get().is_none() {
+            // If another thread was faster, its tree is the same.
+            let _ = self.tree.set(BoxTree::by_all_threads(self.boxes(0..self.mesh.triangles.len() as u32)));
+        }
+    }
+
+    /// The boxes of those of these triangles that are counted.
+    pub fn boxes(&self, triangles: impl IntoIterator<Item = u32>) -> Vec<(Aabb, u32)> {
+        let counted = triangles.into_iter().filter(|&t| self.table.counted(self.mesh, t as usize));
+        let boxed = |t: u32| {
+            let (p, q, r) = self.mesh.corners(t as usize);
+            (Aabb::of(&[p, q, r]), t)
+        };
+        counted.map(boxed).collect()
     }
 
     /// Segments of one drawn edge; false if even these counts contradict each other.
     pub fn decide<A: Arithmetic>(&self, edge: usize, out: &mut Vec<Segment>) -> bool {
-        let (a, b) = self.mesh.ends(edge);
-        self.decide_by::<A>(self.mesh.edge_group[edge], Aabb::of(&[a, b]), |_| Some((a, b)), out)
+        let ends = self.mesh.ends(edge);
+        let mut found = Vec::new();
+        self.in_front(self.tree(), Aabb::of(&[ends.0, ends.1]), |t| found.push((t, ends)));
+        self.decide_by::<A>(self.mesh.edge_group[edge], found, out)
     }
 
-    /// The same, where the edge has another position for some polygons, or is not compared with them at all. `ends`:
-    /// its position for each polygon. `reach`: a box around all these positions.
+    /// Calls `visit` with the polygons of a tree that may lie in front of a box.
+    pub fn in_front(&self, tree: &BoxTree, mut reach: Aabb, mut visit: impl FnMut(usize)) {
+        reach.low[2] = i32::MIN;
+        tree.query(&reach, |t| visit(t as usize));
+    }
+
+    /// The same as `decide`, where the edge may have another position for some polygons. `polygons`: those it is
+    /// compared with, and its ends for each.
     pub fn decide_by<'p, A: Arithmetic>(
         &self,
         group: i32,
-        mut reach: Aabb,
-        ends: impl Fn(usize) -> Option<(&'p Point, &'p Point)>,
+        polygons: impl IntoIterator<Item = (usize, (&'p Point, &'p Point))>,
         out: &mut Vec<Segment>,
     ) -> bool {
         let mesh = self.mesh;
-        reach.low[2] = i32::MIN;
         let (mut start, mut end) = (Count::default(), Count::default());
         let mut events: Vec<Event<A::Parameter>> = Vec::new();
-        self.tree().query(&reach, |t| {
-            let t = t as usize;
-            let Some((a, b)) = ends(t) else { return };
-            let Some(cover) = mesh.cover::<A>(t) else { return };
+        for (t, (a, b)) in polygons {
+            let Some(cover) = mesh.cover::<A>(t) else { continue };
             let delta = mesh.delta(group, mesh.triangle_group[t]);
             let (plain, moved) = cover.hides_end(a, b, delta);
             start.plain += i32::from(plain);
@@ -83,7 +97,7 @@ impl<'a> ExactQuery<'a> {
             pierce(a, b, &cover, delta, |at, plain, moved| {
                 events.push(Event { drawn: 0, at, plain, moved });
             });
-        });
+        }
         walk(start, &mut events, end, out)
     }
 }

@@ -12,6 +12,7 @@
 //! 7. `invisibility`   the count along every drawn edge, checked at its far end
 //! 8. `exact_query`    the slow way, polygon by polygon, for a drawn edge whose check failed
 //! 9. `own_faces`      the slow way for edges whose own faces are seen nearly edge-on: hidden only if these turn over
+//!    (`sheets`: the triangles of faces that go on smoothly)
 //!
 //! Two shortcuts, taken where the scene calls for them, with the same result: `single_layer` (a convex body: culling
 //! alone decides) before 4, and `depth_pyramid` (deep scenes: what surely lies behind something needs no search).
@@ -33,5 +34,6 @@ pub mod own_faces;
 pub mod piercing;
 pub mod polygon_table;
 pub mod scene;
+mod sheets;
 pub mod single_layer;
 pub mod sweep;

@@ -24,6 +24,7 @@ use super::exact_query::ExactQuery;
 use super::invisibility::{Piece, Segment, State};
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
+use super::sheets::Sheets;
 use hlr_exact::Point;
 use hlr_exact::arithmetic::Arithmetic;
 
@@ -102,6 +103,9 @@ const EDGE_ON: f64 = 0.5;
 const VISIBLE: u8 = Beside::Visible as u8;
 const HIDDEN: u8 = Beside::Hidden as u8;
 
+/// The two ends of an edge.
+type Ends<'m> = (&'m Point, &'m Point);
+
 struct Decided {
     edge: u32,
     segments: Vec<Segment>,
@@ -134,19 +138,32 @@ impl OwnFaces<'_> {
     ) -> (Vec<Piece>, u64) {
         let stretches: Vec<usize> = (0..self.edge.len()).collect();
         let edges: Vec<&[usize]> = stretches.chunk_by(|&a, &b| self.edge[a] == self.edge[b]).collect();
-        let found: Vec<Decided> = edges
+        if edges.is_empty() {
+            return (pieces, 0);
+        }
+        let sheets = Sheets::of(self.triangle_face, self.sheet);
+        let drawn = |run: &[usize]| {
+            let edge = self.edge[run[0]] as u32;
+            pieces.partition_point(|p| p.edge < edge)..pieces.partition_point(|p| p.edge <= edge)
+        };
+        let differ: Vec<&[usize]> = edges
+            .into_par_iter()
+            .filter(|run| !stopped() && self.differs::<A>(mesh, table, exact, &sheets, run) && !drawn(run).is_empty())
+            .collect();
+        if !differ.is_empty() {
+            exact.prepare();
+        }
+        let found: Vec<Decided> = differ
             .par_iter()
             .filter_map(|run| {
                 let edge = self.edge[run[0]] as u32;
-                let first = pieces.partition_point(|p| p.edge < edge);
-                let last = pieces.partition_point(|p| p.edge <= edge);
-                if first == last || stopped() {
+                if stopped() {
                     return None;
                 }
                 let mut segments = self.decided::<A>(mesh, table, exact, run)?;
                 if mesh.incident(edge as usize).is_empty() {
                     // An outline is moved off its face for all polygons alike; what is visible of it then is visible.
-                    let lifted: Vec<Segment> = pieces[first..last].iter().map(|p| p.segment).collect();
+                    let lifted: Vec<Segment> = pieces[drawn(run)].iter().map(|p| p.segment).collect();
                     segments = merged(&segments, &lifted, State::less_hidden);
                 }
                 Some(Decided { edge, segments })
@@ -167,7 +184,47 @@ impl OwnFaces<'_> {
         (out, found.len() as u64)
     }
 
-    /// The corrected pieces of an edge; None where the triangles of its own faces hide it exactly where the faces do.
+    /// Whether the triangles of an edge's own faces hide it otherwise than the faces do.
+    fn differs<A: Arithmetic>(
+        &self,
+        mesh: &Mesh,
+        table: &PolygonTable,
+        exact: &ExactQuery,
+        sheets: &Sheets,
+        stretches: &[usize],
+    ) -> bool {
+        let edge = self.edge[stretches[0]] as usize;
+        let culled = self.culled(mesh, table, edge);
+        let (mut one, mut two) = (Vec::new(), Vec::new());
+        stretches.iter().any(|&s| {
+            if culled || self.hidden(s, culled) {
+                return culled != self.hidden(s, culled);
+            }
+            let own = self.own_polygons(mesh, exact, sheets, s);
+            let group = mesh.edge_group[edge];
+            let as_they_lie = own.iter().filter_map(|&(t, _)| Some((t, self.plain(mesh, s, t)?)));
+            // Most stretches have no polygon of their own in front of them, wherever they are looked for.
+            !own.is_empty()
+                && exact.decide_by::<A>(group, as_they_lie, &mut one)
+                && exact.decide_by::<A>(group, own.iter().copied(), &mut two)
+                && !one.iter().map(|s| s.state).eq(two.iter().map(|s| s.state))
+        })
+    }
+
+    fn culled(&self, mesh: &Mesh, table: &PolygonTable, edge: usize) -> bool {
+        mesh.groups[mesh.edge_group[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge))
+    }
+
+    /// Whether its own faces hide all of a stretch.
+    fn hidden(&self, stretch: usize, culled: bool) -> bool {
+        match self.beside[stretch] {
+            HIDDEN => true,
+            VISIBLE => false,
+            _ => culled,
+        }
+    }
+
+    /// The pieces of an edge as its own faces hide it; None where that contradicts itself.
     fn decided<A: Arithmetic>(
         &self,
         mesh: &Mesh,
@@ -175,34 +232,17 @@ impl OwnFaces<'_> {
         exact: &ExactQuery,
         stretches: &[usize],
     ) -> Option<Vec<Segment>> {
-        let edge = self.edge[stretches[0]] as usize;
-        let culled = mesh.groups[mesh.edge_group[edge] as usize].cull && table.turned_away(mesh, mesh.incident(edge));
+        let culled = self.culled(mesh, table, self.edge[stretches[0]] as usize);
         let (mut one, mut two) = (Vec::new(), Vec::new());
-        let hidden = |s: usize| match self.beside[s] {
-            HIDDEN => true,
-            VISIBLE => false,
-            _ => culled,
-        };
-        let differ = stretches.iter().any(|&s| {
-            if culled || hidden(s) {
-                return culled != hidden(s);
-            }
-            let said = self.asked::<A>(mesh, exact, s, Asked::OwnAsTheyLie, &mut one)
-                && self.asked::<A>(mesh, exact, s, Asked::Own, &mut two);
-            said && !one.iter().map(|s| s.state).eq(two.iter().map(|s| s.state))
-        });
-        if !differ {
-            return None;
-        }
         let mut out: Vec<Segment> = Vec::new();
         for &s in stretches {
-            if hidden(s) {
+            if self.hidden(s, culled) {
                 one.clear();
                 one.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
-            } else if !self.asked::<A>(mesh, exact, s, Asked::AllWhole, &mut one) {
+            } else if !self.asked::<A>(mesh, exact, s, true, &mut one) {
                 return None;
             } else if !self.dented[s] {
-                if !self.asked::<A>(mesh, exact, s, Asked::All, &mut two) {
+                if !self.asked::<A>(mesh, exact, s, false, &mut two) {
                     return None;
                 }
                 one = merged(&one, &two, State::more_hidden);
@@ -225,42 +265,74 @@ impl OwnFaces<'_> {
         self.offsets[stretch] as usize..self.offsets[stretch + 1] as usize
     }
 
+    /// Own polygons that the stretch is compared with when it is moved off their faces, with its ends there.
+    fn own_polygons<'m>(
+        &self,
+        mesh: &'m Mesh,
+        exact: &ExactQuery,
+        sheets: &Sheets,
+        stretch: usize,
+    ) -> Vec<(usize, Ends<'m>)> {
+        let mut found = Vec::new();
+        let (sheet, reach) = (|k: usize| self.sheet[self.face[k] as usize], self.reach(mesh, stretch));
+        for k in self.faces(stretch) {
+            // `off` finds a position for polygons of these sheets alone.
+            if (self.faces(stretch).start..k).all(|before| sheet(before) != sheet(k)) {
+                exact.in_front(sheets.tree(exact, sheet(k)), reach, |t| {
+                    found.extend(self.off(mesh, stretch, t, self.dented[stretch]).map(|ends| (t, ends)));
+                });
+            }
+        }
+        found
+    }
+
+    /// Segments of a stretch, from all polygons. Own ones seen edge-on are compared with it moved off their faces; if
+    /// `whole`, all own ones are. Behind its own face, an edge may pass from polygons seen at a large angle to polygons
+    /// seen edge-on: one of the two ways may have a gap there, the other has none.
     fn asked<A: Arithmetic>(
         &self,
         mesh: &Mesh,
         exact: &ExactQuery,
         stretch: usize,
-        asked: Asked,
+        whole: bool,
         out: &mut Vec<Segment>,
     ) -> bool {
-        let edge = self.edge[stretch] as usize;
-        let plain = mesh.ends(self.line[stretch] as usize);
-        let own: Vec<(i32, (&Point, &Point))> =
-            self.faces(stretch).map(|k| (self.face[k], mesh.ends(self.off[k] as usize))).collect();
-        let around = mesh.incident(edge);
-        let bounded: Vec<i32> = around.iter().map(|&t| self.triangle_face[t as usize]).collect();
-        let mut reach = Aabb::of(&[plain.0, plain.1]);
-        for (_, (a, b)) in &own {
-            reach = reach.union(&Aabb::of(&[a, b]));
-        }
-        let whole = self.dented[stretch] || matches!(asked, Asked::AllWhole);
-        let off = |t: usize| {
-            let face = self.triangle_face[t];
-            let sheet = self.sheet[face as usize];
-            let mine = own.iter().find(|(f, _)| *f == face);
-            let goes_on = || own.iter().find(|(f, _)| self.sheet[*f as usize] == sheet && !bounded.contains(&face));
-            let (_, ends) = mine.or_else(goes_on)?;
-            (whole || self.edge_on(mesh, t)).then_some(*ends)
+        let mut found = Vec::new();
+        exact.in_front(exact.tree(), self.reach(mesh, stretch), |t| {
+            let off = self.off(mesh, stretch, t, whole || self.dented[stretch]);
+            found.extend(off.or_else(|| self.plain(mesh, stretch, t)).map(|ends| (t, ends)));
+        });
+        exact.decide_by::<A>(mesh.edge_group[self.edge[stretch] as usize], found, out)
+    }
+
+    /// A box around all positions of a stretch.
+    fn reach(&self, mesh: &Mesh, stretch: usize) -> Aabb {
+        let (a, b) = mesh.ends(self.line[stretch] as usize);
+        self.faces(stretch).fold(Aabb::of(&[a, b]), |reach, k| {
+            let (a, b) = mesh.ends(self.off[k] as usize);
+            reach.union(&Aabb::of(&[a, b]))
+        })
+    }
+
+    /// The ends of a stretch in its true place, for a polygon. The end of a stretch is rounded and may lie off the
+    /// triangles at its edge; these hide none of it.
+    fn plain<'m>(&self, mesh: &'m Mesh, stretch: usize, t: usize) -> Option<Ends<'m>> {
+        let beside = mesh.incident(self.edge[stretch] as usize).contains(&(t as i32));
+        (!beside).then(|| mesh.ends(self.line[stretch] as usize))
+    }
+
+    /// The ends of a stretch moved off the face of a polygon; None for polygons of other faces, and for those seen at a
+    /// large angle unless `whole`.
+    fn off<'m>(&self, mesh: &'m Mesh, stretch: usize, t: usize, whole: bool) -> Option<Ends<'m>> {
+        let face = self.triangle_face[t];
+        let sheet = self.sheet[face as usize];
+        let bounded = |face: i32| {
+            mesh.incident(self.edge[stretch] as usize).iter().any(|&t| self.triangle_face[t as usize] == face)
         };
-        let ends = |t: usize| match (asked, off(t)) {
-            (Asked::All | Asked::AllWhole | Asked::Own, Some(ends)) => Some(ends),
-            // The end of a stretch is rounded and may lie off the triangles at its edge; these hide none of it.
-            (Asked::OwnAsTheyLie, Some(_)) | (Asked::All | Asked::AllWhole, None) => {
-                (!around.contains(&(t as i32))).then_some(plain)
-            }
-            (Asked::Own | Asked::OwnAsTheyLie, None) => None,
-        };
-        exact.decide_by::<A>(mesh.edge_group[edge], reach, ends, out)
+        let mine = self.faces(stretch).find(|&k| self.face[k] == face);
+        let goes_on = || self.faces(stretch).find(|&k| self.sheet[self.face[k] as usize] == sheet && !bounded(face));
+        let k = mine.or_else(goes_on)?;
+        (whole || self.edge_on(mesh, t)).then(|| mesh.ends(self.off[k] as usize))
     }
 
     fn edge_on(&self, mesh: &Mesh, t: usize) -> bool {
@@ -309,20 +381,6 @@ fn merged(one: &[Segment], two: &[Segment], pick: fn(State, State) -> State) -> 
         j += usize::from(b.end == end);
     }
     out
-}
-
-#[derive(Clone, Copy)]
-enum Asked {
-    /// All polygons. Own ones seen edge-on are compared with the edge moved off their faces.
-    All,
-    /// All polygons. All own ones are compared with the edge moved off their faces. Behind its own face, an edge may
-    /// pass from polygons seen at a large angle to polygons seen edge-on: `All` or `AllWhole` may have a gap there, the
-    /// other has none.
-    AllWhole,
-    /// Own polygons only, compared with the edge moved off their faces.
-    Own,
-    /// Own polygons only, compared with the stretch in its true place.
-    OwnAsTheyLie,
 }
 
 #[cfg(test)]
