@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use super::arrays::{expect_below, expect_len, flat, rows as rows_of, table};
 use super::guard::caught;
 use super::parts::PartTables;
-use super::threads::{FEW, run, run_telling};
+use super::threads::{FEW, release_later, run, run_telling};
 use hlr_brep::assemble::assemble;
 use hlr_brep::bounds::boxes;
 use hlr_brep::explore::Part;
@@ -31,6 +31,12 @@ type Curves<'py> =
 /// Parts, faces and edges of a dump, each underlying face and edge once.
 #[pyclass(frozen)]
 pub struct BrepModel(Arc<Model>);
+
+impl Drop for BrepModel {
+    fn drop(&mut self) {
+        release_later(self.0.clone(), self.0.faces.len());
+    }
+}
 
 #[pymethods]
 impl BrepModel {
@@ -176,6 +182,15 @@ impl BrepModel {
 pub struct BrepMesh {
     model: Arc<Model>,
     meshed: Mutex<Tessellation>,
+}
+
+impl Drop for BrepMesh {
+    fn drop(&mut self) {
+        let meshed = self.meshed.get_mut().unwrap_or_else(PoisonError::into_inner);
+        let held = std::mem::replace(meshed, Tessellation { lines: Vec::new(), faces: Vec::new() });
+        let size = held.faces.len();
+        release_later((self.model.clone(), held), size);
+    }
 }
 
 #[pymethods]

@@ -359,7 +359,7 @@ impl Layer {
         format: fn(&Inked, &[Fitted]) -> Vec<u8>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let dashes = self.dashes(py, pattern, visible)?;
-        Ok(PyBytes::new(py, &py.detach(|| format(&self.0, &dashes))))
+        Ok(PyBytes::new(py, &run(py, 0, self.0.rows.op.len(), |_| format(&self.0, &dashes))?))
     }
 
     /// Dashes of each stroke; none where there is no pattern.

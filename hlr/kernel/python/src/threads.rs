@@ -65,6 +65,16 @@ pub fn run_telling<T: Send>(
     Ok(result)
 }
 
+/// Releases a value of `size` items on another thread: that of thousands of faces takes as long as some steps of a
+/// drawing.
+pub fn release_later<T: Send + 'static>(value: T, size: usize) {
+    if size > FEW
+        && let Ok(pool) = pool(0)
+    {
+        pool.spawn(move || drop(value));
+    }
+}
+
 fn not_started(error: rayon::ThreadPoolBuildError) -> PyErr {
     PyRuntimeError::new_err(format!("cannot start threads: {error}"))
 }

@@ -5,9 +5,8 @@
 //! The gap keeps its width and the dashes take up the rest. Short strokes have shorter dashes, then shorter gaps, and
 //! the shortest are drawn through, so that a small hidden circle is still a circle.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::digits::put;
 use super::length::{Measured, ends, rows};
@@ -61,7 +60,7 @@ impl Fitted {
 
 /// Where visible strokes end, and the directions in which they would go on.
 #[derive(Default)]
-pub struct Ends(HashMap<[i64; 2], Vec<Vec2>>);
+pub struct Ends(FxHashMap<[i64; 2], Vec<Vec2>>);
 
 impl Ends {
     pub fn add(&mut self, visible: &Strokes) {

@@ -34,27 +34,19 @@ pub struct Tie {
 /// Empty layers are left out.
 pub fn layers(lines: &Lines, order: &[Kind], places: usize, accuracy: f64, cubic: bool) -> Vec<Layer> {
     let rows: Vec<Rows> = lines.0.par_iter().map(|line| rows_of(line, places, accuracy, cubic)).collect();
-    let mut out = Vec::new();
-    for visible in [false, true] {
-        for &kind in order {
-            let of = |line: &Line| line.visible == visible && line.kind == kind;
-            let some: Vec<(&Line, &Rows)> = lines.0.iter().zip(&rows).filter(|(line, _)| of(line)).collect();
-            let mut layer = Layer {
-                kind,
-                visible,
-                places,
-                rows: Rows::default(),
-                starts: vec![0],
-                closed: Vec::new(),
-                ties: Vec::new(),
-            };
-            layer.draw(&some);
-            if !layer.closed.is_empty() {
-                out.push(layer);
-            }
-        }
-    }
-    out
+    let each: Vec<(bool, Kind)> =
+        [false, true].iter().flat_map(|&v| order.iter().map(move |&kind| (v, kind))).collect();
+    let layer = |&(visible, kind): &(bool, Kind)| {
+        let of = |line: &Line| line.visible == visible && line.kind == kind;
+        let some: Vec<(&Line, &Rows)> = lines.0.iter().zip(&rows).filter(|(line, _)| of(line)).collect();
+        let (rows, starts, closed, ties) = (Rows::default(), vec![0], Vec::new(), Vec::new());
+        let mut layer = Layer { kind, visible, places, rows, starts, closed, ties };
+        layer.draw(&some);
+        layer
+    };
+    let mut found: Vec<Layer> = each.par_iter().map(layer).collect();
+    found.retain(|layer| !layer.closed.is_empty());
+    found
 }
 
 impl Layer {

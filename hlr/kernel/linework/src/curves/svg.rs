@@ -1,6 +1,8 @@
 //! Writes strokes as elements of SVG: an absolute M, then relative commands. Letters and separators are left out where
 //! the grammar allows it. y points down.
 
+use rayon::prelude::*;
+
 use super::arcs::{EXTRA, ROTATION};
 use super::dashes::Fitted;
 use super::digits::put;
@@ -34,16 +36,31 @@ impl Pen {
     }
 }
 
+/// Strokes that are written by one thread at a time.
+const CHUNK: usize = 512;
+
 /// One element per stroke; consecutive strokes of one part form one group. dashes: one per stroke, or empty.
 pub fn elements(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
+    let count = layer.ties.len();
+    let chunks = (0..count.div_ceil(CHUNK)).into_par_iter().map(|k| k * CHUNK..((k + 1) * CHUNK).min(count));
+    let mut texts: Vec<Vec<u8>> = chunks.map(|strokes| some_elements(layer, dashes, strokes)).collect();
+    if count > 0 {
+        texts.push(b"</g>\n".to_vec());
+    }
+    texts.concat()
+}
+
+/// The elements of some of the strokes, with the tags between groups that stand before them.
+fn some_elements(layer: &Layer, dashes: &[Fitted], of: std::ops::Range<usize>) -> Vec<u8> {
     let strokes = layer.strokes();
     let mut pen = Pen { out: Vec::new(), command: 0, fraction: false, fresh: true };
-    for (s, tie) in layer.ties.iter().enumerate() {
+    for s in of {
+        let tie = &layer.ties[s];
         if s == 0 || layer.ties[s - 1].part != tie.part {
             if s > 0 {
                 pen.out.extend(b"</g>\n");
             }
-            attribute(&mut pen.out, "<g data-part", tie.part);
+            attribute(&mut pen.out, b"<g data-part", tie.part);
             pen.out.extend(b">\n");
         }
         let (first, last) = (strokes.starts[s] as usize, strokes.starts[s + 1] as usize);
@@ -58,7 +75,7 @@ pub fn elements(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
             }
             pen.out.push(b'"');
         }
-        for (name, number) in [(" data-edge", tie.edge), (" data-other", tie.other)] {
+        for (name, number) in [(&b" data-edge"[..], tie.edge), (b" data-other", tie.other)] {
             if number >= 0 {
                 attribute(&mut pen.out, name, number);
             }
@@ -68,24 +85,32 @@ pub fn elements(layer: &Layer, dashes: &[Fitted]) -> Vec<u8> {
         }
         pen.out.extend(b"/>\n");
     }
-    if !layer.ties.is_empty() {
-        pen.out.extend(b"</g>\n");
-    }
     pen.out
 }
 
-fn attribute(out: &mut Vec<u8>, name: &str, number: i32) {
-    out.extend(format!("{name}=\"{number}\"").as_bytes());
+fn attribute(out: &mut Vec<u8>, name: &[u8], number: i32) {
+    out.extend(name);
+    out.extend(b"=\"");
+    put(out, number.into(), 0);
+    out.push(b'"');
 }
 
 fn dashed(dashes: &Fitted, out: &mut Vec<u8>) {
-    let (lengths, offset) = dashes.text();
-    if lengths.is_empty() {
+    if dashes.lengths.is_empty() {
         return;
     }
-    out.extend(format!(" stroke-dasharray=\"{lengths}\"").as_bytes());
-    if offset != "0" {
-        out.extend(format!(" stroke-dashoffset=\"{offset}\"").as_bytes());
+    out.extend(b" stroke-dasharray=\"");
+    for (i, length) in dashes.lengths.iter().enumerate() {
+        if i > 0 {
+            out.push(b' ');
+        }
+        put(out, *length, dashes.places);
+    }
+    out.push(b'"');
+    if dashes.offset != 0 {
+        out.extend(b" stroke-dashoffset=\"");
+        put(out, dashes.offset, dashes.places);
+        out.push(b'"');
     }
 }
 

@@ -1,5 +1,7 @@
 //! Segments in a grid of square cells. A place asks which segments the perpendicular through it meets.
 
+use rayon::prelude::*;
+
 use crate::fit::arc::grow;
 use crate::fit::plane::{Vec2, dot, length, minus};
 use crate::lines::drawing::Line;
@@ -15,6 +17,9 @@ const CELLS_EACH: f64 = 2.0;
 
 /// More ink than this, 2 km, has no room on a page, and is not looked at.
 const MOST_INK: f64 = 2.0e6;
+
+/// Segments that are put into cells by one thread at a time.
+const CHUNK: usize = 4096;
 
 /// Half the width of what counts as the line itself, steps: nothing lies beside a place that is nearer.
 const ON_LINE: f64 = 2.0;
@@ -96,36 +101,44 @@ impl<'a> Grid<'a> {
         let most = (CELLS_EACH * segments.len() as f64).clamp(1.0, MOST_CELLS);
         let cell = reach.max((size[0] * size[1] / most).sqrt()).max(size[0].max(size[1]) / most);
         let [columns, rows] = size.map(|s| (s / cell) as usize + 1);
-        let mut grid =
-            Grid { segments, low, cell, columns, rows, starts: vec![0; columns * rows + 1], members: Vec::new() };
+        let mut grid = Grid { segments, low, cell, columns, rows, starts: Vec::new(), members: Vec::new() };
+        let touched: Vec<Vec<(u32, u32)>> = segments
+            .par_chunks(CHUNK)
+            .enumerate()
+            .map(|(chunk, some)| {
+                let mut cells = Vec::with_capacity(4 * some.len());
+                for (k, segment) in some.iter().enumerate() {
+                    grid.each(segment, |cell| cells.push((cell as u32, (chunk * CHUNK + k) as u32)));
+                }
+                cells
+            })
+            .collect();
         let mut counts = vec![0u32; columns * rows + 1];
-        grid.each(|cell, _| counts[cell + 1] += 1);
+        touched.iter().flatten().for_each(|(cell, _)| counts[*cell as usize + 1] += 1);
         for i in 1..counts.len() {
             counts[i] += counts[i - 1];
         }
         let mut members = vec![0u32; counts[columns * rows] as usize];
         let mut next = counts.clone();
-        grid.each(|cell, number| {
-            members[next[cell] as usize] = number;
-            next[cell] += 1;
-        });
+        for (cell, number) in touched.iter().flatten() {
+            members[next[*cell as usize] as usize] = *number;
+            next[*cell as usize] += 1;
+        }
         (grid.starts, grid.members) = (counts, members);
         grid
     }
 
-    /// Calls `add` with every cell that a segment touches and the segment's number, maybe more than once.
-    fn each(&self, mut add: impl FnMut(usize, u32)) {
-        for (number, segment) in self.segments.iter().enumerate() {
-            let way = segment.way();
-            let pieces = (length(&way) / self.cell).ceil().max(1.0);
-            let at = |k: f64| [0, 1].map(|i| segment.a[i] + way[i] * (k / pieces));
-            for k in 0..pieces as usize {
-                let (p, q) = (at(k as f64), at(k as f64 + 1.0));
-                self.cells([0, 1].map(|i| p[i].min(q[i]) - 1.0), [0, 1].map(|i| p[i].max(q[i]) + 1.0), |cell| {
-                    add(cell, number as u32);
-                    true
-                });
-            }
+    /// Calls `add` with every cell that a segment touches, maybe more than once.
+    fn each(&self, segment: &Segment, mut add: impl FnMut(usize)) {
+        let way = segment.way();
+        let pieces = (length(&way) / self.cell).ceil().max(1.0);
+        let at = |k: f64| [0, 1].map(|i| segment.a[i] + way[i] * (k / pieces));
+        for k in 0..pieces as usize {
+            let (p, q) = (at(k as f64), at(k as f64 + 1.0));
+            self.cells([0, 1].map(|i| p[i].min(q[i]) - 1.0), [0, 1].map(|i| p[i].max(q[i]) + 1.0), |cell| {
+                add(cell);
+                true
+            });
         }
     }
 

@@ -1,11 +1,11 @@
 //! End points of lines. A line keeps its vertices at places where other lines end.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::Polyline;
 
 /// The number of line ends at each point on paper.
-pub struct Ends(HashMap<(u64, u64), u32>);
+pub struct Ends(FxHashMap<(u64, u64), u32>);
 
 fn key(p: &[f64; 2]) -> (u64, u64) {
     let [x, y] = p.map(|c| (c + 0.0).to_bits());
@@ -14,7 +14,7 @@ fn key(p: &[f64; 2]) -> (u64, u64) {
 
 impl Ends {
     pub fn of(lines: &[Polyline]) -> Ends {
-        let mut count = HashMap::new();
+        let mut count = FxHashMap::default();
         for line in lines {
             for p in [&line.flat[0], &line.flat[line.flat.len() - 1]] {
                 *count.entry(key(p)).or_insert(0) += 1;

@@ -6,9 +6,8 @@
 //! Edges seen almost end-on appear as dots at longer lines. Those shorter than a quarter of the accuracy are dropped
 //! even where they meet other lines, unless many of them in a row make up something longer.
 
-use std::collections::HashMap;
-
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::Polyline;
 use hlr_accuracy::SPECK_DOT;
@@ -72,7 +71,7 @@ struct Figures {
     /// Per chosen line the first of its figure, as a number among the chosen ones.
     figure: Vec<usize>,
     /// The first chosen line that ends at a place.
-    at: HashMap<End, usize>,
+    at: FxHashMap<End, usize>,
 }
 
 impl Figures {
@@ -86,7 +85,7 @@ impl Figures {
             i
         }
         let mut group: Vec<usize> = (0..chosen.len()).collect();
-        let mut at = HashMap::new();
+        let mut at = FxHashMap::default();
         for (k, &i) in chosen.iter().enumerate() {
             for end in ends(&lines[i]) {
                 let other = *at.entry(end).or_insert(k);

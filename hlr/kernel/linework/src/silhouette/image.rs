@@ -1,5 +1,7 @@
 //! The image that outlines are added to, and what comes of it.
 
+use rayon::prelude::*;
+
 use crate::lines::View;
 use hlr_brep::geometry::vector::Vector;
 
@@ -86,19 +88,20 @@ pub(super) struct Edge {
 }
 
 impl Outlined {
-    /// The image as it is, without any outline.
-    pub(super) fn of(image: &Image) -> Outlined {
+    /// The image as it is, without any outline, with room for so many more points and edges.
+    pub(super) fn of(image: &Image, more_points: usize, more_edges: usize) -> Outlined {
+        let (points, edges) = (image.points.len(), image.edges.len());
         Outlined {
-            points: image.points.to_vec(),
-            lift: vec![[0.0; 3]; image.points.len()],
-            edges: image.edges.to_vec(),
-            offsets: image.offsets.to_vec(),
-            part: image.part.to_vec(),
-            group: image.group.to_vec(),
-            kind: image.kind.to_vec(),
-            curved: untraced(image),
-            hidden: vec![false; image.edges.len()],
-            number: vec![-1; image.edges.len()],
+            points: roomy(image.points.iter().copied(), more_points),
+            lift: roomy(std::iter::repeat_n([0.0; 3], points), more_points),
+            edges: roomy(image.edges.iter().copied(), more_edges),
+            offsets: roomy(image.offsets.iter().copied(), more_edges),
+            part: roomy(image.part.iter().copied(), more_edges),
+            group: roomy(image.group.iter().copied(), more_edges),
+            kind: roomy(image.kind.iter().copied(), more_edges),
+            curved: roomy(untraced(image).into_iter(), more_edges),
+            hidden: roomy(std::iter::repeat_n(false, edges), more_edges),
+            number: roomy(std::iter::repeat_n(-1, edges), more_edges),
             starts: vec![0],
             ..Outlined::default()
         }
@@ -116,6 +119,13 @@ impl Outlined {
     }
 }
 
+/// Items, and room for more: without it the first one more would copy them all.
+fn roomy<T>(items: impl ExactSizeIterator<Item = T>, more: usize) -> Vec<T> {
+    let mut out = Vec::with_capacity(items.len() + more);
+    out.extend(items);
+    out
+}
+
 /// Edges at which a contour of the mesh is still an outline, because no face there has been traced: a traced face has
 /// its own outline, and mesh edges, also those beside a planar face, no longer stand for it.
 fn untraced(image: &Image) -> Vec<bool> {
@@ -123,5 +133,5 @@ fn untraced(image: &Image) -> Vec<bool> {
         let around = &image.incident[image.offsets[e] as usize..image.offsets[e + 1] as usize];
         around.iter().any(|&t| image.traced[image.triangle_face[t as usize] as usize])
     };
-    image.curved.iter().enumerate().map(|(e, &curved)| curved && !known(e)).collect()
+    image.curved.par_iter().enumerate().map(|(e, &curved)| curved && !known(e)).collect()
 }

@@ -36,7 +36,10 @@ pub fn outlined(
     grazing: &[Grazing],
     lengths: &Lengths,
 ) -> Outlined {
-    let mut out = Outlined::of(image);
+    let traced: usize = lines.iter().map(|line| line.points.len()).sum();
+    // A stretch of an edge, or of an outline, may need a line off its face and one in its place.
+    let stretches = traced + grazing.len();
+    let mut out = Outlined::of(image, traced + 4 * stretches, traced + 2 * stretches);
     let mut groups = vec![0; image.traced.len()];
     // All triangles of a face are in one group.
     image.triangle_face.iter().zip(image.triangle_group).for_each(|(&face, &group)| groups[face as usize] = group);

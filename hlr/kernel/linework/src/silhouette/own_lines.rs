@@ -131,7 +131,7 @@ mod tests {
         let classes = Classes { border: &border, tangent: &tangent, outline: OUTLINE, interior: INTERIOR };
         let kinds = [kind];
         let image = image(&kinds, perspective);
-        let mut out = Outlined::of(&image);
+        let mut out = Outlined::of(&image, 0, 0);
         assert_eq!((out.points.len(), out.edges.len(), &out.curved[..]), (4, 1, &[true][..]));
         add(&mut out, &image, &classes, stretches);
         out

@@ -1,8 +1,7 @@
 //! Joins crossings and folds into silhouettes.
 
-use std::collections::{HashMap, HashSet};
-
 use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Model;
 use super::contour::{Contour, Crossing, Fold, Node, contour, values};
@@ -145,7 +144,7 @@ fn into_apex(model: &Model, values: &[f64], t: i32, c: u32, crossing: &Crossing)
 
 /// Joins two curves that run into one apex and continue each other there: it is only a pole of the parameters.
 fn through_poles(links: &mut [Link]) {
-    let poles: HashSet<u32> = links
+    let poles: FxHashSet<u32> = links
         .iter()
         .flat_map(|link| link.ends)
         .filter_map(|end| if let Node::Apex(vertex, _) = end { Some(vertex) } else { None })
@@ -177,13 +176,13 @@ fn through_poles(links: &mut [Link]) {
 
 /// Nodes that are one place: the ends of folds too short to be drawn.
 struct Same {
-    parent: HashMap<Node, Node>,
-    place: HashMap<Node, Vector>,
+    parent: FxHashMap<Node, Node>,
+    place: FxHashMap<Node, Vector>,
 }
 
 impl Same {
     fn new(crossings: &[Crossing], folds: &[Fold], gap: f64) -> Same {
-        let mut same = Same { parent: HashMap::new(), place: HashMap::new() };
+        let mut same = Same { parent: FxHashMap::default(), place: FxHashMap::default() };
         for fold in folds {
             if length(&sub(&fold.points[0], &fold.points[1])) > gap {
                 continue;
@@ -222,7 +221,7 @@ impl Same {
 
 /// Links in the order they are walked, with whether backward; closed walks last.
 fn walks(links: &[Link]) -> Vec<Vec<(usize, bool)>> {
-    let mut at: HashMap<Node, Vec<usize>> = HashMap::new();
+    let mut at: FxHashMap<Node, Vec<usize>> = FxHashMap::default();
     for (i, link) in links.iter().enumerate() {
         if link.ends[0] != link.ends[1] {
             for end in link.ends {
