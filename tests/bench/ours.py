@@ -56,11 +56,12 @@ class Kernel:
 
 
 def _view(points: np.ndarray) -> np.ndarray:
-    """x right, y up, z away from the viewer."""
+    """x right, y up, z away from the viewer. Not by BLAS, whose threads would wait for more work on a core of ours."""
     toward = np.array(DIRECTION) / np.linalg.norm(DIRECTION)
     right = np.cross((0.0, 0.0, 1.0), toward)
     right /= np.linalg.norm(right)
-    return np.ascontiguousarray(points @ np.stack([right, np.cross(toward, right), -toward], axis=1))
+    axes = np.stack([right, np.cross(toward, right), -toward], axis=1)
+    return np.ascontiguousarray(np.einsum("ij,jk->ik", points, axes))
 
 
 def _member(keys: np.ndarray, ascending: np.ndarray) -> np.ndarray:

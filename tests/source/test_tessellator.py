@@ -289,6 +289,63 @@ def test_the_dump_of_shapes_in_memory_is_not_kept():
     assert source._prototypes.dump == before and len(source._prototypes.shapes_from_dump) == 1
 
 
+def test_a_stream_gives_the_same_drawing_as_the_dump(monkeypatch):
+    import hlr
+    from hlr.source.cad import prototypes
+
+    part = cq.Workplane().box(30, 20, 10).edges("|Z").fillet(3).faces(">Z").workplane().hole(6)
+    turned = part.val().moved(cq.Location((40, 5, 0), (1, 2, 3), 50))
+    scene = [
+        part.val(),
+        turned,
+        cq.Workplane().sphere(4).val(),
+        cq.Workplane("XZ").circle(5).revolve(90, (9, 0), (9, 1)).val(),
+    ]
+    whole = cq.Compound.makeCompound([*scene, cq.Compound.makeCompound(scene[:2]).moved(cq.Location((0, 60, 0)))])
+    read = []
+    kernel = prototypes._kernel.BrepModel
+
+    def counted(dump, *more):
+        read.append(dump[:1])
+        return kernel(dump, *more)
+
+    monkeypatch.setattr(prototypes._kernel, "BrepModel", counted)
+    by_stream = hlr.draw(whole, hidden=True).to_svg()
+    monkeypatch.setattr(prototypes, "shape_stream", lambda shapes: None)
+    by_dump = hlr.draw(whole, hidden=True).to_svg()
+    assert read == [bytes([200]), b"\n"]
+    assert by_stream == by_dump
+
+
+def test_faces_of_triangles_alone_come_from_the_dump():
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Face
+
+    import hlr
+    from hlr.source.cad import prototypes
+
+    triangles = triangulation_of_a_square()
+    face = TopoDS_Face()
+    BRep_Builder().MakeFace(face, triangles)
+    stream = prototypes.shape_stream([face])
+    assert stream is not None
+    with pytest.raises(ValueError, match="triangles"):
+        prototypes._kernel.BrepModel(stream)
+    assert hlr.draw(face, (0, 0, 1)).counters["triangles"] == 2
+
+
+def triangulation_of_a_square():
+    from OCP.gp import gp_Pnt
+    from OCP.Poly import Poly_Triangle, Poly_Triangulation
+
+    made = Poly_Triangulation(4, 2, False)
+    for i, (x, y) in enumerate([(0, 0), (9, 0), (9, 9), (0, 9)], 1):
+        made.SetNode(i, gp_Pnt(x, y, 0))
+    made.SetTriangle(1, Poly_Triangle(1, 2, 3))
+    made.SetTriangle(2, Poly_Triangle(1, 3, 4))
+    return made
+
+
 def test_two_runs_give_the_same_bytes():
     first, second = (open_source(SOLIDS["union"]()).mesh(0.05, 0.3).parts[0] for _ in range(2))
     assert same(first, second)

@@ -1,21 +1,23 @@
 //! Reads any bytes as a dump of a shape, divides its edges and joins the borders of its faces.
 //!
-//! Bytes that do not begin like a dump alter a valid one instead: each three of them are a position and a new value.
+//! Bytes that do not begin like a dump or a stream alter a valid one instead: each three of them are a position and a new
+//! value. One byte more alters the stream.
 
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;
 use hlr_brep::model::Model;
 
 const GOOD: &[u8] = include_bytes!("../../brep/tests/cylinder_4.bin");
+const STREAM: &[u8] = include_bytes!("../../brep/tests/cylinder_stream.bin");
 const DEFLECTION: f64 = 0.05;
 /// Radians.
 const ANGLE: f64 = 0.5;
 
 pub fn run(data: &[u8]) {
-    if data.starts_with(b"\nOpen CASCADE") || data.starts_with(b"Open CASCADE") {
+    if data.starts_with(b"\nOpen CASCADE") || data.starts_with(b"Open CASCADE") || data.starts_with(&STREAM[..3]) {
         return read(data);
     }
-    let mut changed = GOOD.to_vec();
+    let mut changed = if data.len() % 3 == 1 { STREAM } else { GOOD }.to_vec();
     for &[high, low, value] in data.as_chunks::<3>().0 {
         let at = usize::from(high) << 8 | usize::from(low);
         let length = changed.len();

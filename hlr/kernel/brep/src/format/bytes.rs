@@ -35,6 +35,20 @@ impl<'a> Bytes<'a> {
         }
     }
 
+    /// Bytes of the newest layout from anywhere within a dump.
+    pub fn without_header(all: &'a [u8]) -> Bytes<'a> {
+        Bytes { all, at: 0, ends_in_uv: false, normals: true, shapes: 0, freecad_root: None }
+    }
+
+    /// A number of 1, 2, 4 or 8 bytes.
+    pub fn unsigned(&mut self, size: usize) -> Read<u64> {
+        let mut value = 0;
+        for k in 0..size {
+            value |= u64::from(self.kind()?) << (8 * k);
+        }
+        Ok(value)
+    }
+
     fn take<const N: usize>(&mut self) -> Read<[u8; N]> {
         match self.all[self.at..].first_chunk::<N>() {
             Some(chunk) => {

@@ -35,51 +35,34 @@ pub struct Locations {
 
 pub fn read(bytes: &mut impl Tokens) -> Read<Locations> {
     let count = bytes.header(Table::Locations, 5)?;
-    let mut all = Locations {
-        datums: Vec::new(),
-        chains: vec![Vec::new()],
-        numbers: FxHashMap::from_iter([(Vec::new(), 0)]),
-        products: FxHashMap::default(),
-        matrices: FxHashMap::default(),
-        factors: 0,
-        written: vec![0],
-        elementary: Vec::new(),
-    };
+    let mut all = Locations::none();
     for _ in 0..count {
-        let chain = match bytes.kind()? {
+        match bytes.kind()? {
             1 => {
-                all.datums.push(bytes.placement()?);
-                all.elementary.push(all.written.len() as u32);
-                vec![(all.datums.len() as u32 - 1, 1)]
+                all.add_move(bytes.placement()?);
             }
             2 => {
-                let mut chain = Chain::new();
+                let mut factors = Vec::new();
                 loop {
                     let number = bytes.number(Table::Locations)?;
                     if number == 0 {
                         break;
                     }
-                    let power = bytes.integer()?;
-                    // Factors are written from the innermost to the outermost; each is a location written earlier.
-                    let factor = match usize::try_from(number) {
-                        Ok(number) if number < all.written.len() => &all.chains[all.written[number] as usize],
+                    // Each is a location written earlier.
+                    match u32::try_from(number) {
+                        Ok(number) if (number as usize) < all.written.len() => factors.push((number, bytes.integer()?)),
                         _ => return bytes.fault("a location of nothing"),
-                    };
-                    let times = power.unsigned_abs() as usize;
-                    if times > LONGEST || chain.len() + times * factor.len() > LONGEST {
+                    }
+                    if factors.len() > LONGEST {
                         return bytes.fault("a location of too many moves");
                     }
-                    let one = if power < 0 { inverse(factor) } else { factor.clone() };
-                    for _ in 0..times {
-                        chain = composed(&one, &chain);
-                    }
                 }
-                chain
+                if all.add_product(&factors).is_none() {
+                    return bytes.fault("a location of too many moves");
+                }
             }
             _ => return bytes.fault("a location of unknown kind"),
-        };
-        let number = all.number(chain);
-        all.written.push(number);
+        }
     }
     Ok(all)
 }
@@ -107,6 +90,51 @@ fn composed(outer: &Chain, inner: &Chain) -> Chain {
 }
 
 impl Locations {
+    /// The identity alone.
+    pub fn none() -> Locations {
+        Locations {
+            datums: Vec::new(),
+            chains: vec![Vec::new()],
+            numbers: FxHashMap::from_iter([(Vec::new(), 0)]),
+            products: FxHashMap::default(),
+            matrices: FxHashMap::default(),
+            factors: 0,
+            written: vec![0],
+            elementary: Vec::new(),
+        }
+    }
+
+    /// Adds an elementary transformation of the dump; its number there.
+    pub fn add_move(&mut self, place: Matrix) -> u32 {
+        self.datums.push(place);
+        self.elementary.push(self.written.len() as u32);
+        self.add(vec![(self.datums.len() as u32 - 1, 1)])
+    }
+
+    /// Adds a location of the dump: of numbers there and powers, from the innermost to the outermost. None where it has
+    /// too many moves.
+    pub fn add_product(&mut self, factors: &[(u32, i32)]) -> Option<u32> {
+        let mut chain = Chain::new();
+        for &(number, power) in factors {
+            let factor = &self.chains[self.written[number as usize] as usize];
+            let times = power.unsigned_abs() as usize;
+            if times > LONGEST || chain.len() + times * factor.len() > LONGEST {
+                return None;
+            }
+            let one = if power < 0 { inverse(factor) } else { factor.clone() };
+            for _ in 0..times {
+                chain = composed(&one, &chain);
+            }
+        }
+        Some(self.add(chain))
+    }
+
+    fn add(&mut self, chain: Chain) -> u32 {
+        let number = self.number(chain);
+        self.written.push(number);
+        self.written.len() as u32 - 1
+    }
+
     /// Number of locations in the dump, including the identity.
     pub fn count(&self) -> usize {
         self.written.len()

@@ -1,5 +1,5 @@
 //! OpenCASCADE's dump of a shape, read without OpenCASCADE: binary (BinTools, layouts 2 to 4) and text (BREP, versions 1
-//! to 3). One reader knows what a dump is made of; `bytes` and `text` know how that is written.
+//! to 3). One reader knows what a dump is made of; `bytes` and `text` know how that is written. `stream` reads the same from one pass over a shape, without tables.
 //!
 //! ```text
 //! Locations, Curve2ds, Curves, Polygon3D, PolygonOnTriangulations, Surfaces, Triangulations, TShapes, root
@@ -17,6 +17,7 @@ mod pieces;
 mod record;
 mod shapes;
 mod square;
+mod stream;
 mod surfaces;
 mod text;
 mod tokens;
@@ -52,11 +53,14 @@ pub struct Dump {
     pub root: Sub,
 }
 
-/// Reads the shape of a dump.
+/// Reads the shape of a dump, or of a stream of shapes that begins with a compound.
 ///
 /// # Errors
 /// The bytes are no dump in a supported layout.
 pub fn read(data: &[u8]) -> Read<Dump> {
+    if data.first() == Some(&stream::FIRST) {
+        return stream::read(data);
+    }
     dump(&mut Bytes::new(data)?)
 }
 

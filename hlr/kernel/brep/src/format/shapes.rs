@@ -83,7 +83,8 @@ pub fn read(bytes: &mut impl Tokens, limits: &Limits) -> Read<(Vec<Shape>, Sub)>
     }
 }
 
-fn may_hold(outer: &Kind, inner: &Kind) -> bool {
+/// Whether a shape of one kind can be in one of another.
+pub fn may_hold(outer: &Kind, inner: &Kind) -> bool {
     match outer {
         Kind::Compound => true,
         Kind::CompSolid | Kind::Solid | Kind::Shell => !matches!(inner, Kind::Compound),

@@ -41,7 +41,7 @@ fn swept(kind: u8, mut data: Vec<f64>, curve: Option<Curve>) -> Option<SurfaceRe
 }
 
 /// None for a kind that is not supported.
-fn surface(bytes: &mut impl Tokens, nested: usize) -> Read<Option<SurfaceRecord>> {
+pub fn surface(bytes: &mut impl Tokens, nested: usize) -> Read<Option<SurfaceRecord>> {
     if nested > MOST_NESTED {
         return bytes.fault("surfaces nested too deep");
     }

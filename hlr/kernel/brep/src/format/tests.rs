@@ -5,6 +5,9 @@ use crate::model::Model;
 const CYLINDERS: [&[u8]; 2] =
     [include_bytes!("../../tests/cylinder_3.bin"), include_bytes!("../../tests/cylinder_4.bin")];
 
+/// The same as a stream.
+const STREAM: &[u8] = include_bytes!("../../tests/cylinder_stream.bin");
+
 /// The same cylinder as text of each version, the first and the last with triangles. Two boxes, one of them mirrored,
 /// and a loose face, in a compound of compounds.
 const TEXTS: [&[u8]; 4] = [
@@ -29,6 +32,51 @@ fn both_layouts_say_the_same() {
     assert_eq!(new.shapes.len(), 14);
     let kinds: Vec<u8> = new.surfaces.iter().flatten().map(|s| s.kind).collect();
     assert_eq!(kinds, [2, 1, 1]);
+}
+
+#[test]
+fn a_stream_says_the_same() {
+    let (found, wanted) = (read(STREAM).unwrap(), read(CYLINDERS[1]).unwrap());
+    let kind = |shape: &Shape| match &shape.kind {
+        Kind::Edge { tolerance, on, continuity, .. } => (6, *tolerance, on.len(), *continuity),
+        Kind::Face { tolerance, .. } => (4, *tolerance, 0, 0),
+        Kind::Vertex { tolerance, point } => (7, *tolerance + point[2], 0, 0),
+        other => (u8::from(*other != Kind::Wire), 0.0, 0, 0),
+    };
+    let kinds = |dump: &Dump| dump.shapes.iter().map(|shape| (kind(shape), shape.subs.clone())).collect::<Vec<_>>();
+    assert_eq!(kinds(&found), kinds(&wanted));
+    assert_eq!(found.root, wanted.root);
+    assert_eq!((found.curves.len(), found.curves2.len()), (wanted.curves.len(), wanted.curves2.len()));
+    let surfaces = |dump: &Dump| dump.surfaces.iter().flatten().map(|s| s.data.clone()).collect::<Vec<_>>();
+    let sorted = |mut all: Vec<Vec<f64>>| {
+        all.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        all
+    };
+    assert_eq!(sorted(surfaces(&found)), sorted(surfaces(&wanted)));
+    let (found, wanted) = (Model::read(STREAM, None).unwrap(), Model::read(CYLINDERS[1], None).unwrap());
+    assert_eq!(crate::bounds::boxes(&found), crate::bounds::boxes(&wanted));
+    assert_eq!(found.classes.len(), wanted.classes.len());
+}
+
+#[test]
+fn a_reference_of_a_stream_leads_back_to_an_item_of_its_kind() {
+    // The last reference, to a shape; it is made to lead anywhere else.
+    let at = (0..STREAM.len() - 4).rev().find(|&at| STREAM[at] == 2 && STREAM[at + 3] == 7).unwrap();
+    let distance = u16::from_le_bytes([STREAM[at + 1], STREAM[at + 2]]);
+    for other in (0..2000u16).filter(|other| *other != distance) {
+        let mut changed = STREAM.to_vec();
+        changed[at + 1..at + 3].copy_from_slice(&other.to_le_bytes());
+        if let Ok(dump) = read(&changed) {
+            assert!(dump.shapes.iter().enumerate().all(|(i, shape)| shape.subs.iter().all(|s| (s.shape as usize) < i)));
+        }
+    }
+}
+
+#[test]
+fn shapes_nested_without_end_are_refused() {
+    let open: Vec<u8> = [stream::FIRST, 7, 0].repeat(100_000);
+    assert_eq!(read(&open).err().unwrap().what, "shapes nested too deep");
+    assert_eq!(read(&[199]).err().unwrap().what, "a line without an end");
 }
 
 #[test]
@@ -65,7 +113,7 @@ fn several_files_become_the_parts_of_one() {
 
 #[test]
 fn no_byte_of_damage_does_more_than_an_error() {
-    for bytes in CYLINDERS {
+    for bytes in CYLINDERS.into_iter().chain([STREAM]) {
         for end in 0..bytes.len() {
             assert!(read(&bytes[..end]).is_err(), "cut at {end}");
         }

@@ -12,12 +12,13 @@
 //!   |________|________|________|      that they share
 //! ```
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::cells::Cells;
 use super::coincident::Stretches;
-use super::distance;
 use super::gaps::Side;
 
 /// Comparisons for each side, and stretches for each side, beyond which there are too many.
@@ -25,9 +26,6 @@ const MOST_TESTS: usize = 256;
 const MOST_FOUND: usize = 16;
 /// Fewer stretches than this are never too many.
 const FEW: usize = 1 << 12;
-
-/// Cells for each side, at most.
-const CELLS_EACH: f64 = 2.0;
 /// Sides for each band of rows.
 const IN_A_BAND: usize = 1 << 11;
 
@@ -45,11 +43,14 @@ pub(super) struct Pair {
 pub(super) fn pairs(sides: &[Side], stretches: &Stretches) -> Option<Vec<Pair>> {
     let cells = Cells::of(sides, stretches.reach)?;
     let bands = cells.rows.min(sides.len() / IN_A_BAND + 1);
-    let in_band = cells.in_bands(sides, bands);
+    // What covers a side lies beside it or beyond its ends by the reach at most, in a corner by both. Half of that is the
+    // margin of each, and a little more, as places are rounded and boxes are kept as f32.
+    let margin = 0.75 * stretches.reach + 1e-6 * (cells.extent[0] + cells.extent[1]);
+    let in_band = in_bands(&cells, margin, sides, bands);
     let filled: Vec<Band> = in_band
         .into_par_iter()
         .enumerate()
-        .map(|(k, here)| Band::filled(&cells, sides, &here, cells.rows_of(k, bands)))
+        .map(|(k, here)| Band::filled(&cells, margin, sides, &here, rows_of(&cells, k, bands)))
         .collect();
     let most_tests = MOST_TESTS.saturating_mul(sides.len());
     filled.iter().try_fold(0usize, |sum, band| Some(sum + band.tests()).filter(|&sum| sum <= most_tests))?;
@@ -72,82 +73,26 @@ pub(super) fn pairs(sides: &[Side], stretches: &Stretches) -> Option<Vec<Pair>> 
     Some(all)
 }
 
-/// Square cells of the paper.
-struct Cells {
-    low: [f64; 2],
-    size: f64,
-    columns: usize,
-    rows: usize,
-    /// How far around the box of each side its cells reach, mm.
-    margin: f64,
+/// The rows of band k of `bands`.
+fn rows_of(cells: &Cells, k: usize, bands: usize) -> Range<usize> {
+    cells.rows * k / bands..cells.rows * (k + 1) / bands
 }
 
-impl Cells {
-    fn of(sides: &[Side], reach: f64) -> Option<Cells> {
-        let (mut low, mut high, mut long) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0);
-        for side in sides {
-            for k in 0..2 {
-                low[k] = low[k].min(side.from[k]).min(side.to[k]);
-                high[k] = high[k].max(side.from[k]).max(side.to[k]);
-            }
-            long += distance(&side.from, &side.to);
-        }
-        let extent = [high[0] - low[0], high[1] - low[1]];
-        if !(reach.is_finite() && f64::is_finite(long) && extent[0] + extent[1] > 0.0) {
-            return None;
-        }
-        let most = CELLS_EACH * sides.len() as f64;
-        let size = (long / sides.len() as f64).max(reach).max((extent[0] * extent[1] / most).sqrt());
-        let size = size.max(extent[0].max(extent[1]) / most);
-        let [columns, rows] = extent.map(|s| (s / size) as usize + 1);
-        // What covers a side lies beside it or beyond its ends by `reach` at most, in a corner by both. Half of that is
-        // the margin of each. A little more, as places are rounded, and boxes are kept as f32.
-        let margin = 0.75 * reach + 1e-6 * (extent[0] + extent[1]);
-        Some(Cells { low, size, columns, rows, margin })
+/// The sides that come into each band.
+fn in_bands(cells: &Cells, margin: f64, sides: &[Side], bands: usize) -> Vec<Vec<u32>> {
+    let band_of: Vec<u32> = (0..bands).flat_map(|k| rows_of(cells, k, bands).map(move |_| k as u32)).collect();
+    let ranges: Vec<(u32, u32)> = sides
+        .par_iter()
+        .map(|Side { from, to, .. }| {
+            let (y0, y1) = (from[1].min(to[1]) - margin, from[1].max(to[1]) + margin);
+            (band_of[cells.cell(y0, 1)], band_of[cells.cell(y1, 1)])
+        })
+        .collect();
+    let mut found = vec![Vec::new(); bands];
+    for (side, &(first, last)) in ranges.iter().enumerate() {
+        found[first as usize..=last as usize].iter_mut().for_each(|band| band.push(side as u32));
     }
-
-    /// The rows of band k of `bands`.
-    fn rows_of(&self, k: usize, bands: usize) -> std::ops::Range<usize> {
-        self.rows * k / bands..self.rows * (k + 1) / bands
-    }
-
-    /// The sides that come into each band.
-    fn in_bands(&self, sides: &[Side], bands: usize) -> Vec<Vec<u32>> {
-        let band_of: Vec<u32> = (0..bands).flat_map(|k| self.rows_of(k, bands).map(move |_| k as u32)).collect();
-        let ranges: Vec<(u32, u32)> = sides
-            .par_iter()
-            .map(|Side { from, to, .. }| {
-                let (y0, y1) = (from[1].min(to[1]) - self.margin, from[1].max(to[1]) + self.margin);
-                (band_of[self.cell(y0, 1)], band_of[self.cell(y1, 1)])
-            })
-            .collect();
-        let mut found = vec![Vec::new(); bands];
-        for (side, &(first, last)) in ranges.iter().enumerate() {
-            found[first as usize..=last as usize].iter_mut().for_each(|band| band.push(side as u32));
-        }
-        found
-    }
-
-    fn cell(&self, x: f64, k: usize) -> usize {
-        let count = [self.columns, self.rows][k];
-        (((x - self.low[k]) / self.size).max(0.0) as usize).min(count - 1)
-    }
-
-    /// Calls `visit` with the cells (column, row) of a side in these rows, maybe more than once with one.
-    fn each(&self, side: &Side, rows: &std::ops::Range<usize>, mut visit: impl FnMut(usize, usize)) {
-        let Side { from, to, .. } = side;
-        let pieces = (distance(from, to) / self.size).ceil().max(1.0);
-        for i in 0..pieces as usize {
-            let [(x0, x1), (y0, y1)] = [0, 1].map(|k| {
-                let at = |i: usize| from[k] + (to[k] - from[k]) * (i as f64 / pieces);
-                let (a, b) = (at(i), at(i + 1));
-                (self.cell(a.min(b) - self.margin, k), self.cell(a.max(b) + self.margin, k))
-            });
-            for row in y0.max(rows.start)..(y1 + 1).min(rows.end) {
-                (x0..=x1).for_each(|column| visit(column, row));
-            }
-        }
-    }
+    found
 }
 
 /// A side in a cell: its box, with the margin, from the lower left corner of all.
@@ -166,7 +111,7 @@ struct Band {
 
 impl Band {
     /// here: the sides that come into these rows.
-    fn filled(cells: &Cells, sides: &[Side], here: &[u32], rows: std::ops::Range<usize>) -> Band {
+    fn filled(cells: &Cells, margin: f64, sides: &[Side], here: &[u32], rows: Range<usize>) -> Band {
         let count = cells.columns * rows.len();
         let (mut last, mut offsets) = (vec![u32::MAX; count], vec![0u32; count + 1]);
         let mut entries: Vec<(u32, Member)> = Vec::new();
@@ -174,14 +119,14 @@ impl Band {
             let side = &sides[s as usize];
             let box_side = |k: usize, sign: f64| {
                 let (a, b) = (side.from[k] - cells.low[k], side.to[k] - cells.low[k]);
-                (if sign < 0.0 { a.min(b) } else { a.max(b) } + sign * cells.margin) as f32
+                (if sign < 0.0 { a.min(b) } else { a.max(b) } + sign * margin) as f32
             };
-            let member = Member {
-                low: [0, 1].map(|k| box_side(k, -1.0)),
-                high: [0, 1].map(|k| box_side(k, 1.0)),
-                side: s as u32,
-            };
-            cells.each(side, &rows, |column, row| {
+            let member =
+                Member { low: [0, 1].map(|k| box_side(k, -1.0)), high: [0, 1].map(|k| box_side(k, 1.0)), side: s };
+            cells.each(side, margin, |column, row| {
+                if !rows.contains(&row) {
+                    return;
+                }
                 let cell = (row - rows.start) * cells.columns + column;
                 if last[cell] != s {
                     last[cell] = s;

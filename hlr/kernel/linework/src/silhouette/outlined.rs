@@ -123,3 +123,55 @@ fn toward(view: &View, point: &Vector) -> Vector {
     let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
     way.map(|c| c / length.max(f64::MIN_POSITIVE))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles of one face, and an outline of two points across it.
+    fn moved(rise: f64, lengths: &Lengths) -> (Vec<f64>, Vec<f64>) {
+        let image = Image {
+            points: &[[0.0, 0.0, 0.0], [0.0, 4.0, 0.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]],
+            edges: &[[0, 1]],
+            offsets: &[0, 2],
+            incident: &[0, 1],
+            kind: &[0],
+            part: &[0],
+            group: &[0],
+            curved: &[true],
+            triangle_face: &[0, 0],
+            triangle_group: &[0, 0],
+            first: &[0],
+            traced: &[true],
+            closed: &[true],
+            convex: false,
+            view: View { origin: [0.0; 3], away: [0.0, 0.0, -1.0], perspective: false },
+        };
+        let (border, tangent) = ([true; 256], [false; 256]);
+        let classes = Classes { border: &border, tangent: &tangent, outline: 2, interior: 3 };
+        let line = Silhouette {
+            face: 0,
+            concave: false,
+            points: vec![[0.0, 1.0, 0.0], [0.0, 2.0, 0.0]],
+            normals: vec![[1.0, 0.0, 0.0]; 2],
+            rise: vec![rise; 2],
+            curve: None,
+            source: -1,
+        };
+        let out = outlined(&image, &classes, &[line], &[], lengths);
+        let far = |edge: i32| out.edges[edge as usize].map(|p| out.lift[p as usize][0]);
+        assert_eq!(
+            (&out.edges[1], out.kind[1], &out.own.edge[..], &out.own.face[..]),
+            (&[4, 5], 2, &[1][..], &[0][..])
+        );
+        (far(1).to_vec(), far(out.own.off[0]).to_vec())
+    }
+
+    #[test]
+    fn an_outline_is_moved_off_its_own_face_by_more_than_off_all_others_where_these_are_near() {
+        let lengths = Lengths { spare: 0.25, most: 2.0, own: 1.0 };
+        assert_eq!(moved(0.25, &lengths), (vec![0.5; 2], vec![1.0; 2]));
+        assert_eq!(moved(1.25, &lengths), (vec![1.5; 2], vec![1.5; 2]));
+        assert_eq!(moved(9.0, &lengths), (vec![2.0; 2], vec![2.0; 2]));
+    }
+}

@@ -29,6 +29,7 @@ pub mod depth_pyramid;
 pub mod edge_table;
 pub mod exact_query;
 pub mod invisibility;
+mod merged;
 pub mod mesh;
 pub mod own_faces;
 pub mod piercing;

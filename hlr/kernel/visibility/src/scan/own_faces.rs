@@ -22,6 +22,7 @@ use rayon::prelude::*;
 use super::box_tree::Aabb;
 use super::exact_query::ExactQuery;
 use super::invisibility::{Piece, Segment, State};
+use super::merged::merged;
 use super::mesh::Mesh;
 use super::polygon_table::PolygonTable;
 use super::sheets::Sheets;
@@ -342,64 +343,5 @@ impl OwnFaces<'_> {
         let (u, v) = ([0, 1, 2].map(|k| q[k] - p[k]), [0, 1, 2].map(|k| r[k] - p[k]));
         let n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         n[2] * n[2] < EDGE_ON * EDGE_ON * (n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
-    }
-}
-
-impl State {
-    fn depth(self) -> u8 {
-        match self {
-            State::Visible => 0,
-            State::Within => 1,
-            State::Diving => 2,
-            State::Hidden => 3,
-        }
-    }
-
-    fn more_hidden(self, other: State) -> State {
-        if self.depth() < other.depth() { other } else { self }
-    }
-
-    fn less_hidden(self, other: State) -> State {
-        if self.depth() < other.depth() { self } else { other }
-    }
-}
-
-/// Merges two results: at each place `pick` chooses the state.
-fn merged(one: &[Segment], two: &[Segment], pick: fn(State, State) -> State) -> Vec<Segment> {
-    let mut out: Vec<Segment> = Vec::with_capacity(one.len().max(two.len()));
-    let (mut i, mut j, mut start) = (0, 0, 0.0);
-    while let (Some(a), Some(b)) = (one.get(i), two.get(j)) {
-        let end = a.end.min(b.end);
-        let state = pick(a.state, b.state);
-        match out.last_mut() {
-            Some(last) if last.state == state => last.end = end,
-            _ if end > start => out.push(Segment { start, end, state }),
-            _ => {}
-        }
-        start = end;
-        i += usize::from(a.end == end);
-        j += usize::from(b.end == end);
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn segments(all: &[(f64, State)]) -> Vec<Segment> {
-        let starts = std::iter::once(0.0).chain(all.iter().map(|s| s.0));
-        all.iter().zip(starts).map(|(&(end, state), start)| Segment { start, end, state }).collect()
-    }
-
-    #[test]
-    fn of_two_answers_the_one_that_hides_more_or_less() {
-        use State::{Hidden, Visible, Within};
-        let one = segments(&[(0.3, Visible), (0.5, Hidden), (0.6, Visible), (1.0, Hidden)]);
-        let two = segments(&[(0.4, Within), (0.8, Hidden), (1.0, Visible)]);
-        let picked = |pick| -> Vec<_> { merged(&one, &two, pick).iter().map(|s| (s.start, s.end, s.state)).collect() };
-        assert_eq!(picked(State::more_hidden), [(0.0, 0.3, Within), (0.3, 1.0, Hidden)]);
-        let less = [(0.0, 0.3, Visible), (0.3, 0.4, Within), (0.4, 0.5, Hidden), (0.5, 0.6, Visible)];
-        assert_eq!(picked(State::less_hidden), [&less[..], &[(0.6, 0.8, Hidden), (0.8, 1.0, Visible)]].concat());
     }
 }
