@@ -10,6 +10,7 @@
 
 mod bytes;
 mod curves;
+mod dump;
 mod locations;
 mod merge;
 mod orientation;
@@ -23,6 +24,7 @@ mod text;
 mod tokens;
 mod triangles;
 
+pub use dump::Dump;
 pub use locations::{IDENTITY, Locations, MOST_FACTORS, Matrix, chained, determinant, inverted, moved, turned};
 pub use merge::{Root, Source, merged};
 pub use orientation::Orientation;
@@ -33,25 +35,10 @@ pub use surfaces::SurfaceRecord;
 pub use tokens::Damaged;
 pub use triangles::Triangulation;
 
-use crate::geometry::curve::Curve;
 use bytes::Bytes;
 use record::Recorder;
 use text::Text;
 use tokens::{Read, Table, Tokens};
-
-/// The content of a dump. Underlying shapes come before the shapes that contain them.
-pub struct Dump {
-    pub locations: Locations,
-    /// Curves in (u, v), as curves in space with z = 0; None for a kind that is not supported.
-    pub curves2: Vec<Option<Curve>>,
-    pub curves: Vec<Option<Curve>>,
-    /// Polygons in space.
-    pub polygons: Vec<Vec<[f64; 3]>>,
-    pub surfaces: Vec<Option<SurfaceRecord>>,
-    pub triangulations: Vec<Triangulation>,
-    pub shapes: Vec<Shape>,
-    pub root: Sub,
-}
 
 /// Reads the shape of a dump, or of a stream of shapes that begins with a compound.
 ///

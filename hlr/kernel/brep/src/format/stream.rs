@@ -11,9 +11,9 @@
 
 use rustc_hash::FxHashMap;
 
-use super::Dump;
 use super::bytes::Bytes;
 use super::curves::{plane_curve, space_curve};
+use super::dump::Dump;
 use super::locations::Locations;
 use super::orientation::Orientation;
 use super::shapes::{Kind, On, Shape, Sub, may_hold};

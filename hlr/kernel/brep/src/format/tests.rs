@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::curve::Curve;
 use crate::model::Model;
 
 /// A compound of a cylinder of radius 1 and height 2, in either layout, as OpenCASCADE writes it.

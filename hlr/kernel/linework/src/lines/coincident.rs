@@ -16,11 +16,8 @@ use super::drawn::Drawn;
 pub use super::gaps::Widths;
 use super::gaps::{Covered, Side, along, at, gaps, rest, still_there};
 use super::pairs::{Pair, pairs};
+use super::stretches::Stretches;
 use super::{Polyline, View, distance};
-
-/// Sine of the angle beyond which two lines cross rather than coincide. It is large because the chords of a circle that
-/// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
-const PARALLEL: f64 = 0.5;
 
 /// Removes the stretches that better lines cover. `rank[i]` orders lines[i]; ranks are distinct.
 pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View) -> Vec<Polyline> {
@@ -30,33 +27,6 @@ pub fn uncovered(lines: Vec<Polyline>, rank: &[u32], widths: Widths, view: &View
         .zip(gone.into_par_iter())
         .flat_map_iter(|(line, gaps)| if gaps.is_empty() { vec![line] } else { rest(&line, &gaps, widths, view) })
         .collect()
-}
-
-/// What side covers what stretch of which other one.
-pub(super) struct Stretches<'a> {
-    /// A strict order of lines.
-    rank: &'a [u32],
-    widths: Widths,
-    /// The larger of the widths, mm.
-    pub reach: f64,
-}
-
-impl Stretches<'_> {
-    /// Two sides as (worse, better); None where the one can never cover the other.
-    pub fn order(&self, sides: &[Side], a: u32, b: u32) -> Option<(u32, u32)> {
-        let (s, t) = (&sides[a as usize], &sides[b as usize]);
-        if s.line == t.line {
-            // A line that runs back over itself (a rim seen edge-on) is drawn once: its earlier sides stay.
-            return (heading(s, t) < 0.0).then_some((a.max(b), a.min(b)));
-        }
-        Some(if self.rank[s.line as usize] < self.rank[t.line as usize] { (b, a) } else { (a, b) })
-    }
-
-    /// The stretch of a worse side that a better one covers, as parameters on the worse.
-    pub fn covered(&self, worse: &Side, better: &Side) -> Option<(f64, f64)> {
-        let width = if worse.visible == better.visible { self.widths.same } else { self.widths.under };
-        covered(worse, better, width, self.widths.same)
-    }
 }
 
 /// The stretches of each line that better ones cover, ascending.
@@ -169,45 +139,6 @@ impl Cutting<'_> {
         let place = |u: f64| better.start + along(better, &at(side, u)).clamp(0.0, 1.0) * better.length();
         still_there(pair.from, pair.to, [place(pair.from), place(pair.to)], gone, put);
     }
-}
-
-/// Positive if two sides run in the same direction.
-fn heading(s: &Side, t: &Side) -> f64 {
-    (s.to[0] - s.from[0]) * (t.to[0] - t.from[0]) + (s.to[1] - s.from[1]) * (t.to[1] - t.from[1])
-}
-
-/// The stretch of `worse` within `width` beside `better` and `over` beyond its ends (mm), as parameters on `worse`.
-///
-/// ```text
-///              _______________________          the width of a line covers lines beside it,
-///   - - - - - |=======================|- - -    but not lines that continue beyond its end
-///              ‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾‾
-/// ```
-fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f64)> {
-    let (a, b, p, q) = (&worse.from, &worse.to, &better.from, &better.to);
-    let (vx, vy) = (q[0] - p[0], q[1] - p[1]);
-    let (ux, uy) = (b[0] - a[0], b[1] - a[1]);
-    let (m2, l2, cross) = (vx * vx + vy * vy, ux * ux + uy * uy, vx * uy - vy * ux);
-    if m2 == 0.0 || l2 == 0.0 || cross * cross > PARALLEL * PARALLEL * m2 * l2 {
-        return None;
-    }
-    let m = m2.sqrt();
-    let away = |x: &[f64; 2]| (vx * (x[1] - p[1]) - vy * (x[0] - p[0])) / m;
-    let along = |x: &[f64; 2]| (vx * (x[0] - p[0]) + vy * (x[1] - p[1])) / m;
-    let (mut u0, mut u1) = (0.0f64, 1.0f64);
-    for (start, end, low, high) in [(away(a), away(b), -width, width), (along(a), along(b), -over, m + over)] {
-        let slope = end - start;
-        if slope == 0.0 {
-            if start < low || start > high {
-                return None;
-            }
-            continue;
-        }
-        let (s, t) = ((low - start) / slope, (high - start) / slope);
-        u0 = u0.max(s.min(t));
-        u1 = u1.min(s.max(t));
-    }
-    (u1 > u0).then_some((u0, u1))
 }
 
 #[cfg(test)]

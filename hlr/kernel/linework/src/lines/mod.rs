@@ -4,7 +4,7 @@
 //!    `candidates` adds the contours of the mesh)
 //! 2. `runs`        along a chain equal states join, doubtful and short runs are decided, and lines are cut out
 //! 3. `coincident`  of lines that coincide on paper one is kept, visible before hidden; `gaps` cuts out the others,
-//!    `pairs` finds those beside one another, `drawn` where there are very
+//!    `stretches` says what covers what, `pairs` finds those beside one another, `drawn` where there are very
 //!    many, both in square `cells` of the paper
 //! 4. `specks`      figures shorter than the accuracy, with all they connect to, are dropped
 //! 5. `simplify`    vertices that the accuracy does not need are left out
@@ -29,6 +29,7 @@ mod pairs;
 pub mod runs;
 pub mod simplify;
 pub mod specks;
+mod stretches;
 
 #[cfg(test)]
 mod tests;

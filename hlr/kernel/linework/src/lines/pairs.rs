@@ -18,8 +18,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::coincident::Stretches;
 use super::gaps::Side;
+use super::stretches::Stretches;
 
 /// Comparisons for each side, and stretches for each side, beyond which there are too many.
 const MOST_TESTS: usize = 256;
