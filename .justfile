@@ -27,12 +27,7 @@ fast *arguments:
 
 # Run the tests of the kernel: just rust, just rust sweep
 rust *arguments:
-    #!/usr/bin/env bash
-    set -euo pipefail
-    # A test binary links the interpreter, whose library may lie outside the system's folders.
-    library=$(python -c 'import sysconfig; print(sysconfig.get_config_var("LIBDIR") or "")')
-    export LD_LIBRARY_PATH="$library:${LD_LIBRARY_PATH:-}" DYLD_FALLBACK_LIBRARY_PATH="$library"
-    cd hlr/kernel && cargo test --quiet --profile quick --workspace --no-default-features "$@"
+    cd hlr/kernel && cargo test --quiet --profile quick --workspace --lib --tests "$@"
 
 # Check style and types as the gate does
 lint:
