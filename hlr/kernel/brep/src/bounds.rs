@@ -30,15 +30,69 @@ pub fn boxes(model: &Model) -> Vec<Box3> {
     model.topology.par_iter().map(|part| around(model, part)).collect()
 }
 
+/// First what is known at once: ends, arcs, faces' own triangles. Splines and surfaces are then looked at where they may
+/// reach beyond that, each for itself: so the box is the same whatever the number of threads.
 fn around(model: &Model, part: &PartTopology) -> Box3 {
-    let mut found = EMPTY;
-    for placed in &part.edges {
-        add_edge(model, &model.edges[placed.edge as usize], &placed.place.unwrap_or(IDENTITY), &mut found);
+    let mut known = EMPTY;
+    let edges = part.edges.iter().map(|placed| (&model.edges[placed.edge as usize], placed.place.unwrap_or(IDENTITY)));
+    let faces = part.faces.iter().map(|placed| (&model.faces[placed.face as usize], placed.place.unwrap_or(IDENTITY)));
+    let (mut edges_left, mut faces_left) = (Vec::new(), Vec::new());
+    for (edge, place) in edges {
+        add_ends(edge, &place, &mut known);
+        match &edge.curve {
+            Some(Curve::Line { .. } | Curve::Ellipse { .. }) => add_edge(model, edge, &place, &mut known),
+            _ => edges_left.push((edge, place)),
+        }
     }
-    for placed in &part.faces {
-        add_face(model, &model.faces[placed.face as usize], &placed.place.unwrap_or(IDENTITY), &mut found);
+    for (face, place) in faces {
+        face.own.iter().flat_map(|own| &own.points).for_each(|point| add_point(&moved(&place, point), &mut known));
+        faces_left.push((face, place));
     }
-    found
+    edges_left.retain(|(edge, place)| !hull_within(edge, place, &known));
+    faces_left.retain(|(face, place)| face.surface.as_ref().is_some_and(|on| may_reach_beyond(on, place, &known)));
+    let with_edges = edges_left.par_iter().with_min_len(FEW).map(|(edge, place)| {
+        let mut found = known;
+        add_edge(model, edge, place, &mut found);
+        found
+    });
+    let with_faces = faces_left.par_iter().with_min_len(FEW).map(|(face, place)| {
+        let mut found = known;
+        add_face(model, face, place, &mut found);
+        found
+    });
+    with_edges.chain(with_faces).reduce(|| known, union)
+}
+
+/// With fewer edges or faces a second thread gains nothing.
+const FEW: usize = 16;
+
+fn union(a: Box3, b: Box3) -> Box3 {
+    [[0, 1, 2].map(|k| a[0][k].min(b[0][k])), [0, 1, 2].map(|k| a[1][k].max(b[1][k]))]
+}
+
+fn is_within(point: &Vector, found: &Box3) -> bool {
+    (0..3).all(|k| found[0][k] <= point[k] && point[k] <= found[1][k])
+}
+
+/// Whether all poles of an edge's spline lie within a box: the curve then does, too.
+fn hull_within(edge: &Edge, place: &Matrix, found: &Box3) -> bool {
+    let Some(Curve::Spline(n)) = &edge.curve else { return false };
+    n.poles.iter().all(|[x, y, z, w]| is_within(&moved(place, &[x / w, y / w, z / w]), found))
+}
+
+/// Whether a surface may reach farther than its edges, and beyond a box. The whole surface is looked at, not the face.
+fn may_reach_beyond(surface: &Surface, place: &Matrix, found: &Box3) -> bool {
+    if reaches_on_edges(surface) {
+        return false;
+    }
+    match surface {
+        Surface::Sphere(..) | Surface::Torus(..) | Surface::Spline(_) => {
+            let mut whole = EMPTY;
+            add_surface(surface, [WHOLE; 2], place, &mut whole);
+            !whole.iter().all(|corner| is_within(corner, found))
+        }
+        _ => true,
+    }
 }
 
 fn add_point(point: &Vector, found: &mut Box3) {
@@ -53,9 +107,12 @@ fn add_range(k: usize, range: Range, found: &mut Box3) {
     found[1][k] = found[1][k].max(range[1]);
 }
 
-fn add_edge(model: &Model, edge: &Edge, place: &Matrix, found: &mut Box3) {
+fn add_ends(edge: &Edge, place: &Matrix, found: &mut Box3) {
     let points = edge.end_points.iter().flatten().chain(edge.polygon.iter().flatten());
     points.for_each(|point| add_point(&moved(place, point), found));
+}
+
+fn add_edge(model: &Model, edge: &Edge, place: &Matrix, found: &mut Box3) {
     if let Some(curve) = &edge.curve {
         add_curve(&curve.moved(place), edge.range, found);
     } else if let Some((number, surface)) = &edge.only_on
@@ -75,6 +132,14 @@ fn steps([first, last]: Range, count: usize) -> impl Iterator<Item = f64> {
     (0..=count).map(move |k| if k == count { last } else { first + (last - first) * (k as f64 / count as f64) })
 }
 
+/// Adds a curve, or the poles of a spline, which enclose it.
+fn add_poles(curve: &Curve, range: Range, found: &mut Box3) {
+    match curve {
+        Curve::Spline(n) => n.poles.iter().for_each(|[x, y, z, w]| add_point(&[x / w, y / w, z / w], found)),
+        _ => add_curve(curve, range, found),
+    }
+}
+
 fn add_curve(curve: &Curve, range: Range, found: &mut Box3) {
     range.iter().for_each(|t| add_point(&curve.point(*t), found));
     match curve {
@@ -92,7 +157,12 @@ fn add_curve(curve: &Curve, range: Range, found: &mut Box3) {
             breaks.extend(n.knots.iter().copied().filter(|k| (first..last).contains(k)));
             breaks.push(last);
             breaks.dedup();
-            breaks.windows(2).for_each(|span| add_turns(curve, [span[0], span[1]], 2 * n.degree, found));
+            for span in breaks.windows(2).map(|ends| [ends[0], ends[1]]) {
+                let poles = &n.poles[used_poles(&n.knots, n.degree, n.poles.len(), span)];
+                if !poles.iter().all(|[x, y, z, w]| is_within(&[x / w, y / w, z / w], found)) {
+                    add_turns(curve, span, 2 * n.degree, found);
+                }
+            }
         }
         _ => add_turns(curve, range, SAMPLES, found),
     }
@@ -133,13 +203,16 @@ fn waves(a: f64, b: f64, [first, last]: Range) -> Range {
 }
 
 fn add_face(model: &Model, face: &Face, place: &Matrix, found: &mut Box3) {
-    if let Some(own) = &face.own {
-        own.points.iter().for_each(|point| add_point(&moved(place, point), found));
-    }
     let Some(surface) = &face.surface else { return };
-    if !reaches_on_edges(surface) {
-        add_surface(surface, uv_range(model, face, surface), place, found);
+    if let Surface::Spline(_) = surface {
+        // The poles of its curves in (u, v) are at hand. Mostly not even what they enclose reaches beyond the box.
+        let mut hull = EMPTY;
+        add_surface(surface, uv_range(model, face, surface, add_poles), place, &mut hull);
+        if hull.iter().all(|corner| is_within(corner, found)) {
+            return;
+        }
     }
+    add_surface(surface, uv_range(model, face, surface, add_curve), place, found);
 }
 
 fn reaches_on_edges(surface: &Surface) -> bool {
@@ -153,7 +226,9 @@ fn reaches_on_edges(surface: &Surface) -> bool {
 
 /// The ranges of u and v of a face, from its curves in (u, v). Where an outline goes once around in one direction, it
 /// says nothing of where the face ends in the other.
-fn uv_range(model: &Model, face: &Face, surface: &Surface) -> [Range; 2] {
+///
+/// `add`: adds a curve, as `add_curve` does, or something that encloses it.
+fn uv_range(model: &Model, face: &Face, surface: &Surface, add: fn(&Curve, Range, &mut Box3)) -> [Range; 2] {
     let mut all = EMPTY;
     let (mut around, periods) = ([false; 2], surface.periods());
     for wire in &face.wires {
@@ -161,7 +236,7 @@ fn uv_range(model: &Model, face: &Face, surface: &Surface) -> [Range; 2] {
         for used in wire {
             let found = used.curve2.and_then(|(number, range)| Some((model.curves2[number].as_ref()?, range)));
             let Some((curve, range)) = found else { return [WHOLE; 2] };
-            add_curve(curve, range, &mut all);
+            add(curve, range, &mut all);
             let gone = sub(&curve.point(range[1]), &curve.point(range[0]));
             let sign = if used.orientation == crate::format::Orientation::Reversed { -1.0 } else { 1.0 };
             for k in (0..2).filter(|_| used.orientation.bounds()) {

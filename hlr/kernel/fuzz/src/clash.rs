@@ -5,7 +5,8 @@ use std::cmp::Ordering;
 use std::sync::OnceLock;
 
 use hlr_exact::snap::Grid;
-use hlr_visibility::clash::search::{Clash, NO_PLANE, Surfaces};
+use hlr_visibility::clash::planar_faces::{NO_PLANE, PlanarFaces};
+use hlr_visibility::clash::search::{Clash, Surfaces};
 use hlr_visibility::clash::triangle_pair::{Numbered, meet};
 use hlr_visibility::clash::weld::weld;
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -63,8 +64,8 @@ impl Case {
     }
 
     fn found(&self, pool: &ThreadPool, group: &[i32], itself: &[bool]) -> Vec<Clash> {
-        let plane = vec![NO_PLANE; self.triangles.len()];
-        let surfaces = Surfaces { points: &self.points, triangles: &self.triangles, group, itself, plane: &plane };
+        let planar = PlanarFaces::alone(vec![NO_PLANE; self.triangles.len()]);
+        let surfaces = Surfaces { points: &self.points, triangles: &self.triangles, group, itself, planar: &planar };
         pool.install(|| surfaces.clashes(&|| false)).found
     }
 

@@ -16,9 +16,10 @@ use hlr_mesh::scene::Scene;
 use hlr_mesh::tables::Tables;
 use hlr_visibility::clash::contacts::real;
 use hlr_visibility::clash::depth::{Bodies, Depth};
+use hlr_visibility::clash::planar_faces::{Edges, NO_PLANE, PlanarFaces};
 use hlr_visibility::clash::planes::planes;
 use hlr_visibility::clash::reach::Sheet;
-use hlr_visibility::clash::search::{Clash, Clashes, NO_PLANE, Surfaces};
+use hlr_visibility::clash::search::{Clash, Clashes, Surfaces};
 use hlr_visibility::clash::weld::weld;
 use hlr_visibility::scan::box_tree::{Aabb, BoxTree};
 
@@ -38,13 +39,13 @@ fn told<T>(result: Told<T>) -> PyResult<T> {
 /// All pairs of triangles that cross, and the grid that their ends were rounded to.
 fn search(
     points: &[[f64; 3]],
-    (triangles, group, plane): (&[[i32; 3]], &[i32], &[i32]),
+    (triangles, group, planar): (&[[i32; 3]], &[i32], &PlanarFaces),
     itself: &[bool],
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<(Grid, Clashes)> {
     let grid = Grid::around(points)?.uniform();
     let points: Vec<_> = points.par_iter().with_min_len(1 << 13).map(|p| grid.snap(p)).collect();
-    let found = Surfaces { points: &points, triangles, group, itself, plane }.clashes(stopped);
+    let found = Surfaces { points: &points, triangles, group, itself, planar }.clashes(stopped);
     Some((grid, found))
 }
 
@@ -64,7 +65,8 @@ pub fn clashes<'py>(
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
     expect_below("triangle_group", group.iter().copied(), itself.len())?;
     let (grid, found, points, edges) = told(run(py, 0, triangles.len(), |stopped| {
-        let (grid, found) = search(points, (triangles, group, &vec![NO_PLANE; triangles.len()]), itself, stopped)?;
+        let planar = PlanarFaces::alone(vec![NO_PLANE; triangles.len()]);
+        let (grid, found) = search(points, (triangles, group, &planar), itself, stopped)?;
         let (points, edges) = weld(&found.found);
         let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();
         Some((!stopped()).then_some((grid, found, points, edges)))
@@ -102,14 +104,15 @@ pub fn crossings<'py>(
     expect_len("touch", touch.len(), scene.folded.len())?;
     let (points, real, through, tests) = told(run(py, 0, triangles.len(), |stopped| {
         let plane: Vec<i32> = scene.planar_face(tables).map(|face| face.unwrap_or(NO_PLANE)).collect();
-        let (grid, found) = search(&tables.points, (triangles, group, &plane), &scene.folded, stopped)?;
+        let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
+        let planar = PlanarFaces::new(plane, triangles, tables.points.len(), &Edges { edges, offsets, incident });
+        let (grid, found) = search(&tables.points, (triangles, group, &planar), &scene.folded, stopped)?;
         let (points, ends) = weld(&found.found);
         let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();
         let without_brep: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
-        let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
         let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, normals: &facts.normals };
-        let planes = planes(&sheet, &plane, &found.found);
-        let (face, planes) = (&plane[..], &planes);
+        let planes = planes(&sheet, &planar.of, &found.found);
+        let (face, planes) = (&planar.of[..], &planes);
         let bodies = Bodies { sheet, group, face, planes, without_brep: &without_brep, touch, deflection };
         let depth = |(clash, [a, b]): (&Clash, &[i32; 2])| {
             let ends = [a, b].map(|&end| &points[end as usize]);

@@ -186,10 +186,10 @@ fn small(bodies: &Bodies, all: &[Candidate], kept: &[usize], nodes: &Nodes, poin
 
 #[cfg(test)]
 mod tests {
+    use super::super::planes::Planes;
     use super::super::reach::Sheet;
     use super::super::triangle_pair::Meeting;
     use super::*;
-    use std::collections::HashMap;
 
     /// Two walls through a floor, and a segment between them in which faces meet at no angle, `level` deep.
     fn lines(level: f64) -> usize {
@@ -203,7 +203,7 @@ mod tests {
             incident: &[],
             normals: &normals,
         };
-        let (planes, touch) = (HashMap::new(), [1.0; 2]);
+        let (planes, touch) = (Planes::default(), [1.0; 2]);
         let without_brep = &[false; 2];
         let bodies = Bodies {
             sheet,

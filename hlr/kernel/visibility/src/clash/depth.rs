@@ -10,9 +10,7 @@
 //! these decide. On B-reps the surface is followed near the crossing (`reach`): a corner far away that lies beyond the
 //! other's plane does not tell how deep the surface goes here.
 
-use std::collections::HashMap;
-
-use super::planes::Plane;
+use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3, dot, minus};
 use super::search::Clash;
 use hlr_accuracy::{CONTACT_OF_ONE_SOLID, FLUSH};
@@ -30,7 +28,7 @@ pub struct Bodies<'a> {
     pub sheet: Sheet<'a>,
     pub group: &'a [i32],
     pub face: &'a [i32],
-    pub planes: &'a HashMap<i32, Plane>,
+    pub planes: &'a Planes,
     pub without_brep: &'a [bool],
     pub touch: &'a [f64],
     pub deflection: f64,
@@ -81,7 +79,7 @@ impl Bodies<'_> {
         if groups[0] == groups[1] && solid {
             touch *= CONTACT_OF_ONE_SOLID;
         }
-        let planes = clash.triangles.map(|t| self.planes.get(&self.face[t as usize]));
+        let planes = clash.triangles.map(|t| self.planes.get(self.face[t as usize]));
         let across = clash.triangles.map(|t| self.across(t));
         let (reach, mut level) = self.corners_beyond(clash, &across);
         let steep = clash.meeting.sine >= SLIGHT_ANGLE;
@@ -162,7 +160,7 @@ impl Bodies<'_> {
             let corner = self.sheet.triangles[t as usize][0];
             Plane { origin: self.sheet.points[corner as usize], normal: self.sheet.normals[t as usize], off: 0.0 }
         };
-        self.planes.get(&self.face[t as usize]).copied().unwrap_or_else(own)
+        self.planes.get(self.face[t as usize]).copied().unwrap_or_else(own)
     }
 }
 

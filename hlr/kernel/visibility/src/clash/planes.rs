@@ -1,10 +1,10 @@
 //! The planes of planar faces: each is as certain as the whole face is wide, not as one sliver of its triangulation.
 
 use std::cmp::Ordering;
-use std::collections::HashMap;
 
+use super::planar_faces::NO_PLANE;
 use super::reach::{Sheet, Vec3, cross, dot, minus};
-use super::search::{Clash, NO_PLANE};
+use super::search::Clash;
 
 /// `off`: how far corners of the face lie off this plane.
 #[derive(Clone, Copy, Debug)]
@@ -20,33 +20,57 @@ impl Plane {
     }
 }
 
+/// Planes by the number of their face.
+#[derive(Default)]
+pub struct Planes {
+    /// Per face its place in `known`, or NONE.
+    place: Vec<u32>,
+    known: Vec<Plane>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Planes {
+    /// The plane of a face that takes part in a clash.
+    pub fn get(&self, face: i32) -> Option<&Plane> {
+        self.known.get(*self.place.get(usize::try_from(face).ok()?)? as usize)
+    }
+}
+
 /// The planes of the planar faces that take part in a clash. `face`: per triangle its planar face, or NO_PLANE.
 ///
 /// Each is the plane of its widest triangle; of equally wide ones, of that whose corners come last. So the order of
 /// triangles does not matter.
-pub fn planes(sheet: &Sheet, face: &[i32], found: &[Clash]) -> HashMap<i32, Plane> {
-    let clashing = found.iter().flat_map(|clash| clash.triangles).map(|t| face[t as usize]);
-    let mut widest: HashMap<i32, Option<Candidate>> = clashing.filter(|&f| f != NO_PLANE).map(|f| (f, None)).collect();
-    if widest.is_empty() {
-        return HashMap::new();
+pub fn planes(sheet: &Sheet, face: &[i32], found: &[Clash]) -> Planes {
+    let clashing = || found.iter().flat_map(|clash| clash.triangles).map(|t| face[t as usize]);
+    let count = clashing().max().map_or(0, |last| (last + 1) as usize);
+    let mut place = vec![NONE; count];
+    let mut widest: Vec<Option<Candidate>> = Vec::new();
+    for f in clashing().filter(|&f| f != NO_PLANE) {
+        if place[f as usize] == NONE {
+            place[f as usize] = widest.len() as u32;
+            widest.push(None);
+        }
     }
-    for (t, f) in face.iter().enumerate() {
-        if let Some(best) = widest.get_mut(f) {
-            let this = Candidate::new(sheet, t);
-            if best.as_ref().is_none_or(|best| this.compare(best) == Ordering::Greater) {
-                *best = Some(this);
-            }
+    let triangles = || {
+        let placed = face.iter().map(|&f| usize::try_from(f).ok().and_then(|f| place.get(f)).copied().unwrap_or(NONE));
+        placed.enumerate().filter(|&(_, place)| place != NONE).map(|(t, place)| (t, place as usize))
+    };
+    for (t, place) in triangles() {
+        let (this, best) = (Candidate::new(sheet, t), &mut widest[place]);
+        if best.as_ref().is_none_or(|best| this.compare(best) == Ordering::Greater) {
+            *best = Some(this);
         }
     }
     let plane = |best: &Candidate| Plane { origin: best.corners[0], normal: sheet.normals[best.triangle], off: 0.0 };
-    let mut planes: HashMap<i32, Plane> = widest.iter().filter_map(|(&f, c)| Some((f, plane(c.as_ref()?)))).collect();
-    for (triangle, f) in sheet.triangles.iter().zip(face) {
-        if let Some(plane) = planes.get_mut(f) {
-            plane.off =
-                triangle.iter().fold(plane.off, |off, &v| off.max(plane.height(&sheet.points[v as usize]).abs()));
-        }
+    // Each has a triangle at least: that which clashes.
+    let mut known: Vec<Plane> = widest.iter().flatten().map(plane).collect();
+    for (t, place) in triangles() {
+        let plane = &mut known[place];
+        plane.off =
+            sheet.triangles[t].iter().fold(plane.off, |o, &v| o.max(plane.height(&sheet.points[v as usize]).abs()));
     }
-    planes
+    Planes { place, known }
 }
 
 /// A triangle of a planar face, its corners in ascending order.
@@ -69,13 +93,13 @@ impl Candidate {
     }
 
     fn compare(&self, other: &Candidate) -> Ordering {
-        let corners = self.corners.iter().zip(&other.corners).map(|(a, b)| order(a, b));
-        self.width.total_cmp(&other.width).then(corners.fold(Ordering::Equal, Ordering::then))
+        let corners = || self.corners.iter().zip(&other.corners).map(|(a, b)| order(a, b));
+        self.width.total_cmp(&other.width).then_with(|| corners().fold(Ordering::Equal, Ordering::then))
     }
 }
 
 fn order(a: &Vec3, b: &Vec3) -> Ordering {
-    a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).fold(Ordering::Equal, Ordering::then)
+    a[0].total_cmp(&b[0]).then_with(|| a[1].total_cmp(&b[1])).then_with(|| a[2].total_cmp(&b[2]))
 }
 
 #[cfg(test)]
@@ -104,8 +128,8 @@ mod tests {
             };
             let meeting = Meeting { ends: [[0; 3]; 2], depth: 0.0, sine: 1.0 };
             let found = planes(&sheet, &[7, 7, 7], &[Clash { triangles: [0, 1], meeting }]);
-            assert_eq!(found[&7].normal, [0.0, 0.0, 1.0]);
-            assert_eq!(found[&7].off, 0.002);
+            assert_eq!(found.get(7).unwrap().normal, [0.0, 0.0, 1.0]);
+            assert_eq!(found.get(7).unwrap().off, 0.002);
         }
     }
 }

@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
+use super::planar_faces::PlanarFaces;
+use super::quiet::quiet_faces;
 use super::tree::{Found, Item, Tree};
-use super::triangle_pair::{Meeting, Numbered, apart, meet};
+use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
 use crate::scan::box_tree::{Aabb, BoxTree};
 use hlr_exact::Point;
 
@@ -45,11 +47,8 @@ pub struct Surfaces<'a> {
     pub group: &'a [i32],
     /// Per group, whether it is searched for passing through itself.
     pub itself: &'a [bool],
-    /// Per triangle its planar face, or NO_PLANE. Triangles of one planar face do not pass through one another.
-    pub plane: &'a [i32],
+    pub planar: &'a PlanarFaces,
 }
-
-pub const NO_PLANE: i32 = -1;
 
 impl Surfaces<'_> {
     fn numbered(&self, t: u32) -> Numbered<'_> {
@@ -57,7 +56,7 @@ impl Surfaces<'_> {
         Numbered { corner: number.map(|v| &self.points[v as usize]), number }
     }
 
-    fn bounds(&self, t: u32) -> Aabb {
+    pub(super) fn bounds(&self, t: u32) -> Aabb {
         let [a, b, c] = self.triangles[t as usize].map(|v| self.points[v as usize]);
         let mut out = Aabb { low: a, high: a };
         for k in 0..3 {
@@ -107,13 +106,18 @@ impl Surfaces<'_> {
             }
             seen_along(self.triangles[t as usize].map(|v| &self.points[v as usize]))
         };
-        let trees: Vec<Tree> = members
+        let quiet = quiet_faces(self, stopped);
+        let is_quiet = |t: u32| usize::try_from(self.planar.of[t as usize]).is_ok_and(|f| quiet.get(f) == Some(&true));
+        // Of each group a tree of what may meet something of it, and one of its quiet faces, which may meet other groups.
+        let trees: Vec<[Tree; 2]> = members
             .par_iter()
             .zip(&wanted)
             .map(|(of, &wanted)| {
                 let of = if wanted { *of } else { &[] };
-                let items: Vec<Item> = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect();
-                Tree::new(items, &seen)
+                [false, true].map(|quiet| {
+                    let chosen = of.par_iter().with_min_len(MANY).filter(|&&t| is_quiet(t) == quiet);
+                    Tree::new(chosen.map(|&t| (self.bounds(t), t)).collect(), &seen)
+                })
             })
             .collect();
         let try_pair = |s: u32, t: u32, out: &mut Part| {
@@ -129,7 +133,14 @@ impl Surfaces<'_> {
             .par_iter()
             .map(|&[a, b]| {
                 let (first, second) = (&trees[a as usize], &trees[b as usize]);
-                if a == b { first.within(&try_pair, &apart) } else { first.between(second, &try_pair) }
+                if a == b {
+                    return first[0].within(&try_pair, &apart);
+                }
+                let mut out = Part::default();
+                for (own, other) in first.iter().flat_map(|own| second.iter().map(move |other| (own, other))) {
+                    out.join(own.between(other, &try_pair));
+                }
+                out
             })
             .collect();
         let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
@@ -147,21 +158,25 @@ impl Surfaces<'_> {
     /// Tests two triangles whose boxes overlap: of different groups, the lower group first, or both of one group.
     fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
         let same = self.group[s as usize] == self.group[t as usize];
+        if same && self.planar.one(s, t) {
+            return;
+        }
         let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
+        let (a, b) = (self.numbered(s), self.numbered(t));
+        if same && (self.stands_on(s, &a, t, &b) || self.stands_on(t, &b, s, &a)) {
+            return;
+        }
+        if lies_on(&a, &b) || lies_on(&b, &a) {
+            return;
+        }
         if same {
-            let plane = self.plane[s as usize];
-            if plane != NO_PLANE && plane == self.plane[t as usize] {
-                return;
-            }
-            let (a, b) = (&self.triangles[s as usize], &self.triangles[t as usize]);
-            let mut shared = a.iter().filter(|v| b.contains(v));
+            let mut shared = a.number.iter().filter(|v| b.number.contains(v));
             match (shared.next(), shared.next()) {
                 (Some(_), Some(_)) => return, // neighbours along an edge meet there by right
-                (Some(&v), None) if only_at(self.points, a, b, v) => return,
+                (Some(&v), None) if only_at(self.points, &a.number, &b.number, v) => return,
                 _ => {}
             }
         }
-        let (a, b) = (self.numbered(s), self.numbered(t));
         out.tests += 1;
         if apart(&a, &b) {
             return;
@@ -169,6 +184,13 @@ impl Surfaces<'_> {
         if let Some(meeting) = meet(&a, &b) {
             out.found.push(Clash { triangles: [s, t], meeting });
         }
+    }
+
+    /// Whether triangle t stands on the planar face of s, and does not pass through it.
+    #[inline]
+    fn stands_on(&self, s: u32, a: &Numbered, t: u32, b: &Numbered) -> bool {
+        let feet = self.planar.feet_on(self.planar.of[s as usize], t, &b.number);
+        feet != 0 && on_one_side(a, b, feet)
     }
 
     /// Pairs of groups whose boxes overlap in more than their borders, the lower number first; and groups paired with
@@ -195,6 +217,7 @@ impl Surfaces<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::planar_faces::NO_PLANE;
     use super::*;
 
     #[test]
@@ -203,7 +226,8 @@ mod tests {
         let triangles = [[0, 1, 2], [3, 4, 5]];
         let tests = |group: &[i32], plane: &[i32]| {
             let itself = [true; 2];
-            let found = Surfaces { points: &points, triangles: &triangles, group, itself: &itself, plane };
+            let planar = PlanarFaces::alone(plane.to_vec());
+            let found = Surfaces { points: &points, triangles: &triangles, group, itself: &itself, planar: &planar };
             let found = found.clashes(&|| false);
             (found.tests, found.found.len())
         };

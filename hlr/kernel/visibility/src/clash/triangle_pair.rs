@@ -59,21 +59,39 @@ fn way(from: &Point, to: &Point) -> [i64; 3] {
     ]
 }
 
+/// Whether all of `of` lies on the plane of a triangle or above it, for planes square to an axis: then they do not meet.
+/// Faces that lie on one another from outside are told apart here.
+#[inline]
+pub fn lies_on(plane: &Numbered, of: &Numbered) -> bool {
+    let [p, q, r] = plane.corner;
+    let Some(k) = (0..3).find(|&k| p[k] == q[k] && q[k] == r[k]) else { return false };
+    let upward = exact_normal(p, q, r)[k].signum();
+    of.corner.iter().all(|s| upward * (i64::from(s[k]) - i64::from(p[k])) >= 0)
+}
+
 /// Whether two triangles certainly do not meet, or only in the corner that they share: the other corners of one lie on
 /// one side of the other's plane, or of the wall on one of its sides. Decided in floating point, and only where the
 /// rounding cannot matter.
 #[inline]
 pub fn apart(a: &Numbered, b: &Numbered) -> bool {
-    beyond(a, b) || beyond(b, a) || beside(a, b) || beside(b, a)
+    on_one_side(a, b, shared(a, b)) || on_one_side(b, a, shared(b, a)) || beside(a, b) || beside(b, a)
 }
 
-fn beyond(plane: &Numbered, of: &Numbered) -> bool {
+/// The corners of `of`, a bit each, that are corners of the other triangle too.
+#[inline]
+fn shared(other: &Numbered, of: &Numbered) -> u8 {
+    (0..3).fold(0, |bits, k| bits | u8::from(other.number.contains(&of.number[k])) << k)
+}
+
+/// Whether all corners of `of` but those in `but`, a bit each, certainly lie on one side of a triangle's plane.
+#[inline]
+pub fn on_one_side(plane: &Numbered, of: &Numbered, but: u8) -> bool {
     let [_, u, v] = ways(plane, &plane.corner);
     let n = product(&u, &v);
     let mut size = longest(&u).max(longest(&v));
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for (w, number) in ways(plane, &of.corner).iter().zip(of.number) {
-        if plane.number.contains(&number) {
+    for (k, w) in ways(plane, &of.corner).iter().enumerate() {
+        if but >> k & 1 == 1 {
             continue;
         }
         size = size.max(longest(w));
@@ -281,7 +299,7 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             ((state >> 33) as i32).rem_euclid(n)
         };
-        let (mut told, mut met) = (0, 0);
+        let (mut told, mut met, mut on) = (0, 0, 0);
         for k in 0..20_000 {
             let range = [5, 50, 1 << 30][k % 3];
             let corners: Vec<Point> = (0..6).map(|_| [0, 1, 2].map(|_| random(range))).collect();
@@ -291,10 +309,21 @@ mod tests {
             let b = Numbered { corner: [&corners[3], &corners[4], &corners[last]], number: [3, 4, last as i32] };
             let found = meet(&a, &b).is_some();
             assert!(!(apart(&a, &b) && found), "{corners:?}");
+            assert!(!(lies_on(&a, &b) && found), "{corners:?}");
+            assert_eq!(lies_on(&a, &b), is_square(&a) && sides_of(&a, &b).iter().all(|s| *s >= 0), "{corners:?}");
+            on += usize::from(lies_on(&a, &b));
             told += usize::from(apart(&a, &b));
             met += usize::from(found);
         }
-        assert!(told > 5_000 && met > 1_000, "{told} {met}");
+        assert!(told > 5_000 && met > 1_000 && on > 100, "{told} {met} {on}");
+    }
+
+    fn is_square(a: &Numbered) -> bool {
+        (0..3).any(|k| a.corner.iter().all(|p| p[k] == a.corner[0][k]))
+    }
+
+    fn sides_of(a: &Numbered, b: &Numbered) -> [i128; 3] {
+        b.corner.map(|s| orient3d(a.corner[0], a.corner[1], a.corner[2], s))
     }
 
     #[test]
