@@ -1,4 +1,4 @@
-//! Planar faces that nothing of their own body passes through: their triangles need not be tried one by one.
+//! Planar faces that hardly anything of their own body passes through: their triangles need not be tried one by one.
 //!
 //! ```text
 //!       |   |     |   |       The walls of a plate's holes end on its top. Each lies below it, but for the corners that
@@ -6,7 +6,8 @@
 //!                             each wall whose box it overlaps.
 //! ```
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
 
 use rayon::prelude::*;
 
@@ -15,7 +16,9 @@ use super::search::Surfaces;
 use crate::scan::box_tree::{Aabb, BoxTree};
 
 /// A face of fewer triangles costs less than finding out that it is quiet.
-const FEW: u32 = 6;
+const FEW: u32 = 48;
+/// A face that more triangles may meet is left to the search: it finds those that are near one another.
+const MOST: u32 = 128;
 /// How far corners of a planar face may lie off its plane, in grid units: they were rounded.
 const ROUNDED: f64 = 2.0;
 /// With fewer triangles a second thread gains nothing.
@@ -43,41 +46,75 @@ impl Plane {
     }
 }
 
-/// Per planar face, by number, whether nothing of its own group meets it but in its own corners and border.
-pub fn quiet_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> Vec<bool> {
+/// Faces that are set apart from the search within their group.
+#[derive(Default)]
+pub struct Quiet {
+    /// Per planar face, by number, whether it is set apart.
+    faces: Vec<bool>,
+    /// A face and a triangle of the same group which may meet it: what is left to be tried of the faces set apart.
+    pub left: Vec<(i32, u32)>,
+}
+
+impl Quiet {
+    /// Whether the planar face of a triangle is set apart. face: its number, or NO_PLANE.
+    #[inline]
+    pub fn is(&self, face: i32) -> bool {
+        usize::try_from(face).is_ok_and(|f| self.faces.get(f) == Some(&true))
+    }
+}
+
+/// Sets faces of many triangles apart that hardly anything of their own group meets but in their own corners and border.
+pub fn quiet_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> Quiet {
     let faces = large_faces(surfaces);
     let planes: Vec<Option<Plane>> = faces.iter().map(|face| plane(surfaces, face.as_ref()?)).collect();
-    let off: Vec<AtomicBool> = planes.iter().map(|plane| AtomicBool::new(plane.is_none())).collect();
-    let boxes = faces.iter().zip(&planes).enumerate().filter(|(_, (_, plane))| plane.is_some());
-    let tree = BoxTree::new(boxes.filter_map(|(f, (face, _))| Some((face.as_ref()?.bounds, f as u32))).collect());
-    let all = |f: &AtomicBool| f.load(Ordering::Relaxed);
-    if off.iter().all(all) {
-        return Vec::new();
+    let with_plane = faces.iter().zip(&planes).enumerate().filter(|(_, (_, plane))| plane.is_some());
+    let boxes: Vec<_> = with_plane.filter_map(|(f, (face, _))| Some((face.as_ref()?.bounds, f as u32))).collect();
+    if boxes.is_empty() {
+        return Quiet::default();
     }
-    (0..surfaces.triangles.len() as u32).into_par_iter().with_min_len(ALONE).for_each(|t| {
-        if !surfaces.itself[surfaces.group[t as usize] as usize] || stopped() {
+    let tree = BoxTree::new(boxes);
+    let met: Vec<AtomicU32> = faces.iter().map(|_| AtomicU32::new(0)).collect();
+    let may_meet = |t: u32, out: &mut Vec<(i32, u32)>| {
+        let (group, corners) = (surfaces.group[t as usize], &surfaces.triangles[t as usize]);
+        if !surfaces.itself[group as usize] || stopped() {
             return;
         }
         tree.query(&surfaces.bounds(t), |f| {
             let (Some(face), Some(plane)) = (&faces[f as usize], &planes[f as usize]) else { return };
-            let own = surfaces.planar.of[t as usize] == f as i32;
-            if face.group != surfaces.group[t as usize] || off[f as usize].load(Ordering::Relaxed) {
+            if face.group != group || met[f as usize].load(Relaxed) > MOST {
                 return;
             }
-            let corners = &surfaces.triangles[t as usize];
             let feet = surfaces.planar.feet_on(f as i32, t, corners);
-            let heights = || {
-                let free = (0..3).filter(|k| feet >> k & 1 == 0);
-                free.map(|k| plane.height(&surfaces.points[corners[k] as usize]))
-            };
-            let flat = own && heights().all(|h| h.abs() <= ROUNDED);
-            let beside = !own && (heights().all(|h| h > 2.0 * ROUNDED) || heights().all(|h| h < -2.0 * ROUNDED));
-            if !flat && !beside {
-                off[f as usize].store(true, Ordering::Relaxed);
+            let free = (0..3).filter(|k| feet >> k & 1 == 0);
+            let heights = free.map(|k| plane.height(&surfaces.points[corners[k] as usize]));
+            if surfaces.planar.of[t as usize] == f as i32 {
+                // A face whose corners lie off its plane is not judged by it.
+                let off = heights.map(f64::abs).fold(0.0, f64::max) > ROUNDED;
+                met[f as usize].fetch_add(if off { MOST + 1 } else { 0 }, Relaxed);
+                return;
+            }
+            let (low, high) = heights.fold((f64::MAX, f64::MIN), |(low, high), h| (low.min(h), high.max(h)));
+            if low <= 2.0 * ROUNDED && high >= -2.0 * ROUNDED {
+                met[f as usize].fetch_add(1, Relaxed);
+                out.push((f as i32, t));
             }
         });
-    });
-    off.iter().map(|off| !off.load(Ordering::Relaxed)).collect()
+    };
+    let parts = (0..surfaces.triangles.len() as u32).into_par_iter().with_min_len(ALONE);
+    let mut left: Vec<(i32, u32)> = parts
+        .fold(Vec::new, |mut out, t| {
+            may_meet(t, &mut out);
+            out
+        })
+        .reduce(Vec::new, |mut a, b| {
+            a.extend(b);
+            a
+        });
+    let few = |f: usize| planes[f].is_some() && met[f].load(Relaxed) <= MOST;
+    let faces: Vec<bool> = (0..faces.len()).map(few).collect();
+    left.retain(|&(f, _)| faces[f as usize]);
+    left.sort_unstable();
+    Quiet { faces, left }
 }
 
 /// By number: planar faces of many triangles, all of one group that is searched for passing through itself.
@@ -122,4 +159,74 @@ fn plane(surfaces: &Surfaces, face: &Face) -> Option<Plane> {
     let (origin, normal) = normal(surfaces, face.largest as usize);
     let length = face.area.sqrt();
     (length > 0.0).then(|| Plane { origin, unit: normal.map(|c| c / length) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::planar_faces::Edges;
+    use super::*;
+    use hlr_mesh::topology::topology;
+
+    const SIDE: i32 = 8;
+
+    /// A square face of 8 x 8 x 2 triangles with walls below its border, and other triangles anywhere.
+    fn scene(others: &[[[i32; 3]; 3]]) -> (Vec<[i32; 3]>, Vec<[i32; 3]>, Vec<i32>) {
+        let step = 1000;
+        let across = SIDE + 1;
+        let at = |x: i32, y: i32| y * across + x;
+        let mut points: Vec<[i32; 3]> =
+            (0..across * across).map(|k| [step * (k % across), step * (k / across), 0]).collect();
+        let mut triangles = Vec::new();
+        for (x, y) in (0..SIDE * SIDE).map(|k| (k % SIDE, k / SIDE)) {
+            triangles.push([at(x, y), at(x + 1, y), at(x + 1, y + 1)]);
+            triangles.push([at(x, y), at(x + 1, y + 1), at(x, y + 1)]);
+        }
+        let mut face = vec![0; triangles.len()];
+        for (x, low) in (0..SIDE).zip(points.len() as i32..) {
+            points.push([step * x + 300, -200 * (x % 2), -2 * step]);
+            triangles.push([at(x + 1, 0), at(x, 0), low]);
+            triangles.push([at(x + 1, 0), low, low + i32::from(x + 1 < SIDE)]);
+        }
+        for corners in others {
+            let first = points.len() as i32;
+            points.extend(corners);
+            triangles.push([first, first + 1, first + 2]);
+        }
+        face.resize(triangles.len(), NO_PLANE);
+        (points, triangles, face)
+    }
+
+    fn found(points: &[[i32; 3]], triangles: &[[i32; 3]], planar: &PlanarFaces) -> (Vec<[u32; 2]>, u64, bool) {
+        let group = vec![0; triangles.len()];
+        let surfaces = Surfaces { points, triangles, group: &group, itself: &[true], planar };
+        let found = surfaces.clashes(&|| false);
+        let quiet = quiet_faces(&surfaces, &|| false).is(0);
+        (found.found.iter().map(|c| c.triangles).collect(), found.tests, quiet)
+    }
+
+    #[test]
+    fn what_is_found_is_the_same_with_and_without() {
+        let mut state = 7u64;
+        let mut random = |low: i32, high: i32| {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            low + ((state >> 33) as i32).rem_euclid(high - low)
+        };
+        let mut met = 0;
+        for count in [0, 1, 3, 20, 3 * MOST as usize] {
+            let mut corner = || [random(-500, 8500), random(-500, 8500), 1000 * random(-1, 2)];
+            let others: Vec<[[i32; 3]; 3]> = (0..count).map(|_| [corner(), corner(), corner()]).collect();
+            let (points, triangles, face) = scene(&others);
+            let topology = topology(&triangles, points.len());
+            let by = Edges { edges: &topology.edges, offsets: &topology.offsets, incident: &topology.incident };
+            let known = PlanarFaces::new(face.clone(), &triangles, points.len(), &by);
+            let (with, few, quiet) = found(&points, &triangles, &known);
+            // Without a planar face every pair is tried.
+            let (without, many, _) = found(&points, &triangles, &PlanarFaces::alone(vec![NO_PLANE; triangles.len()]));
+            assert_eq!(with, without, "{count}");
+            assert_eq!(quiet, count <= MOST as usize, "{count}");
+            assert!(few < many, "{few} {many}");
+            met += with.len();
+        }
+        assert!(met > 500, "{met}");
+    }
 }

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
 use super::planar_faces::PlanarFaces;
-use super::quiet::quiet_faces;
+use super::quiet::{Quiet, quiet_faces};
 use super::tree::{Found, Item, Tree};
 use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
 use crate::scan::box_tree::{Aabb, BoxTree};
@@ -107,7 +107,7 @@ impl Surfaces<'_> {
             seen_along(self.triangles[t as usize].map(|v| &self.points[v as usize]))
         };
         let quiet = quiet_faces(self, stopped);
-        let is_quiet = |t: u32| usize::try_from(self.planar.of[t as usize]).is_ok_and(|f| quiet.get(f) == Some(&true));
+        let is_quiet = |t: u32| quiet.is(self.planar.of[t as usize]);
         // Of each group a tree of what may meet something of it, and one of its quiet faces, which may meet other groups.
         let trees: Vec<[Tree; 2]> = members
             .par_iter()
@@ -143,8 +143,9 @@ impl Surfaces<'_> {
                 out
             })
             .collect();
+        let left: Part = self.of_quiet_faces(&quiet, &try_pair);
         let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
-        for part in parts {
+        for part in parts.into_iter().chain([left]) {
             all.found.extend(part.found);
             all.tests += part.tests;
         }
@@ -152,7 +153,34 @@ impl Surfaces<'_> {
             let [s, t] = c.triangles;
             (self.group[s as usize], self.group[t as usize], s, t)
         });
+        // Where two quiet faces meet, each was tried with the other.
+        all.found.dedup_by_key(|c| c.triangles);
         all
+    }
+
+    /// What meets quiet faces within their group.
+    fn of_quiet_faces(&self, quiet: &Quiet, try_pair: &(impl Fn(u32, u32, &mut Part) + Sync)) -> Part {
+        if quiet.left.is_empty() {
+            return Part::default();
+        }
+        let mut members: Vec<Vec<Item>> = Vec::new();
+        members.resize_with(quiet.left.iter().map(|&(face, _)| face as usize + 1).max().unwrap_or(0), Vec::new);
+        for (t, &face) in self.planar.of.iter().enumerate().filter(|&(_, &face)| quiet.is(face)) {
+            if let Some(items) = members.get_mut(face as usize) {
+                items.push((self.bounds(t as u32), t as u32));
+            }
+        }
+        let tried = quiet.left.par_iter().map(|(face, t)| {
+            let (mut out, around) = (Part::default(), self.bounds(*t));
+            for (_, s) in members[*face as usize].iter().filter(|(bounds, _)| bounds.overlaps(&around)) {
+                try_pair(*s, *t, &mut out);
+            }
+            out
+        });
+        tried.reduce(Part::default, |mut a, b| {
+            a.join(b);
+            a
+        })
     }
 
     /// Tests two triangles whose boxes overlap: of different groups, the lower group first, or both of one group.
