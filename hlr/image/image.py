@@ -13,6 +13,9 @@ from hlr.image.placement import Placement
 from hlr.scene.scene import Geometry, Scene
 from hlr.source.model import Curves
 
+GEOMETRY = tuple(each.name for each in fields(Geometry))
+"""What an image takes over from its scene."""
+
 
 @dataclass(frozen=True, slots=True)
 class OwnFaces:
@@ -96,5 +99,5 @@ class Image(Geometry):
 
 def image_of(scene: Scene, camera: Camera, placement: Placement) -> Image:
     """The scene before a camera, all of it, without its outlines."""
-    geometry = {f.name: getattr(scene, f.name) for f in fields(Geometry)}
+    geometry = {name: getattr(scene, name) for name in GEOMETRY}
     return Image(**geometry, camera=camera, placement=placement)

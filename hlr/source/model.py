@@ -237,6 +237,7 @@ MEMBERS = tuple(name for name in vars(Source) if not name.startswith("_"))
 def missing_of_source(thing: object) -> list[str]:
     """What an object lacks of the protocol `Source`, by name; nothing is called, and no property read."""
     places = [*map(vars, type(thing).__mro__), getattr(thing, "__dict__", ())]
-    missing = [name for name in MEMBERS if not any(name in place for place in places)]
+    there: set[str] = set().union(*places)
+    missing = [name for name in MEMBERS if name not in there]
     # A proxy forwards the attributes that it does not have itself.
     return [name for name in missing if not hasattr(type(thing), "__getattr__") or not hasattr(thing, name)]
