@@ -6,7 +6,8 @@ use std::sync::OnceLock;
 
 use hlr_exact::snap::Grid;
 use hlr_visibility::clash::planar_faces::{NO_PLANE, PlanarFaces};
-use hlr_visibility::clash::search::{Clash, Surfaces};
+use hlr_visibility::clash::search::Clash;
+use hlr_visibility::clash::surfaces::Surfaces;
 use hlr_visibility::clash::triangle_pair::{Numbered, meet};
 use hlr_visibility::clash::weld::weld;
 use rayon::{ThreadPool, ThreadPoolBuilder};

@@ -19,7 +19,8 @@ use hlr_visibility::clash::depth::{Bodies, Depth};
 use hlr_visibility::clash::planar_faces::{Edges, NO_PLANE, PlanarFaces};
 use hlr_visibility::clash::planes::planes;
 use hlr_visibility::clash::reach::Sheet;
-use hlr_visibility::clash::search::{Clash, Clashes, Surfaces};
+use hlr_visibility::clash::search::{Clash, Clashes};
+use hlr_visibility::clash::surfaces::Surfaces;
 use hlr_visibility::clash::weld::weld;
 use hlr_visibility::scan::box_tree::{Aabb, BoxTree};
 

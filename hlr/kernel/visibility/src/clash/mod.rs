@@ -24,6 +24,7 @@ pub mod planes;
 pub mod quiet;
 pub mod reach;
 pub mod search;
+pub mod surfaces;
 pub mod tree;
 pub mod triangle_pair;
 pub mod weld;

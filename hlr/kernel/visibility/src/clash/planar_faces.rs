@@ -104,7 +104,7 @@ fn set_beyond(beyond: &mut [i32; 3], triangle: &[i32; 3], edge: &[i32; 2], face:
 
 #[cfg(test)]
 mod tests {
-    use super::super::search::Surfaces;
+    use super::super::surfaces::Surfaces;
     use super::*;
 
     const FACE: i32 = 5;

@@ -12,7 +12,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use rayon::prelude::*;
 
 use super::planar_faces::{NO_PLANE, PlanarFaces};
-use super::search::Surfaces;
+use super::surfaces::Surfaces;
 use crate::scan::box_tree::{Aabb, BoxTree};
 
 /// A face of fewer triangles costs less than finding out that it is quiet.

@@ -3,12 +3,11 @@
 use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
-use super::planar_faces::PlanarFaces;
 use super::quiet::{Quiet, quiet_faces};
+use super::surfaces::Surfaces;
 use super::tree::{Found, Item, Tree};
 use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
 use crate::scan::box_tree::{Aabb, BoxTree};
-use hlr_exact::Point;
 
 /// With fewer triangles a second thread gains nothing.
 const MANY: usize = 1 << 13;
@@ -41,31 +40,7 @@ impl Found for Part {
     }
 }
 
-pub struct Surfaces<'a> {
-    pub points: &'a [Point],
-    pub triangles: &'a [[i32; 3]],
-    pub group: &'a [i32],
-    /// Per group, whether it is searched for passing through itself.
-    pub itself: &'a [bool],
-    pub planar: &'a PlanarFaces,
-}
-
 impl Surfaces<'_> {
-    fn numbered(&self, t: u32) -> Numbered<'_> {
-        let number = self.triangles[t as usize];
-        Numbered { corner: number.map(|v| &self.points[v as usize]), number }
-    }
-
-    pub(super) fn bounds(&self, t: u32) -> Aabb {
-        let [a, b, c] = self.triangles[t as usize].map(|v| self.points[v as usize]);
-        let mut out = Aabb { low: a, high: a };
-        for k in 0..3 {
-            out.low[k] = a[k].min(b[k]).min(c[k]);
-            out.high[k] = a[k].max(b[k]).max(c[k]);
-        }
-        out
-    }
-
     /// Triangles in the order of their groups, and where each group begins.
     fn by_group(&self) -> (Vec<u32>, Vec<usize>) {
         let mut first = vec![0; self.itself.len() + 1];
@@ -245,7 +220,7 @@ impl Surfaces<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::planar_faces::NO_PLANE;
+    use super::super::planar_faces::{NO_PLANE, PlanarFaces};
     use super::*;
 
     #[test]
