@@ -13,8 +13,10 @@
 
 pub const NO_PLANE: i32 = -1;
 
-/// Of a corner: the planar faces that it is a corner of. A further one is left out: then less is known, and more tested.
+/// Of a corner: the planar faces that it is a corner of. All are `CROWDED` where there are more: then less is known, and
+/// more tested, in whatever order the triangles are.
 type AtCorner = [i32; 3];
+const CROWDED: i32 = -2;
 
 #[derive(Default)]
 pub struct PlanarFaces {
@@ -47,10 +49,12 @@ impl PlanarFaces {
         for (triangle, &face) in triangles.iter().zip(&of).filter(|(_, face)| **face != NO_PLANE) {
             for &corner in triangle {
                 let faces = &mut at_corner[corner as usize];
-                if !faces.contains(&face)
-                    && let Some(free) = faces.iter_mut().find(|f| **f == NO_PLANE)
-                {
-                    *free = face;
+                if faces.contains(&face) || faces[0] == CROWDED {
+                    continue;
+                }
+                match faces.iter_mut().find(|f| **f == NO_PLANE) {
+                    Some(free) => *free = face,
+                    None => *faces = [CROWDED; 3],
                 }
             }
         }

@@ -29,9 +29,25 @@ struct Face {
     triangles: u32,
     group: i32,
     bounds: Aabb,
-    /// The triangle with the largest area, and that area, doubled and squared.
-    largest: u32,
+    largest: Largest,
+}
+
+/// The triangle of a face with the largest area, which gives its plane; of equally large ones that whose corners come
+/// last. So the order of triangles and of their corners does not matter.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+struct Largest {
+    /// Doubled and squared.
     area: f64,
+    /// In ascending order.
+    corners: [[i32; 3]; 3],
+}
+
+impl Largest {
+    fn new(surfaces: &Surfaces, t: usize) -> Largest {
+        let mut corners = surfaces.triangles[t].map(|v| surfaces.points[v as usize]);
+        corners.sort_unstable();
+        Largest { area: normal(&corners).iter().map(|c| c * c).sum(), corners }
+    }
 }
 
 struct Plane {
@@ -66,7 +82,7 @@ impl Quiet {
 /// Sets faces of many triangles apart that hardly anything of their own group meets but in their own corners and border.
 pub fn quiet_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> Quiet {
     let faces = large_faces(surfaces);
-    let planes: Vec<Option<Plane>> = faces.iter().map(|face| plane(surfaces, face.as_ref()?)).collect();
+    let planes: Vec<Option<Plane>> = faces.iter().map(|face| plane(face.as_ref()?)).collect();
     let with_plane = faces.iter().zip(&planes).enumerate().filter(|(_, (_, plane))| plane.is_some());
     let boxes: Vec<_> = with_plane.filter_map(|(f, (face, _))| Some((face.as_ref()?.bounds, f as u32))).collect();
     if boxes.is_empty() {
@@ -125,14 +141,14 @@ fn large_faces(surfaces: &Surfaces) -> Vec<Option<Face>> {
     let mut mixed = vec![false; count];
     for (t, &f) in of.iter().enumerate().filter(|(_, f)| **f != NO_PLANE) {
         let (group, bounds) = (surfaces.group[t], surfaces.bounds(t as u32));
-        let area = area(surfaces, t);
-        let new = Face { triangles: 0, group, bounds, largest: t as u32, area };
+        let largest = Largest::new(surfaces, t);
+        let new = Face { triangles: 0, group, bounds, largest };
         let face = faces[f as usize].get_or_insert(new);
         face.triangles += 1;
         face.bounds = face.bounds.union(&bounds);
         mixed[f as usize] |= face.group != group;
-        if area > face.area {
-            (face.largest, face.area) = (t as u32, area);
+        if largest > face.largest {
+            face.largest = largest;
         }
     }
     for (face, mixed) in faces.iter_mut().zip(mixed) {
@@ -143,22 +159,18 @@ fn large_faces(surfaces: &Surfaces) -> Vec<Option<Face>> {
     faces
 }
 
-fn normal(surfaces: &Surfaces, t: usize) -> ([f64; 3], [f64; 3]) {
-    let [p, q, r] = surfaces.triangles[t].map(|v| surfaces.points[v as usize].map(f64::from));
+fn normal(corners: &[[i32; 3]; 3]) -> [f64; 3] {
+    let [p, q, r] = corners.map(|c| c.map(f64::from));
     let way = |to: [f64; 3]| [to[0] - p[0], to[1] - p[1], to[2] - p[2]];
     let (u, v) = (way(q), way(r));
-    (p, [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
-}
-
-fn area(surfaces: &Surfaces, t: usize) -> f64 {
-    normal(surfaces, t).1.iter().map(|c| c * c).sum()
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
 /// The plane of a face's largest triangle. None where it has no area.
-fn plane(surfaces: &Surfaces, face: &Face) -> Option<Plane> {
-    let (origin, normal) = normal(surfaces, face.largest as usize);
-    let length = face.area.sqrt();
-    (length > 0.0).then(|| Plane { origin, unit: normal.map(|c| c / length) })
+fn plane(face: &Face) -> Option<Plane> {
+    let Largest { area, corners } = face.largest;
+    let length = area.sqrt();
+    (length > 0.0).then(|| Plane { origin: corners[0].map(f64::from), unit: normal(&corners).map(|c| c / length) })
 }
 
 #[cfg(test)]
