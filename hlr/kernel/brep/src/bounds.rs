@@ -36,20 +36,18 @@ fn around(model: &Model, part: &PartTopology) -> Box3 {
     let mut known = EMPTY;
     let edges = part.edges.iter().map(|placed| (&model.edges[placed.edge as usize], placed.place.unwrap_or(IDENTITY)));
     let faces = part.faces.iter().map(|placed| (&model.faces[placed.face as usize], placed.place.unwrap_or(IDENTITY)));
-    let (mut edges_left, mut faces_left) = (Vec::new(), Vec::new());
-    for (edge, place) in edges {
+    let is_known = |edge: &Edge| matches!(edge.curve, Some(Curve::Line { .. } | Curve::Ellipse { .. }));
+    for (edge, place) in edges.clone() {
         add_ends(edge, &place, &mut known);
-        match &edge.curve {
-            Some(Curve::Line { .. } | Curve::Ellipse { .. }) => add_edge(model, edge, &place, &mut known),
-            _ => edges_left.push((edge, place)),
+        if is_known(edge) {
+            add_edge(model, edge, &place, &mut known);
         }
     }
-    for (face, place) in faces {
+    for (face, place) in faces.clone() {
         face.own.iter().flat_map(|own| &own.points).for_each(|point| add_point(&moved(&place, point), &mut known));
-        faces_left.push((face, place));
     }
-    edges_left.retain(|(edge, place)| !hull_within(edge, place, &known));
-    faces_left.retain(|(face, place)| face.surface.as_ref().is_some_and(|on| may_reach_beyond(on, place, &known)));
+    let edges_left: Vec<_> = edges.filter(|(edge, at)| !is_known(edge) && !hull_within(edge, at, &known)).collect();
+    let faces_left: Vec<_> = faces.filter(|(face, at)| may_reach_beyond(face, at, &known)).collect();
     let with_edges = edges_left.par_iter().with_min_len(FEW).map(|(edge, place)| {
         let mut found = known;
         add_edge(model, edge, place, &mut found);
@@ -74,17 +72,19 @@ fn is_within(point: &Vector, found: &Box3) -> bool {
     (0..3).all(|k| found[0][k] <= point[k] && point[k] <= found[1][k])
 }
 
-/// Whether all poles of an edge's spline lie within a box: the curve then does, too.
+/// Whether an edge is a spline, not continued beyond its ends, whose poles all lie within a box: then it does, too.
 fn hull_within(edge: &Edge, place: &Matrix, found: &Box3) -> bool {
     let Some(Curve::Spline(n)) = &edge.curve else { return false };
+    let (first, last) = n.domain();
+    if edge.range[0] < first || edge.range[1] > last {
+        return false;
+    }
     n.poles.iter().all(|[x, y, z, w]| is_within(&moved(place, &[x / w, y / w, z / w]), found))
 }
 
-/// Whether a surface may reach farther than its edges, and beyond a box. The whole surface is looked at, not the face.
-fn may_reach_beyond(surface: &Surface, place: &Matrix, found: &Box3) -> bool {
-    if reaches_on_edges(surface) {
-        return false;
-    }
+/// Whether a face may reach farther than its edges, and beyond a box. All of its surface is looked at.
+fn may_reach_beyond(face: &Face, place: &Matrix, found: &Box3) -> bool {
+    let Some(surface) = face.surface.as_ref().filter(|surface| !reaches_on_edges(surface)) else { return false };
     match surface {
         Surface::Sphere(..) | Surface::Torus(..) | Surface::Spline(_) => {
             let mut whole = EMPTY;
@@ -132,10 +132,13 @@ fn steps([first, last]: Range, count: usize) -> impl Iterator<Item = f64> {
     (0..=count).map(move |k| if k == count { last } else { first + (last - first) * (k as f64 / count as f64) })
 }
 
-/// Adds a curve, or the poles of a spline, which enclose it.
+/// Adds a curve, or the poles of a spline, which enclose it. Its ends may lie beyond them, where it is continued.
 fn add_poles(curve: &Curve, range: Range, found: &mut Box3) {
     match curve {
-        Curve::Spline(n) => n.poles.iter().for_each(|[x, y, z, w]| add_point(&[x / w, y / w, z / w], found)),
+        Curve::Spline(n) => {
+            range.iter().for_each(|t| add_point(&curve.point(*t), found));
+            n.poles.iter().for_each(|[x, y, z, w]| add_point(&[x / w, y / w, z / w], found));
+        }
         _ => add_curve(curve, range, found),
     }
 }

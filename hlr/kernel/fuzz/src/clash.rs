@@ -65,7 +65,7 @@ impl Case {
     }
 
     fn found(&self, pool: &ThreadPool, group: &[i32], itself: &[bool]) -> Vec<Clash> {
-        let planar = PlanarFaces::alone(vec![NO_PLANE; self.triangles.len()]);
+        let planar = PlanarFaces::without_neighbours(vec![NO_PLANE; self.triangles.len()]);
         let surfaces = Surfaces { points: &self.points, triangles: &self.triangles, group, itself, planar: &planar };
         pool.install(|| surfaces.clashes(&|| false)).found
     }

@@ -66,7 +66,7 @@ pub fn clashes<'py>(
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
     expect_below("triangle_group", group.iter().copied(), itself.len())?;
     let (grid, found, points, edges) = told(run(py, 0, triangles.len(), |stopped| {
-        let planar = PlanarFaces::alone(vec![NO_PLANE; triangles.len()]);
+        let planar = PlanarFaces::without_neighbours(vec![NO_PLANE; triangles.len()]);
         let (grid, found) = search(points, (triangles, group, &planar), itself, stopped)?;
         let (points, edges) = weld(&found.found);
         let points: Vec<[f64; 3]> = points.iter().map(|p| grid.unsnap(p)).collect();

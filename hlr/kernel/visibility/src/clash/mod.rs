@@ -1,10 +1,11 @@
 //! Where surfaces pass through one another: the intersection lines of clashing solids, and whether a solid passes
 //! through itself.
 //!
+//! 0. `surfaces`      the triangles in their groups, on the grid
 //! 1. `search`        which triangles may meet: overlapping boxes of groups, then of triangles, found with a `tree`
 //!    `height_field`  pieces of a surface in which no two triangles meet, recognised by their borders
 //!    `planar_faces`  triangles of one planar face, and those that stand on it, do not pass through it
-//!    `quiet`         planar faces that nothing of their body passes through: left out there
+//!    `uncrossed`     planar faces that hardly anything of their body crosses: left out of the search
 //! 2. `triangle_pair` the segment that two triangles have in common, decided by exact integers
 //! 3. `weld`          ends that fall on one grid point become one point
 //! 4. `depth`         how deep the surfaces go through each other: touching ones cross as well, by tessellation errors
@@ -21,10 +22,10 @@ pub mod depth;
 pub mod height_field;
 pub mod planar_faces;
 pub mod planes;
-pub mod quiet;
 pub mod reach;
 pub mod search;
 pub mod surfaces;
 pub mod tree;
 pub mod triangle_pair;
+pub mod uncrossed;
 pub mod weld;

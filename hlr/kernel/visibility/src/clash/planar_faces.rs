@@ -36,14 +36,14 @@ pub struct Edges<'a> {
 
 impl PlanarFaces {
     /// Of triangles whose neighbours are not known.
-    pub fn alone(of: Vec<i32>) -> PlanarFaces {
+    pub fn without_neighbours(of: Vec<i32>) -> PlanarFaces {
         PlanarFaces { of, ..PlanarFaces::default() }
     }
 
     /// of: per triangle its planar face, or NO_PLANE. corners: the number of corners of all triangles.
     pub fn new(of: Vec<i32>, triangles: &[[i32; 3]], corners: usize, by: &Edges) -> PlanarFaces {
         if of.iter().all(|&face| face == NO_PLANE) {
-            return PlanarFaces::alone(of);
+            return PlanarFaces::without_neighbours(of);
         }
         let mut at_corner = vec![[NO_PLANE; 3]; corners];
         for (triangle, &face) in triangles.iter().zip(&of).filter(|(_, face)| **face != NO_PLANE) {
@@ -72,7 +72,7 @@ impl PlanarFaces {
 
     /// Whether both triangles are of one planar face.
     #[inline]
-    pub fn one(&self, s: u32, t: u32) -> bool {
+    pub fn of_one_face(&self, s: u32, t: u32) -> bool {
         let face = self.of[s as usize];
         face != NO_PLANE && face == self.of[t as usize]
     }
@@ -147,7 +147,7 @@ mod tests {
         }
         let (triangles, planar) = square_and([2, 4, 5], NO_PLANE);
         assert_eq!(planar.feet_on(planar.of[2], 0, &triangles[0]), 0);
-        assert!(planar.one(0, 1) && !planar.one(1, 2) && !planar.one(2, 2));
+        assert!(planar.of_one_face(0, 1) && !planar.of_one_face(1, 2) && !planar.of_one_face(2, 2));
     }
 
     #[test]

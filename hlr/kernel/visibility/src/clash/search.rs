@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
-use super::quiet::{Quiet, quiet_faces};
 use super::surfaces::Surfaces;
 use super::tree::{Found, Item, Tree};
 use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
+use super::uncrossed::{UncrossedFaces, uncrossed_faces};
 use crate::scan::box_tree::{Aabb, BoxTree};
 
 /// With fewer triangles a second thread gains nothing.
@@ -81,18 +81,23 @@ impl Surfaces<'_> {
             }
             seen_along(self.triangles[t as usize].map(|v| &self.points[v as usize]))
         };
-        let quiet = quiet_faces(self, stopped);
-        let is_quiet = |t: u32| quiet.is(self.planar.of[t as usize]);
-        // Of each group a tree of what may meet something of it, and one of its quiet faces, which may meet other groups.
+        let uncrossed = uncrossed_faces(self, stopped);
+        let tree = |of: &[u32]| {
+            let items = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t));
+            Tree::new(items.collect(), &seen)
+        };
+        // Of each group a tree of what may cross something of it, and one of its uncrossed faces, which may cross others.
         let trees: Vec<[Tree; 2]> = members
             .par_iter()
             .zip(&wanted)
             .map(|(of, &wanted)| {
                 let of = if wanted { *of } else { &[] };
-                [false, true].map(|quiet| {
-                    let chosen = of.par_iter().with_min_len(MANY).filter(|&&t| is_quiet(t) == quiet);
-                    Tree::new(chosen.map(|&t| (self.bounds(t), t)).collect(), &seen)
-                })
+                if uncrossed.is_empty() {
+                    return [tree(of), tree(&[])];
+                }
+                let (left_out, tried): (Vec<u32>, Vec<u32>) =
+                    of.iter().partition(|&&t| uncrossed.contains(self.planar.of[t as usize]));
+                [tree(&tried), tree(&left_out)]
             })
             .collect();
         let try_pair = |s: u32, t: u32, out: &mut Part| {
@@ -118,9 +123,9 @@ impl Surfaces<'_> {
                 out
             })
             .collect();
-        let left: Part = self.of_quiet_faces(&quiet, &try_pair);
+        let exceptions = self.of_exceptions(&uncrossed, &try_pair);
         let mut all = Clashes { searched: pairs.len(), ..Clashes::default() };
-        for part in parts.into_iter().chain([left]) {
+        for part in parts.into_iter().chain([exceptions]) {
             all.found.extend(part.found);
             all.tests += part.tests;
         }
@@ -128,24 +133,22 @@ impl Surfaces<'_> {
             let [s, t] = c.triangles;
             (self.group[s as usize], self.group[t as usize], s, t)
         });
-        // Where two quiet faces meet, each was tried with the other.
+        // Two uncrossed faces may be an exception of one another.
         all.found.dedup_by_key(|c| c.triangles);
         all
     }
 
-    /// What meets quiet faces within their group.
-    fn of_quiet_faces(&self, quiet: &Quiet, try_pair: &(impl Fn(u32, u32, &mut Part) + Sync)) -> Part {
-        if quiet.left.is_empty() {
-            return Part::default();
-        }
-        let mut members: Vec<Vec<Item>> = Vec::new();
-        members.resize_with(quiet.left.iter().map(|&(face, _)| face as usize + 1).max().unwrap_or(0), Vec::new);
-        for (t, &face) in self.planar.of.iter().enumerate().filter(|&(_, &face)| quiet.is(face)) {
+    /// What crosses uncrossed faces within their group after all.
+    fn of_exceptions(&self, uncrossed: &UncrossedFaces, try_pair: &(impl Fn(u32, u32, &mut Part) + Sync)) -> Part {
+        let exceptions = &uncrossed.exceptions;
+        let Some(&(last, _)) = exceptions.last() else { return Part::default() };
+        let mut members: Vec<Vec<Item>> = vec![Vec::new(); last as usize + 1];
+        for (t, &face) in self.planar.of.iter().enumerate().filter(|&(_, &face)| uncrossed.contains(face)) {
             if let Some(items) = members.get_mut(face as usize) {
                 items.push((self.bounds(t as u32), t as u32));
             }
         }
-        let tried = quiet.left.par_iter().map(|(face, t)| {
+        let tried = exceptions.par_iter().map(|(face, t)| {
             let (mut out, around) = (Part::default(), self.bounds(*t));
             for (_, s) in members[*face as usize].iter().filter(|(bounds, _)| bounds.overlaps(&around)) {
                 try_pair(*s, *t, &mut out);
@@ -161,7 +164,7 @@ impl Surfaces<'_> {
     /// Tests two triangles whose boxes overlap: of different groups, the lower group first, or both of one group.
     fn try_pair(&self, s: u32, t: u32, out: &mut Part) {
         let same = self.group[s as usize] == self.group[t as usize];
-        if same && self.planar.one(s, t) {
+        if same && self.planar.of_one_face(s, t) {
             return;
         }
         let (s, t) = if same { (s.min(t), s.max(t)) } else { (s, t) };
@@ -229,7 +232,7 @@ mod tests {
         let triangles = [[0, 1, 2], [3, 4, 5]];
         let tests = |group: &[i32], plane: &[i32]| {
             let itself = [true; 2];
-            let planar = PlanarFaces::alone(plane.to_vec());
+            let planar = PlanarFaces::without_neighbours(plane.to_vec());
             let found = Surfaces { points: &points, triangles: &triangles, group, itself: &itself, planar: &planar };
             let found = found.clashes(&|| false);
             (found.tests, found.found.len())

@@ -1,4 +1,4 @@
-//! Planar faces that hardly anything of their own body passes through: their triangles need not be tried one by one.
+//! Planar faces that hardly anything of their own body crosses: their triangles need not be tried one by one.
 //!
 //! ```text
 //!       |   |     |   |       The walls of a plate's holes end on its top. Each lies below it, but for the corners that
@@ -15,7 +15,7 @@ use super::planar_faces::{NO_PLANE, PlanarFaces};
 use super::surfaces::Surfaces;
 use crate::scan::box_tree::{Aabb, BoxTree};
 
-/// A face of fewer triangles costs less than finding out that it is quiet.
+/// To try the triangles of a smaller face costs less than to find out that nothing crosses it.
 const FEW: u32 = 48;
 /// A face that more triangles may meet is left to the search: it finds those that are near one another.
 const MOST: u32 = 128;
@@ -62,35 +62,39 @@ impl Plane {
     }
 }
 
-/// Faces that are set apart from the search within their group.
+/// The faces that are left out of the search within their group.
 #[derive(Default)]
-pub struct Quiet {
-    /// Per planar face, by number, whether it is set apart.
+pub struct UncrossedFaces {
+    /// Per planar face, by number.
     faces: Vec<bool>,
-    /// A face and a triangle of the same group which may meet it: what is left to be tried of the faces set apart.
-    pub left: Vec<(i32, u32)>,
+    /// A face and a triangle of the same group that may cross it after all: the pairs that are still to be tried.
+    pub exceptions: Vec<(i32, u32)>,
 }
 
-impl Quiet {
-    /// Whether the planar face of a triangle is set apart. face: its number, or NO_PLANE.
+impl UncrossedFaces {
+    pub fn is_empty(&self) -> bool {
+        self.faces.is_empty()
+    }
+
+    /// face: a number, or NO_PLANE.
     #[inline]
-    pub fn is(&self, face: i32) -> bool {
+    pub fn contains(&self, face: i32) -> bool {
         usize::try_from(face).is_ok_and(|f| self.faces.get(f) == Some(&true))
     }
 }
 
-/// Sets faces of many triangles apart that hardly anything of their own group meets but in their own corners and border.
-pub fn quiet_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> Quiet {
+/// Faces of many triangles that hardly anything of their own group meets but in their own corners and border.
+pub fn uncrossed_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> UncrossedFaces {
     let faces = large_faces(surfaces);
     let planes: Vec<Option<Plane>> = faces.iter().map(|face| plane(face.as_ref()?)).collect();
     let with_plane = faces.iter().zip(&planes).enumerate().filter(|(_, (_, plane))| plane.is_some());
     let boxes: Vec<_> = with_plane.filter_map(|(f, (face, _))| Some((face.as_ref()?.bounds, f as u32))).collect();
     if boxes.is_empty() {
-        return Quiet::default();
+        return UncrossedFaces::default();
     }
     let tree = BoxTree::new(boxes);
     let met: Vec<AtomicU32> = faces.iter().map(|_| AtomicU32::new(0)).collect();
-    let may_meet = |t: u32, out: &mut Vec<(i32, u32)>| {
+    let add_exceptions = |t: u32, out: &mut Vec<(i32, u32)>| {
         let (group, corners) = (surfaces.group[t as usize], &surfaces.triangles[t as usize]);
         if !surfaces.itself[group as usize] || stopped() {
             return;
@@ -117,9 +121,9 @@ pub fn quiet_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> 
         });
     };
     let parts = (0..surfaces.triangles.len() as u32).into_par_iter().with_min_len(ALONE);
-    let mut left: Vec<(i32, u32)> = parts
+    let mut exceptions: Vec<(i32, u32)> = parts
         .fold(Vec::new, |mut out, t| {
-            may_meet(t, &mut out);
+            add_exceptions(t, &mut out);
             out
         })
         .reduce(Vec::new, |mut a, b| {
@@ -128,9 +132,12 @@ pub fn quiet_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync)) -> 
         });
     let few = |f: usize| planes[f].is_some() && met[f].load(Relaxed) <= MOST;
     let faces: Vec<bool> = (0..faces.len()).map(few).collect();
-    left.retain(|&(f, _)| faces[f as usize]);
-    left.sort_unstable();
-    Quiet { faces, left }
+    exceptions.retain(|&(f, _)| faces[f as usize]);
+    exceptions.sort_unstable();
+    if !faces.contains(&true) {
+        return UncrossedFaces::default();
+    }
+    UncrossedFaces { faces, exceptions }
 }
 
 /// By number: planar faces of many triangles, all of one group that is searched for passing through itself.
@@ -212,8 +219,8 @@ mod tests {
         let group = vec![0; triangles.len()];
         let surfaces = Surfaces { points, triangles, group: &group, itself: &[true], planar };
         let found = surfaces.clashes(&|| false);
-        let quiet = quiet_faces(&surfaces, &|| false).is(0);
-        (found.found.iter().map(|c| c.triangles).collect(), found.tests, quiet)
+        let uncrossed = uncrossed_faces(&surfaces, &|| false).contains(0);
+        (found.found.iter().map(|c| c.triangles).collect(), found.tests, uncrossed)
     }
 
     #[test]
@@ -231,11 +238,12 @@ mod tests {
             let topology = topology(&triangles, points.len());
             let by = Edges { edges: &topology.edges, offsets: &topology.offsets, incident: &topology.incident };
             let known = PlanarFaces::new(face.clone(), &triangles, points.len(), &by);
-            let (with, few, quiet) = found(&points, &triangles, &known);
+            let (with, few, uncrossed) = found(&points, &triangles, &known);
             // Without a planar face every pair is tried.
-            let (without, many, _) = found(&points, &triangles, &PlanarFaces::alone(vec![NO_PLANE; triangles.len()]));
+            let (without, many, _) =
+                found(&points, &triangles, &PlanarFaces::without_neighbours(vec![NO_PLANE; triangles.len()]));
             assert_eq!(with, without, "{count}");
-            assert_eq!(quiet, count <= MOST as usize, "{count}");
+            assert_eq!(uncrossed, count <= MOST as usize, "{count}");
             assert!(few < many, "{few} {many}");
             met += with.len();
         }
