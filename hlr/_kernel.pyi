@@ -633,6 +633,15 @@ class BrepModel:
     """
 
     def __new__(cls, dump: bytes, chosen: Sequence[int] | None = None, threads: int = 0) -> BrepModel: ...
+    @staticmethod
+    def divided(stream: bytes, threads: int = 0) -> tuple[BrepModel, list[list[tuple[int, bool, list[float] | None]]]]:
+        """The model of the distinct pieces of shapes in memory: of their solids, and of what lies outside solids.
+
+        stream: OpenCASCADE's stream of a compound of the shapes. For each shape its pieces: number in the model,
+        whether a solid, and where it stands in the shape, twelve numbers row by row, or None. Raises ValueError where
+        the stream is damaged, or holds triangles.
+        """
+
     @property
     def n_faces(self) -> int: ...
     @property

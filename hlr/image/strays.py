@@ -63,7 +63,8 @@ def strays(low: Floats, high: Floats) -> list[int]:
 
 def _flat(boxes: Sequence[Floats], camera: Camera) -> tuple[Floats, Floats]:
     """Corners (n, 2) on the image plane of boxes around points in model coordinates."""
-    ends = np.array([(box.min(axis=0), box.max(axis=0)) for box in boxes])
+    points, first = np.concatenate(boxes), np.cumsum([0, *map(len, boxes[:-1])])
+    ends = np.stack([np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)], axis=1)
     corners = np.stack([ends[:, [i, j, k], [0, 1, 2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)], axis=1)
     flat = camera.project(corners.reshape(-1, 3))[:, :2].reshape(len(boxes), 8, 2)
     return flat.min(axis=1), flat.max(axis=1)

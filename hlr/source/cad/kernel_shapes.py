@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from hlr import _kernel
 from hlr.source.cad.occt_import import load_occt
+from hlr.source.cad.part_shapes import Division, divided_one_by_one
 from hlr.source.cad.prototypes import Prototypes
 from hlr.source.transforms import IDENTITY, MatrixRows
 
@@ -104,9 +105,13 @@ class KernelShapes:
         """As of `PartShapes`."""
         return [(shape.file, face) for face in shape.file.faces(shape.piece)]
 
-    def prototypes(self, shapes: Sequence[KernelShape]) -> Prototypes:
+    def divided(self, shapes: Sequence[KernelShape]) -> Division:
         """As of `PartShapes`."""
-        files = list(dict.fromkeys(shape.file for shape in shapes))
-        number = {file: i for i, file in enumerate(files)}
-        roots: list[tuple[int, Any]] = [(number[shape.file], shape.piece) for shape in shapes]
-        return Prototypes(_kernel.dump_of_pieces(files, roots))
+        return divided_one_by_one(self, shapes, _prototypes)
+
+
+def _prototypes(shapes: Sequence[KernelShape]) -> Prototypes:
+    files = list(dict.fromkeys(shape.file for shape in shapes))
+    number = {file: i for i, file in enumerate(files)}
+    roots: list[tuple[int, Any]] = [(number[shape.file], shape.piece) for shape in shapes]
+    return Prototypes(_kernel.dump_of_pieces(files, roots))

@@ -2,11 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass
 from typing import Any, Protocol
 
-from hlr.source.cad.prototypes import LivePrototypes, Prototypes
-from hlr.source.transforms import MatrixRows
+from hlr.source.cad.prototypes import DividedPrototypes, LivePrototypes, Prototypes, divided_by_kernel
+from hlr.source.transforms import IDENTITY, MatrixRows
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A solid of a shape, or all that lies outside its solids.
+
+    prototype  its index among the prototypes
+    place      where it stands in the shape
+    shape      without placement; None where the kernel alone has it
+    """
+
+    prototype: int
+    place: MatrixRows
+    solid: bool
+    shape: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Division:
+    """The pieces of each of several shapes, and the distinct shapes of the pieces."""
+
+    pieces: list[list[Piece]]
+    prototypes: Prototypes
 
 
 class PartShapes(Protocol):
@@ -33,8 +57,26 @@ class PartShapes(Protocol):
     def faces(self, shape: Any) -> list[Hashable]:
         """Its underlying faces, in the order of an explorer."""
 
-    def prototypes(self, shapes: Sequence[Any]) -> Prototypes:
-        """Unplaced shapes as prototypes."""
+    def divided(self, shapes: Sequence[Any]) -> Division:
+        """The pieces of unplaced shapes; equal ones share a prototype."""
+
+
+def divided_one_by_one(
+    kind: PartShapes, shapes: Sequence[Any], prototypes: Callable[[list[Any]], Prototypes]
+) -> Division:
+    """The pieces of unplaced shapes, each asked for its own. prototypes: makes them of the distinct pieces."""
+    numbers: dict[Hashable, int] = {}
+    distinct: list[Any] = []
+
+    def of(shape: Any, solid: bool) -> Piece:
+        key = kind.underlying(shape), kind.orientation(shape)
+        number = numbers.setdefault(key, len(distinct))
+        if number == len(distinct):
+            distinct.append(kind.unplaced(shape))
+        return Piece(number, kind.place(shape), solid, distinct[number])
+
+    pieces = [[of(*piece) for piece in kind.pieces(shape)] for shape in shapes]
+    return Division(pieces, prototypes(distinct))
 
 
 class OcctShapes:
@@ -93,6 +135,26 @@ class OcctShapes:
 
         return [face.TShape() for face in sub_shapes(shape, Kind.TopAbs_FACE)]
 
-    def prototypes(self, shapes: Sequence[Any]) -> LivePrototypes:
+    def divided(self, shapes: Sequence[Any]) -> Division:
         """As of `PartShapes`."""
-        return LivePrototypes(shapes)
+        return divided_one_by_one(self, shapes, LivePrototypes)
+
+
+class LiveShapes(OcctShapes):
+    """Shapes of a caller, without colours of their own: the kernel divides them, in one call.
+
+    A walk through OpenCASCADE's bindings takes longer than some steps of a drawing.
+    """
+
+    def divided(self, shapes: Sequence[Any]) -> Division:
+        """As of `PartShapes`."""
+        found = divided_by_kernel(shapes)
+        if found is None:
+            return super().divided(shapes)
+        model, pieces = found
+        of = [
+            [Piece(part, IDENTITY if place is None else tuple(place), solid, None) for part, solid, place in each]
+            for each in pieces
+        ]
+
+        return Division(of, DividedPrototypes(model, lambda: OcctShapes.divided(self, shapes).prototypes.shapes))

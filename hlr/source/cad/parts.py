@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from hlr.common.types import Color, Floats, Rgba
 from hlr.drawing.notes import Note
-from hlr.source.cad.part_shapes import PartShapes
+from hlr.source.cad.part_shapes import PartShapes, Piece
 from hlr.source.model import DEFAULT_COLOR, Appearance, rgba
-from hlr.source.transforms import MatrixRows, compose, matrix4
+from hlr.source.transforms import compose, matrix4
 
 
 @dataclass(slots=True)
@@ -52,48 +52,39 @@ class Part:
     appearance: Callable[[], Appearance]
 
 
-@dataclass(slots=True)
-class _Piece:
-    """A part of a leaf, in the leaf's own coordinates."""
-
-    prototype: int
-    place: MatrixRows
-    solid: bool
-    color: Color | None
-
-
 class PartCollector:
     """Splits leaves into `parts`, instances of distinct `prototypes`. `notes` names leaves that were left out.
 
-    shapes: knows the shapes of the leaves, which are all of one kind.
+    A leaf without a shape becomes a note, for its geometry is missing. A leaf without faces and edges does not: such
+    products carry annotation only, often under the name of the part that they annotate.
     """
 
-    def __init__(self, shapes: PartShapes) -> None:
+    def __init__(self, shapes: PartShapes, leaves: Sequence[Leaf]) -> None:
+        """Args: shapes: knows the shapes of the leaves, which are all of one kind."""
         self._shapes = shapes
         self.parts: list[Part] = []
-        self.prototypes: list[Any] = []
         self.notes: list[Note] = []
-        self._numbers: dict[Any, int] = {}
-        self._pieces: dict[Any, list[_Piece]] = {}
+        self._colors: dict[tuple[int, int], Color | None] = {}
         self._names: set[str] = set()
         self._counts: dict[str, int] = {}
+        distinct: dict[tuple[Hashable, Hashable], Any] = {}
+        instances: list[tuple[tuple[Hashable, Hashable], Leaf]] = []
+        for leaf in leaves:
+            if shapes.is_null(leaf.shape):
+                self.notes.append(Note("part-left-out", f'Part "{leaf.name}" is empty and was left out.'))
+                continue
+            key = shapes.underlying(leaf.shape), shapes.orientation(leaf.shape)
+            instances.append((key, leaf))
+            if key not in distinct:
+                distinct[key] = shapes.unplaced(leaf.shape)
+        division = shapes.divided(list(distinct.values()))
+        self.prototypes = division.prototypes
+        pieces = dict(zip(distinct, division.pieces, strict=True))
+        for key, leaf in instances:
+            self._add(leaf, pieces[key])
 
-    def add(self, leaf: Leaf) -> None:
-        """Split a leaf into parts.
-
-        A leaf without a shape becomes a note, for its geometry is missing. A leaf without faces and edges does not:
-        such products carry annotation only, often under the name of the part that they annotate.
-        """
-        if self._shapes.is_null(leaf.shape):
-            self.notes.append(Note("part-left-out", f'Part "{leaf.name}" is empty and was left out.'))
-            return
-        key = (*self._key(leaf.shape), id(leaf.colors) if leaf.colors else 0)
-        pieces = self._pieces.get(key)
-        if pieces is None:
-            pieces = self._pieces[key] = [
-                self._piece(shape, leaf, solid)
-                for shape, solid in self._shapes.pieces(self._shapes.unplaced(leaf.shape))
-            ]
+    def _add(self, leaf: Leaf, pieces: Sequence[Piece]) -> None:
+        """Make parts of the pieces of a leaf."""
         place = self._shapes.place(leaf.shape)
         several = sum(piece.solid for piece in pieces) > 1
         for piece in pieces:
@@ -102,16 +93,13 @@ class PartCollector:
                 Part(
                     name=self._unique(leaf.name + suffix, several and piece.solid),
                     product=leaf.name,
-                    color=piece.color or leaf.color,
+                    color=(self._main_color(leaf, piece) if leaf.colors else None) or leaf.color,
                     prototype=piece.prototype,
                     transform=matrix4(compose(place, piece.place)),
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
-                    appearance=partial(_appearance, leaf, self.prototypes[piece.prototype], self._shapes),
+                    appearance=partial(_appearance, leaf, piece.shape, self._shapes),
                 )
             )
-
-    def _key(self, shape: Any) -> tuple[Hashable, Hashable]:
-        return self._shapes.underlying(shape), self._shapes.orientation(shape)
 
     def _unique(self, name: str, numbered: bool) -> str:
         while True:
@@ -121,14 +109,11 @@ class PartCollector:
                 self._names.add(unique)
                 return unique
 
-    def _piece(self, shape: Any, leaf: Leaf, solid: bool) -> _Piece:
-        key = self._key(shape)
-        number = self._numbers.get(key)
-        if number is None:
-            number = self._numbers[key] = len(self.prototypes)
-            self.prototypes.append(self._shapes.unplaced(shape))
-        color = _main_color(shape, leaf, self._shapes) if leaf.colors else None
-        return _Piece(number, self._shapes.place(shape), solid, color)
+    def _main_color(self, leaf: Leaf, piece: Piece) -> Color | None:
+        key = piece.prototype, id(leaf.colors)
+        if key not in self._colors:
+            self._colors[key] = _main_color(piece.shape, leaf, self._shapes)
+        return self._colors[key]
 
 
 def _main_color(shape: Any, leaf: Leaf, shapes: PartShapes) -> Color | None:
@@ -144,10 +129,10 @@ def _main_color(shape: Any, leaf: Leaf, shapes: PartShapes) -> Color | None:
 
 
 def _appearance(leaf: Leaf, prototype: Any, shapes: PartShapes) -> Appearance:
-    """Colours of a part of a leaf. prototype: its shape without placement."""
-    whole_color = _own_color(leaf, shapes.underlying(prototype))
-    faces = {}
+    """Colours of a part of a leaf. prototype: its shape without placement; not asked where the leaf has no `colors`."""
+    whole_color, faces = None, {}
     if leaf.colors:
+        whole_color = _own_color(leaf, shapes.underlying(prototype))
         for i, face in enumerate(shapes.faces(prototype)):
             color = _own_color(leaf, face)
             if color is not None and color != whole_color:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -80,7 +79,7 @@ class Prototypes:
 
 
 class LivePrototypes(Prototypes):
-    """Prototypes as shapes in memory, which are not changed: the dump is made on first use."""
+    """Prototypes as shapes in memory, which are not changed: the dump is made where it is asked for, and not kept."""
 
     def __init__(self, shapes: Sequence[Any]) -> None:
         self._shapes = list(shapes)
@@ -99,38 +98,60 @@ class LivePrototypes(Prototypes):
         """(r,) TopoDS_Shape of each: the caller's own."""
         return self._shapes
 
-    @cached_property
-    def model(self) -> _kernel.BrepModel:
-        """The kernel's model of all prototypes, from a stream, else from the dump.
-
-        The dump is released, and written again where it is needed again.
-        """
-        stream = None if "dump" in self.__dict__ else shape_stream(self._shapes)
-        if stream is not None:
-            # The kernel reads no triangles of a stream: the dump has those that are all there is of a face.
-            with suppress(ValueError):
-                return _kernel.BrepModel(stream)
-        made = _kernel.BrepModel(self.dump)
-        self.__dict__.pop("dump")
-        return made
-
-    @cached_property
+    @property
     def dump(self) -> bytes:  # type: ignore[override]
         """OpenCASCADE's binary dump, without triangles except where they are all there is."""
-        return binary_dump(self._shapes)
+        return binary_dump(self.shapes)
 
     def without_shapes(self) -> Prototypes:
         """The same as a dump alone, so that the shapes can be released."""
-        whole = Prototypes(self.dump)
-        # The dump is released with these.
-        self.__dict__.pop("dump")
-        return whole
+        return Prototypes(self.dump)
+
+
+class DividedPrototypes(LivePrototypes):
+    """Prototypes that the kernel has made of shapes in memory.
+
+    model: of all prototypes; shapes: finds them with OpenCASCADE, in the same order, where they are asked for.
+    """
+
+    def __init__(self, model: _kernel.BrepModel, shapes: Callable[[], list[Any]]) -> None:
+        self.model = model
+        self._find = shapes
+
+    @cached_property
+    def has_faces(self) -> list[bool]:
+        """(r,) whether each has faces."""
+        found: list[bool] = (self.counts[:, 0] > 0).tolist()
+        return found
+
+    @cached_property
+    def shapes(self) -> list[Any]:
+        """(r,) TopoDS_Shape of each: the caller's own."""
+        return self._find()
 
 
 Corner = tuple[float, float, float]
 
+KernelPiece = tuple[int, bool, list[float] | None]
+"""A prototype, whether it is a solid, and where it stands: twelve numbers row by row, None for the origin."""
+
 EMPTY_BOX: tuple[Corner, Corner] = ((math.inf,) * 3, (-math.inf,) * 3)
 """Lower and upper corner of the box of a shape without extent."""
+
+
+def divided_by_kernel(shapes: Sequence[Any]) -> tuple[_kernel.BrepModel, list[list[KernelPiece]]] | None:
+    """The pieces of each shape, as the kernel divides it, and the model of all distinct ones.
+
+    None where only OpenCASCADE can: faces are made of triangles alone, or this OpenCASCADE writes no stream.
+    """
+    stream = shape_stream(shapes)
+    if stream is None:
+        return None
+    try:
+        return _kernel.BrepModel.divided(stream)
+    except ValueError:
+        # The kernel reads no triangles of a stream: the dump has those that are all there is of a face.
+        return None
 
 
 def shape_stream(shapes: Sequence[Any]) -> bytes | None:

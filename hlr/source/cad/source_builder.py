@@ -9,7 +9,7 @@ from hlr.drawing.notes import Note, NoteCode
 from hlr.errors import SourceError, counted
 from hlr.source.cad.brep_source import BrepSource
 from hlr.source.cad.kernel_shapes import KernelShape, KernelShapes
-from hlr.source.cad.part_shapes import OcctShapes, PartShapes
+from hlr.source.cad.part_shapes import LiveShapes, OcctShapes, PartShapes
 from hlr.source.cad.parts import Leaf, Part, PartCollector
 from hlr.source.cad.prototypes import Prototypes
 from hlr.source.model import Appearance
@@ -25,11 +25,11 @@ def build_source(
     Raises:
         SourceError: there are no shapes, or none has faces and wires are left out.
     """
-    shapes: PartShapes = KernelShapes() if any(isinstance(leaf.shape, KernelShape) for leaf in leaves) else OcctShapes()
-    collector = PartCollector(shapes)
-    for leaf in leaves:
-        collector.add(leaf)
-    prototypes = shapes.prototypes(collector.prototypes)
+    # In a file, wires with the name of a part that is drawn are its construction lines, axes or sketches: leaving them
+    # out is worth a remark. Wires with a name of their own, or of a caller, may be wanted: a warning.
+    of_file = kind not in ("object", "script")
+    collector = PartCollector(_shapes_of(leaves, of_file), leaves)
+    prototypes = collector.prototypes
     has_faces = prototypes.has_faces
     parts = [part for part in collector.parts if wires_too or has_faces[part.prototype]]
     wires = [part for part in collector.parts if not wires_too and not has_faces[part.prototype]]
@@ -40,9 +40,6 @@ def build_source(
             f"{name} holds {_edges(wires, prototypes)} but no faces: a hidden-line drawing needs surfaces "
             "(export solids or shells instead of wires)."
         )
-    # In a file, wires with the name of a part that is drawn are its construction lines, axes or sketches: leaving them
-    # out is worth a remark. Wires with a name of their own, or of a caller, may be wanted: a warning.
-    of_file = kind not in ("object", "script")
     drawn = {part.product for part in parts if of_file}
     all_notes = [
         *notes,
@@ -59,6 +56,14 @@ def build_source(
             all_notes,
         )
     return BrepSource(name, kind, parts, prototypes, all_notes)
+
+
+def _shapes_of(leaves: Sequence[Leaf], of_file: bool) -> PartShapes:
+    """What knows the shapes of these leaves."""
+    if any(isinstance(leaf.shape, KernelShape) for leaf in leaves):
+        return KernelShapes()
+    # Colours of faces are told by OpenCASCADE's shapes, and the dump of a file's is kept in the cache.
+    return OcctShapes() if of_file or any(leaf.colors for leaf in leaves) else LiveShapes()
 
 
 def with_appearance(part: Part, appearance: Appearance) -> Part:

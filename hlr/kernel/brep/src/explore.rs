@@ -56,36 +56,39 @@ struct Item {
     face: Option<u32>,
 }
 
-/// Lists the faces and edges of the parts. `chosen`: numbers of the root's children that are the parts; None for all.
+/// The children of the root as parts of one shape each: all, or those with the numbers `chosen`. Locations are numbers of
+/// the table.
 ///
 /// # Errors
-/// The root is no compound, a chosen child does not exist, or the parts contain too many shapes.
-pub fn explore(dump: &mut Dump, chosen: Option<&[u32]>) -> Result<Explored, Damaged> {
+/// The root is no compound, or a chosen child does not exist.
+pub fn children(dump: &Dump, chosen: Option<&[u32]>) -> Result<Vec<Vec<Sub>>, Damaged> {
     let root = &dump.shapes[dump.root.shape as usize];
     if root.kind != Kind::Compound {
         return Err(Damaged { what: "the root is no compound", at: 0, unsupported: false });
     }
-    let child = |&i: &u32| {
-        root.subs.get(i as usize).copied().ok_or(Damaged {
-            what: "a part that there is not",
-            at: 0,
-            unsupported: false,
-        })
-    };
-    let children = chosen.map_or_else(|| Ok(root.subs.clone()), |some| some.iter().map(child).collect())?;
+    let alone = |sub: &Sub| vec![Sub { location: dump.locations.written(sub.location), ..*sub }];
+    let missing = Damaged { what: "a part that there is not", at: 0, unsupported: false };
+    match chosen {
+        None => Ok(root.subs.iter().map(alone).collect()),
+        Some(some) => some.iter().map(|&i| root.subs.get(i as usize).map(alone).ok_or(missing)).collect(),
+    }
+}
+
+/// Lists the faces and edges of parts, which are one or several shapes each. Locations are numbers of the table.
+///
+/// # Errors
+/// The parts contain too many shapes.
+pub fn explore(dump: &mut Dump, parts: &[Vec<Sub>]) -> Result<Explored, Damaged> {
     let mut found = Explored { faces: Vec::new(), edges: Vec::new(), parts: Vec::new() };
     let [mut faces, mut edges] = [0, 1].map(|_| vec![None; dump.shapes.len()]);
     let (mut left, mut stack) = (MOST, Vec::new());
-    for child in children {
+    for shapes in parts {
         let mut part = Part::default();
         let (mut placed_faces, mut placed_edges) = (FxHashMap::default(), FxHashMap::default());
         let mut placed_solids = FxHashSet::default();
-        stack.push(Item {
-            shape: child.shape,
-            location: dump.locations.written(child.location),
-            orientation: child.orientation,
-            face: None,
-        });
+        let item =
+            |sub: &Sub| Item { shape: sub.shape, location: sub.location, orientation: sub.orientation, face: None };
+        stack.extend(shapes.iter().rev().map(item));
         while let Some(item) = stack.pop() {
             left = left.checked_sub(1).ok_or(Damaged {
                 what: "shapes nested beyond measure",

@@ -5,6 +5,7 @@ pub mod bounds;
 pub mod certificate;
 pub mod classes;
 pub mod continued;
+pub mod divided;
 pub mod edges;
 pub mod explore;
 pub mod faces;

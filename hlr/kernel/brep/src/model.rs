@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::classes::{Classes, classes};
 use crate::explore::{self, Part};
-use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, SurfaceRecord};
+use crate::format::{Damaged, Dump, Kind, Locations, On, Orientation, Shape, Sub, SurfaceRecord};
 use crate::geometry::curve::Curve;
 use crate::geometry::moved_surface::moved;
 use crate::geometry::surface::Surface;
@@ -30,8 +30,17 @@ impl Model {
     /// # Errors
     /// The bytes are damaged, the parts contain too many shapes, or a chosen child does not exist.
     pub fn read(bytes: &[u8], chosen: Option<&[u32]>) -> Result<Model, Damaged> {
-        let mut dump = crate::format::read(bytes)?;
-        let found = explore::explore(&mut dump, chosen)?;
+        let dump = crate::format::read(bytes)?;
+        let parts = explore::children(&dump, chosen)?;
+        Model::of(dump, &parts)
+    }
+
+    /// The model of these parts, one or several shapes each.
+    ///
+    /// # Errors
+    /// The parts contain too many shapes.
+    pub fn of(mut dump: Dump, parts: &[Vec<Sub>]) -> Result<Model, Damaged> {
+        let found = explore::explore(&mut dump, parts)?;
         let mut triangulations: Vec<_> = std::mem::take(&mut dump.triangulations).into_iter().map(Some).collect();
         let edges: Vec<Edge> = found.edges.iter().map(|&shape| edge(&mut dump, shape)).collect();
         let mut number = vec![None; dump.shapes.len()];

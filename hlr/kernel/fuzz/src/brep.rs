@@ -1,8 +1,9 @@
-//! Reads any bytes as a dump of a shape, divides its edges and joins the borders of its faces.
+//! Reads any bytes as a dump of a shape, divides it into pieces, its edges into chords, and joins the borders of its faces.
 //!
 //! Bytes that do not begin like a dump or a stream alter a valid one instead: each three of them are a position and a new
 //! value. One byte more alters the stream.
 
+use hlr_brep::divided::divided;
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;
 use hlr_brep::model::Model;
@@ -27,6 +28,9 @@ pub fn run(data: &[u8]) {
 }
 
 fn read(data: &[u8]) {
+    if let Ok((model, pieces)) = divided(data) {
+        assert!(pieces.iter().flatten().all(|piece| piece.part < model.parts.len()));
+    }
     let Ok(model) = Model::read(data, None) else { return };
     let lines: Vec<_> = model.edges.iter().map(|edge| polyline(&model, edge, DEFLECTION, ANGLE)).collect();
     for line in lines.iter().flatten() {

@@ -13,8 +13,10 @@ use super::parts::PartTables;
 use super::threads::{FEW, release_later, run, run_telling};
 use hlr_brep::assemble::assemble;
 use hlr_brep::bounds::boxes;
+use hlr_brep::divided::{Piece, divided};
 use hlr_brep::explore::Part;
 use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
+use hlr_brep::format::{IDENTITY, Matrix};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
@@ -27,6 +29,9 @@ use hlr_mesh::tables::Tables;
 type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
 type Curves<'py> =
     (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
+
+/// A piece's number among the parts, whether it is a solid, and where it stands.
+type PieceFacts = (usize, bool, Option<Vec<f64>>);
 
 /// Parts, faces and edges of a dump, each underlying face and edge once.
 #[pyclass(frozen)]
@@ -48,6 +53,21 @@ impl BrepModel {
             let read = run(py, threads, dump.len() / 64, |_| Model::read(dump, chosen.as_deref()))?;
             let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
             Ok(BrepModel(Arc::new(model)))
+        })
+    }
+
+    /// The model of the distinct pieces of shapes in memory, from the stream of their compound. For each shape its pieces:
+    /// number in the model, whether a solid, and where it stands in the shape, twelve numbers row by row; None: nowhere
+    /// else.
+    #[staticmethod]
+    #[pyo3(signature = (stream, threads = 0))]
+    fn divided(py: Python<'_>, stream: &[u8], threads: usize) -> PyResult<(BrepModel, Vec<Vec<PieceFacts>>)> {
+        caught(py, || {
+            let read = run(py, threads, stream.len() / 64, |_| divided(stream))?;
+            let (model, pieces) = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
+            let place = |at: &Matrix| (*at != IDENTITY).then(|| at.as_flattened().to_vec());
+            let of = |shape: &Vec<Piece>| shape.iter().map(|p| (p.part, p.solid, place(&p.place))).collect();
+            Ok((BrepModel(Arc::new(model)), pieces.iter().map(of).collect()))
         })
     }
 

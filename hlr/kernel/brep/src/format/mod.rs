@@ -28,7 +28,7 @@ pub use dump::Dump;
 pub use locations::{IDENTITY, Locations, MOST_FACTORS, Matrix, chained, determinant, inverted, moved, turned};
 pub use merge::{Root, Source, merged};
 pub use orientation::Orientation;
-pub use pieces::{Piece, faces, pieces};
+pub use pieces::{Piece, faces, pieces, pieces_of};
 pub use shapes::{Kind, On, Shape, Sub};
 pub use square::square_placement;
 pub use surfaces::SurfaceRecord;

@@ -25,7 +25,15 @@ const MOST: usize = 20_000_000;
 /// # Errors
 /// The file nests shapes beyond measure.
 pub fn pieces(dump: &mut Dump) -> Read<Vec<Piece>> {
-    let root = Sub { location: 0, ..dump.root };
+    pieces_of(dump, dump.root)
+}
+
+/// The pieces of a shape, without its own placement.
+///
+/// # Errors
+/// Shapes are nested beyond measure.
+pub fn pieces_of(dump: &mut Dump, shape: Sub) -> Read<Vec<Piece>> {
+    let root = Sub { location: 0, ..shape };
     let kind = rank(&dump.shapes[root.shape as usize].kind);
     if (SOLID..=FACE).contains(&kind) {
         return Ok(vec![Piece { subs: vec![root], loose: false, place: IDENTITY, solid: kind == SOLID }]);
