@@ -1,4 +1,4 @@
-//! Reads any bytes as a dump of a shape, divides it into pieces, its edges into chords, and joins the borders of its faces.
+//! Reads any bytes as a dump of a shape, divides it into pieces and its edges into chords, and joins its faces' borders.
 //!
 //! Bytes that do not begin like a dump or a stream alter a valid one instead: each three of them are a position and a new
 //! value. One byte more alters the stream.

@@ -23,11 +23,14 @@ pub struct Facts {
 
 impl Facts {
     pub fn of(points: &[[f64; 3]], triangles: &[[i32; 3]]) -> Facts {
-        let t = topology(triangles, points.len());
-        let repeated = repeated(triangles, &t);
+        // Side by side: both have stretches on one thread.
+        let around_edges = || {
+            let t = topology(triangles, points.len());
+            let balance = balance(triangles, &t.edges, &t.offsets, &t.incident);
+            (repeated(triangles, &t), balance, t)
+        };
+        let ((repeated, balance, t), normals) = rayon::join(around_edges, || normals(points, triangles));
         let Topology { edges, offsets, incident } = t;
-        let balance = balance(triangles, &edges, &offsets, &incident);
-        let normals = normals(points, triangles);
         let fold = folds(&normals, &offsets, &incident, &balance);
         let flat = (0..normals.len()).into_par_iter().filter(|&t| normals[t] == [0.0; 3]).map(|t| t as i64).collect();
         Facts { edges, offsets, incident, balance, fold, normals, flat, repeated }

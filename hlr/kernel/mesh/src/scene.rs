@@ -69,17 +69,26 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     let face_of = |t: usize| (tables.face_start[triangle_part[t] as usize] + tables.triangle_face[t]) as usize;
     let curved: Vec<bool> = (0..triangle_part.len()).map(|t| !tables.face_planar[face_of(t)]).collect();
     let edge_part: Vec<i32> = (0..facts.edges.len()).map(|e| triangle_part[facts.around(e)[0] as usize]).collect();
-    let walks = source_walks(tables, &facts.edges);
-    let kind = kinds(facts.edges.len(), &walks);
-    let straight = between_planes(&walks, facts, &kind, &curved);
-    let bodies = bodies(tables, facts, &triangle_part, &curved);
-    let turned = turned(tables, facts, &bodies);
-    let (triangles, after) = turned.as_ref().map_or((&tables.triangles, facts), |t| (&t.triangles, &t.facts));
-    let folded = may_fold(&bodies, &tables.points, triangles, after);
-    let reports = reports(tables, facts, &triangle_part, &edge_part, &bodies);
-    let edge_group = (0..facts.edges.len()).map(|e| bodies.group_of[facts.around(e)[0] as usize]).collect();
-    let edge_curved = edge_curved(facts, &kind, &curved, &face_of, tables.face_planar.len());
-    let surfaces = surfaces(tables, turned.as_ref(), &face_of);
+    // Side by side: edges of the source, and bodies.
+    let of_edges = || {
+        let walks = source_walks(tables, &facts.edges);
+        let kind = kinds(facts.edges.len(), &walks);
+        let straight = between_planes(&walks, facts, &kind, &curved);
+        let edge_curved = edge_curved(facts, &kind, &curved, &face_of, tables.face_planar.len());
+        (walks, kind, straight, edge_curved)
+    };
+    let of_bodies = || {
+        let bodies = bodies(tables, facts, &triangle_part, &curved);
+        let turned = turned(tables, facts, &bodies);
+        let (triangles, after) = turned.as_ref().map_or((&tables.triangles, facts), |t| (&t.triangles, &t.facts));
+        let folded = may_fold(&bodies, &tables.points, triangles, after);
+        let reports = reports(tables, facts, &triangle_part, &edge_part, &bodies);
+        let edge_group = (0..facts.edges.len()).map(|e| bodies.group_of[facts.around(e)[0] as usize]).collect();
+        let surfaces = surfaces(tables, turned.as_ref(), &face_of);
+        (bodies, turned, folded, reports, edge_group, surfaces)
+    };
+    let ((walks, kind, straight, edge_curved), (bodies, turned, folded, reports, edge_group, surfaces)) =
+        rayon::join(of_edges, of_bodies);
     Scene {
         triangle_part,
         edge_part,

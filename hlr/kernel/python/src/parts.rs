@@ -18,7 +18,7 @@ use hlr_mesh::tables::{Placed, Tables, TooMany};
 
 /// Triangles or points that count as one item of `run`: each takes a tenth of a microsecond. For fewer items starting
 /// other threads costs more than the work.
-const CHEAP: usize = 64;
+const CHEAP: usize = 8;
 
 fn too_many(_: TooMany) -> PyErr {
     PyValueError::new_err("more than 2^31 items in one mesh")

@@ -89,10 +89,8 @@ pub fn trace(model: &Model, stopped: &(dyn Fn() -> bool + Sync)) -> Option<Trace
         link.ends = link.ends.map(|end| same.root(end));
     }
     through_poles(&mut links);
-    let mut out = Vec::new();
-    for walk in walks(&links) {
-        parted(&links, &walk, &same, model, &mut out);
-    }
+    let mut out: Vec<Silhouette> =
+        walks(&links).par_iter().flat_map_iter(|walk| parted(&links, walk, &same, model)).collect();
     // The result must not depend on the order of triangles.
     out.sort_by(|a, b| a.face.cmp(&b.face).then_with(|| in_order(&a.points, &b.points)));
     Some(Traced { silhouettes: out, grazing })
@@ -262,7 +260,7 @@ fn walks(links: &[Link]) -> Vec<Vec<(usize, bool)>> {
 }
 
 /// One walk cut where the face, the edge or the way of curving changes, and where its image turns back.
-fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, out: &mut Vec<Silhouette>) {
+fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model) -> Vec<Silhouette> {
     let mut pieces: Vec<(i32, Stretch)> = Vec::new();
     for &(i, backward) in walk {
         let link = &links[i];
@@ -286,7 +284,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
     let closed = pieces.len() > 1 && pieces[0].1.from == pieces[pieces.len() - 1].1.to;
     pieces.retain(|(_, s)| length(&sub(&s.to, &s.from)) > 1e-6 * model.chord);
     if pieces.is_empty() {
-        return;
+        return Vec::new();
     }
     // Near a pole rounding decides the sign of the curvature: over less than the tolerance it is ignored.
     let n = pieces.len();
@@ -303,6 +301,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
         pieces.rotate_left(k);
     }
     let whole = pieces.len();
+    let mut out = Vec::new();
     for run in pieces.chunk_by(goes_on).flat_map(|run| unwound(model, run, closed && run.len() == whole)) {
         let run = canonical(run, closed && run.len() == whole);
         let mut points = vec![run[0].1.from];
@@ -329,6 +328,7 @@ fn parted(links: &[Link], walk: &[(usize, bool)], same: &Same, model: &Model, ou
             Silhouette { face, concave, points, normals, rise, curve, source }
         });
     }
+    out
 }
 
 /// The curve through points of a face's silhouette; two points are a straight line.

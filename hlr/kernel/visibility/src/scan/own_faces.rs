@@ -17,6 +17,8 @@
 //! All other polygons are compared with the edge in its true place. Each polygon is counted by itself (`exact_query`),
 //! so the sum cannot contradict itself.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::box_tree::Aabb;
@@ -127,41 +129,60 @@ impl OwnFaces<'_> {
         depth_scale: 1.0,
     };
 
+    /// The edges, each as its stretches, whose triangles of their own faces hide them otherwise than the faces do.
+    pub fn differing<A: Arithmetic>(
+        &self,
+        mesh: &Mesh,
+        table: &PolygonTable,
+        exact: &ExactQuery,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Vec<Range<usize>> {
+        let mut from = 0;
+        let edges: Vec<Range<usize>> = self
+            .edge
+            .chunk_by(|a, b| a == b)
+            .map(|run| {
+                from += run.len();
+                from - run.len()..from
+            })
+            .collect();
+        if edges.is_empty() {
+            return Vec::new();
+        }
+        let sheets = Sheets::of(self.triangle_face, self.sheet);
+        edges
+            .into_par_iter()
+            .filter(|run| !stopped() && self.differs::<A>(mesh, table, exact, &sheets, run.clone()))
+            .collect()
+    }
+
     /// The pieces (ascending by edge), with those of these edges corrected for their own faces, and the number of edges
-    /// whose pieces changed.
+    /// whose pieces changed. differing: as of that function
     pub fn applied<A: Arithmetic>(
         &self,
         mesh: &Mesh,
         table: &PolygonTable,
         exact: &ExactQuery,
+        differing: &[Range<usize>],
         pieces: Vec<Piece>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> (Vec<Piece>, u64) {
-        let stretches: Vec<usize> = (0..self.edge.len()).collect();
-        let edges: Vec<&[usize]> = stretches.chunk_by(|&a, &b| self.edge[a] == self.edge[b]).collect();
-        if edges.is_empty() {
-            return (pieces, 0);
-        }
-        let sheets = Sheets::of(self.triangle_face, self.sheet);
-        let drawn = |run: &[usize]| {
-            let edge = self.edge[run[0]] as u32;
+        let drawn = |run: &Range<usize>| {
+            let edge = self.edge[run.start] as u32;
             pieces.partition_point(|p| p.edge < edge)..pieces.partition_point(|p| p.edge <= edge)
         };
-        let differ: Vec<&[usize]> = edges
-            .into_par_iter()
-            .filter(|run| !stopped() && self.differs::<A>(mesh, table, exact, &sheets, run) && !drawn(run).is_empty())
-            .collect();
+        let differ: Vec<&Range<usize>> = differing.iter().filter(|run| !drawn(run).is_empty()).collect();
         if !differ.is_empty() {
             exact.prepare();
         }
         let found: Vec<Decided> = differ
             .par_iter()
             .filter_map(|run| {
-                let edge = self.edge[run[0]] as u32;
+                let edge = self.edge[run.start] as u32;
                 if stopped() {
                     return None;
                 }
-                let mut segments = self.decided::<A>(mesh, table, exact, run)?;
+                let mut segments = self.decided::<A>(mesh, table, exact, (*run).clone())?;
                 if mesh.incident(edge as usize).is_empty() {
                     // An outline is moved off its face for all polygons alike; what is visible of it then is visible.
                     let lifted: Vec<Segment> = pieces[drawn(run)].iter().map(|p| p.segment).collect();
@@ -192,12 +213,12 @@ impl OwnFaces<'_> {
         table: &PolygonTable,
         exact: &ExactQuery,
         sheets: &Sheets,
-        stretches: &[usize],
+        mut stretches: Range<usize>,
     ) -> bool {
-        let edge = self.edge[stretches[0]] as usize;
+        let edge = self.edge[stretches.start] as usize;
         let culled = self.culled(mesh, table, edge);
         let (mut one, mut two) = (Vec::new(), Vec::new());
-        stretches.iter().any(|&s| {
+        stretches.any(|s| {
             if culled || self.hidden(s, culled) {
                 return culled != self.hidden(s, culled);
             }
@@ -231,12 +252,12 @@ impl OwnFaces<'_> {
         mesh: &Mesh,
         table: &PolygonTable,
         exact: &ExactQuery,
-        stretches: &[usize],
+        stretches: Range<usize>,
     ) -> Option<Vec<Segment>> {
-        let culled = self.culled(mesh, table, self.edge[stretches[0]] as usize);
+        let culled = self.culled(mesh, table, self.edge[stretches.start] as usize);
         let (mut one, mut two) = (Vec::new(), Vec::new());
         let mut out: Vec<Segment> = Vec::new();
-        for &s in stretches {
+        for s in stretches {
             if self.hidden(s, culled) {
                 one.clear();
                 one.push(Segment { start: 0.0, end: 1.0, state: State::Hidden });
@@ -262,7 +283,7 @@ impl OwnFaces<'_> {
         (!out.is_empty()).then_some(out)
     }
 
-    fn faces(&self, stretch: usize) -> std::ops::Range<usize> {
+    fn faces(&self, stretch: usize) -> Range<usize> {
         self.offsets[stretch] as usize..self.offsets[stretch + 1] as usize
     }
 

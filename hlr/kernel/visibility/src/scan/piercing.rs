@@ -32,6 +32,13 @@ pub struct Piercings<P> {
     pub groups: usize,
 }
 
+impl<P> Piercings<P> {
+    /// Where none are looked for.
+    pub fn none() -> Piercings<P> {
+        Piercings { events: Vec::new(), tests: 0, groups: 0 }
+    }
+}
+
 pub fn piercings<A: Arithmetic>(
     mesh: &Mesh,
     table: &PolygonTable,
@@ -42,14 +49,14 @@ pub fn piercings<A: Arithmetic>(
     let sought = sought_groups(mesh, &boxes);
     let searched = sought.iter().filter(|&&s| s).count();
     if searched == 0 {
-        return Piercings { events: Vec::new(), tests: 0, groups: 0 };
+        return Piercings::none();
     }
     let largest = mesh.groups.iter().map(|p| p.delta).max().unwrap_or(0);
     let mut members: Vec<Vec<(Aabb, u32)>> = vec![Vec::new(); mesh.groups.len()];
     for (reach, t) in reached(mesh, table, &boxes, &sought, largest) {
         members[mesh.triangle_group[t as usize] as usize].push((reach, t));
     }
-    let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::new).collect();
+    let trees: Vec<BoxTree> = members.into_par_iter().map(BoxTree::by_all_threads).collect();
     let groups = BoxTree::new((0..mesh.groups.len()).filter(|&p| sought[p]).map(|p| (boxes[p], p as u32)).collect());
     let found: Vec<(Vec<Event<A::Parameter>>, u64)> = drawn
         .par_chunks(256)

@@ -107,7 +107,8 @@ pub fn visibility_by<A: Arithmetic>(
         counters.by_culling_alone = edges.drawn.len() as u64;
         seconds.counting = clock.lap();
         let mut pieces = gathered(walked, &edges.hidden, &mut counters);
-        (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
+        let differing = own.differing::<A>(mesh, &table, &exact, stopped);
+        (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, &differing, pieces, stopped);
         seconds.own_faces = clock.lap();
         return (!stopped()).then_some(Outcome { pieces, facing: table.facing, counters, seconds });
     }
@@ -120,18 +121,17 @@ pub fn visibility_by<A: Arithmetic>(
         counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
         seconds.pyramid = clock.lap();
     }
-    // 3. seeds: the count at both ends of every drawn edge
-    let seeds = Seeds::new::<A>(mesh, &table, &edges.drawn, stopped);
-    seconds.seeds = clock.lap();
+    // Side by side, for each has stretches on one thread. 3. seeds: the count at both ends of every drawn edge
+    let seeds = || timed(|| Seeds::new::<A>(mesh, &table, &edges.drawn, stopped));
     // 4. crossings and piercings: the jumps between
-    let crossed = crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped);
-    seconds.crossings = clock.lap();
-    let pierced = if piercing {
-        piercings::<A>(mesh, &table, &edges.drawn, stopped)
-    } else {
-        Piercings { events: Vec::new(), tests: 0, groups: 0 }
-    };
-    seconds.piercings = clock.lap();
+    let crossed = || timed(|| crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped));
+    let pierced =
+        || timed(|| if piercing { piercings::<A>(mesh, &table, &edges.drawn, stopped) } else { Piercings::none() });
+    // for step 7: edges whose own faces are seen edge-on and seem to hide them
+    let differing = || timed(|| own.differing::<A>(mesh, &table, &exact, stopped));
+    let (((seeds, a), (differing, b)), ((crossed, c), (pierced, d))) =
+        rayon::join(|| rayon::join(seeds, differing), || rayon::join(crossed, pierced));
+    [seconds.seeds, seconds.own_faces, seconds.crossings, seconds.piercings] = clock.shared([a, b, c, d]);
     if stopped() {
         return None;
     }
@@ -155,8 +155,8 @@ pub fn visibility_by<A: Arithmetic>(
     let mut pieces = gathered(walked, &edges.hidden, &mut counters);
     seconds.counting = clock.lap();
     // 7. correct edges whose own faces are seen edge-on
-    (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, pieces, stopped);
-    seconds.own_faces = clock.lap();
+    (pieces, counters.freed_of_own_faces) = own.applied::<A>(mesh, &table, &exact, &differing, pieces, stopped);
+    seconds.own_faces += clock.lap();
     if stopped() {
         return None;
     }
@@ -177,6 +177,19 @@ impl Clock {
         self.0 = now;
         past
     }
+
+    /// Seconds since the last call, shared out among steps that ran side by side and each took so long.
+    fn shared<const N: usize>(&mut self, each: [f64; N]) -> [f64; N] {
+        let share = self.lap() / each.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        each.map(|own| own * share)
+    }
+}
+
+/// What a step gives, and its seconds.
+fn timed<T>(step: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let found = step();
+    (found, start.elapsed().as_secs_f64())
 }
 
 /// Moves drawn edges that certainly lie behind something to the hidden ones; returns how many.
