@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::gaps::Side;
+use super::gaps::{Side, Widths};
 use super::stretches::Stretches;
 
 /// Comparisons for each side, and stretches for each side, beyond which there are too many.
@@ -28,6 +28,8 @@ const MOST_FOUND: usize = 16;
 const FEW: usize = 1 << 12;
 /// Sides for each band of rows.
 const IN_A_BAND: usize = 1 << 11;
+/// Cells of a band whose sides are compared on one thread.
+const CELLS: usize = 64;
 
 /// The stretch of a side that another one, `by`, covers; from and to are parameters on the side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +47,11 @@ pub(super) fn pairs(sides: &[Side], stretches: &Stretches) -> Option<Vec<Pair>> 
     let bands = cells.rows.min(sides.len() / IN_A_BAND + 1);
     // What covers a side lies beside it or beyond its ends by the reach at most, in a corner by both. Half of that is the
     // margin of each, and a little more, as places are rounded and boxes are kept as f32.
-    let margin = 0.75 * stretches.reach + 1e-6 * (cells.extent[0] + cells.extent[1]);
+    let rounding = 1e-6 * (cells.extent[0] + cells.extent[1]);
+    let margin = 0.75 * stretches.reach + rounding;
+    // Boxes tell more: of one visibility only what coincides is covered.
+    let Widths { same, under } = stretches.widths;
+    let gaps = [same, same.max(under)].map(|width| (1.5 * width + 2.0 * rounding) as f32);
     let in_band = in_bands(&cells, margin, sides, bands);
     let filled: Vec<Band> = in_band
         .into_par_iter()
@@ -55,13 +61,23 @@ pub(super) fn pairs(sides: &[Side], stretches: &Stretches) -> Option<Vec<Pair>> 
     let most_tests = MOST_TESTS.saturating_mul(sides.len());
     filled.iter().try_fold(0usize, |sum, band| Some(sum + band.tests()).filter(|&sum| sum <= most_tests))?;
     let (found, most_found) = (AtomicUsize::new(0), FEW + MOST_FOUND * sides.len());
+    let of_cells = |band: &Band, cells: &[u32]| {
+        let pairs = if found.load(Ordering::Relaxed) > most_found {
+            Vec::new()
+        } else {
+            band.pairs(cells, &gaps, sides, stretches)
+        };
+        found.fetch_add(pairs.len(), Ordering::Relaxed);
+        pairs
+    };
+    // Bands have as many sides on average, but one may be much fuller than the others.
     let mut all: Vec<Pair> = filled
-        .into_par_iter()
-        .flat_map_iter(|band| {
-            let pairs =
-                if found.load(Ordering::Relaxed) > most_found { Vec::new() } else { band.pairs(sides, stretches) };
-            found.fetch_add(pairs.len(), Ordering::Relaxed);
-            pairs
+        .par_iter()
+        .flat_map(|band| {
+            let cells = (0..band.offsets.len() - 1).into_par_iter().step_by(CELLS);
+            cells.flat_map_iter(|first| {
+                of_cells(band, &band.offsets[first..(first + CELLS + 1).min(band.offsets.len())])
+            })
         })
         .collect();
     if found.into_inner() > most_found {
@@ -95,12 +111,31 @@ fn in_bands(cells: &Cells, margin: f64, sides: &[Side], bands: usize) -> Vec<Vec
     found
 }
 
-/// A side in a cell: its box, with the margin, from the lower left corner of all.
-#[derive(Clone, Copy)]
+/// A side in a cell: its box, from the lower left corner of all.
+#[derive(Clone, Copy, Default)]
 struct Member {
     low: [f32; 2],
     high: [f32; 2],
     side: u32,
+    visible: bool,
+}
+
+impl Member {
+    fn of(number: u32, side: &Side, low: &[f64; 2]) -> Member {
+        let [from, to] = [side.from, side.to].map(|p| [0, 1].map(|k| (p[k] - low[k]) as f32));
+        Member {
+            low: [0, 1].map(|k| from[k].min(to[k])),
+            high: [0, 1].map(|k| from[k].max(to[k])),
+            side: number,
+            visible: side.visible,
+        }
+    }
+
+    /// Whether the boxes come as near to one another as the gap for sides of one visibility, or of two.
+    fn meets(&self, other: &Member, gaps: &[f32; 2]) -> bool {
+        let gap = gaps[usize::from(self.visible != other.visible)];
+        (0..2).all(|k| self.low[k] <= other.high[k] + gap && other.low[k] <= self.high[k] + gap)
+    }
 }
 
 /// A band of rows, cell by cell: members[offsets[c]..offsets[c + 1]].
@@ -117,12 +152,7 @@ impl Band {
         let mut entries: Vec<(u32, Member)> = Vec::new();
         for &s in here {
             let side = &sides[s as usize];
-            let box_side = |k: usize, sign: f64| {
-                let (a, b) = (side.from[k] - cells.low[k], side.to[k] - cells.low[k]);
-                (if sign < 0.0 { a.min(b) } else { a.max(b) } + sign * margin) as f32
-            };
-            let member =
-                Member { low: [0, 1].map(|k| box_side(k, -1.0)), high: [0, 1].map(|k| box_side(k, 1.0)), side: s };
+            let member = Member::of(s, side, &cells.low);
             cells.each(side, margin, |column, row| {
                 if !rows.contains(&row) {
                     return;
@@ -139,7 +169,7 @@ impl Band {
             offsets[cell + 1] += offsets[cell];
         }
         let mut next = offsets.clone();
-        let mut members = vec![Member { low: [0.0; 2], high: [0.0; 2], side: 0 }; entries.len()];
+        let mut members = vec![Member::default(); entries.len()];
         for (cell, member) in entries {
             members[next[cell as usize] as usize] = member;
             next[cell as usize] += 1;
@@ -153,17 +183,14 @@ impl Band {
         self.offsets.windows(2).map(count).map(|n| n * n.saturating_sub(1) / 2).sum()
     }
 
-    fn pairs(&self, sides: &[Side], stretches: &Stretches) -> Vec<Pair> {
+    /// offsets: of some cells, one after another, and of the one behind them.
+    fn pairs(&self, offsets: &[u32], gaps: &[f32; 2], sides: &[Side], stretches: &Stretches) -> Vec<Pair> {
         let mut out = Vec::new();
-        for w in self.offsets.windows(2) {
+        for w in offsets.windows(2) {
             let here = &self.members[w[0] as usize..w[1] as usize];
             for (k, a) in here.iter().enumerate() {
                 for b in &here[k + 1..] {
-                    let meet = a.low[0] <= b.high[0]
-                        && b.low[0] <= a.high[0]
-                        && a.low[1] <= b.high[1]
-                        && b.low[1] <= a.high[1];
-                    if meet
+                    if a.meets(b, gaps)
                         && let Some((side, by)) = stretches.order(sides, a.side, b.side)
                         && let Some((from, to)) = stretches.covered(&sides[side as usize], &sides[by as usize])
                     {

@@ -6,6 +6,9 @@ use super::gaps::{Side, Widths};
 /// was divided in two ways differ in direction. Crossings at smaller angles are recognised by the length they cover.
 const PARALLEL: f64 = 0.5;
 
+/// A little more than one, for what is rounded.
+const SURELY: f64 = 1.0 + 1e-6;
+
 /// What side covers what stretch of which other one.
 pub(super) struct Stretches<'a> {
     /// A strict order of lines.
@@ -53,11 +56,16 @@ fn covered(worse: &Side, better: &Side, width: f64, over: f64) -> Option<(f64, f
     if m2 == 0.0 || l2 == 0.0 || cross * cross > PARALLEL * PARALLEL * m2 * l2 {
         return None;
     }
+    // Most lie on one side and farther away than the width: that is told without a root.
+    let [before, after] = [a, b].map(|x| vx * (x[1] - p[1]) - vy * (x[0] - p[0]));
+    let apart = if before > 0.0 { before.min(after) } else { -before.max(after) };
+    if apart > 0.0 && apart * apart > SURELY * width * width * m2 {
+        return None;
+    }
     let m = m2.sqrt();
-    let away = |x: &[f64; 2]| (vx * (x[1] - p[1]) - vy * (x[0] - p[0])) / m;
     let along = |x: &[f64; 2]| (vx * (x[0] - p[0]) + vy * (x[1] - p[1])) / m;
     let (mut u0, mut u1) = (0.0f64, 1.0f64);
-    for (start, end, low, high) in [(away(a), away(b), -width, width), (along(a), along(b), -over, m + over)] {
+    for (start, end, low, high) in [(before / m, after / m, -width, width), (along(a), along(b), -over, m + over)] {
         let slope = end - start;
         if slope == 0.0 {
             if start < low || start > high {
