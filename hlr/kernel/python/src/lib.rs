@@ -22,6 +22,7 @@ mod parts;
 mod preview;
 mod raster;
 mod silhouette;
+mod spread;
 mod threads;
 mod topology;
 mod true_surfaces;

@@ -14,11 +14,18 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use super::spread::Spread;
+
 /// Number of items (triangles, points) up to which a call takes about a millisecond at most.
 pub const FEW: usize = 1000;
 
 /// Pools by number of threads, and the process that they belong to: a fork has none of its parent's threads.
-static POOLS: Mutex<(u32, BTreeMap<usize, Arc<ThreadPool>>)> = Mutex::new((0, BTreeMap::new()));
+static POOLS: Mutex<(u32, BTreeMap<usize, Arc<Pool>>)> = Mutex::new((0, BTreeMap::new()));
+
+struct Pool {
+    threads: ThreadPool,
+    spread: Spread,
+}
 
 thread_local! {
     /// The calling thread itself as a pool.
@@ -47,7 +54,10 @@ pub fn run_telling<T: Send>(
 ) -> PyResult<T> {
     if size > FEW {
         let pool = pool(threads).map_err(not_started)?;
-        return waited(py, &pool, tell, work);
+        pool.spread.keep(&pool.threads);
+        let result = waited(py, &pool.threads, tell, work);
+        pool.spread.worked();
+        return result;
     }
     let result = py.detach(|| {
         HERE.with(|here| {
@@ -71,7 +81,7 @@ pub fn release_later<T: Send + 'static>(value: T, size: usize) {
     if size > FEW
         && let Ok(pool) = pool(0)
     {
-        pool.spawn(move || drop(value));
+        pool.threads.spawn(move || drop(value));
     }
 }
 
@@ -79,7 +89,7 @@ fn not_started(error: rayon::ThreadPoolBuildError) -> PyErr {
     PyRuntimeError::new_err(format!("cannot start threads: {error}"))
 }
 
-fn pool(threads: usize) -> Result<Arc<ThreadPool>, rayon::ThreadPoolBuildError> {
+fn pool(threads: usize) -> Result<Arc<Pool>, rayon::ThreadPoolBuildError> {
     let mut kept = POOLS.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
     if kept.0 != process {
@@ -90,7 +100,8 @@ fn pool(threads: usize) -> Result<Arc<ThreadPool>, rayon::ThreadPoolBuildError> 
     if let Some(pool) = kept.1.get(&threads) {
         return Ok(pool.clone());
     }
-    let made = Arc::new(ThreadPoolBuilder::new().num_threads(threads).build()?);
+    let made = ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let made = Arc::new(Pool { spread: Spread::of(&made), threads: made });
     kept.1.insert(threads, made.clone());
     Ok(made)
 }
