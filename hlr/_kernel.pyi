@@ -147,7 +147,7 @@ class Visibility:
 
     edge (s,), t0 (s,), t1 (s,) from the edge's first to its second vertex on the image; state (s,): 0 visible, 1
     hidden, 2 hidden by less than the contact tolerance, 3 the same on the way to hidden; facing (t,): sign of each
-    triangle's area on the image; counters of the work; seconds of each step.
+    triangle's area on the image; counters of the work; seconds of each step, shared out where steps run side by side.
     """
 
     edge: Ints

@@ -1,4 +1,4 @@
-//! The visibility pass as a whole: the numbered steps of `scan`, one after another.
+//! The visibility pass as a whole: the numbered steps of `scan`; those that do not need one another run side by side.
 
 use std::time::Instant;
 
@@ -42,7 +42,7 @@ pub struct Counters {
     pub freed_of_own_faces: u64,
 }
 
-/// Time per step, in seconds.
+/// Time per step, in seconds; steps side by side share the time by the clock.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seconds {
     pub tables: f64,
@@ -121,7 +121,8 @@ pub fn visibility_by<A: Arithmetic>(
         counters.hidden_by_pyramid = discard(mesh, &pyramid, &mut edges) as u64;
         seconds.pyramid = clock.lap();
     }
-    // Side by side, for each has stretches on one thread. 3. seeds: the count at both ends of every drawn edge
+    // Side by side, for each has stretches on one thread:
+    // 3. seeds: the count at both ends of every drawn edge
     let seeds = || timed(|| Seeds::new::<A>(mesh, &table, &edges.drawn, stopped));
     // 4. crossings and piercings: the jumps between
     let crossed = || timed(|| crossings::<A>(mesh, &edges.drawn, &edges.contours, stopped));
