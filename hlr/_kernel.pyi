@@ -638,8 +638,8 @@ class BrepModel:
         """The model of the distinct pieces of shapes in memory: of their solids, and of what lies outside solids.
 
         stream: OpenCASCADE's stream of a compound of the shapes. For each shape its pieces: number in the model,
-        whether a solid, and where it stands in the shape, twelve numbers row by row, or None. Raises ValueError where
-        the stream is damaged, or holds triangles.
+        whether a solid, and where it stands in the shape, twelve numbers row by row; None: it is not moved. Raises
+        ValueError where the stream is damaged, or holds triangles.
         """
 
     @property

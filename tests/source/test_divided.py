@@ -8,7 +8,7 @@ pytest.importorskip("OCP")
 from hlr import _kernel
 from hlr.source.cad.part_shapes import LiveShapes, OcctShapes
 from hlr.source.cad.parts import Leaf, PartCollector
-from hlr.source.cad.prototypes import shape_stream
+from hlr.source.cad.prototypes import DividedPrototypes, shape_stream
 from support.shapes_of_all_kinds import placed, shapes, tables
 
 
@@ -23,6 +23,7 @@ def test_the_parts_are_the_same():
     for scene in scenes():
         leaves = [Leaf(shape, f"leaf {i % 3}") for i, shape in enumerate(scene)]
         wanted, found = PartCollector(OcctShapes(), leaves), PartCollector(LiveShapes(), leaves)
+        assert isinstance(found.prototypes, DividedPrototypes), "the kernel has not divided them"
         for one, other in zip(found.parts, wanted.parts, strict=True):
             assert (one.name, one.product, one.prototype) == (other.name, other.product, other.prototype)
             assert np.allclose(one.transform, other.transform, rtol=0, atol=1e-12), one.name

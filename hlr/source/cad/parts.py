@@ -93,7 +93,7 @@ class PartCollector:
                 Part(
                     name=self._unique(leaf.name + suffix, several and piece.solid),
                     product=leaf.name,
-                    color=(self._main_color(leaf, piece) if leaf.colors else None) or leaf.color,
+                    color=self._piece_color(leaf, piece) or leaf.color,
                     prototype=piece.prototype,
                     transform=matrix4(compose(place, piece.place)),
                     transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
@@ -109,7 +109,10 @@ class PartCollector:
                 self._names.add(unique)
                 return unique
 
-    def _main_color(self, leaf: Leaf, piece: Piece) -> Color | None:
+    def _piece_color(self, leaf: Leaf, piece: Piece) -> Color | None:
+        """The main colour of a piece, where the leaf has colours of solids and faces; worked out once."""
+        if not leaf.colors:
+            return None
         key = piece.prototype, id(leaf.colors)
         if key not in self._colors:
             self._colors[key] = _main_color(piece.shape, leaf, self._shapes)

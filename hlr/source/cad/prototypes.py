@@ -133,7 +133,7 @@ class DividedPrototypes(LivePrototypes):
 Corner = tuple[float, float, float]
 
 KernelPiece = tuple[int, bool, list[float] | None]
-"""A prototype, whether it is a solid, and where it stands: twelve numbers row by row, None for the origin."""
+"""A prototype, whether it is a solid, and where it stands: twelve numbers row by row; None: it is not moved."""
 
 EMPTY_BOX: tuple[Corner, Corner] = ((math.inf,) * 3, (-math.inf,) * 3)
 """Lower and upper corner of the box of a shape without extent."""

@@ -30,7 +30,7 @@ type Records<'py> = (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i32>>, Bound<
 type Curves<'py> =
     (Bound<'py, PyArray1<u8>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<i32>>, Bound<'py, PyArray1<f64>>);
 
-/// A piece's number among the parts, whether it is a solid, and where it stands.
+/// A piece's number among the parts, whether it is a solid, and where it stands; None: it is not moved.
 type PieceFacts = (usize, bool, Option<Vec<f64>>);
 
 /// Parts, faces and edges of a dump, each underlying face and edge once.
@@ -57,8 +57,8 @@ impl BrepModel {
     }
 
     /// The model of the distinct pieces of shapes in memory, from the stream of their compound. For each shape its pieces:
-    /// number in the model, whether a solid, and where it stands in the shape, twelve numbers row by row; None: nowhere
-    /// else.
+    /// number in the model, whether a solid, and where it stands in the shape, twelve numbers row by row; None: it is not
+    /// moved.
     #[staticmethod]
     #[pyo3(signature = (stream, threads = 0))]
     fn divided(py: Python<'_>, stream: &[u8], threads: usize) -> PyResult<(BrepModel, Vec<Vec<PieceFacts>>)> {

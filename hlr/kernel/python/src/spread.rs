@@ -16,6 +16,7 @@ const FEW_CORES: usize = 4;
 /// After so long the threads of a pool that has no work are asleep: what runs then are others.
 const SETTLED: Duration = Duration::from_micros(200);
 
+/// Binds the threads of one pool to cores, and frees them.
 pub struct Spread {
     /// The core of each thread; empty where all is left to the system.
     cores: Vec<usize>,
@@ -23,9 +24,10 @@ pub struct Spread {
 }
 
 struct State {
-    kept: bool,
-    /// When the pool had work last.
-    worked: Instant,
+    /// Whether each thread is bound to its core.
+    bound: bool,
+    /// When the last work of the pool ended.
+    ended: Instant,
 }
 
 impl Spread {
@@ -33,22 +35,22 @@ impl Spread {
     pub fn of(pool: &ThreadPool) -> Spread {
         let cores = system::cores();
         let all = (2..=FEW_CORES).contains(&cores.len()) && cores.len() == pool.current_num_threads();
-        let state = Mutex::new(State { kept: false, worked: Instant::now() });
+        let state = Mutex::new(State { bound: false, ended: Instant::now() });
         Spread { cores: if all { cores } else { Vec::new() }, state }
     }
 
-    /// Before work of the pool: its threads stay on their cores, or no longer, as the machine is busy or not.
-    pub fn keep(&self, pool: &ThreadPool) {
+    /// Before work of the pool: binds its threads if nothing else runs on the machine, else frees them.
+    pub fn before_work(&self, pool: &ThreadPool) {
         if self.cores.is_empty() {
             return;
         }
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        if state.worked.elapsed() < SETTLED {
+        if state.ended.elapsed() < SETTLED {
             return;
         }
         let idle = system::running() == Some(1);
-        if state.kept != idle {
-            state.kept = idle;
+        if state.bound != idle {
+            state.bound = idle;
             let cores = self.cores.clone();
             pool.spawn_broadcast(move |thread| {
                 system::stay_on(if idle { &cores[thread.index()..=thread.index()] } else { &cores });
@@ -57,9 +59,9 @@ impl Spread {
     }
 
     /// After work of the pool.
-    pub fn worked(&self) {
+    pub fn after_work(&self) {
         if !self.cores.is_empty() {
-            self.state.lock().unwrap_or_else(PoisonError::into_inner).worked = Instant::now();
+            self.state.lock().unwrap_or_else(PoisonError::into_inner).ended = Instant::now();
         }
     }
 }

@@ -54,9 +54,9 @@ pub fn run_telling<T: Send>(
 ) -> PyResult<T> {
     if size > FEW {
         let pool = pool(threads).map_err(not_started)?;
-        pool.spread.keep(&pool.threads);
+        pool.spread.before_work(&pool.threads);
         let result = waited(py, &pool.threads, tell, work);
-        pool.spread.worked();
+        pool.spread.after_work();
         return result;
     }
     let result = py.detach(|| {
