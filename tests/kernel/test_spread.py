@@ -35,7 +35,7 @@ for _ in range(100):
     time.sleep(0.002)  # the kernel's own threads look for work a little longer
     alone.append(open("/proc/loadavg").read().split()[3].startswith("1/"))
 else:
-    assert not (of_all_cores and all(alone)), "nothing else runs, and no thread is bound"
+    assert not (of_all_cores and sum(alone) > 50), "nothing else runs, and no thread is bound"
 assert os.sched_getaffinity(0) == whole
 assert all(mask == whole or len(mask) == 1 for mask in masks()), masks()
 busy = subprocess.Popen([sys.executable, "-c", "while True: pass"])
