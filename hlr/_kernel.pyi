@@ -652,6 +652,13 @@ class BrepModel:
     def boxes(self, threads: int = 0) -> Floats:
         """(parts, 2, 3) lower and upper corner of each part's box; the lower is beyond the upper where it has none."""
 
+    def reach(self, parts: Ints, places: Floats, right: _Vector, up: _Vector, threads: int = 0) -> Floats:
+        """(2, 2) how far placed parts reach along two directions of length 1: lower and upper end along each.
+
+        The lower end is beyond the upper one where there is nothing. parts (n,): their numbers; places (n, 3, 4): the
+        matrices that place them. A free-form surface reaches as far as its control points.
+        """
+
     def planar(self, tolerance: float) -> Bools:
         """(faces,) whether each face departs from a plane by no more than the tolerance."""
 

@@ -57,7 +57,24 @@ class Placement:
         """
         if self.settled:
             return self
-        width, height = _extent(camera, points, self.aspect)
+        return self._of_size(*_extent(camera, points, self.aspect), camera, options, curved)
+
+    def foreseen(self, camera: Camera, options: Options, source: Source) -> Placement:
+        """The placement with the size that the source tells before it is meshed: closer than that of its box.
+
+        So nothing is meshed for a scale that is then found to be too small. Sources need not tell it (it is beyond the
+        protocol); in perspective the box is taken.
+        """
+        tell = getattr(source, "reach", None)
+        if self.settled or camera.eye is not None or tell is None:
+            return self
+        width, height = (upper - lower for lower, upper in tell(camera.right, camera.up).tolist())
+        if max(width, height) <= 0.0:
+            return self
+        return self._of_size(width, height, camera, options, curved=True)
+
+    def _of_size(self, width: float, height: float, camera: Camera, options: Options, curved: bool) -> Placement:
+        """The placement of a drawing of this width and height, in model units."""
         if curved and options.fit is not None and not camera.framed:
             bulge = max(
                 self.tolerances.deflection * self.magnified, CURVE_BULGE * self.tolerances.accuracy / self.per_model
@@ -82,6 +99,7 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
     brep = is_brep(source.kind)
     magnified = _magnified(camera, corners)
     placed = _sized(width, height, options, source.frame.unit, brep, aspect, magnified)
+    placed = placed.foreseen(camera, options, source)
     stray = stray_note(source, camera)
     return placed if stray is None else replace(placed, notes=(*placed.notes, stray))
 

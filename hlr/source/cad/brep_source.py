@@ -12,6 +12,7 @@ from hlr import _kernel
 from hlr.common.types import Floats, Ints, Progress
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError
+from hlr.request.options import Vector
 from hlr.source.bounds import check_bounds
 from hlr.source.cad.occt_collections import new_collection
 from hlr.source.cad.parts import Part
@@ -120,13 +121,27 @@ class BrepSource:
             self._bounds = check_bounds(self._name, bounds)
         return self._bounds.copy()
 
+    def reach(self, right: Vector, up: Vector) -> Floats:
+        """(2, 2) how far the parts reach along two directions of length 1: lower and upper end along each.
+
+        A free-form surface reaches as far as its control points.
+        """
+        numbers = np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
+        return self._part_tessellator.reach(numbers, self._places, right, up)
+
+    @property
+    def _prototype_numbers(self) -> Ints:
+        return np.array([part.prototype for part in self._parts], np.int32)
+
+    @property
+    def _places(self) -> Floats:
+        return np.array([part.transform for part in self._parts])
+
     @property
     def _placed(self) -> tuple[Floats, Floats]:
         """Corners (p, 8, 3) of the parts' boxes, and the box (2, 3) around all that are not empty."""
         if self._corners is None:
-            prototypes = np.array([part.prototype for part in self._parts], np.int32)
-            places = np.array([part.transform for part in self._parts])
-            self._corners = _kernel.placed_boxes(self._prototypes.boxes, prototypes, places)
+            self._corners = _kernel.placed_boxes(self._prototypes.boxes, self._prototype_numbers, self._places)
         return self._corners
 
     def edge_shape(self, part: str, index: int) -> Any:

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Ints, Progress
+from hlr.common.types import Floats, Ints, Progress
 from hlr.request.accuracy import EACH_SURFACE
+from hlr.request.options import Vector
 from hlr.source.cad.meshing_faults import MeshingFaults
 from hlr.source.cad.prototypes import Prototypes
 from hlr.source.cad.rescue import faces_of, rescue
@@ -67,6 +68,10 @@ class Tessellator:
     def spindles(self) -> list[tuple[int, float, float]]:
         """Faces on tori whose tube reaches beyond their axis: number, major and minor radius."""
         return self._model.spindles()
+
+    def reach(self, prototypes: Ints, places: Floats, right: Vector, up: Vector) -> Floats:
+        """As of `Source`: of prototypes, by number (n,), that stand at `places` (n, 4, 4)."""
+        return self._model.reach(prototypes, np.ascontiguousarray(places[:, :3]), right, up)
 
     def is_one_sphere(self) -> bool:
         """Whether the prototypes are one, and that one whole sphere."""

@@ -12,10 +12,17 @@ import numpy as np
 from hlr.common.types import Color, Floats, Progress
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError, counted
+from hlr.request.options import Vector
 from hlr.source.bounds import bounding_box, check_bounds
 from hlr.source.mesh.cleaning import CleanMesh, clean_mesh
 from hlr.source.model import Appearance, Choice, Frame, PartInfo, PartMesh, Tessellation
 from hlr.source.transforms import determinant_sign, transform_points
+
+
+def _range_along(points: Floats, way: Vector) -> tuple[float, float]:
+    """Of points (n, 3) along a direction; element by element, which rounds alike on every machine."""
+    along = points[:, 0] * way[0] + points[:, 1] * way[1] + points[:, 2] * way[2]
+    return float(along.min()), float(along.max())
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +114,12 @@ class MeshSource:
     def bounds(self) -> Floats:
         """(2, 3) exact corners in model coordinates."""
         return bounding_box(np.concatenate(self.boxes()))
+
+    def reach(self, right: Vector, up: Vector) -> Floats:
+        """(2, 2) how far the parts reach along two directions of length 1: lower and upper end along each."""
+        ends = [[_range_along(part.points, way) for way in (right, up)] for part in self._parts]
+        low, high = np.moveaxis(np.array(ends), 2, 0)
+        return np.stack([low.min(axis=0), high.max(axis=0)], axis=1)
 
     def names(self) -> list[str]:
         """Name of every part."""

@@ -3,17 +3,20 @@
 //! Planes, cylinders, cones and other ruled surfaces reach farthest on their edges. Spheres, tori and surfaces of
 //! revolution are taken over the (u, v) range of the face, free-form surfaces by their control points there.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use rayon::prelude::*;
 
-use crate::format::{IDENTITY, Matrix, moved, turned};
+use crate::format::{Matrix, moved, turned};
 use crate::geometry::curve::Curve;
 use crate::geometry::nurbs::used_poles;
+use crate::geometry::spline_surface::SplineSurface;
 use crate::geometry::surface::Surface;
 use crate::geometry::vector::{Vector, add, along, cross, dot, scaled, sub};
+use crate::geometry::waves::waves;
 use crate::model::Model;
 use crate::part_topology::PartTopology;
+use crate::reach::stands;
 use crate::shapes::{Edge, Face};
 
 /// Lower and upper corner; the lower is beyond the upper where nothing is inside.
@@ -21,21 +24,27 @@ pub type Box3 = [Vector; 2];
 
 pub const EMPTY: Box3 = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
 
-type Range = [f64; 2];
+pub(crate) type Range = [f64; 2];
 
 const WHOLE: Range = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// The box of each part.
 pub fn boxes(model: &Model) -> Vec<Box3> {
-    model.topology.par_iter().map(|part| around(model, part)).collect()
+    model.topology.par_iter().map(|part| around(model, part, None, add_spline, EMPTY)).collect()
 }
 
-/// First what is known at once: ends, arcs, faces' own triangles. Splines and surfaces are then looked at where they may
-/// reach beyond that, each for itself: so the box is the same whatever the number of threads.
-fn around(model: &Model, part: &PartTopology) -> Box3 {
-    let mut known = EMPTY;
-    let edges = part.edges.iter().map(|placed| (&model.edges[placed.edge as usize], placed.place.unwrap_or(IDENTITY)));
-    let faces = part.faces.iter().map(|placed| (&model.faces[placed.face as usize], placed.place.unwrap_or(IDENTITY)));
+/// The box around a part that stands in a place, and around a box that is known already. Ends, arcs and faces' own
+/// triangles come first. Splines and surfaces that may reach beyond them are then looked at, each for itself: so the box
+/// is the same whatever the number of threads.
+pub(crate) fn around(
+    model: &Model,
+    part: &PartTopology,
+    place: Option<&Matrix>,
+    add_spline: AddSpline,
+    mut known: Box3,
+) -> Box3 {
+    let edges = part.edges.iter().map(|e| (&model.edges[e.edge as usize], stands(place, e.place)));
+    let faces = part.faces.iter().map(|f| (&model.faces[f.face as usize], stands(place, f.place)));
     let is_known = |edge: &Edge| matches!(edge.curve, Some(Curve::Line { .. } | Curve::Ellipse { .. }));
     for (edge, place) in edges.clone() {
         add_ends(edge, &place, &mut known);
@@ -55,7 +64,7 @@ fn around(model: &Model, part: &PartTopology) -> Box3 {
     });
     let with_faces = faces_left.par_iter().with_min_len(FEW).map(|(face, place)| {
         let mut found = known;
-        add_face(model, face, place, &mut found);
+        add_face(model, face, place, add_spline, &mut found);
         found
     });
     with_edges.chain(with_faces).reduce(|| known, union)
@@ -64,7 +73,7 @@ fn around(model: &Model, part: &PartTopology) -> Box3 {
 /// With fewer edges or faces a second thread gains nothing.
 const FEW: usize = 16;
 
-fn union(a: Box3, b: Box3) -> Box3 {
+pub(crate) fn union(a: Box3, b: Box3) -> Box3 {
     [[0, 1, 2].map(|k| a[0][k].min(b[0][k])), [0, 1, 2].map(|k| a[1][k].max(b[1][k]))]
 }
 
@@ -102,12 +111,12 @@ fn add_point(point: &Vector, found: &mut Box3) {
     }
 }
 
-fn add_range(k: usize, range: Range, found: &mut Box3) {
+pub(crate) fn add_range(k: usize, range: Range, found: &mut Box3) {
     found[0][k] = found[0][k].min(range[0]);
     found[1][k] = found[1][k].max(range[1]);
 }
 
-fn add_ends(edge: &Edge, place: &Matrix, found: &mut Box3) {
+pub(crate) fn add_ends(edge: &Edge, place: &Matrix, found: &mut Box3) {
     let points = edge.end_points.iter().flatten().chain(edge.polygon.iter().flatten());
     points.for_each(|point| add_point(&moved(place, point), found));
 }
@@ -195,25 +204,16 @@ fn add_turns(curve: &Curve, range: Range, count: usize, found: &mut Box3) {
 /// The value where a slope is zero is right to the square of what is left of the parameter.
 const HALVINGS: usize = 30;
 
-/// The range of a cos t + b sin t.
-fn waves(a: f64, b: f64, [first, last]: Range) -> Range {
-    let (size, top) = (a.hypot(b), b.atan2(a));
-    let ends = [first, last].map(|t| if t.is_finite() { a * t.cos() + b * t.sin() } else { 0.0 });
-    let reaches = |at: f64| !(last - first).is_finite() || at + TAU * ((first - at) / TAU).ceil() <= last;
-    let high = if reaches(top) { size } else { ends[0].max(ends[1]) };
-    let low = if reaches(top + PI) { -size } else { ends[0].min(ends[1]) };
-    [low, high]
-}
-
-fn add_face(model: &Model, face: &Face, place: &Matrix, found: &mut Box3) {
+fn add_face(model: &Model, face: &Face, place: &Matrix, add_spline: AddSpline, found: &mut Box3) {
     let Some(surface) = &face.surface else { return };
-    if let Surface::Spline(_) = surface {
+    if let Surface::Spline(spline) = surface {
         // The poles of its curves in (u, v) are at hand. Mostly not even what they enclose reaches beyond the box.
         let mut hull = EMPTY;
         add_surface(surface, uv_range(model, face, surface, add_poles), place, &mut hull);
         if hull.iter().all(|corner| is_within(corner, found)) {
             return;
         }
+        return add_spline(spline, uv_range(model, face, surface, add_curve), place, found);
     }
     add_surface(surface, uv_range(model, face, surface, add_curve), place, found);
 }
@@ -273,9 +273,7 @@ fn add_surface(surface: &Surface, [u, v]: [Range; 2], place: &Matrix, found: &mu
                 }
             }
         }
-        Surface::Spline(spline) => {
-            spline.poles_over([u, v]).for_each(|pole| add_point(&moved(place, &pole), found));
-        }
+        Surface::Spline(spline) => add_spline(spline, [u, v], place, found),
         Surface::Offset(basis, distance) => {
             let mut inner = EMPTY;
             add_surface(basis, [u, v], place, &mut inner);
@@ -288,6 +286,14 @@ fn add_surface(surface: &Surface, [u, v]: [Range; 2], place: &Matrix, found: &mu
         }
         _ => {}
     }
+}
+
+/// Adds a spline surface over ranges.
+pub(crate) type AddSpline = fn(&SplineSurface, [Range; 2], &Matrix, &mut Box3);
+
+/// Adds the poles.
+pub(crate) fn add_spline(spline: &SplineSurface, ranges: [Range; 2], place: &Matrix, found: &mut Box3) {
+    spline.poles_over(ranges).for_each(|pole| add_point(&moved(place, &pole), found));
 }
 
 /// Adds origin + (major + minor cos v) (cos u x + sin u y) + minor sin v z.
@@ -339,19 +345,12 @@ const ARCS: usize = 16;
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
+    use crate::format::IDENTITY;
 
     const FULL: Range = [0.0, TAU];
-
-    #[test]
-    fn a_wave_reaches_its_crests_where_the_range_holds_them() {
-        assert_eq!(waves(2.0, 0.0, FULL), [-2.0, 2.0]);
-        let [low, high] = waves(2.0, 0.0, [0.5, 1.0]);
-        assert!((low - 2.0 * 1f64.cos()).abs() < 1e-15 && (high - 2.0 * 0.5f64.cos()).abs() < 1e-15);
-        let [low, high] = waves(0.0, 1.0, [TAU + 1.0, TAU + 2.0]);
-        assert!(high == 1.0 && (low - 1f64.sin()).abs() < 1e-12);
-        assert_eq!(waves(3.0, 4.0, WHOLE), [-5.0, 5.0]);
-    }
 
     #[test]
     fn a_ring_reaches_as_far_as_its_points() {

@@ -16,6 +16,7 @@ pub mod mesh;
 pub mod model;
 pub mod one_sphere;
 pub mod part_topology;
+pub mod reach;
 pub mod shapes;
 pub mod tangency;
 pub mod tessellate;

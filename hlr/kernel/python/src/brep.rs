@@ -3,13 +3,15 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3,
+};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyMemoryError, PyValueError};
 use pyo3::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows as rows_of, table};
 use super::guard::caught;
-use super::parts::PartTables;
+use super::parts::{PartTables, to_matrices};
 use super::threads::{FEW, release_later, run, run_telling};
 use hlr_brep::assemble::assemble;
 use hlr_brep::bounds::boxes;
@@ -22,6 +24,7 @@ use hlr_brep::geometry::surface::Surface;
 use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
 use hlr_brep::model::Model;
 use hlr_brep::one_sphere::is_one_sphere;
+use hlr_brep::reach::{Placed, reach};
 use hlr_brep::shapes::Face;
 use hlr_brep::tessellate::{Ended, MOST_POINTS, Tessellation, Watch, tessellate};
 use hlr_mesh::tables::Tables;
@@ -96,6 +99,27 @@ impl BrepModel {
         let found = run(py, threads, 10 * self.0.faces.len(), |_| boxes(&self.0))?;
         let count = found.len();
         found.into_flattened().into_flattened().into_pyarray(py).reshape([count, 2, 3])
+    }
+
+    /// (2, 2) how far placed parts reach along two directions, of length 1: lower and upper end along each; the lower is
+    /// beyond the upper where there is nothing. parts (n,): numbers; places (n, 3, 4): where they stand.
+    #[pyo3(signature = (parts, places, right, up, threads = 0))]
+    fn reach<'py>(
+        &self,
+        py: Python<'py>,
+        parts: PyReadonlyArray1<'py, i32>,
+        places: PyReadonlyArray3<'py, f64>,
+        right: [f64; 3],
+        up: [f64; 3],
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let parts = flat(&parts, "parts")?;
+        expect_below("parts", parts.iter().copied(), self.0.parts.len())?;
+        let places = to_matrices(&places, "places", parts.len())?;
+        let placed: Vec<Placed> = parts.iter().map(|part| *part as usize).zip(places).collect();
+        let size = placed.iter().map(|(part, _)| self.0.parts[*part].edges.len()).sum();
+        let found = run(py, threads, size, |_| reach(&self.0, &placed, [right, up]))?;
+        table(py, found.to_vec())
     }
 
     /// (faces,) whether each departs from a plane by no more than the tolerance.

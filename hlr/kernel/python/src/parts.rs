@@ -185,7 +185,7 @@ arrays! { PartTables {
     }
 }
 
-fn to_matrices(array: &PyReadonlyArray3<'_, f64>, name: &str, count: usize) -> PyResult<Vec<Matrix>> {
+pub(super) fn to_matrices(array: &PyReadonlyArray3<'_, f64>, name: &str, count: usize) -> PyResult<Vec<Matrix>> {
     let wrong = || PyValueError::new_err(format!("{name} must be a C-contiguous ({count}, 3, 4) array"));
     let flat = array.as_slice().map_err(|_| wrong())?;
     if array.as_array().shape() != [count, 3, 4] || !array.as_array().is_standard_layout() {

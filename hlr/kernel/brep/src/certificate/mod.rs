@@ -16,7 +16,7 @@
 //! bound is too large, the triangle is divided into four. That divides the uncertainty by four or more, or by two where
 //! slopes jump.
 
-mod control_net;
+pub(crate) mod control_net;
 mod second_derivatives;
 
 use crate::geometry::surface::Surface;

@@ -14,3 +14,4 @@ pub mod surface;
 pub mod surface_jet;
 pub mod turning;
 pub mod vector;
+pub mod waves;

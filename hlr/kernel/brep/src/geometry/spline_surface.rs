@@ -72,7 +72,8 @@ impl SplineSurface {
         })
     }
 
-    fn within(&self, k: usize, [first, last]: [f64; 2]) -> [f64; 2] {
+    /// A range of u (0) or v (1); all of the domain where it reaches beyond that.
+    pub fn within(&self, k: usize, [first, last]: [f64; 2]) -> [f64; 2] {
         let [low, high] = self.domain()[k];
         let slack = 1e-9 * (high - low);
         if first >= low - slack && last <= high + slack { [first, last] } else { [low, high] }

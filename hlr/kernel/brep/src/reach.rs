@@ -1,0 +1,72 @@
+//! How far placed parts reach to the right and up, as a view sees them: closer than boxes along the axes of the model,
+//! whose corners stand out in an oblique view. The scale that fits a page is known from it before anything is meshed.
+
+use rayon::prelude::*;
+
+use crate::bounds::{Box3, EMPTY, Range, add_ends, add_range, add_spline, around, union};
+use crate::certificate::control_net::ControlNet;
+use crate::format::{IDENTITY, Matrix, chained};
+use crate::geometry::spline_surface::SplineSurface;
+use crate::geometry::vector::Vector;
+use crate::model::Model;
+use crate::part_topology::PartTopology;
+
+/// A part of the model, and where it stands.
+pub type Placed = (usize, Matrix);
+
+/// The range of placed parts along two directions; the lower end is beyond the upper one where there is nothing.
+///
+/// Free-form surfaces reach as far as the control points of small pieces; all else as in `bounds::boxes`.
+pub fn reach(model: &Model, parts: &[Placed], [right, up]: [Vector; 2]) -> [[f64; 2]; 2] {
+    // The view's depth is left out: nothing then reaches beyond the rest in depth, and most parts need no closer look.
+    let view = [right, up, [0.0; 3]].map(|[x, y, z]| [x, y, z, 0.0]);
+    let each =
+        || parts.par_iter().with_min_len(FEW).map(|(part, place)| (&model.topology[*part], chained(&view, place)));
+    let known = each().map(|(part, place)| around_ends(model, part, &place)).reduce(|| EMPTY, union);
+    let found =
+        each().map(|(part, place)| around(model, part, Some(&place), add_pieces, known)).reduce(|| known, union);
+    [0, 1].map(|k| [found[0][k], found[1][k]])
+}
+
+/// With fewer parts a second thread gains nothing.
+const FEW: usize = 16;
+
+fn around_ends(model: &Model, part: &PartTopology, place: &Matrix) -> Box3 {
+    let mut found = EMPTY;
+    for edge in &part.edges {
+        add_ends(&model.edges[edge.edge as usize], &stands(Some(place), edge.place), &mut found);
+    }
+    found
+}
+
+/// Adds a spline surface over ranges of u and v, piece by piece: the control points of a piece lie closer to the surface
+/// the smaller it is.
+fn add_pieces(spline: &SplineSurface, ranges: [Range; 2], place: &Matrix, found: &mut Box3) {
+    if spline.is_rational() {
+        return add_spline(spline, ranges, place, found);
+    }
+    let net = ControlNet::of_spline(spline);
+    let [us, vs] = [0, 1].map(|k| {
+        let [first, last] = spline.within(k, ranges[k]);
+        let at = move |i: usize| first + (last - first) * (i as f64 / PIECES as f64);
+        (0..PIECES).map(move |i| [at(i), at(i + 1)])
+    });
+    for u in us {
+        for v in vs.clone() {
+            (0..2).for_each(|k| add_range(k, net.range(&place[k], [u, v]), found));
+        }
+    }
+    // No depth: as everything in this view.
+    add_range(2, [0.0; 2], found);
+}
+
+/// Pieces of a spline surface along u and v. What the control points are off by falls with the square.
+const PIECES: usize = 8;
+
+/// Where something stands that has a place in its part.
+pub(crate) fn stands(part: Option<&Matrix>, within: Option<Matrix>) -> Matrix {
+    match (part, within) {
+        (Some(part), Some(within)) => chained(part, &within),
+        (part, within) => part.copied().or(within).unwrap_or(IDENTITY),
+    }
+}
