@@ -86,6 +86,12 @@ def clashes(points: Floats, triangles: Ints, triangle_group: Ints, itself: Bools
 def boxes_meet(low: Floats, high: Floats) -> Bools:
     """(n,) whether each box, low (n, 3) to high (n, 3), comes near another: False only where it certainly does not."""
 
+def limit_threads(threads: int) -> int:
+    """Set how many threads the calls of this thread use that name no number themselves; 0: all cores.
+
+    Returns the number that it was before.
+    """
+
 def placed_boxes(boxes: Floats, root: Ints, place: Floats) -> tuple[Floats, Floats]:
     """Corners (p, 8, 3) of the bounding boxes of parts, and the box (2, 3) around all of them.
 

@@ -10,6 +10,7 @@ from itertools import combinations
 from pathlib import Path
 from typing import Any, Literal
 
+from hlr.common.threads import at_most
 from hlr.drawing import files
 from hlr.errors import WriteError
 from hlr.tables.writers import DEPTH, FACES, PICTURE, WRITERS, formats
@@ -36,7 +37,9 @@ def checked_format(format: Any) -> str:
 
 def render(drawing: object, format: str) -> bytes:
     """The drawing as a file's content; format is the name of a writer. Raises WriteError for any other."""
-    return WRITERS[checked_format(format)].render(drawing)
+    writer, request = WRITERS[checked_format(format)], getattr(drawing, "request", None)
+    with at_most(0 if request is None else request.options.threads):
+        return writer.render(drawing)
 
 
 def write(drawing: object, file: Any, format: Any = None) -> Path | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.drawing import Drawing
 from hlr.drawing.notes import Noted
@@ -30,15 +31,16 @@ def draw_views(
     views = checked_views(views, options)
     if not views:
         return []
-    session = Session(source, views, options, progress)
-    if noted is not None:
-        noted([note for placement in session.placements for note in placement.notes])
-    drawings = []
-    for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
-        session.progress("visibility", i / len(views))
-        drawings.append(session.drawing(draft, Request(view, options)))
-    session.progress("linework", 1.0)
-    for drawing in drawings:
-        if options.strict:
-            refuse_warnings(drawing.notes)
+    with at_most(options.threads):
+        session = Session(source, views, options, progress)
+        if noted is not None:
+            noted([note for placement in session.placements for note in placement.notes])
+        drawings = []
+        for i, (view, draft) in enumerate(zip(views, session.drafts(lines_alone=True), strict=True)):
+            session.progress("visibility", i / len(views))
+            drawings.append(session.drawing(draft, Request(view, options)))
+        session.progress("linework", 1.0)
+        for drawing in drawings:
+            if options.strict:
+                refuse_warnings(drawing.notes)
     return drawings

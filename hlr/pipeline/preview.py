@@ -11,6 +11,7 @@ from typing import Any
 from hlr import _kernel
 from hlr.common.clock import lap
 from hlr.common.colors import parse_color
+from hlr.common.threads import at_most
 from hlr.common.types import Floats, Progress
 from hlr.drawing.drawing import Drawing, DrawnPart
 from hlr.drawing.notes import Note
@@ -69,11 +70,12 @@ def preview_views(
     if not views:
         return []
     placing = partial(_placed, options)
-    session = Session(source, views, line_options(options, _sheet(options)), progress, placing)
-    pictures = []
-    for i, draft in enumerate(session.drafts()):
-        session.progress("visibility", i / len(views))
-        pictures.append(_picture(session, draft, options, background))
+    with at_most(options.threads):
+        session = Session(source, views, line_options(options, _sheet(options)), progress, placing)
+        pictures = []
+        for i, draft in enumerate(session.drafts()):
+            session.progress("visibility", i / len(views))
+            pictures.append(_picture(session, draft, options, background))
     return pictures
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from hlr.common.threads import at_most
 from hlr.common.types import Progress
 from hlr.drawing.line import Bounds
 from hlr.pipeline.session import Session
@@ -43,17 +44,18 @@ def plan_views(
     views = checked_views(views, options)
     if not views:
         return []
-    session = Session(source, views, options, progress)
-    out = []
-    for draft in session.drafts(lines_alone=True):
-        image = session.shown(draft)
-        draft.planner.on("window")
-        if options.window is not None:
-            with draft.planner.deciding():
-                flat = image.projected()[:, :2] * image.placement.per_model
-            decide_cut(flat, Bounds(*options.window), draft.planner)
-        session.plan(draft, image)
-        out.append(ViewPlan(image.camera.name, draft.planner.decisions()))
+    with at_most(options.threads):
+        session = Session(source, views, options, progress)
+        out = []
+        for draft in session.drafts(lines_alone=True):
+            image = session.shown(draft)
+            draft.planner.on("window")
+            if options.window is not None:
+                with draft.planner.deciding():
+                    flat = image.projected()[:, :2] * image.placement.per_model
+                decide_cut(flat, Bounds(*options.window), draft.planner)
+            session.plan(draft, image)
+            out.append(ViewPlan(image.camera.name, draft.planner.decisions()))
     return out
 
 

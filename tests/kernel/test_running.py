@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 import sys
 import threading
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 from hlr import _kernel
+from hlr.common.threads import at_most
 
 
 def lengths(count: int) -> float:
@@ -52,3 +54,43 @@ def test_threads_of_python_may_all_call() -> None:
     for thread in threads:
         thread.join(60)
     assert sorted(found) == [expected(SMALL)] * 8 + [expected(LARGE)] * 8
+
+
+COUNTED = """
+import os
+
+import cadquery as cq
+
+import hlr
+
+def threads():
+    return set(os.listdir("/proc/self/task"))
+
+def drawn(**options):
+    before = threads()
+    drawing = hlr.draw(shape, hidden=True, **options)
+    drawing.save(os.devnull, format="svg")
+    return len(threads() - before)
+
+points = [(8.0 * x, 8.0 * y) for x in range(8) for y in range(8)]
+shape = cq.Workplane().box(80, 80, 6).faces(">Z").workplane().pushPoints(points).hole(3).edges("%CIRCLE").chamfer(0.3)
+hlr.draw(cq.Workplane().box(1, 1, 1))
+print(drawn(threads=3), drawn(threads=1), drawn(threads=3), drawn(), len(os.sched_getaffinity(0)))
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
+def test_a_drawing_starts_no_more_threads_than_it_was_given() -> None:
+    told = subprocess.run([sys.executable, "-c", COUNTED], capture_output=True, text=True, check=True).stdout
+    three, one, again, all_of_them, cores = map(int, told.split())
+    assert (three, one, again) == (3, 1, 0)
+    assert all_of_them >= cores
+
+
+def test_a_limit_ends_where_it_should() -> None:
+    with at_most(3):
+        with pytest.raises(ValueError, match="inside"), at_most(1):
+            raise ValueError("inside")
+        with at_most(0):
+            assert _kernel.limit_threads(3) == 3
+    assert _kernel.limit_threads(0) == 0

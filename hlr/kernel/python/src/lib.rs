@@ -49,6 +49,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(clash::clashes, m)?)?;
     m.add_function(wrap_pyfunction!(clash::boxes_meet, m)?)?;
     m.add_function(wrap_pyfunction!(boxes::placed_boxes, m)?)?;
+    m.add_function(wrap_pyfunction!(threads::limit_threads, m)?)?;
     m.add_function(wrap_pyfunction!(geometry::curve_points, m)?)?;
     m.add_class::<drawing::Lines>()?;
     m.add_class::<drawing::Layer>()?;

@@ -3,7 +3,7 @@
 //! Starting threads takes 0.2 milliseconds, more than many calls on small models take. So thread pools are kept, and
 //! work of about a millisecond runs on the calling thread.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -30,9 +30,22 @@ struct Pool {
 thread_local! {
     /// The calling thread itself as a pool.
     static HERE: OnceCell<ThreadPool> = const { OnceCell::new() };
+    /// Threads for calls of this thread that name no number; 0: all cores.
+    static LIMIT: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Calls `work` on a pool of `threads` (0: all cores). `work` polls the function it is given: KeyboardInterrupt and
+/// Sets how many threads the calls of this thread use that name no number themselves; 0: all cores. Returns the number
+/// that it was before.
+#[pyfunction]
+pub fn limit_threads(threads: usize) -> usize {
+    LIMIT.replace(threads)
+}
+
+fn limited(threads: usize) -> usize {
+    if threads == 0 { LIMIT.get() } else { threads }
+}
+
+/// Calls `work` on a pool of `threads` (0: as `limit_threads` says). `work` polls the function it is given: KeyboardInterrupt and
 /// other exceptions of signal handlers stop it within milliseconds. Work on a `size` of FEW items at most runs on the
 /// calling thread, and signals are checked afterwards.
 pub fn run<T: Send>(
@@ -53,7 +66,7 @@ pub fn run_telling<T: Send>(
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
 ) -> PyResult<T> {
     if size > FEW {
-        let pool = pool(threads).map_err(not_started)?;
+        let pool = pool(limited(threads)).map_err(not_started)?;
         pool.spread.before_work(&pool.threads);
         let result = waited(py, &pool.threads, tell, work);
         pool.spread.after_work();
@@ -79,7 +92,7 @@ pub fn run_telling<T: Send>(
 /// drawing.
 pub fn release_later<T: Send + 'static>(value: T, size: usize) {
     if size > FEW
-        && let Ok(pool) = pool(0)
+        && let Ok(pool) = pool(limited(0))
     {
         pool.threads.spawn(move || drop(value));
     }
