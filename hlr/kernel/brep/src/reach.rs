@@ -40,16 +40,19 @@ fn around_ends(model: &Model, part: &PartTopology, place: &Matrix) -> Box3 {
 }
 
 /// Adds a spline surface over ranges of u and v, piece by piece: the control points of a piece lie closer to the surface
-/// the smaller it is.
+/// the smaller it is. Those of a surface of many knots lie close anyway.
 fn add_pieces(spline: &SplineSurface, ranges: [Range; 2], place: &Matrix, found: &mut Box3) {
-    if spline.is_rational() {
+    let (degree, count, _) = spline.net();
+    let spans = [0, 1].map(|k| count[k] - degree[k]);
+    let pieces = spans.map(|spans| (PIECES / spans).max(1));
+    if spline.is_rational() || spans[0] * spans[1] > MANY {
         return add_spline(spline, ranges, place, found);
     }
     let net = ControlNet::of_spline(spline);
     let [us, vs] = [0, 1].map(|k| {
         let [first, last] = spline.within(k, ranges[k]);
-        let at = move |i: usize| first + (last - first) * (i as f64 / PIECES as f64);
-        (0..PIECES).map(move |i| [at(i), at(i + 1)])
+        let at = move |i: usize| first + (last - first) * (i as f64 / pieces[k] as f64);
+        (0..pieces[k]).map(move |i| [at(i), at(i + 1)])
     });
     for u in us {
         for v in vs.clone() {
@@ -60,7 +63,10 @@ fn add_pieces(spline: &SplineSurface, ranges: [Range; 2], place: &Matrix, found:
     add_range(2, [0.0; 2], found);
 }
 
-/// Pieces of a spline surface along u and v. What the control points are off by falls with the square.
+/// Spans between knots of a surface whose control points are close enough.
+const MANY: usize = 1000;
+
+/// Pieces of a spline surface along u and v, its spans counted. What the control points are off by falls with the square.
 const PIECES: usize = 8;
 
 /// Where something stands that has a place in its part.
