@@ -9,7 +9,7 @@ from support.shapes_of_all_kinds import shapes
 ANGLE, CHORD = 0.05, 1e-4
 
 BEYOND = {"box": 1e-9, "rounded": 1e-3, "torus": 1e-3, "ball": 1e-3, "mirrored": 1e-3, "scaled": 1e-3}
-BEYOND |= {"wavy": 1e-3, "sheet": 0.01, "turned": 0.2}
+BEYOND |= {"wavy": 1e-3, "sheet": 0.02, "turned": 0.2}
 """By name of a shape: how much farther than a fine mesh it may seem to reach, as a share of its size. A surface of
 revolution counts by the control points of its profile."""
 

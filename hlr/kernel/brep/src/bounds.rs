@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use rayon::prelude::*;
 
-use crate::format::{Matrix, moved, turned};
+use crate::format::{IDENTITY, Matrix, chained, moved, turned};
 use crate::geometry::curve::Curve;
 use crate::geometry::nurbs::used_poles;
 use crate::geometry::spline_surface::SplineSurface;
@@ -16,7 +16,6 @@ use crate::geometry::vector::{Vector, add, along, cross, dot, scaled, sub};
 use crate::geometry::waves::waves;
 use crate::model::Model;
 use crate::part_topology::PartTopology;
-use crate::reach::stands;
 use crate::shapes::{Edge, Face};
 
 /// Lower and upper corner; the lower is beyond the upper where nothing is inside.
@@ -72,6 +71,14 @@ pub(crate) fn around(
 
 /// With fewer edges or faces a second thread gains nothing.
 const FEW: usize = 16;
+
+/// Where something stands that has a place in its part.
+pub(crate) fn stands(part: Option<&Matrix>, within: Option<Matrix>) -> Matrix {
+    match (part, within) {
+        (Some(part), Some(within)) => chained(part, &within),
+        (part, within) => part.copied().or(within).unwrap_or(IDENTITY),
+    }
+}
 
 pub(crate) fn union(a: Box3, b: Box3) -> Box3 {
     [[0, 1, 2].map(|k| a[0][k].min(b[0][k])), [0, 1, 2].map(|k| a[1][k].max(b[1][k]))]
@@ -348,7 +355,6 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::format::IDENTITY;
 
     const FULL: Range = [0.0, TAU];
 

@@ -3,9 +3,9 @@
 
 use rayon::prelude::*;
 
-use crate::bounds::{Box3, EMPTY, Range, add_ends, add_range, add_spline, around, union};
+use crate::bounds::{Box3, EMPTY, Range, add_ends, add_range, add_spline, around, stands, union};
 use crate::certificate::control_net::ControlNet;
-use crate::format::{IDENTITY, Matrix, chained};
+use crate::format::{Matrix, chained};
 use crate::geometry::spline_surface::SplineSurface;
 use crate::geometry::vector::Vector;
 use crate::model::Model;
@@ -68,11 +68,3 @@ const MANY: usize = 1000;
 
 /// Pieces of a spline surface along u and v, its spans counted. What the control points are off by falls with the square.
 const PIECES: usize = 8;
-
-/// Where something stands that has a place in its part.
-pub(crate) fn stands(part: Option<&Matrix>, within: Option<Matrix>) -> Matrix {
-    match (part, within) {
-        (Some(part), Some(within)) => chained(part, &within),
-        (part, within) => part.copied().or(within).unwrap_or(IDENTITY),
-    }
-}
