@@ -1,4 +1,5 @@
-//! Reads any bytes as a dump of a shape, divides it into pieces and its edges into chords, and joins its faces' borders.
+//! Reads any bytes as a dump of a shape, divides it into pieces and its edges into chords, joins its faces' borders, and
+//! looks how far it reaches.
 //!
 //! Bytes that do not begin like a dump or a stream alter a valid one instead: each three of them are a position and a new
 //! value. One byte more alters the stream.
@@ -6,7 +7,9 @@
 use hlr_brep::divided::divided;
 use hlr_brep::edges::polyline;
 use hlr_brep::faces::border;
+use hlr_brep::format::IDENTITY;
 use hlr_brep::model::Model;
+use hlr_brep::reach::reach;
 
 const GOOD: &[u8] = include_bytes!("../../brep/tests/cylinder_4.bin");
 const STREAM: &[u8] = include_bytes!("../../brep/tests/cylinder_stream.bin");
@@ -32,6 +35,9 @@ fn read(data: &[u8]) {
         assert!(pieces.iter().flatten().all(|piece| piece.part < model.parts.len()));
     }
     let Ok(model) = Model::read(data, None) else { return };
+    let placed: Vec<_> = (0..model.parts.len()).map(|part| (part, IDENTITY)).collect();
+    let ends = reach(&model, &placed, [[0.6, 0.8, 0.0], [-0.48, 0.36, 0.8]]);
+    assert!(ends.iter().flatten().all(|end| !end.is_nan()));
     let lines: Vec<_> = model.edges.iter().map(|edge| polyline(&model, edge, DEFLECTION, ANGLE)).collect();
     for line in lines.iter().flatten() {
         assert!(line.points.len() > 1 && line.points.len() == line.parameters.len());
