@@ -363,6 +363,12 @@ class Camera:
     def __new__(
         cls, direction: _Vector, right: _Vector, up: _Vector, eye: tuple[_Vector, float] | None, scale: float
     ) -> Camera: ...
+    def reach(self, points: Floats) -> Floats:
+        """(2, 2) from where to where points (n, 3) reach in the image, to the right and up, in model units.
+
+        The lower end is beyond the upper one where there are none.
+        """
+
     def image(self, points: Floats) -> Floats:
         """(n, 3) to the right, up, and away from the viewer, in model units, of points (n, 3)."""
 

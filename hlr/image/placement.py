@@ -107,9 +107,8 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
 def _extent(camera: Camera, points: Floats, aspect: float) -> tuple[float, float]:
     """Width and height on the image plane, model units; what lies behind the eye is left out."""
     if camera.eye is None or camera.distance is None or camera.fov is None:
-        flat = camera.project(points)[:, :2]
-        size = flat.max(axis=0) - flat.min(axis=0)
-        return float(size[0]), float(size[1])
+        width, height = (high - low for low, high in camera.scaled(1.0).reach(np.ascontiguousarray(points)).tolist())
+        return width, height
     half = camera.distance * math.tan(math.radians(camera.fov) * 0.5)
     frame = np.array([half * aspect, half])
     before = points[camera.ahead(points) > NEAR * camera.distance]

@@ -82,6 +82,7 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
     corner = [
         np.full((len(part.triangles), 3), -1, np.int32) if o is None else o.corner + first
         for part, o, first in zip(parts, on, nodes.tolist(), strict=False)
+        if known
     ]
     return PartMeshes(
         labels=[PartLabel(part.name, part.color, part.transform) for part in parts],
@@ -89,8 +90,11 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
             point_start=points,
             points=_concatenated([part.points for part in parts], (3,), np.float64),
             triangle_start=_offsets([len(part.triangles) for part in parts]),
+            # Those of the first part keep their numbers: of a scan all do, and a copy would be large.
             triangles=_concatenated(
-                [p.triangles + n for p, n in zip(parts, points.tolist(), strict=False)], (3,), np.int32
+                [p.triangles + n if n else p.triangles for p, n in zip(parts, points.tolist(), strict=False)],
+                (3,),
+                np.int32,
             ),
             triangle_face=_concatenated([part.triangle_face for part in parts], (), np.int32),
             origin=_concatenated([_origin(part) for part in parts], (), np.int32),
@@ -112,7 +116,7 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
             transform=_concatenated([part.transform[None, :3] for part in parts], (3, 4), np.float64),
             precision=np.array([part.precision for part in parts], np.float64),
             node_start=nodes,
-            corner=_concatenated(corner if known else [], (3,), np.int32),
+            corner=_concatenated(corner, (3,), np.int32),
             uv=_concatenated([o.uv for o in known], (2,), np.float64),
             face_shape=of_faces(lambda o: o.number, np.array(-1, np.int32)),
             face_place=of_faces(lambda o: o.place, np.eye(3, 4)),

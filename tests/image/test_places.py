@@ -53,3 +53,17 @@ def test_what_is_no_number_stays():
 def test_boxes_that_fit_nothing_are_refused(root, place, said):
     with pytest.raises(ValueError, match=said):
         _kernel.placed_boxes(np.zeros((1, 2, 3)), np.array(root, np.int32), place)
+
+
+@pytest.mark.parametrize("count", [1, 7, 60_000])
+@pytest.mark.parametrize("eye", [None, ((3000.0, -2000.0, 2500.0), 4300.0)])
+def test_points_reach_as_far_as_their_images(count, eye):
+    points = np.random.default_rng(count).normal(size=(count, 3))
+    camera = _kernel.Camera(DIRECTION, RIGHT, UP, eye, 7.0)
+    image = camera.image(points)[:, :2]
+    assert np.array_equal(camera.reach(points), np.stack([image.min(axis=0), image.max(axis=0)], axis=1))
+
+
+def test_no_points_reach_nowhere():
+    low, high = _kernel.Camera(DIRECTION, RIGHT, UP, None, 1.0).reach(np.zeros((0, 3))).T
+    assert (low > high).all()

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import trimesh
 
 from hlr.source import open_source
 from support.shapes_of_all_kinds import shapes
@@ -85,3 +86,16 @@ def test_a_mesh_reaches_as_far_as_its_points():
     for right, up in frames(4):
         wanted = np.array([range_along(points, way) for way in (right, up)])
         assert np.allclose(source.reach(right, up), wanted, rtol=1e-13, atol=1e-13)
+
+
+def test_parts_that_are_left_out_no_longer_count():
+    far, near = trimesh.creation.box((1, 1, 1)), trimesh.creation.box((2, 2, 2))
+    far.apply_translation((50, 0, 0))
+    source = open_source(trimesh.Scene({"far": far, "near": near}))
+    ways = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    assert source.reach(*ways).tolist() == [[-1.0, 50.5], [-1.0, 1.0]]
+    name = next(name for name in source.names() if "near" in name)
+    assert source.bounds()[1].max() > 50
+    alone = source.of_parts([name], ((), ()))
+    assert alone.reach(*ways).tolist() == [[-1.0, 1.0], [-1.0, 1.0]]
+    assert alone.bounds().tolist() == [[-1.0] * 3, [1.0] * 3]

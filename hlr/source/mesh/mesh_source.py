@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from hlr import _kernel
 from hlr.common.types import Color, Floats, Progress
 from hlr.drawing.notes import Note
 from hlr.errors import SourceError, counted
@@ -17,12 +18,6 @@ from hlr.source.bounds import bounding_box, check_bounds
 from hlr.source.mesh.cleaning import CleanMesh, clean_mesh
 from hlr.source.model import Appearance, Choice, Frame, PartInfo, PartMesh, Tessellation
 from hlr.source.transforms import determinant_sign, transform_points
-
-
-def _range_along(points: Floats, way: Vector) -> tuple[float, float]:
-    """Of points (n, 3) along a direction; element by element, which rounds alike on every machine."""
-    along = points[:, 0] * way[0] + points[:, 1] * way[1] + points[:, 2] * way[2]
-    return float(along.min()), float(along.max())
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +57,7 @@ class MeshSource:
         cleaned = [clean_mesh(points, triangles) for points, triangles in geometries]
         self._report(cleaned)
         self._parts: list[PartMesh] = []
+        self._boxes: list[Floats] | None = None
         self._drawn: list[tuple[PartMesh, Instance, CleanMesh]] = []
         for instance, label in zip(instances, unique_names([i.name for i in instances]), strict=True):
             mesh = cleaned[instance.geometry]
@@ -117,9 +113,9 @@ class MeshSource:
 
     def reach(self, right: Vector, up: Vector) -> Floats:
         """(2, 2) how far the parts reach along two directions of length 1: lower and upper end along each."""
-        ends = [[_range_along(part.points, way) for way in (right, up)] for part in self._parts]
-        low, high = np.moveaxis(np.array(ends), 2, 0)
-        return np.stack([low.min(axis=0), high.max(axis=0)], axis=1)
+        view = _kernel.Camera((0.0, 0.0, 0.0), right, up, None, 1.0)
+        ends = np.array([view.reach(part.points) for part in self._parts])
+        return np.stack([ends[..., 0].min(axis=0), ends[..., 1].max(axis=0)], axis=1)
 
     def names(self) -> list[str]:
         """Name of every part."""
@@ -131,7 +127,9 @@ class MeshSource:
 
     def boxes(self) -> list[Floats]:
         """(2, 3) corners of every part."""
-        return [bounding_box(part.points) for part in self._parts]
+        if self._boxes is None:
+            self._boxes = [bounding_box(part.points) for part in self._parts]
+        return [box.copy() for box in self._boxes]
 
     def of_parts(self, names: Collection[str], choice: Choice) -> MeshSource:
         """The same source with these parts only."""
@@ -139,6 +137,7 @@ class MeshSource:
         chosen.choice = choice
         chosen._drawn = [drawn for drawn in self._drawn if drawn[0].name in names]
         chosen._parts = [part for part, _, _ in chosen._drawn]
+        chosen._boxes = None
         return chosen
 
     def transparent(self) -> bool:

@@ -38,6 +38,13 @@ impl Camera {
     fn image<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         table(py, rows(&points, "points")?.iter().map(|p| self.0.image(p)).collect())
     }
+
+    /// (2, 2) from where to where points (n, 3) reach in the image, to the right and up, in model units; the lower end is
+    /// beyond the upper one where there are none.
+    fn reach<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = rows(&points, "points")?;
+        table(py, run(py, 0, points.len() / 8, |_| self.0.reach(points))?.to_vec())
+    }
 }
 
 /// Edge, start, end and state of each piece.

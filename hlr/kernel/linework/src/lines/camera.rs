@@ -1,5 +1,7 @@
 //! The camera: projects points of the model to paper.
 
+use rayon::prelude::*;
+
 use super::View;
 use crate::fit::plane::Vec2;
 use crate::fit::project::Projection;
@@ -39,6 +41,18 @@ impl Camera {
         let away = [p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]];
         let factor = distance / -dot(&away, &self.direction);
         [dot(&away, &self.right) * factor, dot(&away, &self.up) * factor, -distance * factor]
+    }
+
+    /// From where to where points reach in the image, to the right and up, in model units; the lower end is beyond the
+    /// upper one where there are none.
+    pub fn reach(&self, points: &[Vec3]) -> [[f64; 2]; 2] {
+        let nothing = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        let with = |found: [[f64; 2]; 2], p: &Vec3| {
+            let image = self.image(p);
+            [0, 1].map(|k| [found[k][0].min(image[k]), found[k][1].max(image[k])])
+        };
+        let both = |a: [[f64; 2]; 2], b: [[f64; 2]; 2]| [0, 1].map(|k| [a[k][0].min(b[k][0]), a[k][1].max(b[k][1])]);
+        points.par_chunks(4096).map(|some| some.iter().fold(nothing, with)).reduce(|| nothing, both)
     }
 
     /// The image of a point, in millimetres on paper.
