@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
+use rayon::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat, rows, table};
 use super::chains::Chains;
@@ -36,7 +37,9 @@ impl Camera {
 
     /// Image coordinates (n, 3) of points: to the right, up, and away from the viewer, in model units.
     fn image<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        table(py, rows(&points, "points")?.iter().map(|p| self.0.image(p)).collect())
+        let points = rows(&points, "points")?;
+        let image = run(py, 0, points.len() / 8, |_| points.par_iter().map(|p| self.0.image(p)).collect())?;
+        table(py, image)
     }
 
     /// (2, 2) from where to where points (n, 3) reach in the image, to the right and up, in model units; the lower end is
@@ -132,7 +135,7 @@ impl Cut {
                 .collect();
             let found = run(py, threads, projected.len(), |stopped| {
                 let flat: Vec<[f64; 2]> =
-                    projected.iter().map(|p| [p[0] * camera.scale, p[1] * camera.scale]).collect();
+                    projected.par_iter().map(|p| [p[0] * camera.scale, p[1] * camera.scale]).collect();
                 let view = camera.view();
                 let (pieces, piece_offsets) = (&pieces[..], &piece_offsets[..]);
                 let geometry = Geometry { flat: &flat, space, view: &view, edges, pieces, piece_offsets };
