@@ -668,7 +668,7 @@ class BrepModel:
         """(2, 2) how far placed parts reach along two directions of length 1: lower and upper end along each.
 
         The lower end is beyond the upper one where there is nothing. parts (n,): their numbers; places (n, 3, 4): the
-        matrices that place them. A free-form surface reaches as far as its control points.
+        matrices that place them. Splines count by the control points of small pieces.
         """
 
     def planar(self, tolerance: float) -> Bools:

@@ -62,8 +62,8 @@ class Placement:
     def foreseen(self, camera: Camera, options: Options, source: Source) -> Placement:
         """The placement with the size that the source tells before it is meshed: closer than that of its box.
 
-        So nothing is meshed for a scale that is then found to be too small. Sources need not tell it (it is beyond the
-        protocol); in perspective the box is taken.
+        So nothing is meshed for a scale that is then found to be too small. Sources need not tell it (`Source`); in
+        perspective the box is taken.
         """
         tell = getattr(source, "reach", None)
         if self.settled or camera.eye is not None or tell is None:
@@ -107,7 +107,8 @@ def place(camera: Camera, options: Options, source: Source, bounds: Floats) -> P
 def _extent(camera: Camera, points: Floats, aspect: float) -> tuple[float, float]:
     """Width and height on the image plane, model units; what lies behind the eye is left out."""
     if camera.eye is None or camera.distance is None or camera.fov is None:
-        width, height = (high - low for low, high in camera.scaled(1.0).reach(np.ascontiguousarray(points)).tolist())
+        corners = np.ascontiguousarray(points, np.float64)
+        width, height = (high - low for low, high in camera.scaled(1.0).reach(corners).tolist())
         return width, height
     half = camera.distance * math.tan(math.radians(camera.fov) * 0.5)
     frame = np.array([half * aspect, half])

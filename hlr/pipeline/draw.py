@@ -40,7 +40,7 @@ def draw_views(
             session.progress("visibility", i / len(views))
             drawings.append(session.drawing(draft, Request(view, options)))
         session.progress("linework", 1.0)
-        for drawing in drawings:
-            if options.strict:
-                refuse_warnings(drawing.notes)
+    for drawing in drawings:
+        if options.strict:
+            refuse_warnings(drawing.notes)
     return drawings

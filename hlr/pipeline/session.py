@@ -50,7 +50,7 @@ Placing = Callable[[Camera, Options, Source, Floats], Placement]
 
 
 MOST_MESHINGS = 3
-"""A view whose outlines are smaller than its box may get a larger scale, for which the source is meshed again."""
+"""A view whose outlines are smaller than was foreseen may get a larger scale, for which the source is meshed again."""
 
 
 @dataclass(slots=True)
@@ -128,7 +128,7 @@ class Session:
         planner = Planner(drawing_effects(), self.options)
         note_reading(planner, self.source)
         with planner.deciding():
-            # Beyond the protocol a source may tell this: there is one part, and it is one whole sphere.
+            # Sources need not tell this (`Source`).
             ask = getattr(self.source, "is_one_sphere", None) if lines_alone else None
             sphere = ask is not None and bool(ask())
             perspective = any(camera.eye is not None for camera in self.cameras)

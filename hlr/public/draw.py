@@ -8,6 +8,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any, Unpack
 
 from hlr.common.keywords import record_of, shown
+from hlr.common.threads import at_most
 from hlr.pipeline.draw import draw_views as drawn_once
 from hlr.request.check import checked, checked_views
 from hlr.request.options import Options, View, Wishes
@@ -47,14 +48,15 @@ def draw_views(
     started = perf_counter()
     options = checked(options)
     views = checked_views(views, options)
-    opened = open_selected(source, options)
-    if options.within is None:
-        drawings = drawn_once(opened, views, options, progress, noted)
-    else:
-        from hlr.pipeline.within import draw_within
+    with at_most(options.threads):
+        opened = open_selected(source, options)
+        if options.within is None:
+            drawings = drawn_once(opened, views, options, progress, noted)
+        else:
+            from hlr.pipeline.within import draw_within
 
-        drawings = draw_within(opened, views, options, progress, started=started, noted=noted)
-    return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
+            drawings = draw_within(opened, views, options, progress, started=started, noted=noted)
+        return [with_report(opened, drawing, progress) for drawing in drawings] if options.report else drawings
 
 
 @shown(Options)

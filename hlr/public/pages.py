@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from hlr.common.threads import at_most
 from hlr.drawing.drawing import Drawing
 from hlr.errors import OptionError, SourceError
 from hlr.pipeline.page.page import drawn_page, part_of
@@ -73,7 +74,7 @@ def pages_with_views(
     """The same, each with its views as they were drawn."""
     options = _page_options(options or Options())
     path = _path(source)
-    with opened_document(path) as document:
+    with at_most(options.threads), opened_document(path) as document:
         wanted = _chosen(pages_of(document, path), pages, path)
         sources = Sources(document, path)
         found, refused = [], []

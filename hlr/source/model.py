@@ -185,7 +185,9 @@ Choice = tuple[tuple[str, ...], tuple[str, ...]]
 class Source(Protocol):
     """An opened source: read once, meshed as finely as each request needs.
 
-    Any object that follows this protocol can be drawn.
+    Any object that follows this protocol can be drawn. Beyond it, a source may have two methods that save work:
+    `reach(right, up)`, (2, 2): from where to where the model extends along two directions of length 1, or a little
+    further; and `is_one_sphere()`: there is one part, and it is one whole sphere.
     """
 
     @property

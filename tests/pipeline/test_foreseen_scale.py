@@ -1,6 +1,7 @@
 """The scale on a page is known before anything is meshed, so a model is meshed once."""
 
 import cadquery as cq
+import numpy as np
 import pytest
 import trimesh
 
@@ -72,3 +73,12 @@ def test_a_source_that_tells_nothing_is_placed_by_its_box(monkeypatch):
     scale = hlr.draw(model).scale
     monkeypatch.setattr(Placement, "foreseen", lambda self, camera, options, source: self)
     assert hlr.draw(model).scale == scale
+
+
+def test_a_box_may_be_told_in_whole_numbers(monkeypatch):
+    """Sources of others may: `reach` is not theirs, and their box is what NumPy makes of a list."""
+    model = trimesh.creation.box((10, 20, 30), transform=trimesh.transformations.translation_matrix((5, 10, 15)))
+    usual = render(hlr.draw(model), "svg")
+    monkeypatch.delattr(MeshSource, "reach")
+    monkeypatch.setattr(MeshSource, "bounds", lambda self: np.array([[0, 0, 0], [10, 20, 30]]))
+    assert render(hlr.draw(model), "svg") == usual

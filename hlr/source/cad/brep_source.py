@@ -124,7 +124,7 @@ class BrepSource:
     def reach(self, right: Vector, up: Vector) -> Floats:
         """(2, 2) how far the parts reach along two directions of length 1: lower and upper end along each.
 
-        A free-form surface reaches as far as its control points.
+        May be a little too far: splines count by the control points of small pieces.
         """
         numbers = np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
         return self._part_tessellator.reach(numbers, self._places, right, up)

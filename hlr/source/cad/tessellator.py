@@ -70,7 +70,7 @@ class Tessellator:
         return self._model.spindles()
 
     def reach(self, prototypes: Ints, places: Floats, right: Vector, up: Vector) -> Floats:
-        """As of `Source`: of prototypes, by number (n,), that stand at `places` (n, 4, 4)."""
+        """As of `BrepSource`: of prototypes, numbers (n,) among the chosen, that stand at `places` (n, 4, 4)."""
         return self._model.reach(prototypes, np.ascontiguousarray(places[:, :3]), right, up)
 
     def is_one_sphere(self) -> bool:
