@@ -108,6 +108,9 @@ class Mesh:
 
     def __new__(cls, points: Floats, triangles: Ints, edges: Ints, offsets: Ints, incident: Ints) -> Mesh: ...
 
+def edge_roles(curved: Bools, kind: Bytes, roles: Bytes) -> Bytes:
+    """(e,) of each edge roles[curved, kind]; roles (512,): first of kinds beside no curved face, then beside one."""
+
 class Groups:
     """triangle (t,), edge (e,): the group of each; the other columns are properties of each group (g,).
 
@@ -467,16 +470,14 @@ class LineTolerances:
 class Cut:
     """Lines on paper: pieces joined along chains, coincident lines merged, short figures dropped, vertices thinned out.
 
-    projected (n, 3) as Camera.project gives it, of the mesh's points; pieces: edge, start, end and state of the
-    visibility pass, by edge; rank (c,) uint8: of coincident lines the lower sixteen is drawn, of equal ones the nearer,
-    then the lower; without_brep (c,): of a mesh without faces; hidden: whether hidden lines are drawn. ValueError where
-    they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
+    pieces: edge, start, end and state of the visibility pass, by edge; rank (c,) uint8: of coincident lines the lower
+    sixteen is drawn, of equal ones the nearer, then the lower; without_brep (c,): of a mesh without faces; hidden:
+    whether hidden lines are drawn. ValueError where they do not fit, KeyboardInterrupt within milliseconds of Ctrl-C.
     """
 
     def __new__(
         cls,
         camera: Camera,
-        projected: Floats,
         mesh: Mesh,
         pieces: tuple[Ints, Floats, Floats, Bytes],
         chains: Chains,
@@ -721,7 +722,8 @@ class PartTables:
 
     Triangles (t, 3) and edge_nodes count points (n, 3) of all parts; edge e of all is the polyline
     edge_nodes[edge_offsets[e]:edge_offsets[e + 1]]. Numbers of faces and edges (triangle_face, edge_index) are those of
-    their own part. origin (t,): which triangle of its part each is, or is a piece of, as the source hands it over.
+    their own part. origin (t,): which triangle of its part each is, or is a piece of, as the source hands it over; it
+    is given as None where each is that of its own number.
 
     Per part: brep, it has faces and edges; joined, no two of its points are in one place; transform (p, 3, 4);
     precision, what its coordinates may be off by (model units).
@@ -741,7 +743,7 @@ class PartTables:
         triangle_start: Ints,
         triangles: Ints,
         triangle_face: Ints,
-        origin: Ints,
+        origin: Ints | None,
         face_start: Ints,
         face_planar: Bools,
         edge_start: Ints,
@@ -792,8 +794,8 @@ class PartTables:
     def within(self, largest: float) -> bool:
         """Whether all coordinates are finite and nearer to the origin than this."""
 
-    def places_repeated(self) -> bool:
-        """Whether a part that is not joined may hold two points in one place: yes where it does."""
+    def places_repeated(self) -> list[bool]:
+        """Whether each part is not joined and may hold two points in one place: yes where it does."""
 
     def facts(self) -> MeshFacts: ...
 
@@ -802,8 +804,7 @@ class MeshFacts:
 
     edges (e, 2) lower vertex first, ascending; their triangles incident[offsets[i]:offsets[i + 1]], ascending; balance
     (e,) triangles along minus triangles against the edge; fold (e,) cosine of the fold, NaN where there are not two
-    triangles with area; normals (t, 3), zero without area; flat: the triangles without area; repeated: a triangle is
-    there twice.
+    triangles with area; normals (t, 3), zero without area; flat: the triangles without area.
     """
 
     edges: Ints
@@ -813,7 +814,9 @@ class MeshFacts:
     fold: Floats
     normals: Floats
     flat: npt.NDArray[np.int64]
-    repeated: bool
+    def triangles_repeated(self) -> list[bool]:
+        """Whether each part has a triangle with the corners of another one."""
+
     def borders_without_brep(self) -> list[int]:
         """How many borders each part without B-rep has."""
 

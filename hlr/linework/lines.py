@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from hlr import _kernel
-from hlr.common.types import Floats
 from hlr.drawing.line import Line
 from hlr.drawing.lines import Lines
 from hlr.image.image import Image
@@ -33,13 +32,12 @@ def draw_lines(
     edge_curves: EdgeCurveLookup,
     plan: Plan,
     segments: Segments,
-    projected: Floats,
     hidden: bool,
     threads: int,
 ) -> Linework:
     """All lines, sorted by part, kind, edge and face.
 
-    projected (n, 3) as `Image.projected` gives it; hidden: hidden lines are drawn as well
+    hidden: hidden lines are drawn as well
     """
     per_model, tolerances = image.placement.per_model, image.placement.tolerances
     chains = _chains(image, plan, segments)
@@ -50,7 +48,6 @@ def draw_lines(
     t = tolerances
     cut = _kernel.Cut(
         image.camera.scaled(per_model),
-        projected,
         segments.mesh,
         (segments.edge, segments.t0, segments.t1, segments.state),
         chains,

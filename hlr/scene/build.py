@@ -115,14 +115,17 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
     """The parts without duplicates, their edges, and the number of triangles left out of each."""
     mesh, doubled = _facts(whole), [0] * len(whole)
     with plan.deciding():
-        repeated = mesh.repeated or whole.tables.places_repeated()
+        repeated = list(zip(mesh.triangles_repeated(), whole.tables.places_repeated(), strict=True))
+        some = [i for i, which in enumerate(repeated) if any(which)]
     begin = perf_counter()
-    if plan.on("repair", Facts(repeated=repeated)):
-        parts = list(whole)
-        found = [without_duplicates(part) for part in parts]
-        doubled = [count for _, count in found]
-        if any(one is not other for (one, _), other in zip(found, parts, strict=True)):
-            whole = combine_parts([part for part, _ in found])
+    if plan.on("repair", Facts(repeated=bool(some))):
+        changed = {}
+        for i in some:
+            part, doubled[i] = without_duplicates(whole[i], *repeated[i])
+            if doubled[i]:
+                changed[i] = part
+        if changed:
+            whole = combine_parts([changed.get(i, part) for i, part in enumerate(whole)])
             mesh = _facts(whole)
     plan.spent("repair", perf_counter() - begin, doubled_triangles=sum(doubled))
     return whole, mesh, doubled

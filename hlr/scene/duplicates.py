@@ -15,15 +15,18 @@ from hlr.source.model import PartMesh
 Indices = npt.NDArray[np.intp]
 
 
-def without_duplicates(part: PartMesh) -> tuple[PartMesh, int]:
+def without_duplicates(part: PartMesh, triangles: bool = True, places: bool = True) -> tuple[PartMesh, int]:
     """The part without repeated triangles and faces, and how many triangles that left out.
 
     One of each set of duplicates stays. Duplicates would make every edge between them non-manifold, or count as two
-    surfaces in contact.
+    surfaces in contact. triangles: a triangle has the corners of another one; places: two points are in one place. A
+    caller that knows better says False, which saves the search.
     """
     found = len(part.triangles)
-    part = _without_repeated_triangles(part)
-    part = _without_repeated_faces(part)
+    if triangles:
+        part = _without_repeated_triangles(part)
+    if places:
+        part = _without_repeated_faces(part)
     return part, found - len(part.triangles)
 
 
@@ -41,8 +44,6 @@ def _without_repeated_faces(part: PartMesh) -> PartMesh:
     neighbours may coincide, and leaving them out would make holes. The orientation must be the same: two bodies in
     contact at equal faces each need their own.
     """
-    if not _may_coincide(part.points):
-        return part
     _, place = equal_rows(part.points + 0.0)  # minus zero becomes zero, so that equal numbers have equal bits
     turned = np.argmin(place[part.triangles], axis=1)[:, None]
     nodes = np.take_along_axis(part.triangles, (turned + np.arange(3)) % 3, axis=1)
@@ -58,13 +59,6 @@ def _without_repeated_faces(part: PartMesh) -> PartMesh:
     used = distinct(part.triangles[kept])
     node[used] = used
     return replace(_with_triangles(part, kept), edge_nodes=node[part.edge_nodes])
-
-
-def _may_coincide(points: Floats) -> bool:
-    """Whether two points may be equal; a quick test that most parts fail."""
-    x, y, z = points.T
-    key = np.sort(x + 0.7548776662466927 * y + 0.5698402909980532 * z)
-    return bool((key[1:] == key[:-1]).any())
 
 
 def _first_equal(corners: Ints, n: int) -> Indices:

@@ -97,7 +97,9 @@ def combine_parts(parts: Sequence[PartMesh]) -> PartMeshes:
                 np.int32,
             ),
             triangle_face=_concatenated([part.triangle_face for part in parts], (), np.int32),
-            origin=_concatenated([_origin(part) for part in parts], (), np.int32),
+            origin=None
+            if all(part.origin is None for part in parts)
+            else _concatenated([_origin(part) for part in parts], (), np.int32),
             face_start=_offsets(counts),
             face_planar=_concatenated([part.face_planar for part in parts], (), np.bool_),
             edge_start=_offsets([len(part.edge_index) for part in parts]),

@@ -71,7 +71,7 @@ def decide(image: Image, options: Options, planner: Planner) -> Plan:
     roles[1, goes_on()] = OUTLINE
     drawn_kind = [row.drawn(options) for row in by_number()]
     roles[:, : len(drawn_kind)] |= DRAWN * np.array(drawn_kind, np.uint8)
-    role = roles[image.edge_curved.view(np.uint8), image.edge_kind]
+    role = _kernel.edge_roles(image.edge_curved, image.edge_kind, roles.ravel())
     if image.silhouettes is not None:
         role[image.silhouettes.hidden] = 0
     delta, cap = _contact(image, tolerances)

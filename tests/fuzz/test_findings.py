@@ -86,7 +86,6 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
     )
     cut = _kernel.Cut(
         _kernel.Camera((0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), None, 1.0),
-        space,
         mesh,
         (
             np.array(drawn, np.int32),

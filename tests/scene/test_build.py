@@ -181,18 +181,19 @@ def test_a_repetition_is_noticed_wherever_it_is(again):
     mesh = box((10, 20, 30))
     plain, other = part_of((mesh.vertices, mesh.faces)), part_of((mesh.vertices + 50.0, mesh.faces))
     plain, other = replace(plain, joined=False), replace(other, joined=False)
-    assert not combine_parts([plain, other, plain]).tables.places_repeated(), (
+    assert combine_parts([plain, other, plain]).tables.places_repeated() == [False] * 3, (
         "equal parts are no repetition in any of them"
     )
-    assert not combine_parts([plain]).tables.facts().repeated
+    assert combine_parts([plain, other]).tables.facts().triangles_repeated() == [False] * 2
     for corners in (mesh.faces[again], np.roll(mesh.faces[again], 1), mesh.faces[again][::-1]):
         triangles = np.concatenate([plain.triangles, corners[None].astype(np.int32)])
         twice = replace(plain, triangles=triangles, triangle_face=np.zeros(len(triangles), np.int32))
-        assert combine_parts([twice]).tables.facts().repeated
+        assert combine_parts([other, twice, plain]).tables.facts().triangles_repeated() == [False, True, False]
     where = again % len(plain.points)
     points = np.concatenate([plain.points, plain.points[where : where + 1]])
-    assert combine_parts([other, replace(plain, points=points)]).tables.places_repeated()
-    assert not combine_parts([other, replace(plain, points=points, joined=True)]).tables.places_repeated()
+    assert combine_parts([other, replace(plain, points=points)]).tables.places_repeated() == [False, True]
+    joined = replace(plain, points=points, joined=True)
+    assert combine_parts([other, joined]).tables.places_repeated() == [False, False]
 
 
 @pytest.mark.parametrize("far", [(0, 0, 0), (30, -40, 50), (-12345678.9, 23456789.1, 9876543.2)])

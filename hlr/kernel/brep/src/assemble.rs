@@ -159,7 +159,7 @@ fn part(model: &Model, meshed: &Tessellation, number: usize) -> PartMesh {
         out.face_reversed.push(face.reversed);
     }
     lines(model, meshed, number, &corners, &mut out);
-    compress(&corners.points, &mut out);
+    compress(corners.points, &mut out);
     out
 }
 
@@ -195,14 +195,17 @@ fn lines(model: &Model, meshed: &Tessellation, number: usize, corners: &Corners,
 }
 
 /// Keeps the points that are used, in their order.
-fn compress(points: &[[f64; 3]], out: &mut PartMesh) {
+fn compress(points: Vec<[f64; 3]>, out: &mut PartMesh) {
+    let mut used = vec![false; points.len()];
+    out.triangles.iter().flatten().chain(&out.edge_nodes).for_each(|&i| used[i as usize] = true);
+    if !used.contains(&false) {
+        out.points = points;
+        return;
+    }
     let mut number = vec![-1i32; points.len()];
     out.points.reserve(points.len());
-    for &i in out.triangles.iter().flatten().chain(&out.edge_nodes) {
-        number[i as usize] = 0;
-    }
-    for (n, &point) in number.iter_mut().zip(points) {
-        if *n == 0 {
+    for ((n, used), point) in number.iter_mut().zip(used).zip(points) {
+        if used {
             *n = out.points.len() as i32;
             out.points.push(point);
         }

@@ -1,6 +1,7 @@
 //! Checks linework on any points and pieces, step by step and as a whole: it terminates, stays finite, adds nothing and
 //! loses nothing.
 
+use hlr_linework::lines::camera::Camera;
 use hlr_linework::lines::candidates::{About, Chains};
 use hlr_linework::lines::coincident::{Widths, uncovered};
 use hlr_linework::lines::cut::{Tolerances, Trait, cut as drawn, ranked};
@@ -18,10 +19,11 @@ use super::topology::check_chains;
 struct Case {
     flat: Vec<[f64; 2]>,
     space: Vec<[f64; 3]>,
+    camera: Camera,
     view: View,
     edges: Vec<[i32; 2]>,
     pieces: Vec<Piece>,
-    piece_offsets: Vec<u32>,
+    piece_edge: Vec<i32>,
     chains: Vec<(Vec<i32>, Vec<bool>)>,
     limits: Limits,
     tolerances: Tolerances,
@@ -34,12 +36,11 @@ pub fn run(data: &[u8]) {
     let case = read(&mut Bytes::new(data));
     check_chains(&case.edges, &vec![0; case.edges.len()]);
     let geometry = Geometry {
-        flat: &case.flat,
+        camera: &case.camera,
         space: &case.space,
-        view: &case.view,
         edges: &case.edges,
         pieces: &case.pieces,
-        piece_offsets: &case.piece_offsets,
+        piece_edge: &case.piece_edge,
     };
     let mut lines = Vec::new();
     for (id, (edges, reversed)) in case.chains.iter().enumerate() {
@@ -122,8 +123,19 @@ fn read(bytes: &mut Bytes) -> Case {
     let places = 2 + bytes.below(24);
     let flat: Vec<[f64; 2]> = (0..places).map(|_| [bytes.number(kind), bytes.number(kind)]).collect();
     let perspective = bytes.byte().is_multiple_of(4);
-    let space =
-        flat.iter().map(|p| [p[0], p[1], if perspective { 1.0 } else { 0.0 } + f64::from(bytes.byte())]).collect();
+    let camera = Camera {
+        direction: [0.0, 0.0, -1.0],
+        right: [1.0, 0.0, 0.0],
+        up: [0.0, 1.0, 0.0],
+        eye: perspective.then_some(([0.0; 3], 1.0)),
+        scale: 1.0,
+    };
+    let mut in_space = |p: &[f64; 2]| {
+        let depth = f64::from(bytes.byte());
+        if perspective { [p[0] * (1.0 + depth), p[1] * (1.0 + depth), 1.0 + depth] } else { [p[0], p[1], depth] }
+    };
+    let space: Vec<[f64; 3]> = flat.iter().map(&mut in_space).collect();
+    let flat: Vec<[f64; 2]> = space.iter().map(|p| camera.point(p)).collect();
     let mut edges = Vec::new();
     let mut chains = Vec::new();
     for _ in 0..1 + bytes.below(6) {
@@ -140,8 +152,8 @@ fn read(bytes: &mut Bytes) -> Case {
         }
         chains.push((members, reversed));
     }
-    let (mut pieces, mut piece_offsets) = (Vec::new(), vec![0]);
-    for _ in &edges {
+    let (mut pieces, mut piece_edge) = (Vec::new(), Vec::new());
+    for edge in 0..edges.len() as i32 {
         let mut cuts: Vec<f64> = (0..bytes.below(4)).map(|_| bytes.fraction()).collect();
         if proper {
             cuts.extend([0.0, 1.0]);
@@ -152,8 +164,8 @@ fn read(bytes: &mut Bytes) -> Case {
         for w in cuts.windows(2).filter(|_| drawn) {
             let state = [State::Visible, State::Hidden, State::Within, State::Diving][bytes.below(4)];
             pieces.push(Piece { start: w[0], end: w[1], state });
+            piece_edge.push(edge);
         }
-        piece_offsets.push(pieces.len() as u32);
     }
     let extent = flat.iter().flatten().map(|c| c.abs()).fold(0.0, f64::max);
     // From the accuracy, as hlr derives them: at most a quarter of the drawing, at least what its grid can tell apart.
@@ -166,10 +178,11 @@ fn read(bytes: &mut Bytes) -> Case {
     Case {
         flat,
         space,
-        view: View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective },
+        view: camera.view(),
+        camera,
         edges,
         pieces,
-        piece_offsets,
+        piece_edge,
         chains,
         limits: Limits { short: accuracy, stub: 10.0 * accuracy, noise: accuracy },
         tolerances: Tolerances {
@@ -229,8 +242,8 @@ fn check_length(case: &Case, lines: &[Polyline]) {
             .iter()
             .map(|&e| {
                 let [a, b] = case.edges[e as usize].map(|v| case.flat[v as usize]);
-                let own = case.piece_offsets[e as usize] as usize..case.piece_offsets[e as usize + 1] as usize;
-                distance(&a, &b) * case.pieces[own].iter().map(|p| p.end - p.start).sum::<f64>()
+                let own = case.pieces.iter().zip(&case.piece_edge).filter(|(_, edge)| **edge == e);
+                distance(&a, &b) * own.map(|(p, _)| p.end - p.start).sum::<f64>()
             })
             .sum();
         let found: f64 = lines.iter().filter(|l| l.chain == id as u32).map(Polyline::length).sum();

@@ -17,8 +17,8 @@ pub struct Facts {
     /// Unit normals; zero for triangles without area, whose numbers are in `flat`.
     pub normals: Vec<[f64; 3]>,
     pub flat: Vec<i64>,
-    /// Whether a triangle is there twice.
-    pub repeated: bool,
+    /// Triangles that have the corners of another one: of each set at least one, ascending.
+    pub repeated: Vec<i32>,
 }
 
 impl Facts {

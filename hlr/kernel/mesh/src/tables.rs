@@ -93,7 +93,7 @@ impl Tables {
         let mut out = Tables::open();
         for root in roots {
             if root.triangles.is_empty() || !root.edge_index.is_empty() {
-                out.add_root(&root, planar);
+                out.add_root(root, planar);
             } else {
                 out.add_bare(&root);
             }
@@ -105,22 +105,28 @@ impl Tables {
         Ok(out)
     }
 
-    fn add_root(&mut self, root: &PartMesh, planar: &[bool]) {
+    fn add_root(&mut self, mut root: PartMesh, planar: &[bool]) {
         let (point, node) = (self.points.len() as i32, self.uv.len() as i32);
-        self.points.extend(&root.points);
-        self.triangles.extend(root.triangles.iter().map(|t| t.map(|v| v + point)));
-        self.triangle_face.extend(&root.triangle_face);
+        if point > 0 {
+            root.triangles.iter_mut().flatten().chain(&mut root.edge_nodes).for_each(|v| *v += point);
+        }
+        if node > 0 {
+            root.corner.iter_mut().flatten().for_each(|i| *i += node);
+        }
         self.origin.extend(0..root.triangles.len() as i32);
         self.face_planar.extend(root.face_shape.iter().map(|&i| planar[i as usize]));
-        self.edge_nodes.extend(root.edge_nodes.iter().map(|v| v + point));
+        append(&mut self.points, root.points);
+        append(&mut self.triangles, root.triangles);
+        append(&mut self.triangle_face, root.triangle_face);
+        append(&mut self.edge_nodes, root.edge_nodes);
         for count in &root.edge_counts {
             self.edge_offsets.push(self.edge_offsets[self.edge_offsets.len() - 1] + count);
         }
         self.edge_index.extend(&root.edge_index);
         self.edge_class.extend(&root.edge_class);
         self.brep.push(true);
-        self.corner.extend(root.corner.iter().map(|c| c.map(|i| i + node)));
-        self.uv.extend(&root.uv);
+        append(&mut self.corner, root.corner);
+        append(&mut self.uv, root.uv);
         self.face_shape.extend(&root.face_shape);
         self.face_place.extend(&root.face_place);
         self.face_reversed.extend(&root.face_reversed);
@@ -144,6 +150,15 @@ impl Tables {
         self.face_shape.resize(self.face_planar.len(), -1);
         self.face_place.resize(self.face_planar.len(), IDENTITY);
         self.face_reversed.resize(self.face_planar.len(), false);
+    }
+
+    /// Whether these are all parts as they are, each once and where it stands.
+    pub fn are_all(&self, parts: &[Placed]) -> bool {
+        let own = |(p, placed): (usize, &Placed)| {
+            let moved = placed.transform != IDENTITY || self.transform[p] != IDENTITY;
+            placed.part == p && !moved && placed.precision == self.precision[p]
+        };
+        parts.len() == self.len() && parts.iter().enumerate().all(own)
     }
 
     /// Returns these parts, each at its placement; triangles of mirrored ones are reversed.
@@ -199,17 +214,21 @@ impl Tables {
         per_item(&self.triangle_start)
     }
 
-    /// Whether a part whose points are not joined may hold two points in one place; always true where it does.
+    /// Per part, whether its points are not joined and two of them may be in one place; always true where they are.
     ///
     /// Each place is hashed to 64 bits, so that one sort of integers finds equal ones. Two different places have the
     /// same hash with a chance of 2^-64, unless coordinates were made for it.
-    pub fn places_repeated(&self) -> bool {
-        let ranges = self.point_start.windows(2).zip(&self.joined).filter(|(_, joined)| !**joined).map(|(w, _)| w);
-        (ranges.map(|w| w[0] as usize..w[1] as usize).collect::<Vec<_>>()).into_par_iter().any(|range| {
+    pub fn places_repeated(&self) -> Vec<bool> {
+        let repeats = |part: usize| {
+            if self.joined[part] {
+                return false;
+            }
+            let range = self.point_start[part] as usize..self.point_start[part + 1] as usize;
             let mut places: Vec<u64> = self.points[range].iter().map(place).collect();
             places.par_sort_unstable();
             places.windows(2).any(|w| w[0] == w[1])
-        })
+        };
+        (0..self.len()).into_par_iter().map(repeats).collect()
     }
 
     /// Whether all coordinates are finite and nearer to the origin than this.
@@ -227,6 +246,15 @@ fn place(point: &[f64; 3]) -> u64 {
         x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         x ^ (x >> 31)
     })
+}
+
+/// Appends items; the first ones are not copied.
+fn append<T>(all: &mut Vec<T>, items: Vec<T>) {
+    if all.is_empty() {
+        *all = items;
+    } else {
+        all.extend(items);
+    }
 }
 
 fn mirrors(m: &Matrix) -> bool {
@@ -281,11 +309,11 @@ mod tests {
     #[test]
     fn two_points_in_one_place_of_one_part() {
         let mut found = one();
-        assert!(!found.places_repeated());
+        assert_eq!(found.places_repeated(), [false]);
         found.points[3] = [-0.0, 1.0, 0.0];
-        assert!(found.places_repeated());
+        assert_eq!(found.places_repeated(), [true]);
         found.joined[0] = true;
-        assert!(!found.places_repeated());
+        assert_eq!(found.places_repeated(), [false]);
     }
 
     #[test]

@@ -112,24 +112,28 @@ fn fans(triangles: &[[i32; 3]], first: &[u32], range: &Range<usize>, around: &mu
     count
 }
 
-/// Whether two triangles have the same three corners, in whatever order.
-pub fn repeated(triangles: &[[i32; 3]], topology: &Topology) -> bool {
+/// Triangles that have the three corners of another one, in whatever order: of each set at least one, ascending.
+pub fn repeated(triangles: &[[i32; 3]], topology: &Topology) -> Vec<i32> {
     let Topology { edges, offsets, incident } = topology;
-    (0..edges.len()).into_par_iter().any(|e| {
+    let at_edge = |e: usize| {
         let around = &incident[offsets[e] as usize..offsets[e + 1] as usize];
         let third = |t: i32| triangles[t as usize].iter().map(|&v| i64::from(v)).sum::<i64>();
         match around {
-            [] | [_] => false,
-            [s, t] => s != t && third(*s) == third(*t),
+            [] | [_] => None,
+            [s, t] => (s != t && third(*s) == third(*t)).then_some(vec![*t]),
             _ => {
                 // A triangle with a repeated corner is listed twice itself.
                 let mut all: Vec<(i64, i32)> = around.iter().map(|&t| (third(t), t)).collect();
                 all.sort_unstable();
                 all.dedup();
-                all.windows(2).any(|w| w[0].0 == w[1].0)
+                Some(all.windows(2).filter(|w| w[0].0 == w[1].0).map(|w| w[1].1).collect())
             }
         }
-    })
+    };
+    let mut found: Vec<i32> = (0..edges.len()).into_par_iter().filter_map(at_edge).flatten_iter().collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 /// Per edge, triangles that run along it minus triangles that run against it: zero everywhere on a closed, consistently
@@ -238,13 +242,13 @@ mod tests {
         let pool = |n| rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
         let one = pool(1).install(|| topology(&triangles, 10201));
         assert_eq!(one.edges.len(), 2 * 100 * 101 + 100 * 100);
-        assert!(one.edges.is_sorted() && !repeated(&triangles, &one));
+        assert!(one.edges.is_sorted() && repeated(&triangles, &one).is_empty());
         for threads in [2, 3, 7] {
             let many = pool(threads).install(|| topology(&triangles, 10201));
             assert!(many.edges == one.edges && many.offsets == one.offsets && many.incident == one.incident);
         }
         triangles[500] = [2, 0, 1].map(|k| triangles[19_000][k]);
-        assert!(repeated(&triangles, &topology(&triangles, 10201)));
+        assert_eq!(repeated(&triangles, &topology(&triangles, 10201)), [19_000]);
     }
 
     #[test]

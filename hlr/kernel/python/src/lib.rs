@@ -42,6 +42,7 @@ fn _kernel(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(mesh::edge_kinds, m)?)?;
     m.add_function(wrap_pyfunction!(topology::edge_components, m)?)?;
     m.add_function(wrap_pyfunction!(visibility::visibility, m)?)?;
+    m.add_function(wrap_pyfunction!(visibility::edge_roles, m)?)?;
     m.add_class::<mesh_input::Mesh>()?;
     m.add_class::<mesh_input::Groups>()?;
     m.add_class::<visibility::OwnFaces>()?;

@@ -108,7 +108,6 @@ impl Cut {
     fn new(
         py: Python<'_>,
         camera: &Camera,
-        projected: PyReadonlyArray2<'_, f64>,
         mesh: &Mesh,
         pieces: Pieces<'_>,
         chains: &Chains,
@@ -122,23 +121,18 @@ impl Cut {
             let (camera, chains) = (camera.0, &chains.0);
             let reading = mesh.reading(py)?;
             let all = reading.slices()?;
-            let (projected, space, edges) = (rows::<f64, 3>(&projected, "projected")?, all.points, all.edges);
+            let (space, edges) = (all.points, all.edges);
             let (rank, without_brep) = (flat(&rank, "rank")?, flat(&without_brep, "without_brep")?);
             let (cutting, fit) = (tolerances.cut, tolerances.fit);
-            expect_len("projected", projected.len(), space.len())?;
             expect_below("chains", chains.edges.iter().copied(), edges.len())?;
             expect_len("rank", rank.len(), chains.about.len())?;
             expect_len("without_brep", without_brep.len(), chains.about.len())?;
-            let (pieces, piece_offsets) = pieces_of(&pieces, edges.len())?;
+            let (pieces, piece_edge) = pieces_of(&pieces, edges.len())?;
             let traits: Vec<Trait> = (0..rank.len())
                 .map(|c| Trait { rank: rank[c], without_brep: without_brep[c], noisy: chains.about[c].noisy })
                 .collect();
-            let found = run(py, threads, projected.len(), |stopped| {
-                let flat: Vec<[f64; 2]> =
-                    projected.par_iter().map(|p| [p[0] * camera.scale, p[1] * camera.scale]).collect();
-                let view = camera.view();
-                let (pieces, piece_offsets) = (&pieces[..], &piece_offsets[..]);
-                let geometry = Geometry { flat: &flat, space, view: &view, edges, pieces, piece_offsets };
+            let found = run(py, threads, chains.edges.len(), |stopped| {
+                let geometry = Geometry { camera: &camera, space, edges, pieces: &pieces, piece_edge };
                 let mut found = cut(&geometry, chains, &traits, &cutting, stopped)?;
                 if !hidden {
                     found.keep_sighted(traits.len());
@@ -216,8 +210,8 @@ fn matrices<'a>(places: &'a PyReadonlyArray3<'_, f64>) -> PyResult<&'a [[[f64; 4
     Ok(places.as_slice().map_err(|_| wrong())?.as_chunks::<4>().0.as_chunks::<3>().0)
 }
 
-/// The pieces, and the index at which those of each edge begin.
-fn pieces_of(pieces: &Pieces, edges: usize) -> PyResult<(Vec<Piece>, Vec<u32>)> {
+/// The pieces, and the edge of each.
+fn pieces_of<'a>(pieces: &'a Pieces, edges: usize) -> PyResult<(Vec<Piece>, &'a [i32])> {
     let (edge, start, end, state) =
         (flat(&pieces.0, "edge")?, flat(&pieces.1, "t0")?, flat(&pieces.2, "t1")?, flat(&pieces.3, "state")?);
     for (name, found) in [("t0", start.len()), ("t1", end.len()), ("state", state.len())] {
@@ -233,10 +227,5 @@ fn pieces_of(pieces: &Pieces, edges: usize) -> PyResult<(Vec<Piece>, Vec<u32>)> 
         2 => State::Within,
         _ => State::Diving,
     };
-    let mut offsets = vec![0u32; edges + 1];
-    edge.iter().for_each(|&e| offsets[e as usize + 1] += 1);
-    for e in 0..edges {
-        offsets[e + 1] += offsets[e];
-    }
-    Ok(((0..edge.len()).map(|i| Piece { start: start[i], end: end[i], state: state(i) }).collect(), offsets))
+    Ok(((0..edge.len()).map(|i| Piece { start: start[i], end: end[i], state: state(i) }).collect(), edge))
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use numpy::{PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use rayon::prelude::*;
 
 use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
@@ -64,7 +65,7 @@ arrays! { PartTables {
         triangle_start: PyReadonlyArray1<'_, i32>,
         triangles: PyReadonlyArray2<'_, i32>,
         triangle_face: PyReadonlyArray1<'_, i32>,
-        origin: PyReadonlyArray1<'_, i32>,
+        origin: Option<PyReadonlyArray1<'_, i32>>,
         face_start: PyReadonlyArray1<'_, i32>,
         face_planar: PyReadonlyArray1<'_, bool>,
         edge_start: PyReadonlyArray1<'_, i32>,
@@ -90,18 +91,27 @@ arrays! { PartTables {
             let index = slice(&edge_index, "edge_index")?;
             let (corner, uv) = (table::<i32, 3>(&corner, "corner")?, table::<f64, 2>(&uv, "uv")?);
             let nodes = slice(&edge_nodes, "edge_nodes")?;
+            let triangle_face = slice(&triangle_face, "triangle_face")?;
+            let origin = origin.as_ref().map(|origin| slice(origin, "origin")).transpose()?;
             let (n, t, f) = (brep.len(), triangles.len(), planar.len());
+            let triangle_start = starts(&triangle_start, "triangle_start", n, t)?;
+            let large = run(py, 0, (t + points.len()) / CHEAP, |_| Large {
+                points: copied(points),
+                triangles: copied(triangles),
+                triangle_face: copied(triangle_face),
+                origin: origin.map_or_else(|| counted(&triangle_start), copied),
+            })?;
             let tables = Tables {
                 point_start: starts(&point_start, "point_start", n, points.len())?,
-                triangle_start: starts(&triangle_start, "triangle_start", n, t)?,
+                triangle_start,
                 face_start: starts(&face_start, "face_start", n, f)?,
                 edge_start: starts(&edge_start, "edge_start", n, index.len())?,
                 node_start: starts(&node_start, "node_start", n, uv.len())?,
                 edge_offsets: starts(&edge_offsets, "edge_offsets", index.len(), nodes.len())?,
-                points: points.to_vec(),
-                triangles: triangles.to_vec(),
-                triangle_face: slice(&triangle_face, "triangle_face")?.to_vec(),
-                origin: slice(&origin, "origin")?.to_vec(),
+                points: large.points,
+                triangles: large.triangles,
+                triangle_face: large.triangle_face,
+                origin: large.origin,
                 edge_nodes: nodes.to_vec(),
                 edge_index: index.to_vec(),
                 edge_class: slice(&edge_class, "edge_class")?.to_vec(),
@@ -163,6 +173,9 @@ arrays! { PartTables {
             .zip(precision)
             .map(|((&part, transform), &precision)| Placed { part: part as usize, transform, precision })
             .collect();
+        if self.0.are_all(&placed) {
+            return Ok(PartTables(self.0.clone()));
+        }
         let found = py.detach(|| self.0.placed(&placed)).map_err(too_many)?;
         Ok(PartTables(Arc::new(found)))
     }
@@ -173,7 +186,7 @@ arrays! { PartTables {
     }
 
     /// Whether a part whose points are not joined may hold two points in one place; always true where it does.
-    fn places_repeated(&self, py: Python<'_>) -> PyResult<bool> {
+    fn places_repeated(&self, py: Python<'_>) -> PyResult<Vec<bool>> {
         run(py, 0, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
     }
 
@@ -195,6 +208,30 @@ pub(super) fn to_matrices(array: &PyReadonlyArray3<'_, f64>, name: &str, count: 
 }
 
 /// Starts of the parts, checked: ascending, up to `count` items.
+/// The columns that are copied on all cores.
+struct Large {
+    points: Vec<[f64; 3]>,
+    triangles: Vec<[i32; 3]>,
+    triangle_face: Vec<i32>,
+    origin: Vec<i32>,
+}
+
+/// Items that one thread copies at a time.
+const COPIED: usize = 1 << 16;
+
+fn copied<T: Copy + Send + Sync>(items: &[T]) -> Vec<T> {
+    items.par_iter().with_min_len(COPIED).copied().collect()
+}
+
+/// The numbers of the items of each owner, from 0; `start`: the first item of each, then the number of items.
+fn counted(start: &[i32]) -> Vec<i32> {
+    let mut out = Vec::with_capacity(start.last().map_or(0, |&n| n as usize));
+    for w in start.windows(2) {
+        out.par_extend((0..w[1] - w[0]).into_par_iter().with_min_len(COPIED));
+    }
+    out
+}
+
 fn starts(array: &PyReadonlyArray1<'_, i32>, name: &str, parts: usize, count: usize) -> PyResult<Vec<i32>> {
     let start = slice(array, name)?;
     expect_len(name, start.len(), parts + 1)?;
@@ -221,9 +258,13 @@ arrays! { MeshFacts {
     flat: flat Flat<'py, i64> = |m| &m.facts.flat;
 }
 
-    #[getter]
-    fn repeated(&self) -> bool {
-        self.facts.repeated
+    /// (p,) whether each part has a triangle with the corners of another one.
+    fn triangles_repeated(&self) -> Vec<bool> {
+        let mut found = vec![false; self.tables.len()];
+        for &t in &self.facts.repeated {
+            found[self.tables.triangle_start.partition_point(|&start| start <= t) - 1] = true;
+        }
+        found
     }
 
     /// (p,) how many borders each part without B-rep has.

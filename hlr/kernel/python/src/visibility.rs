@@ -1,9 +1,10 @@
 //! Binding of `hlr_visibility::scan`: the visibility pass.
 
-use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rayon::prelude::*;
 
 use super::arrays::{expect_ascending, expect_below, expect_len, flat as slice, rows};
 use super::guard::caught;
@@ -207,4 +208,21 @@ fn counters<'py>(py: Python<'py>, c: &Counters) -> PyResult<Bound<'py, PyDict>> 
         out.set_item(name, value)?;
     }
     Ok(out)
+}
+
+/// (e,) of each edge roles[256 * curved + kind].
+#[pyfunction]
+pub fn edge_roles<'py>(
+    py: Python<'py>,
+    curved: PyReadonlyArray1<'py, bool>,
+    kind: PyReadonlyArray1<'py, u8>,
+    roles: PyReadonlyArray1<'py, u8>,
+) -> PyResult<Bound<'py, PyArray1<u8>>> {
+    let (curved, kind, roles) = (slice(&curved, "curved")?, slice(&kind, "kind")?, slice(&roles, "roles")?);
+    expect_len("kind", kind.len(), curved.len())?;
+    expect_len("roles", roles.len(), 512)?;
+    let role = |(&curved, &kind): (&bool, &u8)| roles[usize::from(curved) << 8 | usize::from(kind)];
+    let found: Vec<u8> =
+        run(py, 0, kind.len() / 64, |_| curved.par_iter().with_min_len(1 << 16).zip(kind).map(role).collect())?;
+    Ok(found.into_pyarray(py))
 }

@@ -52,7 +52,7 @@ pub fn cut(
     t: &Tolerances,
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Option<Cut> {
-    let view = geometry.view;
+    let view = &geometry.camera.view();
     let limits = Limits { short: t.flip, stub: t.stub, noise: t.flip };
     let lines: Vec<Polyline> = (0..traits.len())
         .into_par_iter()

@@ -6,7 +6,8 @@
 //!   decided  V V V H H H H V V V V V V     D is a stub left by the tolerance, so hidden; W is a contact, so visible
 //! ```
 
-use super::{Polyline, View, distance};
+use super::camera::Camera;
+use super::{Polyline, distance};
 use hlr_accuracy::RUN_NOISE;
 use hlr_visibility::scan::invisibility::State;
 
@@ -18,26 +19,36 @@ pub struct Piece {
     pub state: State,
 }
 
+/// All edges of a mesh, and the pieces of those that are drawn. Only what the chains use is looked at.
 pub struct Geometry<'a> {
-    /// Millimetres on paper.
-    pub flat: &'a [[f64; 2]],
+    pub camera: &'a Camera,
     /// Model coordinates.
     pub space: &'a [[f64; 3]],
-    pub view: &'a View,
     pub edges: &'a [[i32; 2]],
-    /// Pieces of edge e: pieces[piece_offsets[e]..piece_offsets[e + 1]], ascending.
+    /// Sorted by edge, those of one edge along it; and the edge of each.
     pub pieces: &'a [Piece],
-    pub piece_offsets: &'a [u32],
+    pub piece_edge: &'a [i32],
 }
 
 impl Geometry<'_> {
+    /// A point in millimetres on paper.
+    fn flat(&self, point: usize) -> [f64; 2] {
+        self.camera.point(&self.space[point])
+    }
+
+    fn pieces_of(&self, edge: i32) -> &[Piece] {
+        let first = self.piece_edge.partition_point(|&e| e < edge);
+        let count = self.piece_edge[first..].iter().take_while(|&&e| e == edge).count();
+        &self.pieces[first..first + count]
+    }
+
     /// The length (mm on paper) below which hidden runs of a mesh contour are noise. On saddle-shaped surfaces such a
     /// contour folds back and forth by an edge or two and hides itself there.
     pub fn noise(&self, edges: &[i32], short: f64) -> f64 {
         let total: f64 = edges
             .iter()
             .map(|&e| self.edges[e as usize])
-            .map(|[a, b]| distance(&self.flat[a as usize], &self.flat[b as usize]))
+            .map(|[a, b]| distance(&self.flat(a as usize), &self.flat(b as usize)))
             .sum();
         short.max((NOISE_EDGES * total / edges.len().max(1) as f64).min(RUN_NOISE * short))
     }
@@ -82,15 +93,16 @@ impl Chain<'_> {
         let g = self.geometry;
         let (a, b) = self.ends(k);
         if t <= 0.0 {
-            return (g.flat[a], g.space[a]);
+            return (g.flat(a), g.space[a]);
         }
         if t >= 1.0 {
-            return (g.flat[b], g.space[b]);
+            return (g.flat(b), g.space[b]);
         }
-        let u = g.view.in_space(t, g.view.depth(&g.space[a]), g.view.depth(&g.space[b]));
+        let (view, p, q) = (g.camera.view(), &g.space[a], &g.space[b]);
+        let u = view.in_space(t, view.depth(p), view.depth(q));
         let mix = |x: f64, y: f64, t: f64| x + (y - x) * t;
-        let flat = [mix(g.flat[a][0], g.flat[b][0], t), mix(g.flat[a][1], g.flat[b][1], t)];
-        let (p, q) = (&g.space[a], &g.space[b]);
+        let ends = [g.flat(a), g.flat(b)];
+        let flat = [0, 1].map(|k| mix(ends[0][k], ends[1][k], t));
         (flat, [mix(p[0], q[0], u), mix(p[1], q[1], u), mix(p[2], q[2], u)])
     }
 
@@ -100,16 +112,15 @@ impl Chain<'_> {
         let mut out: Vec<Vec<Run>> = Vec::new();
         let mut broken = true;
         for k in 0..self.edges.len() {
-            let e = self.edges[k] as usize;
-            let pieces = &g.pieces[g.piece_offsets[e] as usize..g.piece_offsets[e + 1] as usize];
+            let pieces = g.pieces_of(self.edges[k]);
             let (a, b) = self.ends(k);
             broken |= k > 0 && self.ends(k - 1).1 != a;
             if pieces.is_empty() {
                 // An edge seen end-on has no pieces; the chain continues. Other edges without pieces were clipped.
-                broken |= g.flat[a] != g.flat[b];
+                broken |= g.flat(a) != g.flat(b);
                 continue;
             }
-            let whole = distance(&g.flat[a], &g.flat[b]);
+            let whole = distance(&g.flat(a), &g.flat(b));
             for i in 0..pieces.len() {
                 let piece = if self.reversed[k] { &pieces[pieces.len() - 1 - i] } else { &pieces[i] };
                 let (s, t) =
@@ -267,6 +278,9 @@ pub fn cut(geometry: &Geometry, edges: &[i32], reversed: &[bool], id: u32, limit
 mod tests {
     use super::*;
 
+    /// Along z: x and y are those on paper.
+    const CAMERA: Camera =
+        Camera { direction: [0.0, 0.0, -1.0], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0], eye: None, scale: 1.0 };
     const LIMITS: Limits = Limits { short: 0.5, stub: 2.0, noise: 0.5 };
 
     /// Lines along a straight chain of unit edges with the given states: (visible, x from, x to).
@@ -276,20 +290,11 @@ mod tests {
 
     fn lines_within(states: &[State], limits: &Limits) -> Vec<(bool, f64, f64)> {
         let n = states.len();
-        let flat: Vec<[f64; 2]> = (0..=n).map(|i| [i as f64, 0.0]).collect();
         let space: Vec<[f64; 3]> = (0..=n).map(|i| [i as f64, 0.0, 0.0]).collect();
         let edges: Vec<[i32; 2]> = (0..n as i32).map(|i| [i, i + 1]).collect();
         let pieces: Vec<Piece> = states.iter().map(|&state| Piece { start: 0.0, end: 1.0, state }).collect();
-        let piece_offsets: Vec<u32> = (0..=n as u32).collect();
-        let g = Geometry {
-            flat: &flat,
-            space: &space,
-            view: &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false },
-            edges: &edges,
-            pieces: &pieces,
-            piece_offsets: &piece_offsets,
-        };
         let ids: Vec<i32> = (0..n as i32).collect();
+        let g = Geometry { camera: &CAMERA, space: &space, edges: &edges, pieces: &pieces, piece_edge: &ids };
         let found = cut(&g, &ids, &vec![false; n], 0, limits);
         found.iter().map(|l| (l.visible, l.flat[0][0], l.flat[l.flat.len() - 1][0])).collect()
     }
@@ -302,17 +307,13 @@ mod tests {
         let total: f64 = edges.iter().map(|e| e.1).sum();
         let starts: Vec<f64> = (0..n).map(|i| edges[..i].iter().map(|e| e.1).sum()).collect();
         let corner = (0..n).find(|&i| (starts[i] - 0.5 * total).abs() < 1e-9).expect("a vertex halfway");
-        let flat: Vec<[f64; 2]> =
-            (0..n).map(|i| if i <= corner { [starts[i], 0.0] } else { [total - starts[i], 1e-6] }).collect();
-        let space: Vec<[f64; 3]> = flat.iter().map(|p| [p[0], p[1], 0.0]).collect();
+        let space: Vec<[f64; 3]> =
+            (0..n).map(|i| if i <= corner { [starts[i], 0.0, 0.0] } else { [total - starts[i], 1e-6, 0.0] }).collect();
         let of = |i: usize| (first + i) % n;
         let ends: Vec<[i32; 2]> = (0..n).map(|i| [of(i) as i32, of(i + 1) as i32]).collect();
         let pieces: Vec<Piece> = (0..n).map(|i| Piece { start: 0.0, end: 1.0, state: edges[of(i)].0 }).collect();
-        let piece_offsets: Vec<u32> = (0..=n as u32).collect();
-        let view = &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
-        let (edges, pieces, piece_offsets) = (&ends[..], &pieces[..], &piece_offsets[..]);
-        let g = Geometry { flat: &flat, space: &space, view, edges, pieces, piece_offsets };
         let ids: Vec<i32> = (0..n as i32).collect();
+        let g = Geometry { camera: &CAMERA, space: &space, edges: &ends, pieces: &pieces, piece_edge: &ids };
         let place = |p: &[f64; 2]| ((if p[1] > 0.0 { total - p[0] } else { p[0] }) * 1e3).round() * 1e-3;
         let found = cut(&g, &ids, &vec![false; n], 0, limits);
         let mut lines: Vec<_> =
@@ -347,10 +348,8 @@ mod tests {
     #[test]
     fn noise_is_a_few_edges_long_within_bounds() {
         let noise = |edge: f64| {
-            let flat = [[0.0, 0.0], [edge, 0.0], [edge, edge]];
-            let view = &View { origin: [0.0; 3], away: [0.0, 0.0, 1.0], perspective: false };
-            let edges = &[[0, 1], [1, 2]];
-            let g = Geometry { flat: &flat, space: &[[0.0; 3]; 3], view, edges, pieces: &[], piece_offsets: &[0; 3] };
+            let space = &[[0.0; 3], [edge, 0.0, 0.0], [edge, edge, 0.0]];
+            let g = Geometry { camera: &CAMERA, space, edges: &[[0, 1], [1, 2]], pieces: &[], piece_edge: &[] };
             g.noise(&[0, 1], 0.5)
         };
         assert_eq!(noise(0.001), 0.5, "never less than what is too short anyway");

@@ -40,18 +40,9 @@ impl Ring {
         let about = About { kind: self.kind, part: 3, edge: 7, face: -1, other: -1, noisy: false, straight: false };
         chains.push(&numbers, &vec![false; edges.len()], about);
         let traits = [Trait { rank: 0, without_brep: false, noisy: false }];
-        let flat: Vec<[f64; 2]> = self.space.iter().map(|p| CAMERA.point(p)).collect();
         let pieces: Vec<Piece> = (0..edges.len()).map(|e| Piece { start: 0.0, end: 1.0, state: state(e) }).collect();
-        let piece_offsets: Vec<u32> = (0..=edges.len() as u32).collect();
-        let view = CAMERA.view();
-        let geometry = Geometry {
-            flat: &flat,
-            space: &self.space,
-            view: &view,
-            edges: &edges,
-            pieces: &pieces,
-            piece_offsets: &piece_offsets,
-        };
+        let geometry =
+            Geometry { camera: &CAMERA, space: &self.space, edges: &edges, pieces: &pieces, piece_edge: &numbers };
         let tolerances = Tolerances {
             accuracy: ACCURACY,
             short: ACCURACY,
