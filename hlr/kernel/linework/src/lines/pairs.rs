@@ -22,7 +22,7 @@ use super::gaps::{Side, Widths};
 use super::stretches::Stretches;
 
 /// Comparisons for each side, and stretches for each side, beyond which there are too many.
-const MOST_TESTS: usize = 256;
+const MOST_TESTS: usize = 64;
 const MOST_FOUND: usize = 16;
 /// Fewer stretches than this are never too many.
 const FEW: usize = 1 << 12;
