@@ -87,7 +87,7 @@ def boxes_meet(low: Floats, high: Floats) -> Bools:
     """(n,) whether each box, low (n, 3) to high (n, 3), comes near another: False only where it certainly does not."""
 
 def limit_threads(threads: int) -> int:
-    """Set how many threads the calls of this thread use that name no number themselves; 0: all cores.
+    """Set how many threads the calls of this thread use; 0: all cores.
 
     Returns the number that it was before.
     """
@@ -178,7 +178,6 @@ def visibility(
     piercings: bool = True,
     pyramid: bool = False,
     arithmetic: str = "exact",
-    threads: int = 0,
 ) -> Visibility:
     """Decides which pieces of the edges are visible; projected (n, 3): x right, y up, z away from the viewer.
 
@@ -249,9 +248,7 @@ class Outlines:
 
     def __len__(self) -> int: ...
 
-def silhouettes(
-    mesh: Mesh, on: TrueSurfaces, smooth: Bools, source: Ints, camera: Camera, chord: float, threads: int = 0
-) -> Outlines:
+def silhouettes(mesh: Mesh, on: TrueSurfaces, smooth: Bools, source: Ints, camera: Camera, chord: float) -> Outlines:
     """The outlines of true surfaces.
 
     smooth (e,): the surface goes on smoothly across the edge; source (e,): the source edge of which it is a chord, -1
@@ -485,7 +482,6 @@ class Cut:
         without_brep: Bools,
         tolerances: LineTolerances,
         hidden: bool,
-        threads: int,
     ) -> Cut: ...
     def __len__(self) -> int:
         """How many lines will be drawn."""
@@ -495,7 +491,7 @@ class Cut:
         """(lines,) the chain of each line; hidden lines that only bound others, and are not drawn, are included."""
 
     def finished(
-        self, curves: Curves | None, places: Floats, curve: Ints, place: Ints, bulge: Floats, threads: int
+        self, curves: Curves | None, places: Floats, curve: Ints, place: Ints, bulge: Floats
     ) -> tuple[Lines, tuple[float, float]]:
         """The lines on their curves, sorted by part, kind, edge and face, and their lower left corner. Call it once.
 
@@ -544,7 +540,7 @@ class Lines:
         """Those lines that are chosen (n,)."""
 
     def spacings(
-        self, reaches: tuple[float, float], threads: int
+        self, reaches: tuple[float, float]
     ) -> tuple[tuple[Floats, float, float] | None, tuple[Floats, float, float] | None]:
         """How close the hidden lines run, and the visible ones: None where there are more than 2 km of them.
 
@@ -553,7 +549,7 @@ class Lines:
         none. ValueError for a bad length.
         """
 
-    def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int], threads: int) -> Bytes:
+    def left_out(self, pens: tuple[float, float], accuracy: float, order: list[int]) -> Bytes:
         """(n,) what becomes of each line: 0 drawn, 1 smaller than the pen, 2 between others closer than the pen.
 
         pens: widths of hidden and visible lines, millimetres; accuracy: ends within it meet, millimetres; order: line
@@ -645,9 +641,9 @@ class BrepModel:
     numbered in the order in which an explorer meets them; a part's edges as in its TopExp edge map.
     """
 
-    def __new__(cls, dump: bytes, chosen: Sequence[int] | None = None, threads: int = 0) -> BrepModel: ...
+    def __new__(cls, dump: bytes, chosen: Sequence[int] | None = None) -> BrepModel: ...
     @staticmethod
-    def divided(stream: bytes, threads: int = 0) -> tuple[BrepModel, list[list[tuple[int, bool, list[float] | None]]]]:
+    def divided(stream: bytes) -> tuple[BrepModel, list[list[tuple[int, bool, list[float] | None]]]]:
         """The model of the distinct pieces of shapes in memory: of their solids, and of what lies outside solids.
 
         stream: OpenCASCADE's stream of a compound of the shapes. For each shape its pieces: number in the model,
@@ -662,10 +658,10 @@ class BrepModel:
     def counts(self) -> Ints:
         """(parts, 3) faces, edges and solids in the index maps of each part."""
 
-    def boxes(self, threads: int = 0) -> Floats:
+    def boxes(self) -> Floats:
         """(parts, 2, 3) lower and upper corner of each part's box; the lower is beyond the upper where it has none."""
 
-    def reach(self, parts: Ints, places: Floats, right: _Vector, up: _Vector, threads: int = 0) -> Floats:
+    def reach(self, parts: Ints, places: Floats, right: _Vector, up: _Vector) -> Floats:
         """(2, 2) how far placed parts reach along two directions of length 1: lower and upper end along each.
 
         The lower end is beyond the upper one where there is nothing. parts (n,): their numbers; places (n, 3, 4): the
@@ -690,9 +686,7 @@ class BrepModel:
         edge: numbers in the parts' TopExp edge maps.
         """
 
-    def mesh(
-        self, deflection: float, angle: float, progress: Callable[[float], None] | None = None, threads: int = 0
-    ) -> BrepMesh:
+    def mesh(self, deflection: float, angle: float, progress: Callable[[float], None] | None = None) -> BrepMesh:
         """Meshes all faces. deflection: chord error; angle: turning angle, radians; progress: called with the share of
         faces that are done. Raises MemoryError where there would be more than 8 million points."""
 
@@ -714,7 +708,7 @@ class BrepMesh:
         edge in each wire the numbers of its points and their parameters, in the direction of the edge.
         """
 
-    def parts(self, planar: Bools, threads: int = 0) -> PartTables:
+    def parts(self, planar: Bools) -> PartTables:
         """The meshes of all parts. planar (faces,): as `BrepModel.planar` gives it."""
 
 class PartTables:
@@ -893,7 +887,6 @@ class ShadedModel:
         antialias: bool,
         shadow: Lens | None = None,
         occlusion: float = 0.0,
-        threads: int = 0,
         out: Bytes | None = None,
     ) -> Bytes:
         """(h, w, 4) RGBA, straight sRGB.
@@ -904,16 +897,12 @@ class ShadedModel:
         KeyboardInterrupt within milliseconds of Ctrl-C.
         """
 
-    def maps(self, lens: Lens, threads: int = 0) -> tuple[Floats, Ints]:
+    def maps(self, lens: Lens) -> tuple[Floats, Ints]:
         """At the centre of each pixel: distance ahead (h, w), model units, infinite for nothing; and the triangle (h,
         w) in front, -1 for none. Transparent triangles count as opaque."""
 
-def stroke_picture(
-    picture: Bytes, pieces: Floats, width: float, colour: tuple[int, int, int, int], threads: int = 0
-) -> None: ...
-def filled_areas(
-    model: ShadedModel, lens: Lens, light: Light, label: Ints, fine: float, threads: int = 0
-) -> dict[str, Any]:
+def stroke_picture(picture: Bytes, pieces: Floats, width: float, colour: tuple[int, int, int, int]) -> None: ...
+def filled_areas(model: ShadedModel, lens: Lens, light: Light, label: Ints, fine: float) -> dict[str, Any]:
     """What `ShadedModel.picture` shows, as areas in the order of painting.
 
     label (t,): triangles of one number belong to one face; fine: least width of a band of equal light, pixels.
@@ -923,14 +912,14 @@ def filled_areas(
     into shares (s,) and shades (s, 4). ValueError where labels are negative or a band is narrower than a pixel.
     """
 
-def surface_normals(mesh: Mesh, on: TrueSurfaces, threads: int = 0) -> npt.NDArray[np.float32]:
+def surface_normals(mesh: Mesh, on: TrueSurfaces) -> npt.NDArray[np.float32]:
     """(k, 3) unit normals at the places uv, on the outer side; nought where the surface has none."""
 
 def nearest(
-    points: Floats, point_key: Ints, segments: Floats, segment_key: Ints, most: float, threads: int
+    points: Floats, point_key: Ints, segments: Floats, segment_key: Ints, most: float
 ) -> tuple[Floats, Ints]: ...
-def blocked(points: Floats, triangles: Ints, origins: Floats, ways: Floats, threads: int) -> Bools: ...
-def first_hits(points: Floats, triangles: Ints, origins: Floats, ways: Floats, threads: int) -> tuple[Floats, Ints]:
+def blocked(points: Floats, triangles: Ints, origins: Floats, ways: Floats) -> Bools: ...
+def first_hits(points: Floats, triangles: Ints, origins: Floats, ways: Floats) -> tuple[Floats, Ints]:
     """Of rays origin + t * way, t from 0 to 1: the least t (n,) at which each meets a triangle, and that triangle (n,);
     infinite and -1 where it meets none."""
 

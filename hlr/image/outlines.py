@@ -36,7 +36,7 @@ from hlr.source.model import Curves
 from hlr.tables.line_classes import INTERIOR, LINE_CLASSES, EdgeClass, goes_on, where
 
 
-def outlined(image: Image, threads: int, planner: Planner) -> Image:
+def outlined(image: Image, planner: Planner) -> Image:
     """The image with the outlines of its true surfaces; those faces' mesh contours are outlines no longer.
 
     An image that has its outlines already, and one that needs none, stays as it is.
@@ -49,15 +49,15 @@ def outlined(image: Image, threads: int, planner: Planner) -> Image:
     if not wanted or surfaces is None:
         return image
     with planner.timed("outlines"):
-        found = _with_outlines(image, surfaces, threads)
+        found = _with_outlines(image, surfaces)
     planner.spent("outlines", outlines=len(found.chains.kind) - len(image.chains.kind))
     return found
 
 
-def _with_outlines(image: Image, surfaces: TrueSurfaces, threads: int) -> Image:
+def _with_outlines(image: Image, surfaces: TrueSurfaces) -> Image:
     face = image.all_faces()
     deflection = image.placement.tolerances.deflection
-    on, found = _traced(image, surfaces, face, OUTLINE_CHORD * deflection, threads)
+    on, found = _traced(image, surfaces, face, OUTLINE_CHORD * deflection)
     shown = _kernel.outlined(
         found,
         image.mesh(),
@@ -111,7 +111,6 @@ def _traced(
     surfaces: TrueSurfaces,
     face: Ints,
     chord: float,
-    threads: int,
 ) -> tuple[_kernel.TrueSurfaces, _kernel.Outlines]:
     """The surfaces as the kernel takes them, and the outlines that it traces on them.
 
@@ -134,7 +133,7 @@ def _traced(
     source[image.chains.edges] = np.repeat(of_chain, count)
     on = surfaces.of(wanted, face)
     smooth = goes_on()[image.edge_kind]
-    return on, _kernel.silhouettes(image.mesh(), on, smooth, source, image.camera.scaled(1.0), chord, threads=threads)
+    return on, _kernel.silhouettes(image.mesh(), on, smooth, source, image.camera.scaled(1.0), chord)
 
 
 def _walks(shown: _kernel.Outlined, edges: int) -> Chains:

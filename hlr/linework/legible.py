@@ -100,12 +100,12 @@ def legible(
     begun = perf_counter()
     usual = widths_of(style, sheet)
     kept = held(lines)
-    behind, seen = _spacings(kept, (usual[1], usual[0]), options.threads)
+    behind, seen = _spacings(kept, (usual[1], usual[0]))
     if seen is None or behind is None or not (seen.close(usual[0]) or behind.close(usual[1])):
         return Legible(lines)
     pens = usual if style.wide or style.narrow else _group(seen, usual)
     notes = _notes(seen, usual, pens, scale)
-    fates = kept.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()), options.threads)
+    fates = kept.left_out((pens[1], pens[0]), accuracy, list(in_drawing_order()))
     out = int(np.count_nonzero(fates))
     planner.spent(LEGIBILITY, perf_counter() - begun, left_out=out)
     if out:
@@ -125,13 +125,13 @@ def _bins(pen: float) -> int:
     return ceil(APART * pen * BINS_PER_MM)
 
 
-def _spacings(lines: _kernel.Lines, pens: Pens, threads: int) -> list[Spacing | None]:
+def _spacings(lines: _kernel.Lines, pens: Pens) -> list[Spacing | None]:
     """Of hidden and of visible lines, for pens so wide; None where there is more ink than any page has room for."""
     narrow, wide = pens
     reaches = (_bins(narrow) / BINS_PER_MM, _bins(wide) / BINS_PER_MM)
     return [
         None if found is None else Spacing(np.cumsum(found[0]) / max(found[1], 1.0), found[2])
-        for found in lines.spacings(reaches, threads)
+        for found in lines.spacings(reaches)
     ]
 
 

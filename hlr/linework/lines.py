@@ -33,7 +33,6 @@ def draw_lines(
     plan: Plan,
     segments: Segments,
     hidden: bool,
-    threads: int,
 ) -> Linework:
     """All lines, sorted by part, kind, edge and face.
 
@@ -68,7 +67,6 @@ def draw_lines(
             contact=t.contact,
         ),
         hidden,
-        threads,
     )
     if len(cut) == 0:
         return Linework((), (0.0, 0.0), 0)
@@ -82,7 +80,6 @@ def draw_lines(
         along.curve,
         along.place,
         along.bulge,
-        threads,
     )
     return Linework(Lines(lines), origin, along.sought)
 

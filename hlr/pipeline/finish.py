@@ -79,7 +79,6 @@ def finished(
             placement.per_model,
             origin,
             placement.tolerances.accuracy,
-            options.threads,
         )
         planner.spent("fill", perf_counter() - started)
         planner.revised("fill", True, f"asked for; what is seen is looked up every {fill.spacing:.2g} mm")

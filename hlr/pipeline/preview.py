@@ -85,7 +85,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     camera, placement = draft.image.camera, draft.image.placement
     clock = dict(session.clock)
     started = perf_counter()
-    shaded = shaded_scene(scene, source.appearances(), before_the_eye(scene, camera), options.threads)
+    shaded = shaded_scene(scene, source.appearances(), before_the_eye(scene, camera))
     planner = Planner(PREVIEW, options)
     eye = lens(camera, shaded.points, placement.per_model * PIXELS_PER_MM, options.size)
     facts = _facts(scene, camera, eye, unit)
@@ -93,7 +93,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     started = lap(clock, "prepare", started)
     pixels = empty_picture(options.size, background)
     if effects.faces:
-        pixels = shaded_picture(shaded, camera, eye, effects, background, options.threads)
+        pixels = shaded_picture(shaded, camera, eye, effects, background)
     depth, ids = maps(scene, shaded, eye, options, unit)
     started = lap(clock, "picture", started)
     if effects.lines:
@@ -101,12 +101,12 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
         bare = image_of(scene, camera, placement)
         if effects.behind:
             planner_behind = Planner(drawing_effects(), lines)
-            behind = without_glass(outlined(bare, options.threads, planner_behind), shaded.glass)
+            behind = without_glass(outlined(bare, planner_behind), shaded.glass)
             drawing = session.drawing(Draft(behind, by_view(lines, camera, planner_behind), planner_behind))
-            _ink(pixels, drawing, eye, [BEHIND], options.threads)
+            _ink(pixels, drawing, eye, [BEHIND])
         planner_lines = Planner(drawing_effects(), lines)
         drawing = session.drawing(Draft(bare, by_view(lines, camera, planner_lines), planner_lines))
-        _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK], options.threads)
+        _ink(pixels, drawing, eye, cues(background) if effects.cued else [INK])
         lap(clock, "edges", started)
     clock["total"] = sum(clock.values())
     strays = (note for note in placement.notes if note.code == "stray-parts")
@@ -130,9 +130,7 @@ def _picture(session: Session, draft: Draft, options: PreviewOptions, background
     )
 
 
-def _ink(
-    pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tuple[int, int, int, int]], threads: int
-) -> None:
+def _ink(pixels: Pixels, drawing: Drawing, eye: _kernel.Lens, inks: Sequence[tuple[int, int, int, int]]) -> None:
     """Draw the lines over a picture, in place: in one ink, or in one ink per depth level, the farthest level first."""
     pens = usual_pens(STYLES["iso"])
     widths = [pens.pen(line.kind, True).width for line in drawing.lines]
@@ -142,7 +140,7 @@ def _ink(
         if len(inks) > 1:
             levels = pieces_by_depth(lines, drawing.origin, PIXELS_PER_MM, eye, len(inks))
         for ink, strokes in zip(inks, levels, strict=True):
-            _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, ink, threads)
+            _kernel.stroke_picture(pixels, strokes, wide * PIXELS_PER_MM, ink)
 
 
 def _coarse(facts: Facts) -> Note:

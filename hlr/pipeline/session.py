@@ -157,7 +157,7 @@ class Session:
             return Draft(image, options, planner)
         surfaces = self.scene.true_surfaces
         bends = surfaces is not None and bool(surfaces.curved.any() or (np.diff(self.scene.chains.offsets) > 1).any())
-        found = outlined(image, options.threads, planner)
+        found = outlined(image, planner)
         fitted = placement.fitted(camera, options, found.points, bends)
         if fitted.tolerances.deflection == placement.tolerances.deflection:
             return Draft(found.placed(fitted), options, planner)
@@ -166,13 +166,13 @@ class Session:
 
     def shown(self, draft: Draft) -> Image:
         """The image as it is drawn: with outlines, clipped, and without glass where the viewer sees through it."""
-        image, planner, threads = draft.image, draft.planner, draft.options.threads
+        image, planner = draft.image, draft.planner
         least = min(map(opacity_of, self.looks.values()), default=1.0)
         if planner.on("seeing through glass", Facts(opacity=least)):
             glass = glass_of(self.scene, self.looks)
             planner.spent("seeing through glass", glass_triangles=int(glass.sum()))
-            image = without_glass(outlined(image, threads, planner), glass)
-        return clipped(outlined(image, threads, planner), planner)
+            image = without_glass(outlined(image, planner), glass)
+        return clipped(outlined(image, planner), planner)
 
     def plan(self, draft: Draft, image: Image) -> Plan:
         """The kernel's instructions for an image that `shown` gave."""
@@ -185,9 +185,9 @@ class Session:
         image = self.shown(draft)
         plan = self.plan(draft, image)
         started = lap(clock, "plan", started)
-        segments = solve(image, plan, image.lifted(plan.divide), options.threads)
+        segments = solve(image, plan, image.lifted(plan.divide))
         started = lap(clock, "visibility", started)
-        lines = draw_lines(image, self.edge_curves, plan, segments, bool(options.hidden), options.threads)
+        lines = draw_lines(image, self.edge_curves, plan, segments, bool(options.hidden))
         lap(clock, "linework", started)
         solved = Solved(image, plan, segments, lines)
         return finished(self.source, self.scene, solved, draft.planner, options, clock, request, self.remarks)

@@ -111,5 +111,6 @@ def with_report(source: Any, drawing: Drawing, progress: Progress | None = None)
         # What lies outside the window is no loss: the drawing is measured before anything was cut off.
         asked = replace(drawing.request.options, window=None, within=None, accuracy=drawing.accuracy.used)
         whole = drawn_once(source, [drawing.request.view], asked)[0]
-    reached = measured(source, whole, threads=threads)
+    with at_most(threads):
+        reached = measured(source, whole)
     return replace(drawing, reached=reached)

@@ -40,7 +40,6 @@ def filled(
     per_model: float,
     origin: tuple[float, float],
     accuracy: float,
-    threads: int = 0,
 ) -> Fill:
     """The visible areas of the faces, in the colours and the light of a preview.
 
@@ -59,7 +58,7 @@ def filled(
     before = None
     if camera.eye is not None and camera.distance is not None:
         before = np.asarray(camera.ahead(scene.points) - NEAR * camera.distance)
-    shaded = shaded_scene(scene, looks, before, threads)
+    shaded = shaded_scene(scene, looks, before)
     eye = lens_at(camera, shaded.points, pixels, (size[0], size[1]), middle)
     found = _kernel.filled_areas(
         shaded.model,
@@ -67,7 +66,6 @@ def filled(
         _kernel.Light(toward=toward_light(camera, SHOULDER), ambient=AMBIENT, diffuse=DIFFUSE),
         _labels(scene),
         max(1.0, BAND * pixels / per_model),
-        threads,
     )
 
     def paper(places: Floats) -> Floats:

@@ -19,9 +19,9 @@ LEVEL = 1e-3
 """Radians: a face whose triangles differ by no more is a plane, and is shaded as one."""
 
 
-def corner_normals(scene: Geometry, threads: int = 0) -> tuple[Normals, Ints]:
+def corner_normals(scene: Geometry) -> tuple[Normals, Ints]:
     """Unit normals (k, 3), and (t, 3) the number of each corner's normal; FLAT where the triangle has its own."""
-    true, of_true = _of_surfaces(scene, threads)
+    true, of_true = _of_surfaces(scene)
     bare = scene.groups.bare[scene.triangle_group]
     if scene.facets is None or not bare.any():
         return true, of_true
@@ -30,13 +30,13 @@ def corner_normals(scene: Geometry, threads: int = 0) -> tuple[Normals, Ints]:
     return np.concatenate([true, averaged]), np.ascontiguousarray(corner)
 
 
-def _of_surfaces(scene: Geometry, threads: int) -> tuple[Normals, Ints]:
+def _of_surfaces(scene: Geometry) -> tuple[Normals, Ints]:
     on = scene.true_surfaces
     none = np.full((len(scene.triangles), 3), FLAT, np.int32)
     if on is None:
         return np.zeros((0, 3), np.float32), none
     every = np.ones(len(on.number), bool)
-    normals = _kernel.surface_normals(scene.mesh(), on.of(every, scene.all_faces()), threads)
+    normals = _kernel.surface_normals(scene.mesh(), on.of(every, scene.all_faces()))
     found = np.asarray((normals != 0.0).any(axis=1))
     # Number -1 is the last one: it is never found.
     sound = np.asarray(np.append(found, False)[on.corner].all(axis=1))

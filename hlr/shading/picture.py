@@ -22,7 +22,7 @@ def empty_picture(size: tuple[int, int], background: tuple[int, ...]) -> Pixels:
 
 
 def shaded_picture(
-    shaded: ShadedScene, camera: Camera, eye: Lens, effects: Effects, background: tuple[int, ...], threads: int
+    shaded: ShadedScene, camera: Camera, eye: Lens, effects: Effects, background: tuple[int, ...]
 ) -> Pixels:
     """(h, w, 4) the faces that the lens shows, lit from over the viewer's shoulder."""
     toward = toward_light(camera, SHOULDER)
@@ -34,7 +34,6 @@ def shaded_picture(
         effects.antialias,
         sun,
         effects.occlusion,
-        threads,
     )
 
 
@@ -62,7 +61,7 @@ def maps(
     """
     if not options.depth and not options.ids:
         return None, None
-    ahead, triangle = shaded.model.maps(eye, options.threads)
+    ahead, triangle = shaded.model.maps(eye)
     face = first_faces(scene)[scene.triangle_part] + scene.triangle_face
     ids = np.where(triangle >= 0, np.append(face, -1)[triangle], -1).astype(np.int32)
     return (ahead * unit if options.depth else None), (ids if options.ids else None)

@@ -26,15 +26,13 @@ class ShadedScene:
     glass: npt.NDArray[np.bool_]
 
 
-def shaded_scene(
-    scene: Geometry, looks: Mapping[str, Appearance], near: Floats | None = None, threads: int = 0
-) -> ShadedScene:
+def shaded_scene(scene: Geometry, looks: Mapping[str, Appearance], near: Floats | None = None) -> ShadedScene:
     """The triangles of a scene, ready for any number of pictures.
 
     near: (n,) zero or negative for points behind the near plane; None: there are none. Bodies that reach behind it are
     cut open and show their inside.
     """
-    normals, corner = corner_normals(scene, threads)
+    normals, corner = corner_normals(scene)
     colours, paint = corner_colors(scene, looks)
     opened = np.zeros(len(scene.groups.cull), bool)
     glass = np.asarray((colours[:, 3] < 1.0)[paint].any(axis=1))

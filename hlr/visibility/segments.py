@@ -35,7 +35,7 @@ class Segments:
     groups: _kernel.Groups
 
 
-def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: str = "exact") -> Segments:
+def solve(image: Image, plan: Plan, lifted: Floats, arithmetic: str = "exact") -> Segments:
     """Visibility of all edges that the plan draws; lifted (n, 3) as `Image.lifted` gives it.
 
     arithmetic: of the predicates, "exact"; "f64" and "f32" serve comparisons only.
@@ -63,7 +63,6 @@ def solve(image: Image, plan: Plan, lifted: Floats, threads: int, arithmetic: st
         piercings=plan.piercings,
         pyramid=plan.pyramid,
         arithmetic=arithmetic,
-        threads=threads,
     )
     edge, t0, t1, state = found.edge, found.t0, found.t1, found.state
     contacts = int(np.count_nonzero(state >= WITHIN))

@@ -27,7 +27,7 @@ class Kernel:
         self.triangles = len(self._mesh.triangles)
         self.counters: dict[str, int] = {}
 
-    def run(self, threads: int = 0) -> float:
+    def run(self) -> float:
         from hlr import _kernel
 
         mesh = self._mesh
@@ -48,7 +48,7 @@ class Kernel:
             tight=np.zeros(mesh.parts, bool),
         )
         whole = _kernel.Mesh(points, mesh.triangles, edges, offsets, incident)
-        found = _kernel.visibility(whole, points, groups, role, threads=threads)
+        found = _kernel.visibility(whole, points, groups, role)
         seconds = time.perf_counter() - start
         self.counters = {name: int(value) for name, value in found.counters.items()}
         self.counters["pieces"] = len(found.edge)

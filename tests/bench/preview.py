@@ -78,6 +78,7 @@ def direction(frame: int) -> tuple[float, float, float]:
 
 def ours(given: Arrays, antialias: bool, threads: int) -> Run:
     from hlr import _kernel
+    from hlr.common.threads import at_most
     from hlr.image.camera import resolve
     from hlr.request.options import Options
     from hlr.request.picture_effects import AMBIENT, DIFFUSE, SHOULDER
@@ -100,7 +101,8 @@ def ours(given: Arrays, antialias: bool, threads: int) -> Run:
         eye = lens(camera, points, scale, SIZE)
         light = _kernel.Light(toward=toward_light(camera, SHOULDER), ambient=AMBIENT, diffuse=DIFFUSE)
         started = clocks()
-        pixels = model.picture(eye, light, (1.0, 1.0, 1.0, 1.0), antialias, threads=threads, out=frame_buffer)
+        with at_most(threads):
+            pixels = model.picture(eye, light, (1.0, 1.0, 1.0, 1.0), antialias, out=frame_buffer)
         return clocks() - started, float((pixels[:, :, 0] < 255).mean())
 
     return run

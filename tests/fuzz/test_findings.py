@@ -37,7 +37,7 @@ def states_behind_a_valley(own: float, other: float) -> list[int]:
         cap=np.full(2, 100.0),
         tight=np.zeros(2, bool),
     )
-    found = _kernel.visibility(mesh, np.array(points, float), groups, np.ones(wire + 1, np.uint8), threads=1)
+    found = _kernel.visibility(mesh, np.array(points, float), groups, np.ones(wire + 1, np.uint8))
     return [min(int(state), WITHIN) for edge, state in zip(found.edge, found.state, strict=True) if edge == wire]
 
 
@@ -110,9 +110,8 @@ def lines_around_a_square(missing: int) -> list[list[list[float]]]:
             contact=0.1,
         ),
         True,
-        1,
     )
-    lines, _ = cut.finished(None, np.zeros((0, 3, 4)), none, np.zeros(1, np.int32), np.zeros(1), 1)
+    lines, _ = cut.finished(None, np.zeros((0, 3, 4)), none, np.zeros(1, np.int32), np.zeros(1))
     held = lines.columns()
     points, offsets = held["points"].tolist(), held["offsets"].tolist()
     return sorted(points[i:j] for i, j in itertools.pairwise(offsets))

@@ -69,7 +69,7 @@ def traced(shape, view, perspective, finer=1.0):
     tolerances = derive(0.02, 1.0, 0.0, brep=True)
     scene = build(source.mesh(tolerances.deflection / finer, tolerances.angle / finer), 30.0, tolerances.deflection)
     placement = Placement(1.0, 1.0, tolerances, 1.0, True, 1.0, 1.0)
-    image = outlined(image_of(scene, camera, placement), 1, Planner(drawing_effects(), options))
+    image = outlined(image_of(scene, camera, placement), Planner(drawing_effects(), options))
     return image, camera, tolerances
 
 

@@ -162,7 +162,7 @@ def test_a_triangle_seen_edge_on_may_fold_at_any_of_its_edges():
     """Flanks of these gears are seen edge-on: rounding says how they are turned, and not the same in the drawing."""
     gears = open_source(Path(__file__).parents[1] / "data" / "cube_gears.3mf")
     drawing = hlr.draw(gears, "iso", accuracy=0.05, **AT_SIZE)
-    off, _ = mesh_errors(gears, drawing, written(drawing), Paper.of(drawing), 0)
+    off, _ = mesh_errors(gears, drawing, written(drawing), Paper.of(drawing))
     assert len(off) > 2000 and off.max() <= 0.05
 
 

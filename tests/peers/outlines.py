@@ -81,7 +81,7 @@ def measured(path: Path, view: Any, options: Options) -> tuple[int, int, int, fl
     tolerances: Tolerances = at.tolerances
     meshed = source.mesh(tolerances.deflection, tolerances.angle)
     bare = image_of(build(meshed, options.crease, tolerances.deflection), camera, at)
-    scene = outlined(bare, 0, Planner(drawing_effects(), options))
+    scene = outlined(bare, Planner(drawing_effects(), options))
     faces = [sub_shapes(root, TopAbs_ShapeEnum.TopAbs_FACE) for root in source.prototypes.shapes]
     parts, values, count = source.parts, [np.zeros((0, 2))], 0
     for part, face, points in outlines(scene):

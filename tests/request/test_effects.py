@@ -257,10 +257,10 @@ def both(model, view, name):
     """Pieces of a scene with a step of the pass and without it: the full pass first."""
     out = []
 
-    def solving(scene, plan, projected, threads):
+    def solving(scene, plan, lifted):
         full = replace(plan, crossings=True, piercings=True, pyramid=False)
-        out.append(solve(scene, full, projected, threads))
-        out.append(solve(scene, replace(full, **{name: name == "pyramid"}), projected, threads))
+        out.append(solve(scene, full, lifted))
+        out.append(solve(scene, replace(full, **{name: name == "pyramid"}), lifted))
         return out[0]
 
     with pytest.MonkeyPatch.context() as patched:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hlr import _kernel
+from hlr.common.threads import at_most
 from hlr.source.cad.shapes import make_compound
 
 
@@ -85,7 +86,12 @@ def test_edges_are_known_by_how_their_faces_meet():
 def test_threads_change_no_byte():
     model = _kernel.BrepModel(dumped(SOLIDS["fillets"](), SOLIDS["torus"]()))
     planar = model.planar(1e-6)
-    one, two = (model.mesh(0.01, 0.3, None, n).parts(planar, n) for n in (1, 2))
+
+    def parts(threads):
+        with at_most(threads):
+            return model.mesh(0.01, 0.3).parts(planar)
+
+    one, two = parts(1), parts(2)
     for name in ("points", "triangles", "corner", "uv", "edge_nodes", "edge_class"):
         assert np.array_equal(getattr(one, name), getattr(two, name))
 

@@ -44,7 +44,7 @@ def solve(monkeypatch):
         plan = SimpleNamespace(delta=np.array([3, 4]), cap=np.array([5, 6]), contact=contact)
         for name in ("role", "cull", "sound", "crossings", "piercings", "pyramid"):
             setattr(plan, name, name)
-        return segments.solve(scene, plan, np.zeros((2, 3)), 2)
+        return segments.solve(scene, plan, np.zeros((2, 3)))
 
     call.given = given
     return call

@@ -40,7 +40,7 @@ def nearest(pieces: Pieces, points: Floats, most_mm: float) -> tuple[Floats, Flo
         return np.full(len(points), np.inf), points.copy()
     segments = np.ascontiguousarray(np.concatenate([pieces.start, pieces.end], axis=1))
     none, zero = np.zeros(len(points), np.int32), np.zeros(len(segments), np.int32)
-    far, which = _kernel.nearest(np.ascontiguousarray(points), none, segments, zero, most_mm, 0)
+    far, which = _kernel.nearest(np.ascontiguousarray(points), none, segments, zero, most_mm)
     start, way = pieces.start[which], pieces.end[which] - pieces.start[which]
     share = ((points - start) * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), 1e-300)
     return far, start + np.clip(share, 0.0, 1.0)[:, None] * way

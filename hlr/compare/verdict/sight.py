@@ -74,7 +74,7 @@ class Truth:
     by: Ints
 
 
-def truth(model: TrueLines, points: Floats, ways: Floats, reach_mm: float, threads: int = 0) -> Truth:
+def truth(model: TrueLines, points: Floats, ways: Floats, reach_mm: float) -> Truth:
     """What is true at points (n, 2) on paper, where lines run in directions (n, 2).
 
     reach_mm: how far from a point a line of the model may run
@@ -92,7 +92,7 @@ def truth(model: TrueLines, points: Floats, ways: Floats, reach_mm: float, threa
         which = np.flatnonzero(chosen)
         # All lines nearby, and those that may be this one; of each the nearest to the viewer.
         which = np.union1d(*(some[_frontmost(whose[some], places[some, 2])] for some in (which, which[close[which]])))
-        state, front, triangle = _seen(model, places[which], ways[whose[which]], threads)
+        state, front, triangle = _seen(model, places[which], ways[whose[which]])
         if out is always:
             covered[whose[which[state == VISIBLE]]] = True
         this = close[which]
@@ -161,14 +161,14 @@ def _frontmost(whose: Index, z: Floats) -> Index:
     return np.asarray(order[rank < _FRONTMOST])
 
 
-def _seen(model: TrueLines, places: Floats, ways: Floats, threads: int) -> tuple[npt.NDArray[np.int8], Floats, Ints]:
+def _seen(model: TrueLines, places: Floats, ways: Floats) -> tuple[npt.NDArray[np.int8], Floats, Ints]:
     """(n,) UNCLEAR, HIDDEN or VISIBLE; by how much (n,) the nearest face that hides is in front; its triangle (n,)."""
     normal = np.stack([-ways[:, 1], ways[:, 0]], axis=1) / np.maximum(np.hypot(*ways.T), 1e-300)[:, None]
     aside = model.error_mm * np.array([side * far for side in (1.0, -1.0) for far in ASIDE])
     clear, front, triangle = [], [], []
     for by in aside.tolist():
         spot = places[:, :2] + by * normal
-        free, blocked, gap, hit = _one_ray(model, spot, places, threads)
+        free, blocked, gap, hit = _one_ray(model, spot, places)
         clear.append(np.where(free, VISIBLE, np.where(blocked, HIDDEN, UNCLEAR)))
         front.append(np.where(blocked, gap, np.inf))
         triangle.append(hit)
@@ -181,7 +181,7 @@ def _seen(model: TrueLines, places: Floats, ways: Floats, threads: int) -> tuple
     return state, gaps[best, columns], hits[best, columns].astype(np.int32)
 
 
-def _one_ray(model: TrueLines, spot: Floats, places: Floats, threads: int) -> tuple[Bools, Bools, Floats, Ints]:
+def _one_ray(model: TrueLines, spot: Floats, places: Floats) -> tuple[Bools, Bools, Floats, Ints]:
     """From the viewer through spots (n, 2) beside places (n, 3): whether nothing, or surely something, is in front.
 
     Also by how much (n,), and the triangle (n,).
@@ -191,7 +191,7 @@ def _one_ray(model: TrueLines, spot: Floats, places: Floats, threads: int) -> tu
     none = np.zeros(len(spot))
     origins = np.column_stack([spot, np.full(len(spot), top)])
     ways = np.column_stack([none, none, np.minimum(way, -1e-9)])
-    share, hit = _kernel.first_hits(model.points, np.ascontiguousarray(model.triangles), origins, ways, threads)
+    share, hit = _kernel.first_hits(model.points, np.ascontiguousarray(model.triangles), origins, ways)
     met = np.flatnonzero(hit >= 0)
     a, b, c = (model.points[model.triangles[hit[met], k]] for k in range(3))
     normal = np.cross(b - a, c - a)

@@ -69,8 +69,6 @@ def with_verdicts(
     motion: Motion | None,
     tolerance_mm: float,
     shown: tuple[Pieces, Pieces] | None = None,
-    *,
-    threads: int = 0,
 ) -> Findings:
     """The differences with verdicts, where one side is a model and the other a drawing of it.
 
@@ -87,7 +85,7 @@ def with_verdicts(
     whose, points, ways = _samples([found.traces[n] for n in chosen])
     one, other = shown or (before.pieces, after.pieces)
     drawn = Shown.of(one, points, tolerance_mm), Shown.of(other, points, tolerance_mm)
-    at = _Asked(model, side.behind, motion, tolerance_mm, threads)
+    at = _Asked(model, side.behind, motion, tolerance_mm)
     known = at(points, ways)
     differences = list(found.differences)
     for n, number in enumerate(chosen):
@@ -110,12 +108,11 @@ class _Asked:
     behind: Behind
     motion: Motion
     tolerance_mm: float
-    threads: int
 
     def __call__(self, points: Floats, ways: Floats) -> Truth:
         back = np.linalg.inv(self.motion.matrix @ self.behind.matrix).T
         own = (points - np.array(self.motion.shift) - self.motion.matrix @ self.behind.shift) @ back
-        return truth(self.model, own, ways @ back, self.tolerance_mm / self.motion.scale, self.threads)
+        return truth(self.model, own, ways @ back, self.tolerance_mm / self.motion.scale)
 
 
 def _samples(traces: list[Floats]) -> tuple[Index, Floats, Floats]:

@@ -28,7 +28,6 @@ def measured(
     source: Any,
     drawing: Drawing,
     *,
-    threads: int = 0,
     samples: int = SAMPLES,
     finer: Drawing | None = None,
 ) -> Reached:
@@ -40,21 +39,21 @@ def measured(
 
     Raises OptionError if the drawing does not hold its request, SourceError if the source cannot be read.
     """
-    return ModelJudge(source, threads=threads, samples=samples, finer=finer).judge(drawing)
+    return ModelJudge(source, samples=samples, finer=finer).judge(drawing)
 
 
 class ModelJudge:
     """Compares drawings of one model with the model itself; arguments as in `measured`."""
 
-    def __init__(self, source: Any, *, threads: int = 0, samples: int = SAMPLES, finer: Drawing | None = None) -> None:
-        self._source, self._threads, self._samples, self._finer = source, threads, samples, finer
+    def __init__(self, source: Any, *, samples: int = SAMPLES, finer: Drawing | None = None) -> None:
+        self._source, self._samples, self._finer = source, samples, finer
 
     def judge(self, drawn: Drawing) -> Reached:
         """All classes of error of one drawing. Raises as `measured` does."""
-        return _judged(self._source, drawn, self._threads, self._samples, self._finer)
+        return _judged(self._source, drawn, self._samples, self._finer)
 
 
-def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Drawing | None) -> Reached:
+def _judged(source: Any, drawing: Drawing, samples: int, finer: Drawing | None) -> Reached:
     if drawing.request is None:
         raise OptionError("this drawing does not know what it was asked for: measure one that hlr.draw has made")
     started = perf_counter()
@@ -67,10 +66,10 @@ def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Dr
     outlines = Errors(None, why="a mesh has no true surface")
     if hasattr(opened, "edge_shape"):
         wanted = sorted({(x.part, x.edge) for x in drawing.lines if x.edge is not None})
-        edges = errors(*edge_errors(TrueEdges(opened, drawing, wanted, paper), drawing, forms, threads))
-        outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples, threads))
+        edges = errors(*edge_errors(TrueEdges(opened, drawing, wanted, paper), drawing, forms))
+        outlines = errors(*outline_errors(opened, drawing, forms[0], paper, samples))
     else:
-        meshes = errors(*mesh_errors(opened, drawing, forms[0], paper, threads))
+        meshes = errors(*mesh_errors(opened, drawing, forms[0], paper))
     found = finer_drawing(opened, drawing, MEASURED_FINENESS) if finer is None else finer
     deflection = drawing.accuracy.deflection / MEASURED_FINENESS
     if not isinstance(found, str):
@@ -80,7 +79,7 @@ def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Dr
         changes = grazing = lost = Errors(None, why=found)
         bound = None
     else:
-        beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing), threads)
+        beside = Comparison(drawing, forms[0], on_the_same_paper(found, drawing))
         changes, grazing, bound = beside.changes(caster)
         lost = beside.lost(under(drawing.accuracy.used))
     return Reached(
@@ -88,12 +87,12 @@ def _judged(source: Any, drawing: Drawing, threads: int, samples: int, finer: Dr
         edges=edges,
         outlines=outlines,
         meshes=meshes,
-        intersections=intersection_errors(drawing, forms[0], caster, paper, threads),
+        intersections=intersection_errors(drawing, forms[0], caster, paper),
         changes=changes,
         grazing=grazing,
         bound=bound,
         lost=lost,
-        short=shortest(drawing, forms[0], threads),
-        labels=labels(drawing, forms[0], caster, samples, threads),
+        short=shortest(drawing, forms[0]),
+        labels=labels(drawing, forms[0], caster, samples),
         seconds=perf_counter() - started,
     )

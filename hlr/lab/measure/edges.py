@@ -78,7 +78,7 @@ class TrueEdges:
         self.owner: Ints = np.concatenate(owner) if owner else np.zeros(0, np.int32)
         self._spans: Floats = np.concatenate(spans) if spans else np.zeros((0, 2))
 
-    def distance(self, points: Floats, which: Ints, threads: int) -> tuple[Floats, Floats]:
+    def distance(self, points: Floats, which: Ints) -> tuple[Floats, Floats]:
         """(n,) distance of points (n, 2) on paper to the curves of edges `which` (n,), mm; and the parameter (n,)."""
         near, chord = _kernel.nearest(
             np.ascontiguousarray(points),
@@ -86,7 +86,6 @@ class TrueEdges:
             self.chords,
             self.owner,
             np.inf,
-            threads,
         )
         best, t = near.copy(), np.full(len(points), np.nan)
         exact = np.flatnonzero((chord >= 0) & (self._curves.kind[which] != NONE))
@@ -147,7 +146,7 @@ def _evaluated(shape: Any, transform: Floats, record: Record) -> Floats:
     return transform_points(np.array([(p.X(), p.Y(), p.Z()) for p in values]), transform)
 
 
-def edge_errors(true: TrueEdges, drawing: Drawing, drawn: Sequence[Written], threads: int) -> tuple[Floats, list[str]]:
+def edge_errors(true: TrueEdges, drawing: Drawing, drawn: Sequence[Written]) -> tuple[Floats, list[str]]:
     """(n,) the largest distance, mm on paper, of each line of an edge in each written form, and the lines' names."""
     values: list[Floats] = []
     names: list[str] = []
@@ -157,7 +156,7 @@ def edge_errors(true: TrueEdges, drawing: Drawing, drawn: Sequence[Written], thr
     for form in drawn:
         mine = np.flatnonzero(number[form.line] >= 0)
         line = form.line[mine]
-        off, _ = true.distance(form.points[mine], number[line], threads)
+        off, _ = true.distance(form.points[mine], number[line])
         # Edges without a curve in space, and points behind the eye, cannot be measured.
         mine, line, off = mine[np.isfinite(off)], line[np.isfinite(off)], off[np.isfinite(off)]
         first = np.flatnonzero(np.append(True, line[1:] != line[:-1])[: len(line)])

@@ -12,7 +12,7 @@ from hlr.drawing.reached import Errors
 from hlr.lab.measure.written import Written
 
 
-def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:
+def shortest(drawing: Drawing, drawn: Written) -> Errors:
     """Length of the shortest figure, mm on paper. Lines are connected where their ends meet or one ends on another."""
     accuracy = drawing.accuracy.used
     if not drawing.lines:
@@ -24,7 +24,7 @@ def shortest(drawing: Drawing, drawn: Written, threads: int) -> Errors:
     total = np.bincount(figure, weights=length)[figure]
     # A line that the file rounds to a point is not drawn.
     small = np.flatnonzero((total < accuracy) & (length > 0.0))
-    alone = np.array([i for i in small.tolist() if _is_alone(i, figure, drawing, segments, line, accuracy, threads)])
+    alone = np.array([i for i in small.tolist() if _is_alone(i, figure, drawing, segments, line, accuracy)])
     longer = total[(total >= accuracy) & (length > 0.0)]
     found = np.concatenate([total[alone.astype(np.int64)], longer])
     if len(found) == 0:
@@ -48,14 +48,12 @@ def _joined(drawing: Drawing) -> Ints:
     return np.asarray(_kernel.edge_components(ends, len(number)))
 
 
-def _is_alone(
-    line: int, figure: Ints, drawing: Drawing, segments: Floats, owner: Index, accuracy: float, threads: int
-) -> bool:
+def _is_alone(line: int, figure: Ints, drawing: Drawing, segments: Floats, owner: Index, accuracy: float) -> bool:
     """Whether neither end of a line is within the accuracy of another figure's line."""
     others = segments[figure[owner] != figure[line]]
     if len(others) == 0:
         return True
     ends = np.ascontiguousarray(drawing.lines[line].points[[0, -1]])
     zero, none = np.zeros(2, np.int32), np.zeros(len(others), np.int32)
-    found, _ = _kernel.nearest(ends, zero, np.ascontiguousarray(others), none, accuracy, threads)
+    found, _ = _kernel.nearest(ends, zero, np.ascontiguousarray(others), none, accuracy)
     return not bool(np.isfinite(found).any())

@@ -93,8 +93,8 @@ def _key(line: Line) -> tuple[int, str, int]:
 class Comparison:
     """Compares a drawing with a finer one."""
 
-    def __init__(self, drawing: Drawing, drawn: Written, finer: Finer, threads: int) -> None:
-        self._drawing, self._drawn, self._finer, self._threads = drawing, drawn, finer, threads
+    def __init__(self, drawing: Drawing, drawn: Written, finer: Finer) -> None:
+        self._drawing, self._drawn, self._finer = drawing, drawn, finer
         self._accuracy = drawing.accuracy.used
         keys = sorted({_key(x) for x in (*drawing.lines, *finer.drawing.lines)})
         self._number = {key: i for i, key in enumerate(keys)}
@@ -117,7 +117,6 @@ class Comparison:
             self._finer.segments,
             np.ascontiguousarray(self._theirs[self._finer.line]),
             most,
-            self._threads,
         )[0]
 
     def changes(self, caster: Caster) -> tuple[Errors, Errors, float | None]:
@@ -136,7 +135,7 @@ class Comparison:
             own = own[(line[own] == line[first]) & differ[own]]
             here = _between(points[own])
             of = np.full(len(here), line[first])
-            wrong = contradicted(self._drawing, self._drawn, here, of, caster, self._threads)
+            wrong = contradicted(self._drawing, self._drawn, here, of, caster)
             found.append(longest_run(here, of, wrong, step / BETWEEN)[1])
             doubtful.append(size)
             bound = max(bound, longest_run(here, of, ~wrong, step / BETWEEN)[1])
@@ -150,7 +149,7 @@ class Comparison:
         shift = np.array(self._finer.drawing.origin)
         theirs = (theirs + shift) * (self._drawing.scale / self._finer.drawing.scale) - np.array(self._drawing.origin)
         dots = np.ascontiguousarray(np.concatenate([theirs, theirs], axis=1))
-        found, _ = _kernel.nearest(mine, key, dots, their_key, self._accuracy, self._threads)
+        found, _ = _kernel.nearest(mine, key, dots, their_key, self._accuracy)
         return found[np.isfinite(found)]
 
     def lost(self, under: float) -> Errors:
@@ -172,7 +171,7 @@ class Comparison:
         def far(those: Mask, most: float) -> Mask:
             none, chosen = np.zeros(len(points), np.int32), segments[those]
             zero = np.zeros(len(chosen), np.int32)
-            found, _ = _kernel.nearest(points, none, np.ascontiguousarray(chosen), zero, most, self._threads)
+            found, _ = _kernel.nearest(points, none, np.ascontiguousarray(chosen), zero, most)
             return ~np.isfinite(found)
 
         missing = far(np.ones(len(of), bool), (1.0 + MEASURED_SAME) * accuracy)

@@ -15,7 +15,7 @@ from hlr.lab.measure.rays import Caster
 from hlr.lab.measure.written import Written
 
 
-def intersection_errors(drawing: Drawing, drawn: Written, caster: Caster, paper: Paper, threads: int) -> Errors:
+def intersection_errors(drawing: Drawing, drawn: Written, caster: Caster, paper: Paper) -> Errors:
     """The largest distance of each intersection line, millimetres on paper."""
     lines = [(i, x) for i, x in enumerate(drawing.lines) if x.kind == "intersection"]
     if not lines:
@@ -38,7 +38,7 @@ def intersection_errors(drawing: Drawing, drawn: Written, caster: Caster, paper:
         of = np.ascontiguousarray(ends[(both == pair).all(axis=1)])
         here = key[line] == number
         points, zero = np.ascontiguousarray(drawn.points[mine[here]]), np.zeros(int(here.sum()), np.int32)
-        off[here] = _kernel.nearest(points, zero, of, np.zeros(len(of), np.int32), np.inf, threads)[0]
+        off[here] = _kernel.nearest(points, zero, of, np.zeros(len(of), np.int32), np.inf)[0]
     if not np.isfinite(off).all():
         return Errors(None, why="the finer tessellations do not cross")
     starts = np.flatnonzero(np.append(True, line[1:] != line[:-1]))

@@ -17,7 +17,7 @@ from hlr.request.options import Options
 from hlr.tables.line_classes import INTERIOR
 
 
-def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, threads: int) -> tuple[Floats, list[str]]:
+def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper) -> tuple[Floats, list[str]]:
     """(n,) the largest distance, mm on paper, of each line of a mesh without B-rep, and the lines' names.
 
     Intersection lines are left out.
@@ -55,7 +55,6 @@ def mesh_errors(opened: Any, drawing: Drawing, drawn: Written, paper: Paper, thr
         np.ascontiguousarray(ends[good]),
         np.ascontiguousarray(scene.edge_part[edge][good], np.int32),
         np.inf,
-        threads,
     )
     starts = np.flatnonzero(np.append(True, line[1:] != line[:-1]))
     of = [drawing.lines[i] for i in line[starts].tolist()]

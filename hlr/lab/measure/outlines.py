@@ -40,7 +40,7 @@ SETTLED = 1e-13
 
 
 def outline_errors(
-    opened: Any, drawing: Drawing, drawn: Written, paper: Paper, samples: int, threads: int
+    opened: Any, drawing: Drawing, drawn: Written, paper: Paper, samples: int
 ) -> tuple[Floats, list[str]]:
     """(n,) error, mm on paper, of points of written outlines, about `samples` at most; and the names of their lines."""
     wanted = np.array([x.kind == "outline" and x.face is not None for x in drawing.lines], bool)
@@ -50,7 +50,7 @@ def outline_errors(
         return np.zeros(0), []
     q, line = drawn.points[mine], drawn.line[mine]
     way = _directions(drawn, mine)
-    near = in_model(drawing, q, line, threads)
+    near = in_model(drawing, q, line)
     accuracy = drawing.accuracy.used
     faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for i, number in enumerate(line.tolist()):
@@ -63,7 +63,7 @@ def outline_errors(
         off[those] = judge.errors(near[those], q[those], way[those])
     far = np.flatnonzero(off > MEASURED_RETRY * accuracy)
     if len(far):
-        off[far] = np.minimum(off[far], _to_folds(opened, drawing, paper, q[far], line[far], threads))
+        off[far] = np.minimum(off[far], _to_folds(opened, drawing, paper, q[far], line[far]))
     names = [f"{drawing.parts[drawing.lines[i].part].name}, outline of face {drawing.lines[i].face}" for i in line]
     return off, names
 
@@ -182,7 +182,7 @@ def _least(rows: Floats, values: Floats, both: bool) -> Floats:
     return np.asarray(np.stack([d * g - b * h, a * h - c * g], axis=1) / (a * d - b * c)[:, None])
 
 
-def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Index, threads: int) -> Floats:
+def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Index) -> Floats:
     """(n,) distance of q (n, 2), mm on paper, to the nearest edge of the outline's face."""
     edges: dict[tuple[int, int], list[tuple[int, int]]] = {}
     for number in np.unique(line).tolist():
@@ -197,7 +197,7 @@ def _to_folds(opened: Any, drawing: Drawing, paper: Paper, q: Floats, line: Inde
         mine = np.array([i for i, k in enumerate(keys) if k == key], np.int64)
         for edge in own:
             which = np.full(len(mine), true.number[edge], np.int32)
-            best[mine] = np.minimum(best[mine], true.distance(q[mine], which, threads)[0])
+            best[mine] = np.minimum(best[mine], true.distance(q[mine], which)[0])
     return best
 
 

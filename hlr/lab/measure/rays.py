@@ -72,7 +72,7 @@ class Caster:
             up=np.array(view.up),
         )
 
-    def verdict(self, points: Floats, threads: int) -> npt.NDArray[np.int8]:
+    def verdict(self, points: Floats) -> npt.NDArray[np.int8]:
         """(n,) verdict of the nine rays on points (n, 3) of the model: DISAGREE, BLOCKED or FREE."""
         angle = np.arange(RING) * (2.0 * np.pi / RING)
         ring = np.concatenate(
@@ -80,14 +80,14 @@ class Caster:
         )
         radius = self.radius / self.paper.magnified(points)
         starts = points[:, None, :] + ring[None] * radius[:, None, None]
-        count = self._blocked(points, starts, self.depth, threads).sum(axis=1)
+        count = self._blocked(points, starts, self.depth).sum(axis=1)
         return np.where(count == RING + 1, BLOCKED, np.where(count == 0, FREE, DISAGREE)).astype(np.int8)
 
-    def touched(self, points: Floats, threads: int) -> npt.NDArray[np.bool_]:
+    def touched(self, points: Floats) -> npt.NDArray[np.bool_]:
         """(n,) whether anything covers points (n, 3), even by less than the contact tolerance."""
-        return self._blocked(points, points[:, None, :], MEASURED_CONTACT * self.depth, threads)[:, 0]
+        return self._blocked(points, points[:, None, :], MEASURED_CONTACT * self.depth)[:, 0]
 
-    def _blocked(self, points: Floats, starts: Floats, depth: float, threads: int) -> npt.NDArray[np.bool_]:
+    def _blocked(self, points: Floats, starts: Floats, depth: float) -> npt.NDArray[np.bool_]:
         """(n, k) whether rays from starts (n, k, 3), moved toward the viewer by `depth`, meet anything."""
         sight = self.paper.sight(points)
         unit = sight / np.linalg.norm(sight, axis=1)[:, None]
@@ -105,12 +105,11 @@ class Caster:
             np.ascontiguousarray(self.triangles),
             np.ascontiguousarray(starts.reshape(-1, 3)),
             np.ascontiguousarray(ways.reshape(-1, 3)),
-            threads,
         )
         return np.asarray(hit.reshape(starts.shape[:2]))
 
 
-def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threads: int) -> Labels:
+def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int) -> Labels:
     """The share of line samples that rays contradict, and the longest stretch of them in mm on paper."""
     accuracy = drawing.accuracy.used
     segments, _ = drawn.steps()
@@ -119,7 +118,7 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
         return Labels(None, why="the drawing has no lines")
     step = max(accuracy, length / samples)
     points, line = drawn.middles(step)
-    wrong = contradicted(drawing, drawn, points, line, caster, threads)
+    wrong = contradicted(drawing, drawn, points, line, caster)
     if not wrong.any():
         return Labels(0.0, 0.0, length)
     # The length of each stretch, from samples that now lie close together along its whole line.
@@ -127,9 +126,9 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
     near = Written(drawn.points[np.isin(drawn.line, bad)], drawn.line[np.isin(drawn.line, bad)])
     dense = max(MEASURED_SAMPLE * accuracy, step / 64.0)
     points, line = near.middles(dense)
-    close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step, threads)
+    close = _within(points, line, *_picked(drawn, step, wrong), 4.0 * step)
     points, line = points[close], line[close]
-    again = contradicted(drawing, drawn, points, line, caster, threads)
+    again = contradicted(drawing, drawn, points, line, caster)
     where, longest = longest_run(points, line, again, dense)
     name = None
     if where is not None:
@@ -140,19 +139,19 @@ def labels(drawing: Drawing, drawn: Written, caster: Caster, samples: int, threa
 
 
 def contradicted(
-    drawing: Drawing, drawn: Written, points: Floats, line: Index, caster: Caster, threads: int
+    drawing: Drawing, drawn: Written, points: Floats, line: Index, caster: Caster
 ) -> npt.NDArray[np.bool_]:
     """(n,) whether nine rays agree that points (n, 2) of lines are drawn with the wrong visibility.
 
     A hidden line under the ink of a visible line of `drawn` cannot be seen, and is never wrong.
     """
-    at = in_model(drawing, points, line, threads)
-    said = caster.verdict(at, threads)
+    at = in_model(drawing, points, line)
+    said = caster.verdict(at)
     visible = np.array([x.visible for x in drawing.lines], bool)[line]
     wrong = np.asarray(np.where(visible, said == BLOCKED, said == FREE))
     # A line covered by less than the contact tolerance may be drawn either way.
     doubtful = np.flatnonzero(wrong & ~visible)
-    wrong[doubtful] &= ~caster.touched(at[doubtful], threads)
+    wrong[doubtful] &= ~caster.touched(at[doubtful])
     hidden = np.flatnonzero(wrong & ~visible)
     if len(hidden):
         segments, owner = drawn.steps()
@@ -160,7 +159,7 @@ def contradicted(
         of, none = np.zeros(len(hidden), np.int32), np.zeros(len(ink), np.int32)
         most = under(drawing.accuracy.used)
         near = np.ascontiguousarray(points[hidden])
-        off, _ = _kernel.nearest(near, of, np.ascontiguousarray(ink), none, most, threads)
+        off, _ = _kernel.nearest(near, of, np.ascontiguousarray(ink), none, most)
         wrong[hidden] &= ~np.isfinite(off)
     return wrong
 
@@ -193,11 +192,9 @@ def _picked(drawn: Written, step: float, wrong: npt.NDArray[np.bool_]) -> tuple[
     return points[wrong], line[wrong]
 
 
-def _within(
-    points: Floats, line: Index, seeds: Floats, seed_line: Index, most: float, threads: int
-) -> npt.NDArray[np.bool_]:
+def _within(points: Floats, line: Index, seeds: Floats, seed_line: Index, most: float) -> npt.NDArray[np.bool_]:
     """(n,) whether there is a seed on the same line within the distance `most`."""
     dots = np.concatenate([seeds, seeds], axis=1)
     own, theirs = line.astype(np.int32), seed_line.astype(np.int32)
-    far, _ = _kernel.nearest(np.ascontiguousarray(points), own, np.ascontiguousarray(dots), theirs, most, threads)
+    far, _ = _kernel.nearest(np.ascontiguousarray(points), own, np.ascontiguousarray(dots), theirs, most)
     return np.isfinite(far)

@@ -82,7 +82,7 @@ def written(drawing: Drawing, *, cubic: bool = False) -> Written:
     return Written(np.concatenate(points)[order], owner[every[order]])
 
 
-def in_model(drawing: Drawing, points: Floats, line: Index, threads: int) -> Floats:
+def in_model(drawing: Drawing, points: Floats, line: Index) -> Floats:
     """(n, 3) points in the model of points (n, 2) of lines (n,), interpolated between the lines' own points."""
     if len(points) == 0:
         return np.zeros((0, 3))
@@ -94,7 +94,7 @@ def in_model(drawing: Drawing, points: Floats, line: Index, threads: int) -> Flo
         owner.append(np.full(len(of.points) - 1, number, np.int32))
     chord, end = np.concatenate(chords), np.concatenate(ends)
     _, found = _kernel.nearest(
-        np.ascontiguousarray(points), line.astype(np.int32), chord, np.concatenate(owner), np.inf, threads
+        np.ascontiguousarray(points), line.astype(np.int32), chord, np.concatenate(owner), np.inf
     )
     a, b = chord[found, :2], chord[found, 2:]
     size = ((b - a) ** 2).sum(axis=1)

@@ -56,7 +56,7 @@ def compared(image: Image, plan: Plan, projected: Floats, per_model: float, accu
     for _ in range(REPEATS):  # in turns, so that other load on the machine affects all kinds alike
         for kind in KINDS:
             wall, cpu = time.perf_counter(), time.process_time()
-            found[kind] = solve(image, plan, projected, 0, kind)
+            found[kind] = solve(image, plan, projected, kind)
             clocks[kind].append((time.perf_counter() - wall, time.process_time() - cpu))
     for kind in KINDS:
         segments = found[kind]

@@ -34,8 +34,8 @@ P99 = 0.99
 class LineJudge:
     """Compares polylines of any drawing program with the true ones of the same view."""
 
-    def __init__(self, true: Polylines, threads: int = 0) -> None:
-        self._true, self._threads = true, threads
+    def __init__(self, true: Polylines) -> None:
+        self._true = true
 
     def judge(self, drawn: Polylines) -> dict[str, float]:
         """Errors by name; lengths in millimetres on paper.
@@ -46,7 +46,7 @@ class LineJudge:
         mislabelled                      the part of these that is drawn visible where it is truly hidden, or vice versa
         wrong                            too_much and missing together, as a share of the true visible length
         """
-        true, threads = self._true, self._threads
+        true = self._true
         # Line classes that are drawn by default are required; the others may be drawn or left out.
         required = where(lambda row: row.by_default is True)[true.kind]
         allowed_seen = true.segments(true.visible)
@@ -54,15 +54,13 @@ class LineJudge:
         seen, weight = _samples(drawn, drawn.visible)
         unseen, unseen_weight = _samples(drawn, ~drawn.visible)
         truly, true_weight = _samples(true, true.visible & required)
-        shown = _distance(seen, allowed_seen, threads)
-        short = _distance(truly, drawn.segments(drawn.visible), threads)
-        placed = np.concatenate(
-            [np.minimum(shown, _distance(seen, allowed_all, threads)), _distance(unseen, allowed_all, threads)]
-        )
+        shown = _distance(seen, allowed_seen)
+        short = _distance(truly, drawn.segments(drawn.visible))
+        placed = np.concatenate([np.minimum(shown, _distance(seen, allowed_all)), _distance(unseen, allowed_all)])
         both, both_weight = np.concatenate([shown, short]), np.concatenate([weight, true_weight])
         extra, lacking = shown > NOTICED, short > NOTICED
-        hidden_there = _distance(seen[extra], true.segments(~true.visible), threads) <= NOTICED
-        hidden_drawn = _distance(truly[lacking], drawn.segments(~drawn.visible), threads) <= NOTICED
+        hidden_there = _distance(seen[extra], true.segments(~true.visible)) <= NOTICED
+        hidden_drawn = _distance(truly[lacking], drawn.segments(~drawn.visible)) <= NOTICED
         total = float(true_weight.sum())
         too_much, missing = float(weight[extra].sum()), float(true_weight[lacking].sum())
         return {
@@ -103,11 +101,9 @@ def _samples(lines: Polylines, chosen: npt.NDArray[np.bool_]) -> tuple[Floats, F
     return found.points, (found.length / found.pieces)[found.segment] * weight
 
 
-def _distance(points: Floats, segments: Floats, threads: int) -> Floats:
+def _distance(points: Floats, segments: Floats) -> Floats:
     if len(points) == 0 or len(segments) == 0:
         return np.full(len(points), np.inf)
     keys = np.zeros(len(points), np.int32), np.zeros(len(segments), np.int32)
-    found, _ = _kernel.nearest(
-        np.ascontiguousarray(points), keys[0], np.ascontiguousarray(segments), keys[1], np.inf, threads
-    )
+    found, _ = _kernel.nearest(np.ascontiguousarray(points), keys[0], np.ascontiguousarray(segments), keys[1], np.inf)
     return np.asarray(found)

@@ -221,7 +221,7 @@ def _arithmetic(job: Job) -> dict[str, Any]:
     options = _options(job, accuracy=job.setting)
     session = _session(job, options)
     draft = session.drafts()[0]
-    image = outlined(draft.image, 0, draft.planner)
+    image = outlined(draft.image, draft.planner)
     plan = session.plan(draft, image)
     found = compared(image, plan, image.lifted(), image.placement.per_model, job.setting)
     return {"kinds": [asdict(one) for one in found]}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hlr import _kernel
+from hlr.common.threads import at_most
 from support.visibility.scenes import Edge, Scene
 
 Piece = tuple[float, float, int]
@@ -78,7 +79,8 @@ def visibility(scene: Scene, way: Way, threads: int = 1, arithmetic: str = "exac
         tight=np.zeros(parts, bool),
     )
     role = np.full(len(edges), DRAWN, dtype=np.uint8)
-    found = _kernel.visibility(mesh, points, groups, role, threads=threads, arithmetic=arithmetic)
+    with at_most(threads):
+        found = _kernel.visibility(mesh, points, groups, role, arithmetic=arithmetic)
     pieces: dict[Edge, list[Piece]] = {}
     # State 3, an edge that dives into a face, counts as within the tolerance.
     for number, t0, t1, state in zip(found.edge, found.t0, found.t1, found.state, strict=True):

@@ -49,11 +49,11 @@ impl Drop for BrepModel {
 #[pymethods]
 impl BrepModel {
     #[new]
-    #[pyo3(signature = (dump, chosen = None, threads = 0))]
-    fn new(py: Python<'_>, dump: &[u8], chosen: Option<Vec<u32>>, threads: usize) -> PyResult<BrepModel> {
+    #[pyo3(signature = (dump, chosen = None))]
+    fn new(py: Python<'_>, dump: &[u8], chosen: Option<Vec<u32>>) -> PyResult<BrepModel> {
         caught(py, || {
             // A kilobyte takes about ten microseconds.
-            let read = run(py, threads, dump.len() / 64, |_| Model::read(dump, chosen.as_deref()))?;
+            let read = run(py, dump.len() / 64, |_| Model::read(dump, chosen.as_deref()))?;
             let model = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
             Ok(BrepModel(Arc::new(model)))
         })
@@ -63,10 +63,9 @@ impl BrepModel {
     /// number in the model, whether a solid, and where it stands in the shape, twelve numbers row by row; None: it is not
     /// moved.
     #[staticmethod]
-    #[pyo3(signature = (stream, threads = 0))]
-    fn divided(py: Python<'_>, stream: &[u8], threads: usize) -> PyResult<(BrepModel, Vec<Vec<PieceFacts>>)> {
+    fn divided(py: Python<'_>, stream: &[u8]) -> PyResult<(BrepModel, Vec<Vec<PieceFacts>>)> {
         caught(py, || {
-            let read = run(py, threads, stream.len() / 64, |_| divided(stream))?;
+            let read = run(py, stream.len() / 64, |_| divided(stream))?;
             let (model, pieces) = read.map_err(|damage| PyValueError::new_err(damage.to_string()))?;
             let place = |at: &Matrix| (*at != IDENTITY).then(|| at.as_flattened().to_vec());
             let of = |shape: &Vec<Piece>| shape.iter().map(|p| (p.part, p.solid, place(&p.place))).collect();
@@ -94,16 +93,14 @@ impl BrepModel {
 
     /// (parts, 2, 3) lower and upper corner of the box around each part; the lower is beyond the upper where it has no
     /// extent.
-    #[pyo3(signature = (threads = 0))]
-    fn boxes<'py>(&self, py: Python<'py>, threads: usize) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let found = run(py, threads, 10 * self.0.faces.len(), |_| boxes(&self.0))?;
+    fn boxes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let found = run(py, 10 * self.0.faces.len(), |_| boxes(&self.0))?;
         let count = found.len();
         found.into_flattened().into_flattened().into_pyarray(py).reshape([count, 2, 3])
     }
 
     /// (2, 2) how far placed parts reach along two directions, of length 1: lower and upper end along each; the lower is
     /// beyond the upper where there is nothing. parts (n,): numbers; places (n, 3, 4): where they stand.
-    #[pyo3(signature = (parts, places, right, up, threads = 0))]
     fn reach<'py>(
         &self,
         py: Python<'py>,
@@ -111,14 +108,13 @@ impl BrepModel {
         places: PyReadonlyArray3<'py, f64>,
         right: [f64; 3],
         up: [f64; 3],
-        threads: usize,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let parts = flat(&parts, "parts")?;
         expect_below("parts", parts.iter().copied(), self.0.parts.len())?;
         let places = to_matrices(&places, "places", parts.len())?;
         let placed: Vec<Placed> = parts.iter().map(|part| *part as usize).zip(places).collect();
         let size = placed.iter().map(|(part, _)| self.0.parts[*part].edges.len()).sum();
-        let found = run(py, threads, size, |_| reach(&self.0, &placed, [right, up]))?;
+        let found = run(py, size, |_| reach(&self.0, &placed, [right, up]))?;
         table(py, found.to_vec())
     }
 
@@ -188,15 +184,8 @@ impl BrepModel {
 
     /// Meshes all faces. `progress`: called with the share of faces that are done. A MemoryError: there would be more
     /// points than the limit.
-    #[pyo3(signature = (deflection, angle, progress = None, threads = 0))]
-    fn mesh(
-        &self,
-        py: Python<'_>,
-        deflection: f64,
-        angle: f64,
-        progress: Option<Py<PyAny>>,
-        threads: usize,
-    ) -> PyResult<BrepMesh> {
+    #[pyo3(signature = (deflection, angle, progress = None))]
+    fn mesh(&self, py: Python<'_>, deflection: f64, angle: f64, progress: Option<Py<PyAny>>) -> PyResult<BrepMesh> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
         if !positive(deflection) || !positive(angle) {
             return Err(PyValueError::new_err("deflection and angle must be positive"));
@@ -212,7 +201,7 @@ impl BrepModel {
         // A face costs as much as many points; one that bends both ways may have any number inside.
         let bent = |face: &Face| face.surface.as_ref().is_some_and(bends_both_ways);
         let size = 100 * model.faces.len() + if model.faces.iter().any(bent) { FEW } else { 0 };
-        let meshed = run_telling(py, threads, size, tell, work)?;
+        let meshed = run_telling(py, size, tell, work)?;
         let meshed = meshed.map_err(|ended| match ended {
             Ended::Stopped => PyKeyboardInterrupt::new_err("stopped"),
             Ended::TooFine => PyMemoryError::new_err("the mesh would have too many points"),
@@ -284,13 +273,12 @@ impl BrepMesh {
     }
 
     /// The meshes of all parts; planar: (faces,) as `BrepModel.planar` returns it.
-    #[pyo3(signature = (planar, threads = 0))]
-    fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>, threads: usize) -> PyResult<PartTables> {
+    fn parts(&self, py: Python<'_>, planar: PyReadonlyArray1<'_, bool>) -> PyResult<PartTables> {
         let planar = flat(&planar, "planar")?;
         expect_len("planar", planar.len(), self.model.faces.len())?;
         let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
         let points = meshed.faces.iter().map(|face| face.mesh.points.len()).sum::<usize>();
-        let parts = run(py, threads, points / 8, |_| Tables::of_roots(assemble(&self.model, &meshed), planar))?;
+        let parts = run(py, points / 8, |_| Tables::of_roots(assemble(&self.model, &meshed), planar))?;
         let parts = parts.map_err(|_| PyValueError::new_err("more than 2^31 items in one mesh"))?;
         Ok(PartTables(Arc::new(parts)))
     }

@@ -28,7 +28,7 @@ impl BrepFile {
     #[new]
     fn new(py: Python<'_>, data: &[u8]) -> PyResult<BrepFile> {
         caught(py, || {
-            let read = run(py, 1, data.len() / 64, |stopped| {
+            let read = run(py, data.len() / 64, |stopped| {
                 let mut source = read_file(data, stopped)?;
                 let pieces = pieces(&mut source.dump)?;
                 Ok(Kept { source, pieces })

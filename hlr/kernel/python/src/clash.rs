@@ -65,7 +65,7 @@ pub fn clashes<'py>(
     expect_len("triangle_group", group.len(), triangles.len())?;
     expect_below("triangles", triangles.iter().flatten().copied(), points.len())?;
     expect_below("triangle_group", group.iter().copied(), itself.len())?;
-    let (grid, found, points, edges) = told(run(py, 0, triangles.len(), |stopped| {
+    let (grid, found, points, edges) = told(run(py, triangles.len(), |stopped| {
         let planar = PlanarFaces::without_neighbours(vec![NO_PLANE; triangles.len()]);
         let (grid, found) = search(points, (triangles, group, &planar), itself, stopped)?;
         let (points, edges) = weld(&found.found);
@@ -103,7 +103,7 @@ pub fn crossings<'py>(
     let group = &scene.bodies.group_of[..];
     let triangles = &scene.turned.as_ref().map_or(&tables.triangles, |turned| &turned.triangles)[..];
     expect_len("touch", touch.len(), scene.folded.len())?;
-    let (points, real, through, tests) = told(run(py, 0, triangles.len(), |stopped| {
+    let (points, real, through, tests) = told(run(py, triangles.len(), |stopped| {
         let plane: Vec<i32> = scene.planar_face(tables).map(|face| face.unwrap_or(NO_PLANE)).collect();
         let (edges, offsets, incident) = (&facts.edges[..], &facts.offsets[..], &facts.incident[..]);
         let planar = PlanarFaces::new(plane, triangles, tables.points.len(), &Edges { edges, offsets, incident });

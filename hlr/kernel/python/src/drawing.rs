@@ -156,13 +156,12 @@ impl Lines {
         &self,
         py: Python<'py>,
         reaches: [f64; 2],
-        threads: usize,
     ) -> PyResult<(Option<Spacing<'py>>, Option<Spacing<'py>>)> {
         for reach in reaches {
             width("reach", reach)?;
         }
         // Of a few long lines as many places are looked at as of many short ones: 250 lines take a millisecond.
-        let found = run(py, threads, 4 * self.0.0.len(), |_| spacings(&self.0, reaches))?;
+        let found = run(py, 4 * self.0.0.len(), |_| spacings(&self.0, reaches))?;
         Ok(found.map(|s| s.map(|s| (s.bins.into_pyarray(py), s.ink, s.smallest))).into())
     }
 
@@ -173,7 +172,6 @@ impl Lines {
         pens: [f64; 2],
         accuracy: f64,
         order: Vec<u8>,
-        threads: usize,
     ) -> PyResult<Bound<'py, PyArray1<u8>>> {
         for pen in pens {
             width("pen", pen)?;
@@ -182,7 +180,7 @@ impl Lines {
             return Err(PyValueError::new_err("accuracy must be above zero"));
         }
         let order: Vec<Kind> = order.into_iter().map(Kind).collect();
-        let fates = run(py, threads, self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;
+        let fates = run(py, self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;
         Ok(fates.into_iter().map(|fate| fate as u8).collect::<Vec<_>>().into_pyarray(py))
     }
 
@@ -197,7 +195,7 @@ impl Lines {
     ) -> PyResult<Vec<Layer>> {
         self.check(places)?;
         let order: Vec<Kind> = order.into_iter().map(Kind).collect();
-        let found = run(py, 0, self.0.0.len(), |_| layers(&self.0, &order, places, accuracy, cubic))?;
+        let found = run(py, self.0.0.len(), |_| layers(&self.0, &order, places, accuracy, cubic))?;
         Ok(found.into_iter().map(Layer).collect())
     }
 
@@ -360,7 +358,7 @@ impl Layer {
         format: fn(&Inked, &[Fitted]) -> Vec<u8>,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let dashes = self.dashes(py, pattern, visible)?;
-        Ok(PyBytes::new(py, &run(py, 0, self.0.rows.op.len(), |_| format(&self.0, &dashes))?))
+        Ok(PyBytes::new(py, &run(py, self.0.rows.op.len(), |_| format(&self.0, &dashes))?))
     }
 
     /// Dashes of each stroke; none where there is no pattern.
@@ -375,7 +373,7 @@ impl Layer {
             return Err(PyValueError::new_err("dash and gap must be positive lengths"));
         }
         let seen: Vec<&Inked> = visible.iter().map(|layer| &layer.0).collect();
-        run(py, 0, self.0.rows.op.len(), |_| {
+        run(py, self.0.rows.op.len(), |_| {
             let mut ends = Ends::default();
             seen.iter().for_each(|layer| ends.add(&layer.strokes()));
             dashes(&self.0.strokes(), &Pattern { dash, gap }, &ends)

@@ -18,7 +18,6 @@ use hlr_preview::shade::Scene;
 /// opacity; triangle (a,): one of the face; gradient (a,): -1 for none; lines (g, 4): from x, y to x, y; stops (g + 1,)
 /// into shares (s,) and shades (s, 4).
 #[pyfunction]
-#[pyo3(signature = (model, lens, light, label, fine, threads = 0))]
 pub fn filled_areas<'py>(
     py: Python<'py>,
     model: &ShadedModel,
@@ -26,7 +25,6 @@ pub fn filled_areas<'py>(
     light: &PictureLight,
     label: PyReadonlyArray1<'_, i32>,
     fine: f64,
-    threads: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let (lens, light) = (&lens.0, light.0);
     let label = flat(&label, "label")?;
@@ -34,7 +32,7 @@ pub fn filled_areas<'py>(
     if label.iter().any(|&l| l < 0) || fine.is_nan() || fine < 1.0 {
         return Err(PyValueError::new_err("labels are not negative, and a band is a pixel wide at least"));
     }
-    let found = run(py, threads, usize::MAX, |stopped| {
+    let found = run(py, usize::MAX, |stopped| {
         model.with_space(|space| {
             let scene = Scene { model: &model.model(), lens, light, shadow: None, occlusion: None };
             areas(&scene, label, fine, space, stopped)

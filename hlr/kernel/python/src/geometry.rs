@@ -59,7 +59,7 @@ pub fn curve_points<'py>(
     let (which, parameters) = (flat(&which, "which")?, flat(&parameters, "parameters")?);
     expect_len("parameters", parameters.len(), which.len())?;
     expect_below("which", which.iter().copied(), curves.len())?;
-    let found = run(py, 0, which.len(), |_| {
+    let found = run(py, which.len(), |_| {
         let at = |(&i, &t): (&i32, &f64)| curves[i as usize].as_ref().map_or([[f64::NAN; 3]; 3], |c| c.derivatives(t));
         which.par_iter().zip(parameters).map(at).collect::<Vec<_>>()
     })?;

@@ -27,7 +27,7 @@ pub fn take_fault() -> Option<String> {
 pub fn provoke_fault(py: Python<'_>, on_worker: bool) -> PyResult<usize> {
     let nothing: &[usize] = &[];
     let index = nothing.len() + 1;
-    if on_worker { super::threads::run(py, 1, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
+    if on_worker { super::threads::run(py, usize::MAX, |_| nothing[index]) } else { Ok(nothing[index]) }
 }
 
 /// For constructors: turns a panic into the exception that `hlr.common.faults` makes of it.

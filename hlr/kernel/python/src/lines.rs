@@ -38,7 +38,7 @@ impl Camera {
     /// Image coordinates (n, 3) of points: to the right, up, and away from the viewer, in model units.
     fn image<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = rows(&points, "points")?;
-        let image = run(py, 0, points.len() / 8, |_| points.par_iter().map(|p| self.0.image(p)).collect())?;
+        let image = run(py, points.len() / 8, |_| points.par_iter().map(|p| self.0.image(p)).collect())?;
         table(py, image)
     }
 
@@ -46,7 +46,7 @@ impl Camera {
     /// beyond the upper one where there are none.
     fn reach<'py>(&self, py: Python<'py>, points: PyReadonlyArray2<'py, f64>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = rows(&points, "points")?;
-        table(py, run(py, 0, points.len() / 8, |_| self.0.reach(points))?.to_vec())
+        table(py, run(py, points.len() / 8, |_| self.0.reach(points))?.to_vec())
     }
 }
 
@@ -115,7 +115,6 @@ impl Cut {
         without_brep: PyReadonlyArray1<'_, bool>,
         tolerances: &LineTolerances,
         hidden: bool,
-        threads: usize,
     ) -> PyResult<Cut> {
         caught(py, || {
             let (camera, chains) = (camera.0, &chains.0);
@@ -131,7 +130,7 @@ impl Cut {
             let traits: Vec<Trait> = (0..rank.len())
                 .map(|c| Trait { rank: rank[c], without_brep: without_brep[c], noisy: chains.about[c].noisy })
                 .collect();
-            let found = run(py, threads, chains.edges.len(), |stopped| {
+            let found = run(py, chains.edges.len(), |stopped| {
                 let geometry = Geometry { camera: &camera, space, edges, pieces: &pieces, piece_edge };
                 let mut found = cut(&geometry, chains, &traits, &cutting, stopped)?;
                 if !hidden {
@@ -174,7 +173,6 @@ impl Cut {
         curve: PyReadonlyArray1<'_, i32>,
         place: PyReadonlyArray1<'_, i32>,
         bulge: PyReadonlyArray1<'_, f64>,
-        threads: usize,
     ) -> PyResult<(Lines, (f64, f64))> {
         let curves = Curves {
             known: curves.is_some(),
@@ -197,7 +195,7 @@ impl Cut {
         let found = held.ok_or_else(|| PyValueError::new_err("these lines were finished before"))?;
         let size = found.lines.iter().map(|line| line.flat.len()).sum();
         let (lines, [x, y]) =
-            run(py, threads, size, |_| finish(found, about, &guides, &curves, &self.camera, &self.fit, self.hidden))?;
+            run(py, size, |_| finish(found, about, &guides, &curves, &self.camera, &self.fit, self.hidden))?;
         Ok((Lines(Arc::new(lines)), (x, y)))
     }
 }

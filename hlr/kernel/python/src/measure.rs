@@ -20,7 +20,6 @@ pub fn nearest<'py>(
     segments: PyReadonlyArray2<'py, f64>,
     segment_key: PyReadonlyArray1<'py, i32>,
     most: f64,
-    threads: usize,
 ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>)> {
     let points = rows::<f64, 2>(&points, "points")?;
     let keys = flat(&point_key, "point_key")?;
@@ -28,7 +27,7 @@ pub fn nearest<'py>(
     let ends = rows::<f64, 4>(&segments, "segments")?;
     let owner = flat(&segment_key, "segment_key")?;
     expect_len("segment_key", owner.len(), ends.len())?;
-    let (distance, number) = run(py, threads, usize::MAX, |stopped| {
+    let (distance, number) = run(py, usize::MAX, |stopped| {
         let mut order: Vec<u32> = (0..ends.len() as u32).collect();
         order.sort_by_key(|&i| (owner[i as usize], i));
         let sorted: Vec<Segment> =
@@ -68,9 +67,8 @@ pub fn blocked<'py>(
     triangles: PyReadonlyArray2<'py, i32>,
     origins: PyReadonlyArray2<'py, f64>,
     ways: PyReadonlyArray2<'py, f64>,
-    threads: usize,
 ) -> PyResult<Bound<'py, PyArray1<bool>>> {
-    let found = cast(py, [&points, &origins, &ways], &triangles, threads, |caster, o, w| caster.is_blocked(o, w))?;
+    let found = cast(py, [&points, &origins, &ways], &triangles, |caster, o, w| caster.is_blocked(o, w))?;
     Ok(found.into_pyarray(py))
 }
 
@@ -82,9 +80,8 @@ pub fn first_hits<'py>(
     triangles: PyReadonlyArray2<'py, i32>,
     origins: PyReadonlyArray2<'py, f64>,
     ways: PyReadonlyArray2<'py, f64>,
-    threads: usize,
 ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>)> {
-    let found = cast(py, [&points, &origins, &ways], &triangles, threads, |caster, o, w| {
+    let found = cast(py, [&points, &origins, &ways], &triangles, |caster, o, w| {
         caster.first(o, w).map_or((f64::INFINITY, -1), |(t, i)| (t, i as i32))
     })?;
     let (share, triangle): (Vec<f64>, Vec<i32>) = found.into_iter().unzip();
@@ -96,7 +93,6 @@ fn cast<T: Send + Default>(
     py: Python<'_>,
     [points, origins, ways]: [&PyReadonlyArray2<'_, f64>; 3],
     triangles: &PyReadonlyArray2<'_, i32>,
-    threads: usize,
     of: impl Fn(&Caster, &[f64; 3], &[f64; 3]) -> T + Sync,
 ) -> PyResult<Vec<T>> {
     let points = rows::<f64, 3>(points, "points")?;
@@ -104,7 +100,7 @@ fn cast<T: Send + Default>(
     expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
     let (origins, ways) = (rows::<f64, 3>(origins, "origins")?, rows::<f64, 3>(ways, "ways")?);
     expect_len("ways", ways.len(), origins.len())?;
-    run(py, threads, usize::MAX, |stopped| {
+    run(py, usize::MAX, |stopped| {
         let caster = Caster::new(points, triangles);
         let one = |(o, w)| if stopped() { T::default() } else { of(&caster, o, w) };
         origins.par_iter().zip(ways).map(one).collect()

@@ -26,7 +26,7 @@ pub fn clean_mesh<'py>(
     if points.len() > i32::MAX as usize - 2 {
         return Err(PyValueError::new_err("there are too many points"));
     }
-    let found = run(py, 0, triangles.len(), |_| clean(points, triangles))?;
+    let found = run(py, triangles.len(), |_| clean(points, triangles))?;
     let left_out = (found.not_finite, found.out_of_range, found.degenerate);
     let kept = found.kept.map(|kept| kept.into_pyarray(py));
     Ok((table(py, found.points)?, table(py, found.triangles)?, kept, left_out))
@@ -45,7 +45,7 @@ pub fn without_needles<'py>(
 ) -> PyResult<Option<Turned<'py>>> {
     let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
     expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
-    let found = run(py, 0, triangles.len(), |_| turned(points, triangles, low))?;
+    let found = run(py, triangles.len(), |_| turned(points, triangles, low))?;
     if found.triangle.is_empty() {
         return Ok(None);
     }
@@ -69,7 +69,7 @@ pub fn needles<'py>(
     expect_len("part", part.len(), triangles.len())?;
     expect_below("part", part.iter().copied(), least.len())?;
     expect_below("triangles", triangles.as_flattened().iter().copied(), points.len())?;
-    let found = run(py, 0, triangles.len(), |_| low_ones(points, triangles, normals, &|t| least[part[t] as usize]))?;
+    let found = run(py, triangles.len(), |_| low_ones(points, triangles, normals, &|t| least[part[t] as usize]))?;
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }
 
@@ -90,7 +90,7 @@ pub fn edge_kinds<'py>(
     expect_len("offsets", offsets.len(), fold.len() + 1)?;
     expect_len("edge_part", edge_part.len(), fold.len())?;
     expect_below("edge_part", edge_part.iter().copied(), without_brep.len())?;
-    let found = run(py, 0, fold.len(), |_| {
+    let found = run(py, fold.len(), |_| {
         kinds(offsets, fold, &|e| without_brep[edge_part[e] as usize], Limits { sharp, near })
     })?;
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))

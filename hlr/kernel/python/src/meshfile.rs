@@ -29,7 +29,7 @@ pub fn read_mesh<'py>(py: Python<'py>, data: &Bound<'py, PyBytes>, kind: &str) -
     if Vec::<u8>::new().try_reserve_exact(bytes.len().saturating_mul(ROOM)).is_err() {
         return Err(PyMemoryError::new_err("too little memory"));
     }
-    let found = run(py, 1, bytes.len() / 16, |stop| reader(bytes, stop))?.map_err(|fault| match fault {
+    let found = run(py, bytes.len() / 16, |stop| reader(bytes, stop))?.map_err(|fault| match fault {
         Fault::Cut(what) => PyEOFError::new_err(what),
         Fault::Broken(what) => PyValueError::new_err(what),
         Fault::Stopped => PyKeyboardInterrupt::new_err(()),

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use pyo3::exceptions::{PyMemoryError, PyTimeoutError, PyValueError};
 use pyo3::prelude::*;
 
-use super::threads::run;
+use super::threads::run_on_one;
 use hlr_methods::bsp::{self, Tree};
 use hlr_methods::canvas::Canvas;
 use hlr_methods::limits::{Limits, Watch, Why};
@@ -69,7 +69,7 @@ pub fn within<T: Send>(
     (seconds, worked, bytes): LimitsTuple,
     work: impl FnOnce(&Watch) -> Option<T> + Send,
 ) -> PyResult<Option<T>> {
-    let (done, why) = run(py, 1, usize::MAX, |stopped| {
+    let (done, why) = run_on_one(py, |stopped| {
         let watch = Watch::new(stopped, Limits { seconds, worked, bytes });
         (work(&watch), watch.why())
     })?;

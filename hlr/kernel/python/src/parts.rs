@@ -95,7 +95,7 @@ arrays! { PartTables {
             let origin = origin.as_ref().map(|origin| slice(origin, "origin")).transpose()?;
             let (n, t, f) = (brep.len(), triangles.len(), planar.len());
             let triangle_start = starts(&triangle_start, "triangle_start", n, t)?;
-            let large = run(py, 0, (t + points.len()) / CHEAP, |_| Large {
+            let large = run(py, (t + points.len()) / CHEAP, |_| Large {
                 points: copied(points),
                 triangles: copied(triangles),
                 triangle_face: copied(triangle_face),
@@ -187,13 +187,13 @@ arrays! { PartTables {
 
     /// Whether a part whose points are not joined may hold two points in one place; always true where it does.
     fn places_repeated(&self, py: Python<'_>) -> PyResult<Vec<bool>> {
-        run(py, 0, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
+        run(py, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
     }
 
     /// Edges, and the properties of the mesh that need no part or class of edge.
     fn facts(&self, py: Python<'_>) -> PyResult<MeshFacts> {
         let tables = &self.0;
-        let facts = run(py, 0, tables.triangles.len() / CHEAP, |_| Facts::of(&tables.points, &tables.triangles))?;
+        let facts = run(py, tables.triangles.len() / CHEAP, |_| Facts::of(&tables.points, &tables.triangles))?;
         Ok(MeshFacts { tables: tables.clone(), facts: Arc::new(facts) })
     }
 }
@@ -283,7 +283,7 @@ arrays! { MeshFacts {
     /// All parts as one scene.
     fn scene(&self, py: Python<'_>) -> PyResult<MeshScene> {
         let (tables, facts) = (&self.tables, &self.facts);
-        let mut found = run(py, 0, tables.triangles.len() / CHEAP, |_| scene(tables, facts))?;
+        let mut found = run(py, tables.triangles.len() / CHEAP, |_| scene(tables, facts))?;
         let mesh = match &mut found.turned {
             Some(turned) => Arc::new(std::mem::take(&mut turned.facts)),
             None => facts.clone(),

@@ -186,7 +186,7 @@ impl ShadedModel {
     }
 
     /// The picture (h, w, 4), uint8; `out`: a picture of that shape to draw into instead of a new one.
-    #[pyo3(signature = (lens, light, background, antialias, shadow = None, occlusion = 0.0, threads = 0, out = None))]
+    #[pyo3(signature = (lens, light, background, antialias, shadow = None, occlusion = 0.0, out = None))]
     #[allow(clippy::too_many_arguments)] // one argument per effect: the stub names them
     fn picture<'py>(
         &self,
@@ -197,7 +197,6 @@ impl ShadedModel {
         antialias: bool,
         shadow: Option<&PictureLens>,
         occlusion: f64,
-        threads: usize,
         out: Option<Bound<'py, PyArray3<u8>>>,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let (lens, light, shadow) = (&lens.0, light.0, shadow.map(|lens| lens.0.clone()));
@@ -210,7 +209,7 @@ impl ShadedModel {
             return Err(PyValueError::new_err("out must be (height, width, 4)"));
         }
         let (pixels, _) = pixels.as_chunks_mut::<4>();
-        let done = run(py, threads, usize::MAX, |stopped| {
+        let done = run(py, usize::MAX, |stopped| {
             self.with_space(|space| {
                 let model = self.model();
                 let shadow = match shadow {
@@ -234,20 +233,17 @@ impl ShadedModel {
 
     /// The depth map at the centres of pixels: distance ahead (h, w) float64 in model units, infinite where there is
     /// nothing; triangle (h, w) int32, -1 for none. Transparent triangles count as opaque.
-    #[pyo3(signature = (lens, threads = 0))]
     #[allow(clippy::type_complexity)]
     fn maps<'py>(
         &self,
         py: Python<'py>,
         lens: &PictureLens,
-        threads: usize,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<i32>>)> {
         let lens = &lens.0;
         let [width, height] = lens.size;
-        let found = run(py, threads, usize::MAX, |stopped| {
-            self.with_space(|space| depth_map(&self.model(), lens, space, stopped))
-        })?
-        .ok_or_else(stopped_error)?;
+        let found =
+            run(py, usize::MAX, |stopped| self.with_space(|space| depth_map(&self.model(), lens, space, stopped)))?
+                .ok_or_else(stopped_error)?;
         let ahead = |s: &hlr_preview::depth_map::MapSample| {
             if s.triangle == NOTHING { f64::INFINITY } else { lens.ahead_at(f64::from(s.depth)) }
         };
@@ -259,14 +255,12 @@ impl ShadedModel {
 
 /// Draws straight pieces (n, 4), x0 y0 x1 y1 in pixels, over an (h, w, 4) picture, in place.
 #[pyfunction]
-#[pyo3(signature = (picture, pieces, width, colour, threads = 0))]
 pub fn stroke_picture(
     py: Python<'_>,
     mut picture: PyReadwriteArray3<'_, u8>,
     pieces: PyReadonlyArray2<'_, f64>,
     width: f64,
     colour: [u8; 4],
-    threads: usize,
 ) -> PyResult<()> {
     let shape = picture.shape().to_vec();
     let pixels = picture.as_slice_mut().map_err(|_| PyValueError::new_err("picture must be C-contiguous"))?;
@@ -279,19 +273,13 @@ pub fn stroke_picture(
         .filter(|p| p.iter().all(|c| c.is_finite()))
         .map(|p| Piece { from: [p[0], p[1]], to: [p[2], p[3]], half: 0.5 * width })
         .collect();
-    let done = run(py, threads, usize::MAX, |stopped| stroke(pixels, shape[1], &pieces, colour, stopped))?;
+    let done = run(py, usize::MAX, |stopped| stroke(pixels, shape[1], &pieces, colour, stopped))?;
     if done { Ok(()) } else { Err(stopped_error()) }
 }
 
 /// Unit normals (k, 3) float32 of the true surfaces at uv (k, 2), on the outer side; zero where there is none.
 #[pyfunction]
-#[pyo3(signature = (mesh, on, threads = 0))]
-pub fn surface_normals<'py>(
-    py: Python<'py>,
-    mesh: &Mesh,
-    on: &TrueSurfaces,
-    threads: usize,
-) -> PyResult<Bound<'py, PyArray2<f32>>> {
+pub fn surface_normals<'py>(py: Python<'py>, mesh: &Mesh, on: &TrueSurfaces) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let (reading, places) = (mesh.reading(py)?, on.reading(py)?);
     let all = reading.slices()?;
     let (face, corner, uv) = places.slices()?;
@@ -306,7 +294,7 @@ pub fn surface_normals<'py>(
         place: &on.place,
         surfaces: on.surfaces(),
     };
-    let found = run(py, threads, usize::MAX, |_| normals(&on))?;
+    let found = run(py, usize::MAX, |_| normals(&on))?;
     let n = found.len();
     found.into_flattened().into_pyarray(py).reshape([n, 3])
 }

@@ -20,7 +20,6 @@ const TURN: [f64; 2] = [0.0, std::f64::consts::TAU];
 /// Outlines: the curves on true surfaces along which they are seen edge-on. And borders of faces that are nearly
 /// edge-on.
 #[pyfunction]
-#[pyo3(signature = (mesh, on, smooth, source, camera, chord, threads = 0))]
 #[allow(clippy::too_many_arguments)] // two arrays, and what they are about
 pub fn silhouettes<'py>(
     py: Python<'py>,
@@ -30,7 +29,6 @@ pub fn silhouettes<'py>(
     source: PyReadonlyArray1<'py, i32>,
     camera: &Camera,
     chord: f64,
-    threads: usize,
 ) -> PyResult<Outlines> {
     let (reading, places) = (mesh.reading(py)?, on.reading(py)?);
     let all = reading.slices()?;
@@ -62,7 +60,7 @@ pub fn silhouettes<'py>(
         view: camera.0.view(),
         chord,
     };
-    let Traced { silhouettes, grazing } = run(py, threads, model.triangles.len(), |stopped| trace(&model, stopped))?
+    let Traced { silhouettes, grazing } = run(py, model.triangles.len(), |stopped| trace(&model, stopped))?
         .ok_or_else(|| PyKeyboardInterrupt::new_err("stopped"))?;
     Ok(Outlines { columns: Columns::of(&silhouettes), lines: silhouettes, grazing, traced })
 }

@@ -1,4 +1,4 @@
-//! Runs Rust code without the interpreter lock on a given number of threads, and stops it on Ctrl-C.
+//! Runs Rust code without the interpreter lock on a limited number of threads, and stops it on Ctrl-C.
 //!
 //! Starting threads takes 0.2 milliseconds, more than many calls on small models take. So thread pools are kept, and
 //! work of about a millisecond runs on the calling thread.
@@ -30,43 +30,48 @@ struct Pool {
 thread_local! {
     /// The calling thread itself as a pool.
     static HERE: OnceCell<ThreadPool> = const { OnceCell::new() };
-    /// Threads for calls of this thread that name no number; 0: all cores.
+    /// Threads for calls of this thread; 0: all cores.
     static LIMIT: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Sets how many threads the calls of this thread use that name no number themselves; 0: all cores. Returns the number
-/// that it was before.
+/// Sets how many threads the calls of this thread use; 0: all cores. Returns the number that it was before.
 #[pyfunction]
 pub fn limit_threads(threads: usize) -> usize {
     LIMIT.replace(threads)
 }
 
-fn limited(threads: usize) -> usize {
-    if threads == 0 { LIMIT.get() } else { threads }
-}
-
-/// Calls `work` on a pool of `threads` (0: as `limit_threads` says). `work` polls the function it is given: KeyboardInterrupt and
+/// Calls `work` on as many threads as `limit_threads` says. `work` polls the function it is given: KeyboardInterrupt and
 /// other exceptions of signal handlers stop it within milliseconds. Work on a `size` of FEW items at most runs on the
 /// calling thread, and signals are checked afterwards.
 pub fn run<T: Send>(
     py: Python<'_>,
-    threads: usize,
     size: usize,
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
 ) -> PyResult<T> {
-    run_telling(py, threads, size, |_| Ok(()), work)
+    run_telling(py, size, |_| Ok(()), work)
 }
 
-/// The same; while waiting it calls `tell` every few milliseconds, and stops the work where that fails.
+/// The same on one thread, for work whose memory is counted: that is done thread by thread.
+pub fn run_on_one<T: Send>(py: Python<'_>, work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send) -> PyResult<T> {
+    struct Before(usize);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            LIMIT.set(self.0);
+        }
+    }
+    let _before = Before(LIMIT.replace(1));
+    run(py, usize::MAX, work)
+}
+
+/// As `run`; while waiting it calls `tell` every few milliseconds, and stops the work where that fails.
 pub fn run_telling<T: Send>(
     py: Python<'_>,
-    threads: usize,
     size: usize,
     tell: impl Fn(Python<'_>) -> PyResult<()> + Send + Sync,
     work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send,
 ) -> PyResult<T> {
     if size > FEW {
-        let pool = pool(limited(threads)).map_err(not_started)?;
+        let pool = pool(LIMIT.get()).map_err(not_started)?;
         pool.spread.before_work(&pool.threads);
         let result = waited(py, &pool.threads, tell, work);
         pool.spread.after_work();
@@ -92,7 +97,7 @@ pub fn run_telling<T: Send>(
 /// drawing.
 pub fn release_later<T: Send + 'static>(value: T, size: usize) {
     if size > FEW
-        && let Ok(pool) = pool(limited(0))
+        && let Ok(pool) = pool(LIMIT.get())
     {
         pool.threads.spawn(move || drop(value));
     }

@@ -19,7 +19,7 @@ pub fn edge_table<'py>(
 ) -> PyResult<EdgeArrays<'py>> {
     let triangles = rows::<i32, 3>(&triangles, "triangles")?;
     expect_below("triangles", triangles.as_flattened().iter().copied(), n_points)?;
-    let t = run(py, 0, triangles.len(), |_| topology::topology(triangles, n_points))?;
+    let t = run(py, triangles.len(), |_| topology::topology(triangles, n_points))?;
     let n = t.edges.len();
     let edges = t.edges.into_flattened().into_pyarray(py).reshape([n, 2])?;
     Ok((edges, t.offsets.into_pyarray(py), t.incident.into_pyarray(py)))

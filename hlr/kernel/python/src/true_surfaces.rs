@@ -47,7 +47,7 @@ impl Surfaces {
                 [point, du, dv]
             })
         };
-        let found: Vec<_> = run(py, 0, which.len(), |_| which.par_iter().zip(uv).map(at).collect())?;
+        let found: Vec<_> = run(py, which.len(), |_| which.par_iter().zip(uv).map(at).collect())?;
         let n = found.len();
         found.into_flattened().into_flattened().into_pyarray(py).reshape([n, 3, 3])
     }

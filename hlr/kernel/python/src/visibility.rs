@@ -104,7 +104,7 @@ arrays! { Visibility {
 /// Visible and hidden pieces of the edges that have a role.
 #[pyfunction]
 #[pyo3(signature = (mesh, projected, groups, role, own = None, *, crossings = true, piercings = true, pyramid = false,
-    arithmetic = "exact", threads = 0))]
+    arithmetic = "exact"))]
 #[allow(clippy::too_many_arguments)] // half of them are options
 pub fn visibility<'py>(
     py: Python<'py>,
@@ -117,7 +117,6 @@ pub fn visibility<'py>(
     piercings: bool,
     pyramid: bool,
     arithmetic: &str,
-    threads: usize,
 ) -> PyResult<Visibility> {
     let numbers = match arithmetic {
         "exact" => Numbers::Exact,
@@ -149,11 +148,12 @@ pub fn visibility<'py>(
     }
     let own = own.map_or(Own::NONE, |own| own.0.borrowed());
     let steps = Steps { crossings, piercings, pyramid };
-    let outcome = run(py, threads, scene.triangles.len(), |stopped| solve(&scene, own, steps, numbers, stopped))?
-        .map_err(|why| match why {
+    let outcome = run(py, scene.triangles.len(), |stopped| solve(&scene, own, steps, numbers, stopped))?.map_err(
+        |why| match why {
             Refusal::NotFinite => PyValueError::new_err("points hold coordinates that are not finite"),
             Refusal::Stopped => PyKeyboardInterrupt::new_err("stopped"),
-        })?;
+        },
+    )?;
     let pieces = &outcome.pieces;
     Ok(Visibility {
         edge: pieces.iter().map(|p| p.edge as i32).collect(),
@@ -223,6 +223,6 @@ pub fn edge_roles<'py>(
     expect_len("roles", roles.len(), 512)?;
     let role = |(&curved, &kind): (&bool, &u8)| roles[usize::from(curved) << 8 | usize::from(kind)];
     let found: Vec<u8> =
-        run(py, 0, kind.len() / 64, |_| curved.par_iter().with_min_len(1 << 16).zip(kind).map(role).collect())?;
+        run(py, kind.len() / 64, |_| curved.par_iter().with_min_len(1 << 16).zip(kind).map(role).collect())?;
     Ok(found.into_pyarray(py))
 }
