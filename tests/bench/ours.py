@@ -35,7 +35,10 @@ class Kernel:
         points = _view(mesh.points)
         edges, offsets, incident = _kernel.edge_table(mesh.triangles, len(points))
         keys = edges[:, 0].astype(np.int64) * len(points) + edges[:, 1]
-        role = np.where(_member(keys, mesh.drawn), 1, 2).astype(np.uint8)
+        role = np.full(len(edges), 2, np.uint8)
+        # Both ascend, and few edges are drawn.
+        place = np.searchsorted(keys, mesh.drawn)
+        role[place[np.append(keys, -1)[place] == mesh.drawn]] = 1
         edge_part = mesh.triangle_part[incident[offsets[:-1]]]
         closed = np.full(mesh.parts, True)
         groups = _kernel.Groups(
@@ -62,13 +65,6 @@ def _view(points: np.ndarray) -> np.ndarray:
     right /= np.linalg.norm(right)
     axes = np.stack([right, np.cross(toward, right), -toward], axis=1)
     return np.ascontiguousarray(np.einsum("ij,jk->ik", points, axes))
-
-
-def _member(keys: np.ndarray, ascending: np.ndarray) -> np.ndarray:
-    if not len(ascending):
-        return np.zeros(len(keys), dtype=np.bool_)
-    place = np.minimum(np.searchsorted(ascending, keys), len(ascending) - 1)
-    return np.asarray(ascending[place] == keys)
 
 
 def draw(shape: Any, accuracy: float) -> tuple[float, dict[str, int]]:

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hlr import SourceError
+from hlr.scene import build as building
 from hlr.scene.build import build
 from hlr.scene.duplicates import without_duplicates
 from hlr.source import open_source
@@ -174,6 +175,32 @@ def test_repeated_triangles_are_dropped_and_counted():
     scene = scene_of((mesh.vertices, faces))
     assert scene.parts[0].defects == ("9 duplicated triangles",)
     assert scene.groups.cull.all()
+
+
+def test_only_parts_with_repetitions_are_repaired(monkeypatch):
+    """The others are not looked at: where a model has hundreds of parts, that would take most of the repair."""
+    mesh = box((10, 10, 10))
+    plain, far = (replace(part_of((mesh.vertices + 50.0 * k, mesh.faces)), name=f"plain {k}") for k in (1, 2))
+    twice = replace(part_of((mesh.vertices, np.concatenate([mesh.faces, mesh.faces[:3]]))), name="twice")
+    doubled = np.concatenate([mesh.vertices, mesh.vertices])
+    faces = np.concatenate([mesh.faces, mesh.faces + len(mesh.vertices)]).astype(np.int32)
+    there = replace(part_of((doubled - 50.0, mesh.faces)), name="there", points=doubled, triangles=faces)
+    there = replace(there, joined=False, triangle_face=np.repeat(np.arange(2, dtype=np.int32), len(mesh.faces)))
+    there = replace(there, face_planar=np.zeros(2, bool))
+    seen = []
+
+    def noted(part, *which):
+        seen.append((part.name, which))
+        return without_duplicates(part, *which)
+
+    monkeypatch.setattr(building, "without_duplicates", noted)
+    scene = build(Tessellation([plain, twice, far, there], []), 30.0, 0.05)
+    assert seen == [("twice", (True, False)), ("there", (False, True))]
+    assert [part.triangles for part in scene.parts] == [12] * 4
+    assert [part.defects for part in scene.parts] == [(), ("3 duplicated triangles",), (), ("12 duplicated triangles",)]
+    del seen[:]
+    build(Tessellation([plain, far], []), 30.0, 0.05)
+    assert not seen
 
 
 @pytest.mark.parametrize("again", range(12))

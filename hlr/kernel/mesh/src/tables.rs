@@ -277,7 +277,11 @@ mod tests {
     use super::*;
 
     fn one() -> Tables {
-        let root = PartMesh {
+        Tables::of_roots(vec![root()], &[true; 4]).unwrap()
+    }
+
+    fn root() -> PartMesh {
+        PartMesh {
             points: vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
             triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]],
             triangle_face: vec![0, 1, 2, 3],
@@ -290,8 +294,7 @@ mod tests {
             face_shape: vec![0, 1, 2, 3],
             face_place: vec![IDENTITY; 4],
             face_reversed: vec![false; 4],
-        };
-        Tables::of_roots(vec![root], &[true; 4]).unwrap()
+        }
     }
 
     #[test]
@@ -304,6 +307,29 @@ mod tests {
         assert_eq!((found.corner[1], found.corner[5]), ([3, 4, 5], [15, 17, 16]));
         assert_eq!((found.edge_offsets, found.edge_nodes), (vec![0, 2, 4, 6, 8], vec![0, 1, 1, 2, 4, 5, 5, 6]));
         assert_eq!(found.point_start, [0, 4, 8]);
+    }
+
+    #[test]
+    fn parts_that_stay_as_they_are_are_told_from_moved_ones() {
+        let place = [[1.0, 0.0, 0.0, 5.0], IDENTITY[1], IDENTITY[2]];
+        let at = |part, transform, precision| Placed { part, transform, precision };
+        let (alone, still) = (one(), at(0, IDENTITY, 0.0));
+        assert!(alone.are_all(&[still]));
+        for others in [vec![], vec![still, still], vec![at(0, place, 0.0)], vec![at(0, IDENTITY, 1e-3)]] {
+            assert!(!alone.are_all(&others), "{others:?}");
+        }
+        let two = alone.placed(&[still, still]).unwrap();
+        assert!(two.are_all(&[still, at(1, IDENTITY, 0.0)]) && !two.are_all(&[at(1, IDENTITY, 0.0), still]));
+        let moved = alone.placed(&[at(0, place, 0.0)]).unwrap();
+        assert!(!moved.are_all(&[still]) && !moved.are_all(&[at(0, place, 0.0)]));
+    }
+
+    #[test]
+    fn a_part_of_points_alone_counts_before_another() {
+        let wire = || PartMesh { points: vec![[9.0; 3]; 2], ..PartMesh::default() };
+        let found = Tables::of_roots(vec![wire(), root()], &[true; 4]).unwrap();
+        assert_eq!(found.triangles, one().triangles.iter().map(|t| t.map(|v| v + 2)).collect::<Vec<_>>());
+        assert_eq!((&found.edge_nodes[..2], found.corner[0]), (&[2, 3][..], one().corner[0]));
     }
 
     #[test]
