@@ -185,7 +185,7 @@ arrays! { PartTables {
         self.0.within(largest)
     }
 
-    /// Whether a part whose points are not joined may hold two points in one place; always true where it does.
+    /// (p,) whether each part's points are not joined and two of them may be in one place; always true where they are.
     fn places_repeated(&self, py: Python<'_>) -> PyResult<Vec<bool>> {
         run(py, self.0.points.len() / CHEAP, |_| self.0.places_repeated())
     }
@@ -207,7 +207,6 @@ pub(super) fn to_matrices(array: &PyReadonlyArray3<'_, f64>, name: &str, count: 
     Ok(flat.as_chunks::<4>().0.as_chunks::<3>().0.to_vec())
 }
 
-/// Starts of the parts, checked: ascending, up to `count` items.
 /// The columns that are copied on all cores.
 struct Large {
     points: Vec<[f64; 3]>,
@@ -232,6 +231,7 @@ fn counted(start: &[i32]) -> Vec<i32> {
     out
 }
 
+/// Starts of the parts, checked: ascending, up to `count` items.
 fn starts(array: &PyReadonlyArray1<'_, i32>, name: &str, parts: usize, count: usize) -> PyResult<Vec<i32>> {
     let start = slice(array, name)?;
     expect_len(name, start.len(), parts + 1)?;

@@ -65,6 +65,10 @@ pub fn smooth(
         }
         put(&mut out, way[piece.to], line.space[piece.to]);
     }
+    if out.flat.len() < 2 {
+        // So small that rounding moved all of it to one point.
+        return (line.clone(), None);
+    }
     if closed {
         let last = out.flat.len() - 1;
         (out.flat[last], out.space[last]) = (out.flat[0], out.space[0]);
@@ -281,6 +285,17 @@ mod tests {
         let round = |p: &Vec3| (p[0] * p[0] + p[2] * p[2]).sqrt();
         let half = |w: &[Vec3]| [0, 1, 2].map(|k| 0.5 * (w[0][k] + w[1][k]));
         assert!(found.space.windows(2).all(|w| (round(&half(w)) - 10.0).abs() < 0.2));
+    }
+
+    #[test]
+    fn what_rounding_makes_a_point_stays_a_line() {
+        let least = f64::from_bits(1);
+        for corners in [3, 4, 5, 6, 8] {
+            let at = |i: usize| if i % corners == 1 { [least, 0.0] } else { [0.0, 0.0] };
+            let raw = line((0..=corners).map(at).collect());
+            let (found, _) = smooth(&raw, &|_| false, 1e-300, 1e-300, &VIEW);
+            assert!(found.flat.len() > 1 && found.flat.len() == found.space.len(), "{found:?}");
+        }
     }
 
     #[test]

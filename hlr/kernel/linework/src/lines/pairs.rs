@@ -21,7 +21,8 @@ use super::cells::Cells;
 use super::gaps::{Side, Widths};
 use super::stretches::Stretches;
 
-/// Comparisons for each side, and stretches for each side, beyond which there are too many.
+/// Comparisons for each side, and stretches for each side, beyond which there are too many: comparing each line with what
+/// is drawn then takes less time, although on one thread (measured on two cores).
 const MOST_TESTS: usize = 64;
 const MOST_FOUND: usize = 16;
 /// Fewer stretches than this are never too many.
