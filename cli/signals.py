@@ -12,16 +12,23 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
+
+if TYPE_CHECKING:
+    from sys import UnraisableHookArgs
 
 STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name))
 
 ENDING = tuple(number for number in STOPPING if number != getattr(signal, "SIGHUP", None))
 """Signals that end the command even where it inherited that they are ignored."""
+
+_AGAIN_S = 0.01
+"""Seconds until a signal whose exception was lost comes again."""
 
 
 class Stopped(BaseException):
@@ -52,19 +59,60 @@ def hang_up_ignored() -> bool:
     return hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
 
 
+class Asked:
+    """Whether a signal has asked the process to end, and which."""
+
+    def __init__(self) -> None:
+        self.number: int | None = None
+
+    def is_set(self) -> bool:
+        """Whether it has."""
+        return self.number is not None
+
+
 @contextmanager
-def tidily() -> Iterator[None]:
-    """Within this block, a signal raises Stopped."""
+def tidily() -> Iterator[Asked]:
+    """Within this block, a signal raises Stopped; at its end at the latest.
+
+    Whoever waits for long may look at the object as well: an exception raised where nobody expects one can be lost.
+    """
+    asked = Asked()
     if not _in_main_thread():
-        yield
+        yield asked
         return
     before = {number: signal.getsignal(number) for number in STOPPING}
     caught = [number for number, handler in before.items() if handler == signal.SIG_DFL]
+    hook = sys.unraisablehook
+
+    def stop(number: int, frame: FrameType | None) -> NoReturn:
+        # Ctrl-C arrives twice, from the terminal and from the waiting process: the second must not disturb the tidying.
+        for other in caught:
+            signal.signal(other, signal.SIG_IGN)
+        asked.number = number
+        raise Stopped(number)
+
+    def unraisable(lost: UnraisableHookArgs) -> None:
+        if not isinstance(lost.exc_value, Stopped):
+            hook(lost)
+            return
+        # Raised in a destructor, it ends nothing: the same signal again, when the destructor is done.
+        number = lost.exc_value.number
+        signal.signal(number, stop)
+        threading.Timer(_AGAIN_S, os.kill, (os.getpid(), number)).start()
+
+    sys.unraisablehook = unraisable
     for number in caught:
-        signal.signal(number, _stop)
+        signal.signal(number, stop)
     try:
-        yield
+        yield asked
+        if asked.number is not None:
+            raise Stopped(asked.number)
+    except KeyboardInterrupt:  # of a library that had to do with the signal
+        if asked.number is None:
+            raise
+        raise Stopped(asked.number) from None
     finally:
+        sys.unraisablehook = hook
         for number in caught:
             signal.signal(number, before[number])
 
@@ -74,14 +122,6 @@ def die_by(number: int) -> NoReturn:
     signal.signal(number, signal.SIG_DFL)
     os.kill(os.getpid(), number)
     os._exit(128 + number)  # where a signal does not end the process at once
-
-
-def _stop(number: int, frame: FrameType | None) -> NoReturn:
-    # Ctrl-C arrives twice, from the terminal and from the waiting process: the second must not disturb the tidying.
-    for other in STOPPING:
-        if signal.getsignal(other) is _stop:
-            signal.signal(other, signal.SIG_IGN)
-    raise Stopped(number)
 
 
 def _in_main_thread() -> bool:

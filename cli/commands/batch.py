@@ -14,9 +14,9 @@ import click
 from hlr.errors import OptionError
 from hlr.tables.writers import WRITERS
 
+from .. import signals
 from ..batch_progress import Lines, progress
 from ..parameters import Vector3, ViewName
-from ..signals import tidily
 from ..verb import Verb
 from ..view_options import NO_CACHE
 
@@ -113,12 +113,12 @@ def batch(
     _make_folder(plan.output)
     with ExitStack() as stack:
         # Beside the drawings there is a display to take down, and workers to end.
-        stack.enter_context(tidily())
+        stop = stack.enter_context(signals.tidily())
         show = stack.enter_context(progress(quiet))
         pool = _Pool(stack, jobs, address)
         code = _round(plan, kept, digests, show, pool, earlier, quiet)
         if watch:
-            _watch(asked, plan, kept, digests, show, pool, earlier, quiet)
+            _watch(asked, plan, kept, digests, show, pool, earlier, quiet, stop)
     return code
 
 
@@ -248,7 +248,15 @@ def _said(done: Done, seconds: float) -> str:
 
 
 def _watch(
-    asked: _Asked, plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier, quiet: bool
+    asked: _Asked,
+    plan: Plan,
+    kept: Kept,
+    digests: Digests,
+    show: Lines,
+    pool: _Pool,
+    earlier: _Earlier,
+    quiet: bool,
+    stop: signals.Asked,
 ) -> None:
     """Draw again whatever changes, until a signal ends the command."""
     from hlr.batch.watch import changes
@@ -258,7 +266,7 @@ def _watch(
     if not quiet:
         click.echo(f"watching {root}; Ctrl-C ends it", err=True)
     outside = {Path(root, job.source).resolve() for job in plan.jobs}
-    for changed in changes(root, output, outside):
+    for changed in changes(root, output, outside, stop):
         digests.forget(changed)
         try:
             plan = asked.plan()

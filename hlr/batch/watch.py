@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Protocol
 
 _STEP_MS = 20
 """Milliseconds between two looks at what the system has told."""
@@ -12,15 +13,24 @@ _SETTLE_MS = 40
 """Milliseconds that changes are gathered for: an editor writes a file in several steps."""
 
 
-def changes(root: Path, output: Path, others: set[Path]) -> Iterator[set[Path]]:
-    """The files that have changed, time after time, for ever. Those in the folder of outputs do not count.
+class Stop(Protocol):
+    """Tells when to stop; `threading.Event` does."""
 
-    root: watched with all its folders; others: files outside it.
+    def is_set(self) -> bool:
+        """Whether to stop."""
+
+
+def changes(root: Path, output: Path, others: set[Path], stop: Stop) -> Iterator[set[Path]]:
+    """The files that have changed, time after time. Those in the folder of outputs do not count.
+
+    root: watched with all its folders; others: files outside it; stop: looked at every few hundredths of a second.
     """
     from watchfiles import watch
 
     folders = {path.parent for path in others if not path.is_relative_to(root)}
-    for changed in watch(root, *folders, step=_STEP_MS, debounce=_SETTLE_MS, raise_interrupt=True):
+    for changed in watch(
+        root, *folders, step=_STEP_MS, debounce=_SETTLE_MS, stop_event=stop, raise_interrupt=True
+    ):
         paths = {Path(path) for _, path in changed}
         paths = {path for path in paths if not path.is_relative_to(output) and not _is_aside(path, root)}
         if paths:
