@@ -27,7 +27,7 @@ class Lines:
     """A line for each source that was drawn, on standard error. quiet: for failures only."""
 
     def __init__(self, quiet: bool) -> None:
-        self._quiet = quiet
+        self.quiet = quiet
         self._total = self._ended = 0
 
     def planned(self, plan: Plan, todo: Sequence[int]) -> None:
@@ -40,7 +40,7 @@ class Lines:
     def ended(self, number: int, outcome: Outcome) -> None:
         """As of `Listener`."""
         self._ended += 1
-        if outcome.failure is not None or not self._quiet:
+        if outcome.failure is not None or not self.quiet:
             click.echo(f"{self._ended}/{self._total} {told(self._plan, number, outcome)}", err=True)
 
     def __enter__(self) -> Lines:

@@ -116,9 +116,9 @@ def batch(
         stop = stack.enter_context(signals.tidily())
         show = stack.enter_context(progress(quiet))
         pool = _Pool(stack, jobs, address)
-        code = _round(plan, kept, digests, show, pool, earlier, quiet)
+        code = _round(plan, kept, digests, show, pool, earlier)
         if watch:
-            _watch(asked, plan, kept, digests, show, pool, earlier, quiet, stop)
+            _watch(asked, plan, kept, digests, show, pool, earlier, stop)
     return code
 
 
@@ -216,7 +216,7 @@ def _prepared(asked: _Asked) -> tuple[Plan, Kept, Digests]:
     return plan, Kept(None if where is None else Store(where, most_bytes(), DRAWINGS), digests), digests
 
 
-def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier, quiet: bool) -> int:
+def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, earlier: _Earlier) -> int:
     """Draw what has changed, write the report, and say how it went. Returns the exit code."""
     from hlr.batch.ci import github
     from hlr.batch.report import write
@@ -230,7 +230,7 @@ def _round(plan: Plan, kept: Kept, digests: Digests, show: Lines, pool: _Pool, e
     for line in github(report, plan.manifest.root, os.environ):
         click.echo(line)
     _add_to_summary(plan.output / "summary.md")
-    if not quiet:
+    if not show.quiet:
         click.echo(_said(done, time.monotonic() - started), err=True)
         if changed is not None:
             click.echo(f"since {earlier.name}: {changed}", err=True)
@@ -255,7 +255,6 @@ def _watch(
     show: Lines,
     pool: _Pool,
     earlier: _Earlier,
-    quiet: bool,
     stop: signals.Asked,
 ) -> None:
     """Draw again whatever changes, until a signal ends the command."""
@@ -263,14 +262,14 @@ def _watch(
     from hlr.errors import HlrError
 
     root, output = plan.manifest.root, plan.output
-    if not quiet:
+    if not show.quiet:
         click.echo(f"watching {root}; Ctrl-C ends it", err=True)
     outside = {Path(root, job.source).resolve() for job in plan.jobs}
     for changed in changes(root, output, outside, stop):
         digests.forget(changed)
         try:
             plan = asked.plan()
-            _round(plan, kept, digests, show, pool, earlier, quiet)
+            _round(plan, kept, digests, show, pool, earlier)
         except HlrError as error:  # a manifest in the middle of being changed
             click.echo(f"hlr: {error}", err=True)
 

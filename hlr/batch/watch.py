@@ -28,9 +28,7 @@ def changes(root: Path, output: Path, others: set[Path], stop: Stop) -> Iterator
     from watchfiles import watch
 
     folders = {path.parent for path in others if not path.is_relative_to(root)}
-    for changed in watch(
-        root, *folders, step=_STEP_MS, debounce=_SETTLE_MS, stop_event=stop, raise_interrupt=True
-    ):
+    for changed in watch(root, *folders, step=_STEP_MS, debounce=_SETTLE_MS, stop_event=stop, raise_interrupt=True):
         paths = {Path(path) for _, path in changed}
         paths = {path for path in paths if not path.is_relative_to(output) and not _is_aside(path, root)}
         if paths:

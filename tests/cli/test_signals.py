@@ -35,9 +35,8 @@ except Stopped as stopped:
 def ends(tmp_path, inside, number=signal.SIGINT):
     """How the program ends, and what it says."""
     program = FRAME.format(inside=inside.replace("\n", "\n        "), number=int(number))
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", program], cwd=tmp_path, stderr=subprocess.PIPE, text=True, timeout=20
-    )
+    command = [sys.executable, "-P", "-c", program]
+    done = subprocess.run(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True, timeout=20, check=False)
     return done.returncode, done.stderr
 
 
