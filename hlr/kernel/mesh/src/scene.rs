@@ -64,11 +64,16 @@ impl Scene {
     }
 }
 
+/// With fewer edges or triangles a second thread gains nothing.
+const ALONE: usize = 1 << 12;
+
 pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     let triangle_part = tables.triangle_part();
     let face_of = |t: usize| (tables.face_start[triangle_part[t] as usize] + tables.triangle_face[t]) as usize;
-    let curved: Vec<bool> = (0..triangle_part.len()).map(|t| !tables.face_planar[face_of(t)]).collect();
-    let edge_part: Vec<i32> = (0..facts.edges.len()).map(|e| triangle_part[facts.around(e)[0] as usize]).collect();
+    let edges = || (0..facts.edges.len()).into_par_iter().with_min_len(ALONE);
+    let triangles = (0..triangle_part.len()).into_par_iter().with_min_len(ALONE);
+    let curved: Vec<bool> = triangles.map(|t| !tables.face_planar[face_of(t)]).collect();
+    let edge_part: Vec<i32> = edges().map(|e| triangle_part[facts.around(e)[0] as usize]).collect();
     // Side by side: edges of the source, and bodies.
     let of_edges = || {
         let walks = source_walks(tables, &facts.edges);
@@ -83,7 +88,7 @@ pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
         let (triangles, after) = turned.as_ref().map_or((&tables.triangles, facts), |t| (&t.triangles, &t.facts));
         let folded = may_fold(&bodies, &tables.points, triangles, after);
         let reports = reports(tables, facts, &triangle_part, &edge_part, &bodies);
-        let edge_group = (0..facts.edges.len()).map(|e| bodies.group_of[facts.around(e)[0] as usize]).collect();
+        let edge_group = edges().map(|e| bodies.group_of[facts.around(e)[0] as usize]).collect();
         let surfaces = surfaces(tables, turned.as_ref(), &face_of);
         (bodies, turned, folded, reports, edge_group, surfaces)
     };
@@ -189,7 +194,7 @@ fn edge_curved(
     let in_plane = |e: usize| kind[e] == INTERIOR && facts.around(e).iter().all(|&t| !curved[t as usize]);
     let on_top = |e: usize| facts.fold[e] < 0.0 && facts.balance[e] == 0;
     let of = |e: usize| !on_top(e) && !in_plane(e) && facts.around(e).iter().any(shows);
-    (0..facts.edges.len()).into_par_iter().with_min_len(1 << 12).map(of).collect()
+    (0..facts.edges.len()).into_par_iter().with_min_len(ALONE).map(of).collect()
 }
 
 fn surfaces(tables: &Tables, turned: Option<&Turned>, face_of: &dyn Fn(usize) -> usize) -> Surfaces {

@@ -214,6 +214,11 @@ impl Tables {
         per_item(&self.triangle_start)
     }
 
+    /// The part of one triangle.
+    pub fn part_of_triangle(&self, triangle: i32) -> usize {
+        self.triangle_start.partition_point(|&start| start <= triangle) - 1
+    }
+
     /// Per part, whether its points are not joined and two of them may be in one place; always true where they are.
     ///
     /// Each place is hashed to 64 bits, so that one sort of integers finds equal ones. Two different places have the

@@ -4,6 +4,12 @@
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use super::threads::together;
+
+/// With fewer numbers to check a second thread gains nothing.
+const MANY: usize = 1 << 20;
 
 /// Rows of a C-contiguous (n, N) array.
 pub fn rows<'a, T: numpy::Element, const N: usize>(
@@ -32,12 +38,29 @@ pub fn expect_len(name: &str, found: usize, wanted: usize) -> PyResult<()> {
 }
 
 pub fn expect_below(name: &str, values: impl Iterator<Item = i32> + Clone, limit: usize) -> PyResult<()> {
-    // As unsigned numbers negative ones are the largest: one maximum checks them all, without a branch for each.
-    let largest = values.clone().fold(0u32, |most, v| most.max(v as u32));
-    if (largest as usize) < limit {
+    if (largest(values.clone()) as usize) < limit {
         return Ok(());
     }
-    match values.into_iter().find(|&v| v < 0 || v as usize >= limit) {
+    refuse(name, values, limit)
+}
+
+/// The same of a slice, on all threads where it is long.
+pub fn expect_all_below(name: &str, values: &[i32], limit: usize) -> PyResult<()> {
+    let parts = || values.par_chunks(MANY).map(|part| largest(part.iter().copied())).max();
+    let most = if values.len() > MANY { together(parts)? } else { Some(largest(values.iter().copied())) };
+    if (most.unwrap_or(0) as usize) < limit {
+        return Ok(());
+    }
+    refuse(name, values.iter().copied(), limit)
+}
+
+/// As unsigned numbers negative ones are the largest: one maximum checks them all, without a branch for each.
+fn largest(values: impl Iterator<Item = i32>) -> u32 {
+    values.fold(0, |most, v| most.max(v as u32))
+}
+
+fn refuse(name: &str, mut values: impl Iterator<Item = i32>, limit: usize) -> PyResult<()> {
+    match values.find(|&v| v < 0 || v as usize >= limit) {
         Some(v) => Err(PyValueError::new_err(format!("{name} holds {v}, allowed are 0..{limit}"))),
         None => Ok(()),
     }
@@ -45,8 +68,8 @@ pub fn expect_below(name: &str, values: impl Iterator<Item = i32> + Clone, limit
 
 pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
     expect_len("offsets", offsets.len(), edges + 1)?;
-    expect_below("incident", incident.iter().copied(), triangles)?;
-    expect_below("offsets", offsets.iter().copied(), incident.len() + 1)?;
+    expect_all_below("incident", incident, triangles)?;
+    expect_all_below("offsets", offsets, incident.len() + 1)?;
     if offsets.windows(2).any(|w| w[0] > w[1]) {
         return Err(PyValueError::new_err("offsets must ascend"));
     }

@@ -1,6 +1,6 @@
 //! Binding of the lines of a drawing and of their pen strokes.
 
-use std::sync::Arc as Shared;
+use std::sync::{Arc as Shared, OnceLock};
 
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -27,8 +27,15 @@ const ARC: u8 = 2;
 const QUADRATIC: u8 = 3;
 const CUBIC: u8 = 4;
 
+/// Lines, and the box around them once it was asked for.
 #[pyclass(frozen)]
-pub struct Lines(pub Shared<Drawn>);
+pub struct Lines(pub Shared<Drawn>, OnceLock<Option<[f64; 4]>>);
+
+impl Lines {
+    pub fn of(lines: Drawn) -> Lines {
+        Lines(Shared::new(lines), OnceLock::new())
+    }
+}
 
 #[pymethods]
 impl Lines {
@@ -72,7 +79,7 @@ impl Lines {
                     curve: curve(form[i], &data[of_data[i].clone()]).map_err(wrong)?,
                 })
             };
-            Ok(Lines(Shared::new(Drawn((0..kind.len()).map(line).collect::<PyResult<_>>()?))))
+            Ok(Lines::of(Drawn((0..kind.len()).map(line).collect::<PyResult<_>>()?)))
         })
     }
 
@@ -82,7 +89,7 @@ impl Lines {
 
     /// x0, y0, x1, y1 around all lines; None where there are none.
     fn bounds(&self) -> Option<[f64; 4]> {
-        self.0.bounds().map(|[[x0, y0], [x1, y1]]| [x0, y0, x1, y1])
+        *self.1.get_or_init(|| self.0.bounds().map(|[[x0, y0], [x1, y1]]| [x0, y0, x1, y1]))
     }
 
     /// The columns that the constructor takes.
@@ -147,7 +154,7 @@ impl Lines {
         let chosen = flat(&chosen, "chosen")?;
         expect_len("chosen", chosen.len(), self.0.0.len())?;
         let lines = self.0.0.iter().zip(chosen).filter(|(_, c)| **c).map(|(line, _)| line.clone());
-        Ok(Lines(Shared::new(Drawn(lines.collect()))))
+        Ok(Lines::of(Drawn(lines.collect())))
     }
 
     /// Of hidden and of visible lines: ink by its distance to the nearest line alongside, all ink, and the size of the

@@ -196,7 +196,7 @@ impl Cut {
         let size = found.lines.iter().map(|line| line.flat.len()).sum();
         let (lines, [x, y]) =
             run(py, size, |_| finish(found, about, &guides, &curves, &self.camera, &self.fit, self.hidden))?;
-        Ok((Lines(Arc::new(lines)), (x, y)))
+        Ok((Lines::of(lines), (x, y)))
     }
 }
 

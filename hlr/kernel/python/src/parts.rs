@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::arrays::{expect_below, expect_len, flat as slice, rows as table};
 use super::clash::{Crossings, crossings};
 use super::guard::caught;
-use super::threads::run;
+use super::threads::{release_later, run};
 use super::view::{Flat, Rows, arrays, flat, matrices, rows};
 use hlr_brep::format::Matrix;
 use hlr_mesh::facts::Facts;
@@ -25,9 +25,18 @@ fn too_many(_: TooMany) -> PyErr {
     PyValueError::new_err("more than 2^31 items in one mesh")
 }
 
+/// So many triangles are released as quickly as one face of a B-rep.
+const AT_ONCE: usize = 16;
+
 /// The meshes of all parts, one after another.
 #[pyclass(frozen)]
 pub struct PartTables(pub Arc<Tables>);
+
+impl Drop for PartTables {
+    fn drop(&mut self) {
+        release_later(self.0.clone(), self.0.triangles.len() / AT_ONCE);
+    }
+}
 
 arrays! { PartTables {
     point_start: flat Flat<'py, i32> = |t| &t.0.point_start;
@@ -248,6 +257,12 @@ pub struct MeshFacts {
     facts: Arc<Facts>,
 }
 
+impl Drop for MeshFacts {
+    fn drop(&mut self) {
+        release_later((self.tables.clone(), self.facts.clone()), self.tables.triangles.len() / AT_ONCE);
+    }
+}
+
 arrays! { MeshFacts {
     edges: rows Rows<'py, i32> = |m| &m.facts.edges;
     offsets: flat Flat<'py, i32> = |m| &m.facts.offsets;
@@ -271,9 +286,8 @@ arrays! { MeshFacts {
     fn borders_without_brep(&self) -> Vec<i64> {
         let mut count = vec![0; self.tables.len()];
         if self.tables.brep.contains(&false) {
-            let part = self.tables.triangle_part();
-            for e in (0..self.facts.edges.len()).filter(|&e| self.facts.around(e).len() == 1) {
-                let owner = part[self.facts.around(e)[0] as usize] as usize;
+            for (e, _) in self.facts.offsets.windows(2).enumerate().filter(|(_, w)| w[1] - w[0] == 1) {
+                let owner = self.tables.part_of_triangle(self.facts.around(e)[0]);
                 count[owner] += i64::from(!self.tables.brep[owner]);
             }
         }
@@ -298,6 +312,13 @@ pub struct MeshScene {
     tables: Arc<Tables>,
     facts: Arc<Facts>,
     scene: Scene,
+}
+
+impl Drop for MeshScene {
+    fn drop(&mut self) {
+        let held = (self.tables.clone(), self.facts.clone(), std::mem::take(&mut self.scene));
+        release_later(held, self.tables.triangles.len() / AT_ONCE);
+    }
 }
 
 arrays! { MeshScene {

@@ -93,6 +93,11 @@ pub fn run_telling<T: Send>(
     Ok(result)
 }
 
+/// What short work on many items gives, on all threads; the interpreter waits.
+pub fn together<T: Send>(work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    Ok(pool(LIMIT.get()).map_err(not_started)?.threads.install(work))
+}
+
 /// Releases a value of `size` items on another thread: that of thousands of faces takes as long as some steps of a
 /// drawing.
 pub fn release_later<T: Send + 'static>(value: T, size: usize) {

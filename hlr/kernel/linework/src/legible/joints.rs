@@ -2,6 +2,7 @@
 //! are up to twice as far apart count as well, so that what belongs together is never taken apart.
 
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 
 use super::grid::rounded;
 use crate::fit::plane::{Vec2, dot, length, minus};
@@ -21,27 +22,42 @@ struct End {
     away: Vec2,
 }
 
-/// For each line a number that those share which belong together: of one visibility, ends meeting. straight: only
-/// where one goes on from the other without a bend. tolerance: steps
-pub fn joined(lines: &Lines, chosen: &[bool], tolerance: f64, straight: bool) -> Vec<usize> {
+/// For each line a number that those share which belong together: of one visibility, ends meeting. chosen: those that
+/// are looked at; sought: what does not meet one of these may stay alone; straight: only where one goes on from the
+/// other without a bend. tolerance: steps
+pub fn joined(
+    lines: &Lines,
+    chosen: impl Fn(usize) -> bool + Sync,
+    sought: impl Fn(usize) -> bool + Sync,
+    tolerance: f64,
+    straight: bool,
+) -> Vec<usize> {
     let mut sets = Sets((0..lines.0.len()).collect());
     let ends: Vec<End> =
-        lines.0.par_iter().enumerate().filter(|(i, _)| chosen[*i]).flat_map_iter(|(i, line)| ends(i, line)).collect();
+        lines.0.par_iter().enumerate().filter(|(i, _)| chosen(*i)).flat_map_iter(|(i, line)| ends(i, line)).collect();
+    let some = !ends.iter().all(|end| sought(end.line));
     // Two ends within half a cell of one another share a cell of at least one of four grids, each shifted by half a cell.
     for shift in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
-        let cell = |end: &End| [0, 1].map(|i| ((end.at[i] / tolerance + shift[i]) / 2.0).floor() as i64);
+        let cell = |end: &End| (end.visible, [0, 1].map(|i| ((end.at[i] / tolerance + shift[i]) / 2.0).floor() as i64));
+        let looked_at: FxHashSet<(bool, [i64; 2])> =
+            if some { ends.iter().filter(|end| sought(end.line)).map(cell).collect() } else { FxHashSet::default() };
         // Ends of one cell stand side by side, in the order of lines.
-        let mut cells: Vec<_> = ends.par_iter().enumerate().map(|(n, end)| (end.visible, cell(end), n)).collect();
+        let mut cells: Vec<_> = ends
+            .par_iter()
+            .enumerate()
+            .map(|(n, end)| (cell(end), n))
+            .filter(|(cell, _)| !some || looked_at.contains(cell))
+            .collect();
         cells.par_sort_unstable();
-        for found in cells.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-            let first = &ends[found[0].2];
+        for found in cells.chunk_by(|a, b| a.0 == b.0) {
+            let first = &ends[found[0].1];
             if !straight || found.len() > MOST_ENDS {
-                found.iter().for_each(|(_, _, n)| sets.unite(first.line, ends[*n].line));
+                found.iter().for_each(|(_, n)| sets.unite(first.line, ends[*n].line));
                 continue;
             }
-            for (i, (_, _, a)) in found.iter().enumerate() {
+            for (i, (_, a)) in found.iter().enumerate() {
                 let a = &ends[*a];
-                let before = found[..i].iter().map(|(_, _, b)| &ends[*b]);
+                let before = found[..i].iter().map(|(_, b)| &ends[*b]);
                 before.filter(|b| dot(&a.away, &b.away) < -STRAIGHT).for_each(|b| sets.unite(a.line, b.line));
             }
         }

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::grid::{Grid, NOWHERE, STEPS, Segment, measurable, rounded, segments};
 use super::joints::joined;
 use crate::fit::arc::grow;
-use crate::fit::plane::length;
-use crate::lines::drawing::{Kind, Lines};
+use crate::fit::plane::{Vec2, length};
+use crate::lines::drawing::{Kind, Line, Lines};
 
 /// What becomes of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,25 +27,15 @@ pub enum Fate {
 /// Places are looked at every so many pens along a line.
 const PIECE: f64 = 0.5;
 
+/// With fewer lines a second thread gains nothing.
+const FEW_LINES: usize = 256;
+
 /// The fate of each line. pens: widths of hidden and of visible lines, millimetres; accuracy: ends within it meet;
 /// order: the classes, the least important first.
 pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) -> Vec<Fate> {
     // Points are rounded to whole steps here: ends that meet may be a step apart.
     let tolerance = (accuracy * STEPS).max(1.0);
-    let mut fates = vec![Fate::Drawn; lines.0.len()];
-    let all = vec![true; lines.0.len()];
-    let figure = joined(lines, &all, tolerance, false);
-    let mut boxes = vec![NOWHERE; lines.0.len()];
-    for (i, line) in lines.0.iter().enumerate() {
-        line.flat.iter().for_each(|p| grow(&mut boxes[figure[i]], &rounded(p)));
-    }
-    for (i, line) in lines.0.iter().enumerate() {
-        let [low, high] = boxes[figure[i]];
-        let pen = pens[usize::from(line.visible)] * STEPS;
-        if (0..2).all(|k| high[k] - low[k] < pen) {
-            fates[i] = Fate::Small;
-        }
-    }
+    let mut fates = smaller_than_a_pen(lines, pens, tolerance);
     if !fates.contains(&Fate::Drawn) {
         // All of the drawing is smaller than the pen: a dot is better than nothing.
         return vec![Fate::Drawn; lines.0.len()];
@@ -57,6 +47,32 @@ pub fn left_out(lines: &Lines, pens: [f64; 2], accuracy: f64, order: &[Kind]) ->
     let (hidden, visible) = rayon::join(|| of(false), || of(true));
     hidden.into_iter().chain(visible).for_each(|line| fates[line as usize] = Fate::Between);
     fates
+}
+
+/// Lines of figures that fit a square as wide as the pen are `Small`, all others `Drawn`.
+fn smaller_than_a_pen(lines: &Lines, pens: [f64; 2], tolerance: f64) -> Vec<Fate> {
+    let box_of = |line: &Line| {
+        let mut around = NOWHERE;
+        line.flat.iter().for_each(|p| grow(&mut around, &rounded(p)));
+        around
+    };
+    let boxes: Vec<[Vec2; 2]> = lines.0.par_iter().with_min_len(FEW_LINES).map(box_of).collect();
+    let fits = |line: &Line, [low, high]: &[Vec2; 2]| {
+        let pen = pens[usize::from(line.visible)] * STEPS;
+        (0..2).all(|k| high[k] - low[k] < pen)
+    };
+    // A figure is small where all its lines are: what meets none of these need not be looked at.
+    let small: Vec<bool> = lines.0.iter().zip(&boxes).map(|(line, around)| fits(line, around)).collect();
+    if !small.contains(&true) {
+        return vec![Fate::Drawn; lines.0.len()];
+    }
+    let figure = joined(lines, |_| true, |i| small[i], tolerance, false);
+    let mut around = vec![NOWHERE; lines.0.len()];
+    for (own, &figure) in boxes.iter().zip(&figure) {
+        own.iter().for_each(|corner| grow(&mut around[figure], corner));
+    }
+    let fate = |(line, &figure)| if fits(line, &around[figure]) { Fate::Small } else { Fate::Drawn };
+    lines.0.iter().zip(&figure).map(fate).collect()
 }
 
 /// The lines of one visibility that lie between others closer than the pen is wide, steps.
@@ -73,7 +89,9 @@ fn between_others(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order:
     if !between.contains(&true) {
         return Vec::new();
     }
-    let run = joined(lines, &looked_at, tolerance, true);
+    let mut sought = vec![false; lines.0.len()];
+    of.iter().zip(&between).for_each(|(own, between)| sought[own[0].line as usize] = *between);
+    let run = joined(lines, |i| looked_at[i], |i| sought[i], tolerance, true);
     let mut open = vec![true; lines.0.len()];
     for (own, _) in of.iter().zip(&between).filter(|(_, between)| !**between) {
         open[run[own[0].line as usize]] = false;

@@ -17,6 +17,9 @@ const PIECE: f64 = 0.5;
 /// is crowded all along is found wherever it is looked at.
 const PLACES: f64 = 16_384.0;
 
+/// With fewer lines, or segments, a second thread gains nothing.
+const ALONE: usize = 128;
+
 /// Nearer than this, a place is crowded with any pen: nothing nearer is sought, so that blots take no longer. Steps.
 const NEAR: f64 = STEPS / BINS;
 
@@ -42,15 +45,15 @@ pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
     if !measurable(&all) {
         return None;
     }
-    let chosen = lines.0.iter().filter(|line| line.visible == visible);
-    let smallest = chosen.map(|line| size(&line.flat)).fold(f64::INFINITY, f64::min);
-    let grid = Grid::new(&all, reach * STEPS);
+    let chosen = lines.0.par_iter().with_min_len(ALONE).filter(|line| line.visible == visible);
+    let smallest = || chosen.map(|line| size(&line.flat)).reduce(|| f64::INFINITY, f64::min);
+    let (smallest, grid) = rayon::join(smallest, || Grid::new(&all, reach * STEPS));
     let count = (reach * BINS) as usize;
     let all_ink = ink(&all);
     let step = (PIECE * STEPS).max(all_ink / PLACES);
     let bins = all
         .par_iter()
-        .with_min_len(256)
+        .with_min_len(ALONE)
         .fold(
             || vec![0u64; count],
             |mut bins, segment| {

@@ -50,6 +50,9 @@ pub struct Fold {
     pub rise: [f64; 2],
 }
 
+/// Edges that one thread looks at in one go: those along borders take much longer, and stand together.
+const EDGES_AT_ONCE: usize = 128;
+
 pub struct Contour {
     pub crossings: Vec<Crossing>,
     pub folds: Vec<Fold>,
@@ -86,7 +89,7 @@ pub fn contour(model: &Model, values: &[f64], stopped: &(dyn Fn() -> bool + Sync
     let curved = |t: i32| model.faces[model.triangle_face[t as usize] as usize].curved;
     let found: Vec<Contour> = (0..model.offsets.len() - 1)
         .into_par_iter()
-        .chunks(1024)
+        .chunks(EDGES_AT_ONCE)
         .map(|edges| {
             let (mut crossings, mut folds, mut grazing) = (Vec::new(), Vec::new(), Vec::new());
             if stopped() {

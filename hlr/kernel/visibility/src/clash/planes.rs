@@ -52,6 +52,9 @@ pub fn planes(sheet: &Sheet, face: &[i32], found: &[Clash]) -> Planes {
             widest.push(None);
         }
     }
+    if widest.is_empty() {
+        return Planes::default();
+    }
     let triangles = || {
         let placed = face.iter().map(|&f| usize::try_from(f).ok().and_then(|f| place.get(f)).copied().unwrap_or(NONE));
         placed.enumerate().filter(|&(_, place)| place != NONE).map(|(t, place)| (t, place as usize))

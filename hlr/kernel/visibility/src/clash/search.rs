@@ -4,13 +4,13 @@ use rayon::prelude::*;
 
 use super::height_field::{MOST, is_height_field, only_at, seen_along};
 use super::surfaces::Surfaces;
-use super::tree::{Found, Item, Tree};
+use super::tree::{Found, Tree};
 use super::triangle_pair::{Meeting, Numbered, apart, lies_on, meet, on_one_side};
 use super::uncrossed::{UncrossedFaces, uncrossed_faces};
-use crate::scan::box_tree::{Aabb, BoxTree};
+use crate::scan::box_tree::{Aabb, BoxTree, Item};
 
 /// With fewer triangles a second thread gains nothing.
-const MANY: usize = 1 << 13;
+const MANY: usize = 1 << 12;
 
 #[derive(Clone, Copy, Debug)]
 pub struct Clash {
@@ -68,8 +68,11 @@ impl Surfaces<'_> {
             let bounds = of.par_iter().with_min_len(MANY).map(|&t| self.bounds(t));
             bounds.reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
         };
-        let boxes: Vec<Aabb> = members.par_iter().map(|of| around(of)).collect();
-        let pairs = self.pairs(&boxes, &members);
+        let near = || {
+            let boxes: Vec<Aabb> = members.par_iter().map(|of| around(of)).collect();
+            self.pairs(&boxes, &members)
+        };
+        let (pairs, uncrossed) = rayon::join(near, || uncrossed_faces(self, stopped));
         let mut wanted = vec![false; count];
         for &[a, b] in &pairs {
             wanted[a as usize] = true;
@@ -81,10 +84,9 @@ impl Surfaces<'_> {
             }
             seen_along(self.triangles[t as usize].map(|v| &self.points[v as usize]))
         };
-        let uncrossed = uncrossed_faces(self, stopped);
         let tree = |of: &[u32]| {
-            let items = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t));
-            Tree::new(items.collect(), &seen)
+            let items: Vec<Item> = of.par_iter().with_min_len(MANY).map(|&t| (self.bounds(t), t)).collect();
+            Tree::new(&items, &seen)
         };
         // Of each group a tree of what may cross something of it, and one of its uncrossed faces, which may cross others.
         let trees: Vec<[Tree; 2]> = members

@@ -7,9 +7,7 @@
 
 use rayon::prelude::*;
 
-use crate::scan::box_tree::Aabb;
-
-pub type Item = (Aabb, u32);
+use crate::scan::box_tree::{Aabb, Item};
 
 pub struct Tree {
     items: Vec<Item>,
@@ -28,10 +26,10 @@ struct Node {
 
 /// Most items of a leaf.
 const LEAF: usize = 12;
-/// With fewer items a second thread gains nothing.
+/// With fewer items a second thread gains nothing: where items are listed,
 const ALONE: usize = 4096;
-/// From this many items on, several threads sort.
-const MANY: usize = 1 << 18;
+/// and where pairs of them are tried.
+const PAIRED_ALONE: usize = 512;
 /// How often, on the way from a node to a leaf, the test `Apart` may fail before it is no longer tried.
 const ASKED: u32 = 5;
 
@@ -50,21 +48,17 @@ impl<A: Fn(&[Item], u8) -> bool + Sync> Apart for A {}
 
 impl Tree {
     /// `kind`: the bits of an item. Each node keeps those that all its items have in common.
-    pub fn new(items: Vec<Item>, kind: &(impl Fn(u32) -> u8 + Sync)) -> Tree {
-        let bounds = items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
-        let mut order: Vec<(u64, u32)> = items
-            .par_iter()
-            .with_min_len(ALONE)
-            .zip(0..items.len() as u32)
-            .map(|((a, _), k)| (code(&bounds, a), k))
-            .collect();
-        if order.len() > MANY {
+    pub fn new(items: &[Item], kind: &(impl Fn(u32) -> u8 + Sync)) -> Tree {
+        let place = Place::of(&items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a)));
+        let codes = items.par_iter().with_min_len(ALONE).enumerate();
+        let mut order: Vec<u64> = codes.map(|(k, (a, _))| place.code(a) << INDEX_BITS | k as u64).collect();
+        if order.len() > ALONE {
             order.par_sort_unstable();
         } else {
             order.sort_unstable();
         }
-        let sorted: Vec<Item> = order.par_iter().with_min_len(ALONE).map(|&(_, k)| items[k as usize]).collect();
-        drop(items);
+        let item = |code: &u64| items[(code & ((1 << INDEX_BITS) - 1)) as usize];
+        let sorted: Vec<Item> = order.par_iter().with_min_len(ALONE).map(item).collect();
         let nodes = if sorted.is_empty() { Vec::new() } else { built(&order, &sorted, 0, kind) };
         Tree { items: sorted, nodes }
     }
@@ -93,7 +87,7 @@ impl Tree {
             }
             return out;
         };
-        if node.count as usize > ALONE {
+        if node.count as usize > PAIRED_ALONE {
             let (a, b) =
                 rayon::join(|| self.inside(low, asked, visit, apart), || self.inside(high, asked, visit, apart));
             out = a;
@@ -135,7 +129,7 @@ impl Tree {
             (Some([low, high]), _) if mine.count >= theirs.count => [(low, there), (high, there)],
             (_, Some([low, high])) => [(at, low), (at, high)],
         };
-        if (mine.count + theirs.count) as usize > ALONE {
+        if (mine.count + theirs.count) as usize > PAIRED_ALONE {
             let run = |(a, b): (usize, usize)| {
                 let mut found = F::default();
                 self.meet(a, other, b, visit, &mut found);
@@ -170,32 +164,48 @@ impl Tree {
     }
 }
 
-/// The position of a box's middle along Morton's curve: 21 bits of each coordinate, interleaved.
-fn code(bounds: &Aabb, of: &Aabb) -> u64 {
-    let spread = |x: u64| {
-        let x = (x | x << 32) & 0x001F_0000_0000_FFFF;
-        let x = (x | x << 16) & 0x001F_0000_FF00_00FF;
-        let x = (x | x << 8) & 0x100F_00F0_0F00_F00F;
-        let x = (x | x << 4) & 0x10C3_0C30_C30C_30C3;
-        (x | x << 2) & 0x1249_2492_4924_9249
-    };
-    let side = (0..3).map(|k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).max().unwrap_or(0);
-    // Middles are sums of two coordinates, so the range is twice as large.
-    let down = (65 - (side as u64).leading_zeros()).saturating_sub(21);
-    (0..3).fold(0, |out, k| {
-        let twice = i64::from(of.low[k]) + i64::from(of.high[k]) - 2 * i64::from(bounds.low[k]);
-        out | spread(twice as u64 >> down) << k
-    })
+/// Bits of a position along Morton's curve that are the number of the item, and bits of each of its coordinates.
+const INDEX_BITS: u32 = 31;
+const SIDE_BITS: u32 = 11;
+
+/// A cube that is divided into cells along Morton's curve.
+struct Place {
+    low: [i64; 3],
+    /// Coordinates lose so many bits.
+    down: u32,
+}
+
+impl Place {
+    fn of(bounds: &Aabb) -> Place {
+        let low = bounds.low.map(i64::from);
+        let side = (0..3).map(|k| i64::from(bounds.high[k]) - low[k]).max().unwrap_or(0);
+        // Middles are sums of two coordinates, so the range is twice as large.
+        Place { low, down: (65 - (side as u64).leading_zeros()).saturating_sub(SIDE_BITS) }
+    }
+
+    /// The position of a box's middle along the curve: the bits of its coordinates, interleaved.
+    fn code(&self, of: &Aabb) -> u64 {
+        let spread = |x: u64| {
+            let x = (x | x << 16) & 0x0700_00FF;
+            let x = (x | x << 8) & 0x0700_F00F;
+            let x = (x | x << 4) & 0x430C_30C3;
+            (x | x << 2) & 0x4924_9249
+        };
+        (0..3).fold(0, |out, k| {
+            let twice = i64::from(of.low[k]) + i64::from(of.high[k]) - 2 * self.low[k];
+            out | spread(twice as u64 >> self.down) << k
+        })
+    }
 }
 
 /// Builds the nodes: items are divided where their highest differing bit changes, or in the middle if none differs.
-fn built(order: &[(u64, u32)], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync)) -> Vec<Node> {
+fn built(order: &[u64], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync)) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(items.len() / 3 + 1);
     build(order, items, first, kind, &mut nodes);
     nodes
 }
 
-fn build(order: &[(u64, u32)], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync), nodes: &mut Vec<Node>) {
+fn build(order: &[u64], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync), nodes: &mut Vec<Node>) {
     let count = items.len();
     if count <= LEAF {
         let bounds = items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
@@ -203,9 +213,9 @@ fn build(order: &[(u64, u32)], items: &[Item], first: u32, kind: &(impl Fn(u32) 
         nodes.push(Node { bounds, first, count: count as u32, second: 0, common });
         return;
     }
-    let differ = order[0].0 ^ order[count - 1].0;
+    let differ = (order[0] ^ order[count - 1]) >> INDEX_BITS;
     let half = match differ.checked_ilog2() {
-        Some(bit) => order.partition_point(|(code, _)| code >> bit & 1 == 0),
+        Some(bit) => order.partition_point(|code| code >> (bit + INDEX_BITS) & 1 == 0),
         None => count / 2,
     };
     let (at, then) = (nodes.len(), first + half as u32);
@@ -262,7 +272,7 @@ mod tests {
                 all
             };
             let (own, both) = (plain(&|i| i + 1, &a, &a), plain(&|_| 0, &a, &b));
-            let (s, t) = (Tree::new(a, &|_| 0), Tree::new(b, &|_| 0));
+            let (s, t) = (Tree::new(&a, &|_| 0), Tree::new(&b, &|_| 0));
             let visit = |i: u32, j: u32, out: &mut Pairs| out.0.push([i, j]);
             let mut found = s.within(&visit, &|_, _| false).0;
             found.iter_mut().for_each(|pair| pair.sort_unstable());

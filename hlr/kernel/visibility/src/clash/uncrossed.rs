@@ -22,11 +22,10 @@ const MOST: u32 = 128;
 /// How far corners of a planar face may lie off its plane, in grid units: they were rounded.
 const ROUNDED: f64 = 2.0;
 /// With fewer triangles a second thread gains nothing.
-const ALONE: usize = 1 << 12;
+const ALONE: usize = 1 << 10;
 
 #[derive(Clone, Copy)]
 struct Face {
-    triangles: u32,
     group: i32,
     bounds: Aabb,
     largest: Largest,
@@ -144,14 +143,14 @@ pub fn uncrossed_faces(surfaces: &Surfaces, stopped: &(dyn Fn() -> bool + Sync))
 fn large_faces(surfaces: &Surfaces) -> Vec<Option<Face>> {
     let PlanarFaces { of, .. } = surfaces.planar;
     let count = of.iter().max().map_or(0, |&last| (last + 1).max(0) as usize);
+    let mut triangles = vec![0; count];
+    of.iter().filter(|f| **f != NO_PLANE).for_each(|&f| triangles[f as usize] += 1);
     let mut faces: Vec<Option<Face>> = vec![None; count];
     let mut mixed = vec![false; count];
-    for (t, &f) in of.iter().enumerate().filter(|(_, f)| **f != NO_PLANE) {
+    for (t, &f) in of.iter().enumerate().filter(|(_, f)| **f != NO_PLANE && triangles[**f as usize] >= FEW) {
         let (group, bounds) = (surfaces.group[t], surfaces.bounds(t as u32));
         let largest = Largest::new(surfaces, t);
-        let new = Face { triangles: 0, group, bounds, largest };
-        let face = faces[f as usize].get_or_insert(new);
-        face.triangles += 1;
+        let face = faces[f as usize].get_or_insert(Face { group, bounds, largest });
         face.bounds = face.bounds.union(&bounds);
         mixed[f as usize] |= face.group != group;
         if largest > face.largest {
@@ -159,7 +158,7 @@ fn large_faces(surfaces: &Surfaces) -> Vec<Option<Face>> {
         }
     }
     for (face, mixed) in faces.iter_mut().zip(mixed) {
-        if face.is_some_and(|f| mixed || f.triangles < FEW || !surfaces.itself[f.group as usize]) {
+        if face.is_some_and(|f| mixed || !surfaces.itself[f.group as usize]) {
             *face = None;
         }
     }

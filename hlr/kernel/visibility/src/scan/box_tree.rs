@@ -49,6 +49,9 @@ impl Aabb {
     }
 }
 
+/// A box, and the number of what it is around.
+pub type Item = (Aabb, u32);
+
 struct Node {
     bounds: Aabb,
     /// Leaf: first item. Inner: index of the right child (the left one follows its parent).
@@ -59,13 +62,13 @@ struct Node {
 
 pub struct BoxTree {
     nodes: Vec<Node>,
-    items: Vec<(Aabb, u32)>,
+    items: Vec<Item>,
 }
 
 const LEAF: usize = 8;
 
 impl BoxTree {
-    pub fn new(mut items: Vec<(Aabb, u32)>) -> BoxTree {
+    pub fn new(mut items: Vec<Item>) -> BoxTree {
         let mut nodes = Vec::with_capacity(items.len() / 2 + 1);
         if !items.is_empty() {
             split(&mut items, 0, &mut nodes);
@@ -74,7 +77,7 @@ impl BoxTree {
     }
 
     /// The same tree, built on all threads: not while others wait for it within a lock.
-    pub fn by_all_threads(mut items: Vec<(Aabb, u32)>) -> BoxTree {
+    pub fn by_all_threads(mut items: Vec<Item>) -> BoxTree {
         let nodes = if items.is_empty() { Vec::new() } else { halved(&mut items, 0) };
         BoxTree { nodes, items }
     }
@@ -110,18 +113,19 @@ impl BoxTree {
 }
 
 /// More items than this are divided on several threads.
-const MANY: usize = 1 << 13;
+const MANY: usize = 1 << 10;
 
 /// The nodes of items that begin at number `first`; the same in whatever order they are made.
-fn halved(items: &mut [(Aabb, u32)], first: usize) -> Vec<Node> {
+fn halved(items: &mut [Item], first: usize) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(items.len() / 2 + 1);
     if items.len() <= MANY {
         split(items, first, &mut nodes);
         return nodes;
     }
-    let (bounds, half) = (around(items), halve(items));
-    let (left, right) = items.split_at_mut(half);
-    let (left, right) = rayon::join(|| halved(left, first), || halved(right, first + half));
+    let bounds = around(items);
+    let (left, right) = halves(items, &bounds);
+    let then = first + left.len();
+    let (left, right) = rayon::join(|| halved(left, first), || halved(right, then));
     nodes.push(Node { bounds, link: left.len() as u32 + 1, count: 0 });
     for part in [left, right] {
         let begin = nodes.len() as u32;
@@ -132,31 +136,30 @@ fn halved(items: &mut [(Aabb, u32)], first: usize) -> Vec<Node> {
     nodes
 }
 
-fn around(items: &[(Aabb, u32)]) -> Aabb {
+fn around(items: &[Item]) -> Aabb {
     items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a))
 }
 
-/// Puts the lower half along the longest side first; returns how many these are.
-fn halve(items: &mut [(Aabb, u32)]) -> usize {
-    let bounds = around(items);
+/// Puts the lower half along the longest side of their bounds first; returns both halves.
+fn halves<'i>(items: &'i mut [Item], bounds: &Aabb) -> (&'i mut [Item], &'i mut [Item]) {
     let axis = (0..3).max_by_key(|&k| i64::from(bounds.high[k]) - i64::from(bounds.low[k])).unwrap_or(0);
     let half = items.len() / 2;
     items.select_nth_unstable_by_key(half, |(b, i)| (i64::from(b.low[axis]) + i64::from(b.high[axis]), *i));
-    half
+    items.split_at_mut(half)
 }
 
-fn split(items: &mut [(Aabb, u32)], first: usize, nodes: &mut Vec<Node>) {
+fn split(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
     let (bounds, here) = (around(items), nodes.len());
     if items.len() <= LEAF {
         nodes.push(Node { bounds, link: first as u32, count: items.len() as u32 });
         return;
     }
     nodes.push(Node { bounds, link: 0, count: 0 });
-    let half = halve(items);
-    let (left, right) = items.split_at_mut(half);
+    let (left, right) = halves(items, &bounds);
+    let then = first + left.len();
     split(left, first, nodes);
     nodes[here].link = nodes.len() as u32;
-    split(right, first + half, nodes);
+    split(right, then, nodes);
 }
 
 #[cfg(test)]

@@ -129,7 +129,15 @@ pub fn visibility_by<A: Arithmetic>(
     let pierced =
         || timed(|| if piercing { piercings::<A>(mesh, &table, &edges.drawn, stopped) } else { Piercings::none() });
     // for step 7: edges whose own faces are seen edge-on and seem to hide them
-    let differing = || timed(|| own.differing::<A>(mesh, &table, &exact, stopped));
+    let differing = || {
+        timed(|| {
+            let found = own.differing::<A>(mesh, &table, &exact, stopped);
+            if !found.is_empty() {
+                exact.prepare();
+            }
+            found
+        })
+    };
     let (((seeds, a), (differing, b)), ((crossed, c), (pierced, d))) =
         rayon::join(|| rayon::join(seeds, differing), || rayon::join(crossed, pierced));
     [seconds.seeds, seconds.own_faces, seconds.crossings, seconds.piercings] = clock.shared([a, b, c, d]);
