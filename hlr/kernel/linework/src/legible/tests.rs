@@ -1,5 +1,7 @@
 //! Combs, rings and dots: what is left out of them, and how crowded they are.
 
+use super::grid::STEPS;
+use super::joints::joined;
 use super::left_out::{Fate, left_out};
 use super::spacing::spacing;
 use crate::fit::plane::Vec2;
@@ -93,4 +95,39 @@ fn spacing_counts_lines_alongside_and_neither_crossings_nor_what_goes_on() {
     let found = spacing(&cross, true, 1.0).expect("little ink");
     assert_eq!(found.bins.iter().sum::<f64>(), 0.0);
     assert!(spacing(&Lines(vec![line(vec![[0.0, 0.0], [1e9, 0.0]])]), true, 1.0).is_none());
+}
+
+#[test]
+fn what_meets_no_sought_line_changes_nothing_about_those() {
+    let mut state = 5u64;
+    let mut random = |n: u64| {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 33) % n) as f64
+    };
+    let (mut alone, mut together, mut met) = (0, 0, 0);
+    for _ in 0..200 {
+        let some: Vec<Line> = (0..60)
+            .map(|_| {
+                let (x, y) = (random(12), random(12));
+                let far = if random(3) == 0.0 { 8.0 } else { 1.0 };
+                line(vec![[x, y], [x + far * random(2), y + far * random(2)]])
+            })
+            .collect();
+        let lines = Lines(some);
+        let short: Vec<bool> = lines.0.iter().map(|l| (0..2).all(|k| l.flat[1][k] - l.flat[0][k] < 2.0)).collect();
+        let tolerance = ACCURACY * STEPS;
+        let all = joined(&lines, |_| true, |_| true, tolerance, false);
+        let few = joined(&lines, |_| true, |i| short[i], tolerance, false);
+        let members = |set: &[usize], i: usize| (0..60).filter(|&k| set[k] == set[i]).collect::<Vec<_>>();
+        for i in (0..60).filter(|&i| short[i]) {
+            let (whole, found) = (members(&all, i), members(&few, i));
+            let only_short = whole.iter().all(|&k| short[k]);
+            assert_eq!(only_short, found.iter().all(|&k| short[k]));
+            assert!(!only_short || whole == found);
+            alone += usize::from(only_short && whole.len() == 1);
+            together += usize::from(only_short && whole.len() > 1);
+            met += usize::from(!only_short);
+        }
+    }
+    assert!(alone > 20 && together > 20 && met > 20, "{alone} {together} {met}");
 }
