@@ -18,7 +18,7 @@ use std::collections::{BTreeMap, HashMap, HashSet, VecDeque};
 const ROUNDING: f64 = 1e-6;
 
 /// Share of the longest side: a triangle higher than this is no needle however coarse the coordinates are.
-const SLENDER: f64 = 1e-3;
+const SLENDER: f64 = 4e-3;
 
 /// A flip must make the lower triangle of the two at least this many times as high as before.
 const HIGHER: f64 = 2.0;

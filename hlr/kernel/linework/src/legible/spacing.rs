@@ -13,9 +13,9 @@ pub const BINS: f64 = 64.0;
 /// The longest piece of a line of which one place is looked at, millimetres.
 const PIECE: f64 = 0.5;
 
-/// Pieces are longer where there would be more than this many: so many places tell a share to half a percent. A line that
+/// Pieces are longer where there would be more than this many: so many places tell a share to a percent. A line that
 /// is crowded all along is found wherever it is looked at.
-const PLACES: f64 = 16_384.0;
+const PLACES: f64 = 4_096.0;
 
 /// With fewer lines, or segments, a second thread gains nothing.
 const ALONE: usize = 128;
