@@ -1,19 +1,11 @@
 //! Divides the triangles into groups, each a connected surface or a closed part, and finds the properties of each
 //! group.
 
-use std::sync::atomic::AtomicBool;
-use std::sync::atomic::Ordering::Relaxed;
-
-use rayon::prelude::*;
-
 use super::facts::Facts;
 use super::groups::{self, Edges};
 use super::ray_count::passes;
 use super::tables::Tables;
 use crate::topology::components;
-
-/// With fewer edges or triangles a second thread gains nothing.
-const ALONE: usize = 1 << 12;
 
 /// Planar faces are flat within this share of their group's size.
 const ROUNDING: f64 = 1e-9;
@@ -70,9 +62,8 @@ fn grouped(whole: &[bool], triangles: &[[i32; 3]], part_of: &[i32], n_points: us
 /// `curved`: per triangle, its face may show an outline.
 pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) -> Bodies {
     let (points, triangles) = (&tables.points, &tables.triangles);
-    let first = |e: usize| facts.around(e)[0] as usize;
-    let edges = || (0..facts.edges.len()).into_par_iter().with_min_len(ALONE);
-    let odd: Vec<usize> = edges().filter(|&e| facts.balance[e] != 0).map(first).collect();
+    let unbalanced = facts.balance.iter().enumerate().filter(|(_, b)| **b != 0);
+    let odd: Vec<usize> = unbalanced.map(|(e, _)| facts.around(e)[0] as usize).collect();
     let mut whole = tables.brep.clone();
     odd.iter().for_each(|&t| whole[part_of[t] as usize] = false);
     let (group_of, group_part) = grouped(&whole, triangles, part_of, points.len());
@@ -80,14 +71,11 @@ pub fn bodies(tables: &Tables, facts: &Facts, part_of: &[i32], curved: &[bool]) 
     let found = groups::groups(points, triangles, &group_of, count);
     let mut out = Bodies { closed: found.count.iter().map(|&n| n > 0).collect(), ..Bodies::default() };
     odd.iter().for_each(|&t| out.closed[group_of[t] as usize] = false);
-    let bent: Vec<AtomicBool> = (0..count).map(|_| AtomicBool::new(false)).collect();
-    let faces = group_of.par_iter().zip(curved).with_min_len(ALONE);
-    faces.filter(|(_, curved)| **curved).for_each(|(&g, _)| bent[g as usize].store(true, Relaxed));
-    out.planar = bent.into_iter().map(|bent| !bent.into_inner()).collect();
+    out.planar = vec![true; count];
+    group_of.iter().zip(curved).filter(|(_, curved)| **curved).for_each(|(&g, _)| out.planar[g as usize] = false);
     out.welded = vec![false; count];
-    let crowded: Vec<usize> = edges().filter(|&e| facts.around(e).len() > 2).map(first).collect();
-    for t in crowded {
-        let g = group_of[t] as usize;
+    for e in (0..facts.edges.len()).filter(|&e| facts.around(e).len() > 2) {
+        let g = group_of[facts.around(e)[0] as usize] as usize;
         out.welded[g] |= !tables.brep[group_part[g] as usize];
     }
     for g in 0..count {

@@ -65,7 +65,7 @@ impl Scene {
 }
 
 /// With fewer edges or triangles a second thread gains nothing.
-const ALONE: usize = 1 << 12;
+const ALONE: usize = 1 << 15;
 
 pub fn scene(tables: &Tables, facts: &Facts) -> Scene {
     let triangle_part = tables.triangle_part();
@@ -194,7 +194,7 @@ fn edge_curved(
     let in_plane = |e: usize| kind[e] == INTERIOR && facts.around(e).iter().all(|&t| !curved[t as usize]);
     let on_top = |e: usize| facts.fold[e] < 0.0 && facts.balance[e] == 0;
     let of = |e: usize| !on_top(e) && !in_plane(e) && facts.around(e).iter().any(shows);
-    (0..facts.edges.len()).into_par_iter().with_min_len(ALONE).map(of).collect()
+    (0..facts.edges.len()).into_par_iter().with_min_len(1 << 12).map(of).collect()
 }
 
 fn surfaces(tables: &Tables, turned: Option<&Turned>, face_of: &dyn Fn(usize) -> usize) -> Surfaces {

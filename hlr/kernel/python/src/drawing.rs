@@ -187,7 +187,7 @@ impl Lines {
             return Err(PyValueError::new_err("accuracy must be above zero"));
         }
         let order: Vec<Kind> = order.into_iter().map(Kind).collect();
-        let fates = run(py, self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;
+        let fates = run(py, 4 * self.0.0.len(), |_| left_out(&self.0, pens, accuracy, &order))?;
         Ok(fates.into_iter().map(|fate| fate as u8).collect::<Vec<_>>().into_pyarray(py))
     }
 
@@ -202,7 +202,7 @@ impl Lines {
     ) -> PyResult<Vec<Layer>> {
         self.check(places)?;
         let order: Vec<Kind> = order.into_iter().map(Kind).collect();
-        let found = run(py, self.0.0.len(), |_| layers(&self.0, &order, places, accuracy, cubic))?;
+        let found = run(py, 4 * self.0.0.len(), |_| layers(&self.0, &order, places, accuracy, cubic))?;
         Ok(found.into_iter().map(Layer).collect())
     }
 
@@ -380,7 +380,7 @@ impl Layer {
             return Err(PyValueError::new_err("dash and gap must be positive lengths"));
         }
         let seen: Vec<&Inked> = visible.iter().map(|layer| &layer.0).collect();
-        run(py, self.0.rows.op.len(), |_| {
+        run(py, 4 * self.0.rows.op.len(), |_| {
             let mut ends = Ends::default();
             seen.iter().for_each(|layer| ends.add(&layer.strokes()));
             dashes(&self.0.strokes(), &Pattern { dash, gap }, &ends)

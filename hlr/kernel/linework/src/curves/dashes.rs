@@ -26,6 +26,9 @@ const STRAIGHT_ON: f64 = 0.966;
 /// Most corners at which dashes meet. A stroke with more gets one even pattern, as its own would be too long.
 const MOST_CORNERS: usize = 16;
 
+/// With fewer strokes a second thread gains nothing.
+const ALONE: usize = 64;
+
 /// Millimetres by which the last dash or gap of an open stroke is longer than the stroke needs.
 const PAST_THE_END: f64 = 0.02;
 
@@ -64,10 +67,10 @@ pub struct Ends(FxHashMap<[i64; 2], Vec<Vec2>>);
 
 impl Ends {
     pub fn add(&mut self, visible: &Strokes) {
-        for s in 0..visible.closed.len() {
-            for (point, out) in ends(visible, s).into_iter().flatten() {
-                self.0.entry(point).or_default().push(out);
-            }
+        let strokes = (0..visible.closed.len()).into_par_iter().with_min_len(ALONE);
+        let found: Vec<_> = strokes.map(|s| ends(visible, s)).collect();
+        for (point, out) in found.into_iter().flatten().flatten() {
+            self.0.entry(point).or_default().push(out);
         }
     }
 
