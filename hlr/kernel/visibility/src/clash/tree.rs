@@ -49,7 +49,7 @@ impl<A: Fn(&[Item], u8) -> bool + Sync> Apart for A {}
 impl Tree {
     /// `kind`: the bits of an item. Each node keeps those that all its items have in common.
     pub fn new(items: &[Item], kind: &(impl Fn(u32) -> u8 + Sync)) -> Tree {
-        let place = Place::of(&items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a)));
+        let place = Place::of(items);
         let codes = items.par_iter().with_min_len(ALONE).enumerate();
         let mut order: Vec<u64> = codes.map(|(k, (a, _))| place.code(a) << INDEX_BITS | k as u64).collect();
         if order.len() > ALONE {
@@ -58,7 +58,8 @@ impl Tree {
             order.sort_unstable();
         }
         let item = |code: &u64| items[(code & ((1 << INDEX_BITS) - 1)) as usize];
-        let sorted: Vec<Item> = order.par_iter().with_min_len(ALONE).map(item).collect();
+        let mut sorted: Vec<Item> = order.par_iter().with_min_len(ALONE).map(item).collect();
+        part_cells(&mut sorted, &order, INDEX_BITS);
         let nodes = if sorted.is_empty() { Vec::new() } else { built(&order, &sorted, 0, kind) };
         Tree { items: sorted, nodes }
     }
@@ -168,19 +169,23 @@ impl Tree {
 const INDEX_BITS: u32 = 31;
 const SIDE_BITS: u32 = 11;
 
-/// A cube that is divided into cells along Morton's curve.
+/// A cube around the middles of boxes, divided into cells along Morton's curve. Middles are sums of two coordinates.
 struct Place {
     low: [i64; 3],
-    /// Coordinates lose so many bits.
+    side: u64,
+    /// Sums lose so many bits.
     down: u32,
 }
 
 impl Place {
-    fn of(bounds: &Aabb) -> Place {
-        let low = bounds.low.map(i64::from);
-        let side = (0..3).map(|k| i64::from(bounds.high[k]) - low[k]).max().unwrap_or(0);
-        // Middles are sums of two coordinates, so the range is twice as large.
-        Place { low, down: (65 - (side as u64).leading_zeros()).saturating_sub(SIDE_BITS) }
+    fn of(items: &[Item]) -> Place {
+        let (mut low, mut high) = ([i64::MAX; 3], [i64::MIN; 3]);
+        for middle in items.iter().map(|(bounds, _)| middle(bounds)) {
+            low = [0, 1, 2].map(|k| low[k].min(middle[k]));
+            high = [0, 1, 2].map(|k| high[k].max(middle[k]));
+        }
+        let side = (0..3).map(|k| high[k].saturating_sub(low[k])).max().unwrap_or(0).max(0) as u64;
+        Place { low, side, down: (64 - side.leading_zeros()).saturating_sub(SIDE_BITS) }
     }
 
     /// The position of a box's middle along the curve: the bits of its coordinates, interleaved.
@@ -191,11 +196,36 @@ impl Place {
             let x = (x | x << 4) & 0x430C_30C3;
             (x | x << 2) & 0x4924_9249
         };
-        (0..3).fold(0, |out, k| {
-            let twice = i64::from(of.low[k]) + i64::from(of.high[k]) - 2 * self.low[k];
-            out | spread(twice as u64 >> self.down) << k
-        })
+        let middle = middle(of);
+        (0..3).fold(0, |out, k| out | spread((middle[k] - self.low[k]) as u64 >> self.down) << k)
     }
+}
+
+fn middle(of: &Aabb) -> [i64; 3] {
+    [0, 1, 2].map(|k| i64::from(of.low[k]) + i64::from(of.high[k]))
+}
+
+/// Sorts the items of each cell that are more than a leaf takes along a curve through that cell alone: most items may lie
+/// in one cell, where one lies far away. codes: of the items, ascending; shift: bits of them that do not count.
+fn part_cells(items: &mut [Item], codes: &[u64], shift: u32) {
+    let mut rest = items;
+    for cell in codes.chunk_by(|a, b| a >> shift == b >> shift) {
+        let (own, after) = rest.split_at_mut(cell.len());
+        rest = after;
+        if own.len() <= LEAF {
+            continue;
+        }
+        let place = Place::of(own);
+        if place.side > 0 {
+            own.sort_by_cached_key(|(bounds, item)| (place.code(bounds), *item));
+            let finer: Vec<u64> = own.iter().map(|(bounds, _)| place.code(bounds)).collect();
+            part_cells(own, &finer, 0);
+        }
+    }
+}
+
+fn around(items: &[Item]) -> Aabb {
+    items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a))
 }
 
 /// Builds the nodes: items are divided where their highest differing bit changes, or in the middle if none differs.
@@ -208,7 +238,7 @@ fn built(order: &[u64], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 +
 fn build(order: &[u64], items: &[Item], first: u32, kind: &(impl Fn(u32) -> u8 + Sync), nodes: &mut Vec<Node>) {
     let count = items.len();
     if count <= LEAF {
-        let bounds = items.iter().fold(Aabb::EMPTY, |b, (a, _)| b.union(a));
+        let bounds = around(items);
         let common = items.iter().fold(u8::MAX, |common, &(_, item)| common & kind(item));
         nodes.push(Node { bounds, first, count: count as u32, second: 0, common });
         return;
@@ -282,5 +312,27 @@ mod tests {
             found.sort_unstable();
             assert_eq!(found, both);
         }
+    }
+    #[test]
+    fn one_item_far_away_does_not_throw_all_others_together() {
+        // 32 x 32 x 32 cubes in no order, and one that is 100,000 times as far off as these are wide.
+        let cube = |k: u32| {
+            let at = |shift: u32| (((k * 7919) >> shift) & 31) as i32 * 10;
+            let low = [at(0), at(5), at(10)];
+            Aabb { low, high: low.map(|c| c + 8) }
+        };
+        let mut items: Vec<Item> = (0..1 << 15).map(|k| (cube(k), k)).collect();
+        items.push((Aabb { low: [1 << 30; 3], high: [(1 << 30) + 8; 3] }, 1 << 15));
+        // A large one in the middle of them has no say in how they are divided.
+        items.push((Aabb { low: [-(1 << 28); 3], high: [1 << 28, 1 << 28, -1] }, (1 << 15) + 1));
+        let tree = Tree::new(&items, &|_| 0);
+        let wide = |node: &Node| (0..3).map(|k| node.bounds.high[k] - node.bounds.low[k]).max().unwrap();
+        let leaves: Vec<i32> =
+            tree.nodes.iter().filter(|n| n.second == 0 && n.bounds.high[0] < 1 << 20).map(wide).collect();
+        assert!(leaves.len() > 2000);
+        let narrow = leaves.iter().filter(|w| **w <= 80).count();
+        assert!(10 * narrow > 9 * leaves.len(), "{narrow} of {}", leaves.len());
+        let found = tree.within(&|s, t, out: &mut Pairs| out.0.push([s, t]), &|_, _| false).0;
+        assert!(found.is_empty());
     }
 }
