@@ -59,7 +59,7 @@ def hang_up_ignored() -> bool:
     return hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) == signal.SIG_IGN
 
 
-class Asked:
+class StopRequest:
     """Whether a signal has asked the process to end, and which."""
 
     def __init__(self) -> None:
@@ -71,17 +71,17 @@ class Asked:
 
 
 @contextmanager
-def tidily() -> Iterator[Asked]:
+def tidily() -> Iterator[StopRequest]:
     """Within this block, a signal raises Stopped; at its end at the latest.
 
     Whoever waits for long may look at the object as well: an exception raised where nobody expects one can be lost.
     """
-    asked = Asked()
-    if not _in_main_thread():
-        yield asked
-        return
+    asked = StopRequest()
     before = {number: signal.getsignal(number) for number in STOPPING}
     caught = [number for number, handler in before.items() if handler == signal.SIG_DFL]
+    if not caught or not _in_main_thread():  # a block around this one may have caught them all
+        yield asked
+        return
     hook = sys.unraisablehook
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
@@ -107,7 +107,7 @@ def tidily() -> Iterator[Asked]:
         yield asked
         if asked.number is not None:
             raise Stopped(asked.number)
-    except KeyboardInterrupt:  # of a library that had to do with the signal
+    except KeyboardInterrupt:  # a library has taken the signal for its own
         if asked.number is None:
             raise
         raise Stopped(asked.number) from None

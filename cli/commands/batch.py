@@ -255,7 +255,7 @@ def _watch(
     show: Lines,
     pool: _Pool,
     earlier: _Earlier,
-    stop: signals.Asked,
+    stop: signals.StopRequest,
 ) -> None:
     """Draw again whatever changes, until a signal ends the command."""
     from hlr.batch.watch import changes

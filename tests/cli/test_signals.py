@@ -73,6 +73,11 @@ def test_while_nothing_happens_files_are_watched_until_then(tmp_path):
     assert ends(tmp_path, inside) == (-signal.SIGINT, "")
 
 
+def test_in_a_block_within_another(tmp_path):
+    inside = "with tidily():\n    Destroyed()\n    time.sleep(10)\n    os._exit(7)\nos._exit(8)"
+    assert ends(tmp_path, inside) == (-signal.SIGINT, "")
+
+
 def test_no_signal_no_end(tmp_path):
     assert ends(tmp_path, "time.sleep(0.05)") == (0, "")
 

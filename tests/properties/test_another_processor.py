@@ -42,6 +42,7 @@ for name in sys.argv[1:]:
     for view in ("iso", (3, -1, 2)):
         for lens in (None, hlr.Perspective()):
             drawing = hlr.draw(name, view, hidden=True, perspective=lens)
+            assert len(drawing.lines) > 0, name
             written = drawing.to_svg().encode()
             print(name, view, lens is None, hashlib.sha256(written).hexdigest())
 """

@@ -45,7 +45,7 @@ pub fn expect_below(name: &str, values: impl Iterator<Item = i32> + Clone, limit
 }
 
 /// The same of a slice, on all threads where it is long.
-pub fn expect_all_below(name: &str, values: &[i32], limit: usize) -> PyResult<()> {
+pub fn expect_slice_below(name: &str, values: &[i32], limit: usize) -> PyResult<()> {
     let parts = || values.par_chunks(MANY).map(|part| largest(part.iter().copied())).max();
     let most = if values.len() > MANY { together(parts)? } else { Some(largest(values.iter().copied())) };
     if (most.unwrap_or(0) as usize) < limit {
@@ -68,8 +68,8 @@ fn refuse(name: &str, mut values: impl Iterator<Item = i32>, limit: usize) -> Py
 
 pub fn check_incidence(edges: usize, offsets: &[i32], incident: &[i32], triangles: usize) -> PyResult<()> {
     expect_len("offsets", offsets.len(), edges + 1)?;
-    expect_all_below("incident", incident, triangles)?;
-    expect_all_below("offsets", offsets, incident.len() + 1)?;
+    expect_slice_below("incident", incident, triangles)?;
+    expect_slice_below("offsets", offsets, incident.len() + 1)?;
     if offsets.windows(2).any(|w| w[0] > w[1]) {
         return Err(PyValueError::new_err("offsets must ascend"));
     }

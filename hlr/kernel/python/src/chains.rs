@@ -6,7 +6,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use super::arrays::{expect_all_below, expect_below, expect_len, flat, rows};
+use super::arrays::{expect_below, expect_len, expect_slice_below, flat, rows};
 use super::guard::caught;
 use super::mesh_input::{Groups, Mesh};
 use hlr_linework::lines::candidates::{About, Chains as Found, Surface, add_outlines};
@@ -160,7 +160,7 @@ impl Chains {
             expect_len("facing", surface.facing.len(), triangles)?;
             expect_len("role", surface.role.len(), edges.len())?;
             expect_len("groups of edges", surface.edge_group.len(), edges.len())?;
-            expect_all_below("triangle_part", surface.triangle_part, surface.has_faces.len())?;
+            expect_slice_below("triangle_part", surface.triangle_part, surface.has_faces.len())?;
             let found = flat(&found, "found")?;
             expect_below("found", found.iter().copied(), edges.len())?;
             expect_below("edges of walks", walks.edges.iter().copied(), edges.len())?;

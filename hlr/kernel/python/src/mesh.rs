@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use super::arrays::{expect_all_below, expect_len, flat, rows, table};
+use super::arrays::{expect_len, expect_slice_below, flat, rows, table};
 use super::threads::run;
 use super::view::{Flat, Rows};
 use hlr_mesh::clean::clean;
@@ -44,7 +44,7 @@ pub fn without_needles<'py>(
     low: f64,
 ) -> PyResult<Option<Turned<'py>>> {
     let (points, triangles) = (rows::<f64, 3>(&points, "points")?, rows::<i32, 3>(&triangles, "triangles")?);
-    expect_all_below("triangles", triangles.as_flattened(), points.len())?;
+    expect_slice_below("triangles", triangles.as_flattened(), points.len())?;
     let found = run(py, triangles.len(), |_| turned(points, triangles, low))?;
     if found.triangle.is_empty() {
         return Ok(None);
@@ -67,8 +67,8 @@ pub fn needles<'py>(
     let (normals, part, least) = (rows::<f64, 3>(&normals, "normals")?, flat(&part, "part")?, flat(&least, "least")?);
     expect_len("normals", normals.len(), triangles.len())?;
     expect_len("part", part.len(), triangles.len())?;
-    expect_all_below("part", part, least.len())?;
-    expect_all_below("triangles", triangles.as_flattened(), points.len())?;
+    expect_slice_below("part", part, least.len())?;
+    expect_slice_below("triangles", triangles.as_flattened(), points.len())?;
     let found = run(py, triangles.len(), |_| low_ones(points, triangles, normals, &|t| least[part[t] as usize]))?;
     Ok((found.0.into_pyarray(py), found.1.into_pyarray(py)))
 }
@@ -89,7 +89,7 @@ pub fn edge_kinds<'py>(
     let (edge_part, without_brep) = (flat(&edge_part, "edge_part")?, flat(&without_brep, "without_brep")?);
     expect_len("offsets", offsets.len(), fold.len() + 1)?;
     expect_len("edge_part", edge_part.len(), fold.len())?;
-    expect_all_below("edge_part", edge_part, without_brep.len())?;
+    expect_slice_below("edge_part", edge_part, without_brep.len())?;
     let found = run(py, fold.len(), |_| {
         kinds(offsets, fold, &|e| without_brep[edge_part[e] as usize], Limits { sharp, near })
     })?;

@@ -3,7 +3,7 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use super::arrays::{check_incidence, expect_all_below, expect_len, flat, rows};
+use super::arrays::{check_incidence, expect_len, expect_slice_below, flat, rows};
 use super::guard::caught;
 use hlr_visibility::scan::scene::Group;
 
@@ -50,8 +50,8 @@ impl Mesh {
             let mesh = Mesh { points, triangles, edges, offsets, incident };
             let reading = mesh.reading(py)?;
             let all = reading.slices()?;
-            expect_all_below("triangles", all.triangles.as_flattened(), all.points.len())?;
-            expect_all_below("edges", all.edges.as_flattened(), all.points.len())?;
+            expect_slice_below("triangles", all.triangles.as_flattened(), all.points.len())?;
+            expect_slice_below("edges", all.edges.as_flattened(), all.points.len())?;
             check_incidence(all.edges.len(), all.offsets, all.incident, all.triangles.len())?;
             Ok(mesh)
         })
@@ -116,8 +116,8 @@ impl Groups {
                 |g: usize| Group { cull: cull[g], sound: sound[g], delta: delta[g], cap: cap[g], tight: tight[g] };
             let groups = Groups { triangle, edge, groups: (0..cull.len()).map(group).collect() };
             let (triangle, edge) = groups.reading(py)?;
-            expect_all_below("group of triangles", flat(&triangle, "triangle")?, cull.len())?;
-            expect_all_below("group of edges", flat(&edge, "edge")?, cull.len())?;
+            expect_slice_below("group of triangles", flat(&triangle, "triangle")?, cull.len())?;
+            expect_slice_below("group of edges", flat(&edge, "edge")?, cull.len())?;
             Ok(groups)
         })
     }

@@ -35,18 +35,18 @@ pub fn joined(
     let mut sets = Sets((0..lines.0.len()).collect());
     let ends: Vec<End> =
         lines.0.par_iter().enumerate().filter(|(i, _)| chosen(*i)).flat_map_iter(|(i, line)| ends(i, line)).collect();
-    let some = !ends.iter().all(|end| sought(end.line));
+    let all = ends.iter().all(|end| sought(end.line));
     // Two ends within half a cell of one another share a cell of at least one of four grids, each shifted by half a cell.
     for shift in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]] {
         let cell = |end: &End| (end.visible, [0, 1].map(|i| ((end.at[i] / tolerance + shift[i]) / 2.0).floor() as i64));
         let looked_at: FxHashSet<(bool, [i64; 2])> =
-            if some { ends.iter().filter(|end| sought(end.line)).map(cell).collect() } else { FxHashSet::default() };
+            if all { FxHashSet::default() } else { ends.iter().filter(|end| sought(end.line)).map(cell).collect() };
         // Ends of one cell stand side by side, in the order of lines.
         let mut cells: Vec<_> = ends
             .par_iter()
             .enumerate()
             .map(|(n, end)| (cell(end), n))
-            .filter(|(cell, _)| !some || looked_at.contains(cell))
+            .filter(|(cell, _)| all || looked_at.contains(cell))
             .collect();
         cells.par_sort_unstable();
         for found in cells.chunk_by(|a, b| a.0 == b.0) {

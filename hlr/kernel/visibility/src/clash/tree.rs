@@ -49,9 +49,9 @@ impl<A: Fn(&[Item], u8) -> bool + Sync> Apart for A {}
 impl Tree {
     /// `kind`: the bits of an item. Each node keeps those that all its items have in common.
     pub fn new(items: &[Item], kind: &(impl Fn(u32) -> u8 + Sync)) -> Tree {
-        let place = Place::of(items);
+        let cube = MortonCube::of(items);
         let codes = items.par_iter().with_min_len(ALONE).enumerate();
-        let mut order: Vec<u64> = codes.map(|(k, (a, _))| place.code(a) << INDEX_BITS | k as u64).collect();
+        let mut order: Vec<u64> = codes.map(|(k, (a, _))| cube.code(a) << INDEX_BITS | k as u64).collect();
         if order.len() > ALONE {
             order.par_sort_unstable();
         } else {
@@ -59,7 +59,7 @@ impl Tree {
         }
         let item = |code: &u64| items[(code & ((1 << INDEX_BITS) - 1)) as usize];
         let mut sorted: Vec<Item> = order.par_iter().with_min_len(ALONE).map(item).collect();
-        part_cells(&mut sorted, &order, INDEX_BITS);
+        sort_within_cells(&mut sorted, &order, INDEX_BITS);
         let nodes = if sorted.is_empty() { Vec::new() } else { built(&order, &sorted, 0, kind) };
         Tree { items: sorted, nodes }
     }
@@ -170,22 +170,22 @@ const INDEX_BITS: u32 = 31;
 const SIDE_BITS: u32 = 11;
 
 /// A cube around the middles of boxes, divided into cells along Morton's curve. Middles are sums of two coordinates.
-struct Place {
+struct MortonCube {
     low: [i64; 3],
     side: u64,
     /// Sums lose so many bits.
     down: u32,
 }
 
-impl Place {
-    fn of(items: &[Item]) -> Place {
+impl MortonCube {
+    fn of(items: &[Item]) -> MortonCube {
         let (mut low, mut high) = ([i64::MAX; 3], [i64::MIN; 3]);
         for middle in items.iter().map(|(bounds, _)| middle(bounds)) {
             low = [0, 1, 2].map(|k| low[k].min(middle[k]));
             high = [0, 1, 2].map(|k| high[k].max(middle[k]));
         }
         let side = (0..3).map(|k| high[k].saturating_sub(low[k])).max().unwrap_or(0).max(0) as u64;
-        Place { low, side, down: (64 - side.leading_zeros()).saturating_sub(SIDE_BITS) }
+        MortonCube { low, side, down: (64 - side.leading_zeros()).saturating_sub(SIDE_BITS) }
     }
 
     /// The position of a box's middle along the curve: the bits of its coordinates, interleaved.
@@ -207,7 +207,7 @@ fn middle(of: &Aabb) -> [i64; 3] {
 
 /// Sorts the items of each cell that are more than a leaf takes along a curve through that cell alone: most items may lie
 /// in one cell, where one lies far away. codes: of the items, ascending; shift: bits of them that do not count.
-fn part_cells(items: &mut [Item], codes: &[u64], shift: u32) {
+fn sort_within_cells(items: &mut [Item], codes: &[u64], shift: u32) {
     let mut rest = items;
     for cell in codes.chunk_by(|a, b| a >> shift == b >> shift) {
         let (own, after) = rest.split_at_mut(cell.len());
@@ -215,11 +215,11 @@ fn part_cells(items: &mut [Item], codes: &[u64], shift: u32) {
         if own.len() <= LEAF {
             continue;
         }
-        let place = Place::of(own);
-        if place.side > 0 {
-            own.sort_by_cached_key(|(bounds, item)| (place.code(bounds), *item));
-            let finer: Vec<u64> = own.iter().map(|(bounds, _)| place.code(bounds)).collect();
-            part_cells(own, &finer, 0);
+        let cube = MortonCube::of(own);
+        if cube.side > 0 {
+            own.sort_by_cached_key(|(bounds, item)| (cube.code(bounds), *item));
+            let finer: Vec<u64> = own.iter().map(|(bounds, _)| cube.code(bounds)).collect();
+            sort_within_cells(own, &finer, 0);
         }
     }
 }
@@ -316,12 +316,12 @@ mod tests {
     #[test]
     fn one_item_far_away_does_not_throw_all_others_together() {
         // 32 x 32 x 32 cubes in no order, and one that is 100,000 times as far off as these are wide.
-        let cube = |k: u32| {
+        let small = |k: u32| {
             let at = |shift: u32| (((k * 7919) >> shift) & 31) as i32 * 10;
             let low = [at(0), at(5), at(10)];
             Aabb { low, high: low.map(|c| c + 8) }
         };
-        let mut items: Vec<Item> = (0..1 << 15).map(|k| (cube(k), k)).collect();
+        let mut items: Vec<Item> = (0..1 << 15).map(|k| (small(k), k)).collect();
         items.push((Aabb { low: [1 << 30; 3], high: [(1 << 30) + 8; 3] }, 1 << 15));
         // A large one in the middle of them has no say in how they are divided.
         items.push((Aabb { low: [-(1 << 28); 3], high: [1 << 28, 1 << 28, -1] }, (1 << 15) + 1));

@@ -133,6 +133,7 @@ pub fn visibility_by<A: Arithmetic>(
         timed(|| {
             let found = own.differing::<A>(mesh, &table, &exact, stopped);
             if !found.is_empty() {
+                // All polygons are asked about these; the same tree decides the counts that fail.
                 exact.prepare();
             }
             found
