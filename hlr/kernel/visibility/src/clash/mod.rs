@@ -1,6 +1,7 @@
 //! Where surfaces pass through one another: the intersection lines of clashing solids, and whether a solid passes
 //! through itself.
 //!
+//!    `boxes_meet`    whether there is anything to search at all
 //! 0. `surfaces`      the triangles in their groups, on the grid
 //! 1. `search`        which triangles may meet: overlapping boxes of groups, then of triangles, found with a `tree`
 //!    `height_field`  pieces of a surface in which no two triangles meet, recognised by their borders
@@ -11,13 +12,19 @@
 //! 4. `depth`         how deep the surfaces go through each other: touching ones cross as well, by tessellation errors
 //!    `planes`        the planes of planar faces, from which depths are measured
 //!    `reach`         how far a surface goes beyond a triangle that it crosses, near the crossing
+//!    `chord_ends`    planar faces that cross only because their curved borders are drawn as chords
 //! 5. `contacts`      which segments are more than a contact
+//!
+//! `crossings` does all of this one after another.
 //!
 //! Independent of any view: done once per scene, on a grid of its own in model space. The segments are drawn as edges
 //! without triangles, which the visibility pass treats like any wire: their ends, rounded to the grid, lie off both
 //! surfaces by less than the contact tolerance.
 
+pub mod boxes_meet;
+pub mod chord_ends;
 pub mod contacts;
+pub mod crossings;
 pub mod depth;
 pub mod height_field;
 pub mod planar_faces;

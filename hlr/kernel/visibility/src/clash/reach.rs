@@ -96,7 +96,7 @@ impl Sheet<'_> {
     }
 
     /// The triangle beyond a side, and which side of its own that is; None where there is not exactly one.
-    fn beyond(&self, triangle: u32, side: usize) -> Option<(u32, usize)> {
+    pub fn beyond(&self, triangle: u32, side: usize) -> Option<(u32, usize)> {
         let own = self.triangles[triangle as usize];
         let (a, b) = (own[side], own[(side + 1) % 3]);
         let e = self.edges.binary_search(&[a.min(b), a.max(b)]).ok()?;

@@ -1,0 +1,25 @@
+//! Which boxes come near another one: where none does, no search is needed.
+
+use super::reach::Vec3;
+use crate::scan::box_tree::{Aabb, BoxTree};
+use hlr_exact::snap::Grid;
+
+/// Per box (low, high) whether it comes near another one: always true where it does, rarely where it does not. A box
+/// that is not finite is near none. None where no box is finite.
+pub fn boxes_meet(low: &[Vec3], high: &[Vec3]) -> Option<Vec<bool>> {
+    let finite = |i: &usize| low[*i].iter().chain(&high[*i]).all(|c| c.is_finite());
+    let used: Vec<usize> = (0..low.len()).filter(finite).collect();
+    let corners: Vec<Vec3> = used.iter().flat_map(|&i| [low[i], high[i]]).collect();
+    let grid = Grid::around(&corners)?.uniform();
+    // One step wider on each side, to cover the rounding.
+    let boxes: Vec<Aabb> = used
+        .iter()
+        .map(|&i| Aabb { low: grid.snap(&low[i]).map(|c| c - 1), high: grid.snap(&high[i]).map(|c| c + 1) })
+        .collect();
+    let tree = BoxTree::new(boxes.iter().enumerate().map(|(k, b)| (*b, k as u32)).collect());
+    let mut meets = vec![false; low.len()];
+    for (k, &i) in used.iter().enumerate() {
+        tree.query(&boxes[k], |other| meets[i] |= other as usize != k);
+    }
+    Some(meets)
+}
