@@ -21,7 +21,7 @@ use hlr_brep::foreign_mesh::{Border, ForeignMesh, with_foreign_mesh};
 use hlr_brep::format::{IDENTITY, Matrix};
 use hlr_brep::geometry::planar::is_flat;
 use hlr_brep::geometry::surface::Surface;
-use hlr_brep::mesh::{OF_A_FACE, bends_both_ways};
+use hlr_brep::mesh::{OF_A_FACE, points_inside};
 use hlr_brep::model::Model;
 use hlr_brep::one_sphere::is_one_sphere;
 use hlr_brep::reach::{Placed, reach};
@@ -198,9 +198,9 @@ impl BrepModel {
         let work = |stopped: &(dyn Fn() -> bool + Sync)| {
             tessellate(model, deflection, angle, MOST_POINTS, &Watch { stopped, done: &done })
         };
-        // A face costs as much as many points; one that bends both ways may have any number inside.
-        let bent = |face: &Face| face.surface.as_ref().is_some_and(bends_both_ways);
-        let size = 100 * model.faces.len() + if model.faces.iter().any(bent) { FEW } else { 0 };
+        // A face costs as much as many points.
+        let inside = |face: &Face| face.surface.as_ref().map_or(Some(0), |s| points_inside(s, deflection, angle));
+        let size = model.faces.iter().map(|face| 100 + inside(face).unwrap_or(FEW).min(FEW)).sum();
         let meshed = run_telling(py, size, tell, work)?;
         let meshed = meshed.map_err(|ended| match ended {
             Ended::Stopped => PyKeyboardInterrupt::new_err("stopped"),

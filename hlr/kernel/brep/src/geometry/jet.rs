@@ -1,6 +1,7 @@
 //! A point of a surface with its first and second derivatives.
 
-use super::vector::Vector;
+use super::surface::upright;
+use super::vector::{Vector, add, along, cross, dot, length, scaled};
 
 /// A point of a surface with its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,4 +12,17 @@ pub struct Jet {
     pub duu: Vector,
     pub duv: Vector,
     pub dvv: Vector,
+}
+
+impl Jet {
+    /// The unit normal and its derivatives by u and v; None where the surface has no normal.
+    pub fn normal(&self) -> Option<(Vector, [Vector; 2])> {
+        let normal = upright(&self.du, &self.dv)?;
+        let size = length(&cross(&self.du, &self.dv));
+        let of = |du: &Vector, dv: &Vector| {
+            let change = add(&cross(du, &self.dv), &cross(&self.du, dv));
+            scaled(&along(&change, &normal, -dot(&normal, &change)), 1.0 / size)
+        };
+        Some((normal, [of(&self.duu, &self.duv), of(&self.duv, &self.dvv)]))
+    }
 }

@@ -182,7 +182,8 @@ impl Surface {
     }
 }
 
-fn upright(du: &Vector, dv: &Vector) -> Option<Vector> {
+/// The unit normal of these derivatives; None where one is 0 or they are parallel.
+pub(super) fn upright(du: &Vector, dv: &Vector) -> Option<Vector> {
     let n = cross(du, dv);
     let longest = dot(du, du).max(dot(dv, dv));
     if dot(&n, &n) > SINGULAR * longest * longest { unit(&n) } else { None }

@@ -23,6 +23,8 @@ mod strips;
 mod sweep;
 mod triangulation;
 
+use std::f64::consts::PI;
+
 use crate::geometry::surface::Surface;
 use draft::Draft;
 pub use face::{FaceLoops, FaceMesh, Fault, LoopPoint};
@@ -98,8 +100,21 @@ pub fn border_share(surface: &Surface) -> f64 {
 }
 
 /// Whether the meshes of its faces have inner points.
-pub fn bends_both_ways(surface: &Surface) -> bool {
+fn bends_both_ways(surface: &Surface) -> bool {
     ruled::straight_along(surface).is_none()
+}
+
+/// About how many points the mesh of a face gets inside: none where the surface is straight along a parameter, and as
+/// many as cover the whole of a sphere. None for surfaces of which nothing is known beforehand. `deflection`: the chord
+/// error asked for, model units; `angle`: radians between neighbouring chords.
+pub fn points_inside(surface: &Surface, deflection: f64, angle: f64) -> Option<usize> {
+    match surface {
+        Surface::Sphere(_, radius) => {
+            let step = (6.0 * deflection / radius).sqrt().min(angle);
+            Some((4.0 * PI / (step * step)) as usize)
+        }
+        _ => (!bends_both_ways(surface)).then_some(0),
+    }
 }
 
 /// The mesh, proved to fill the loops and use all of their points; the outline where the proof fails.

@@ -66,16 +66,31 @@ impl<'a> Face<'a> {
         if self.model.view.perspective { self.model.sight(&self.moved(p)) } else { self.model.view.away }
     }
 
-    /// f at a pole, taken from a place close by in the direction of the parameters `beside`.
-    pub fn f_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<f64> {
-        let n = self.outward(self.surface.normal_toward(uv, beside))?;
-        Some(dot(&n, &self.model.sight(&self.point(uv))))
+    /// f, its growth per length along u and v, and the speeds of u and v. The change of the line of sight along the
+    /// surface is left out, for it vanishes with f.
+    fn f_and_slopes(&self, uv: [f64; 2]) -> Option<(f64, [f64; 2], [f64; 2])> {
+        let jet = self.surface.jet(uv);
+        let (normal, changes) = jet.normal()?;
+        let sight = self.sight_of(&jet.point);
+        let speed = [length(&jet.du), length(&jet.dv)];
+        let f = dot(&self.outward(Some(normal))?, &sight);
+        let slope = [0, 1].map(|k| self.sign * dot(&self.turned(&changes[k]), &sight) / speed[k]);
+        Some((f, slope, speed))
     }
 
-    /// The point and normal at a pole, taken as in `f_toward`.
+    /// The normal; at a pole that of a place close by, in the direction of the parameters `beside`.
+    pub fn normal_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Vector> {
+        self.outward(self.surface.normal_toward(uv, beside))
+    }
+
+    /// f with this normal.
+    pub fn f_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<f64> {
+        Some(dot(&self.normal_toward(uv, beside)?, &self.model.sight(&self.point(uv))))
+    }
+
+    /// The point with this normal.
     pub fn at_toward(&self, uv: [f64; 2], beside: [f64; 2]) -> Option<Place> {
-        let normal = self.outward(self.surface.normal_toward(uv, beside))?;
-        Some(Place { uv, point: self.point(uv), normal })
+        Some(Place { uv, point: self.point(uv), normal: self.normal_toward(uv, beside)? })
     }
 
     pub fn at(&self, uv: [f64; 2]) -> Option<Place> {
@@ -202,21 +217,9 @@ pub fn onto(face: &Face, start: [f64; 2], reach: f64) -> Option<Place> {
     let mut uv = start;
     let from = face.point(start);
     for _ in 0..12 {
-        let f = face.f(uv)?;
+        let (f, slope, speed) = face.f_and_slopes(uv)?;
         if f.abs() < 1e-12 {
             break;
-        }
-        let speed = face.speeds(uv);
-        if !(speed[0] > 0.0 && speed[1] > 0.0) {
-            return None;
-        }
-        let step = 1e-3 * reach;
-        let mut slope = [0.0; 2];
-        for k in 0..2 {
-            let mut beside = [uv, uv];
-            beside[0][k] -= step / speed[k];
-            beside[1][k] += step / speed[k];
-            slope[k] = (face.f(beside[1])? - face.f(beside[0])?) / (2.0 * step);
         }
         let square = slope[0] * slope[0] + slope[1] * slope[1];
         if square == 0.0 {

@@ -63,7 +63,7 @@ pub fn grazed(model: &Model, e: usize, around: &[i32], sides: &[Side], out: &mut
             if f == 0.0 {
                 continue;
             }
-            let normals = [0, 1].map(|k| side.at(range[k]).map_or(side.normal, |place| place.normal));
+            let normals = range.map(|t| side.normal_at(t));
             let rise = (turning == Some(at))
                 .then(|| [0, 1].map(|k| rise(model, &[side.triangle], &on_edge(model, e, range[k]), &normals[k])));
             let (front, dented) = (f < 0.0, dented(model, side));
@@ -106,7 +106,7 @@ fn beside(model: &Model, e: usize, around: &[i32], sides: &[Side], t: f64) -> Be
     let &[s, u] = around else { return Beside::Unknown };
     let sight = model.sight(&on_edge(model, e, t));
     let normal = |triangle: i32| match sides.iter().find(|side| side.triangle == triangle) {
-        Some(side) => Some(side.at(t).map_or(side.normal, |place| place.normal)),
+        Some(side) => Some(side.normal_at(t)),
         None if model.faces[model.triangle_face[triangle as usize] as usize].curved => None,
         // The normal of the plane itself: a triangle whose corners are nearly in one line may have any normal.
         None => plane_normal(model, triangle),

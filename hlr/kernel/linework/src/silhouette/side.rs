@@ -36,9 +36,20 @@ impl Side<'_> {
     }
 
     pub fn at(&self, t: f64) -> Option<Place> {
+        let (uv, beside) = self.parameters(t);
+        self.face.as_ref()?.at_toward(uv, beside)
+    }
+
+    /// The outward normal on the surface; that of the side where there is none.
+    pub fn normal_at(&self, t: f64) -> Vector {
+        let (uv, beside) = self.parameters(t);
+        self.face.as_ref().and_then(|face| face.normal_toward(uv, beside)).unwrap_or(self.normal)
+    }
+
+    /// The surface parameters, and those toward which the normal is taken at a pole.
+    fn parameters(&self, t: f64) -> ([f64; 2], [f64; 2]) {
         let uv = [0, 1].map(|k| self.uv[0][k] + (self.uv[1][k] - self.uv[0][k]) * t);
-        // At a pole the normal is that of a place close by.
-        self.face.as_ref()?.at_toward(uv, self.uv[usize::from(t < 0.5)])
+        (uv, self.uv[usize::from(t < 0.5)])
     }
 }
 
