@@ -24,6 +24,7 @@ from hlr.scene.scene import Chains, Scene, TrueSurfaces
 from hlr.scene.spindle_tori import self_intersecting_tori
 from hlr.scene.stitching import stitch_borders
 from hlr.source.bounds import LARGEST_COORDINATE
+from hlr.source.fewer_triangles import Fewer, with_fewer_triangles
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import PartMeshes, combine_parts
 from hlr.tables.line_classes import INTERIOR, EdgeClass
@@ -121,11 +122,13 @@ def _repaired(whole: PartMeshes, plan: Planner) -> tuple[PartMeshes, MeshFacts, 
     if plan.on("repair", Facts(repeated=bool(some))):
         changed = {}
         for i in some:
-            part, doubled[i] = without_duplicates(whole[i], *repeated[i])
+            before = whole[i]
+            part, staying = without_duplicates(before, *repeated[i])
+            doubled[i] = len(before.triangles) - len(staying)
             if doubled[i]:
-                changed[i] = part
+                changed[i] = Fewer(staying, part.edge_nodes)
         if changed:
-            whole = combine_parts([changed.get(i, part) for i, part in enumerate(whole)])
+            whole = with_fewer_triangles(whole, changed)
             mesh = _facts(whole)
     plan.spent("repair", perf_counter() - begin, doubled_triangles=sum(doubled))
     return whole, mesh, doubled

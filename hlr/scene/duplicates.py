@@ -14,30 +14,35 @@ from hlr.source.model import PartMesh
 
 Indices = npt.NDArray[np.intp]
 
+Kept = npt.NDArray[np.bool_]
+"""Per triangle, whether it stays."""
 
-def without_duplicates(part: PartMesh, triangles: bool = True, places: bool = True) -> tuple[PartMesh, int]:
-    """The part without repeated triangles and faces, and how many triangles that left out.
+
+def without_duplicates(part: PartMesh, triangles: bool = True, places: bool = True) -> tuple[PartMesh, Indices]:
+    """The part without repeated triangles and faces, and the numbers (n,) of the triangles that stay, ascending.
 
     One of each set of duplicates stays. Duplicates would make every edge between them non-manifold, or count as two
     surfaces in contact. triangles: a triangle has the corners of another one; places: two points are in one place. A
     caller that knows better says False, which saves the search.
     """
-    found = len(part.triangles)
+    staying: Indices = np.arange(len(part.triangles))
     if triangles:
-        part = _without_repeated_triangles(part)
+        part, kept = _without_repeated_triangles(part)
+        staying = staying[kept]
     if places:
-        part = _without_repeated_faces(part)
-    return part, found - len(part.triangles)
+        part, kept = _without_repeated_faces(part)
+        staying = staying[kept]
+    return part, staying
 
 
-def _without_repeated_triangles(part: PartMesh) -> PartMesh:
+def _without_repeated_triangles(part: PartMesh) -> tuple[PartMesh, Kept]:
     """The part without triangles that have the corners of another one, in either orientation."""
     kept = np.zeros(len(part.triangles), bool)
     kept[unique_triangles(part.points, part.triangles, part.triangle_face)] = True
-    return _with_triangles(part, kept)
+    return _with_triangles(part, kept), kept
 
 
-def _without_repeated_faces(part: PartMesh) -> PartMesh:
+def _without_repeated_faces(part: PartMesh) -> tuple[PartMesh, Kept]:
     """The part without faces whose triangles all coincide with those of others, with the same orientation.
 
     Two equal solids in one place have such faces. Only whole faces are left out: single triangles of overlapping
@@ -52,13 +57,13 @@ def _without_repeated_faces(part: PartMesh) -> PartMesh:
     # A face that has the first of a set of equal triangles stays whole, so that one of each set stays.
     kept = np.bincount(part.triangle_face, weights=own, minlength=len(part.face_planar))[part.triangle_face] > 0
     if kept.all():
-        return part
+        return part, kept
     # Edges of the removed faces now use the coincident nodes of the faces that stay.
     node = np.arange(len(part.points), dtype=np.int32)
     node[nodes[~kept]] = nodes[first[~kept]]
     used = distinct(part.triangles[kept])
     node[used] = used
-    return replace(_with_triangles(part, kept), edge_nodes=node[part.edge_nodes])
+    return replace(_with_triangles(part, kept), edge_nodes=node[part.edge_nodes]), kept
 
 
 def _first_equal(corners: Ints, n: int) -> Indices:
@@ -68,7 +73,7 @@ def _first_equal(corners: Ints, n: int) -> Indices:
     return np.asarray(first[number], np.intp)
 
 
-def _with_triangles(part: PartMesh, kept: npt.NDArray[np.bool_]) -> PartMesh:
+def _with_triangles(part: PartMesh, kept: Kept) -> PartMesh:
     if kept.all():
         return part
     on = part.surface_parameters

@@ -2,8 +2,8 @@
 
 A planar face ends at a round rim in chords, which cut into the bore by up to the deflection. The planes in which the
 sleeve was cut end at the wall of the bore, and so pass through these chords: over a tenth of a millimetre, but by
-themselves they go far beyond one another. That made intersection lines of a contact, wherever the chords of the two walls
-happened to run. OpenCASCADE finds no common volume.
+themselves they go far beyond one another. That made intersection lines of a contact, wherever the chords of the two
+walls happened to run. OpenCASCADE finds no common volume.
 """
 
 from __future__ import annotations

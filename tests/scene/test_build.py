@@ -14,6 +14,7 @@ from hlr.scene import build as building
 from hlr.scene.build import build
 from hlr.scene.duplicates import without_duplicates
 from hlr.source import open_source
+from hlr.source.fewer_triangles import Fewer, with_fewer_triangles
 from hlr.source.model import Tessellation
 from hlr.source.part_meshes import combine_parts
 from hlr.tables.line_classes import INTERIOR, EdgeClass
@@ -166,12 +167,12 @@ def test_repeated_triangles_are_dropped_and_counted():
     mesh = box((10, 10, 10))
     faces = np.concatenate([mesh.faces, mesh.faces[:5], mesh.faces[5:8, ::-1], np.roll(mesh.faces[8:9], 1, axis=1)])
     part = part_of((mesh.vertices, faces))
-    kept, count = without_duplicates(part)
-    assert count == 9
+    kept, staying = without_duplicates(part)
+    assert staying.tolist() == list(range(12))
     assert (kept.triangles == part.triangles[:12]).all()
     assert len(kept.triangle_face) == 12
-    again, none = without_duplicates(kept)
-    assert none == 0 and again is kept
+    again, all_of_it = without_duplicates(kept)
+    assert all_of_it.tolist() == list(range(12)) and again is kept
     scene = scene_of((mesh.vertices, faces))
     assert scene.parts[0].defects == ("9 duplicated triangles",)
     assert scene.groups.cull.all()
@@ -201,6 +202,33 @@ def test_only_parts_with_repetitions_are_repaired(monkeypatch):
     del seen[:]
     build(Tessellation([plain, far], []), 30.0, 0.05)
     assert not seen
+
+
+def test_leaving_triangles_out_of_some_parts_gives_what_putting_all_parts_together_gives():
+    one, other = (part_of(cq.Workplane().box(10, 20, 30).edges("|Z").fillet(k)) for k in (2, 3))
+    mesh = part_of((box((1, 2, 3)).vertices, box((1, 2, 3)).faces))
+    parts = [mesh, one, other, mesh, one]
+    fewer, wanted = {}, list(parts)
+    for i, every in ((1, 2), (3, 3)):
+        part = parts[i]
+        staying = np.arange(0, len(part.triangles), every)
+        nodes = part.edge_nodes[::-1].copy()
+        fewer[i] = Fewer(staying, nodes)
+        on = part.surface_parameters
+        wanted[i] = replace(
+            part,
+            triangles=part.triangles[staying],
+            triangle_face=part.triangle_face[staying],
+            origin=staying.astype(np.int32),
+            edge_nodes=nodes,
+            surface_parameters=on and replace(on, corner=on.corner[staying]),
+        )
+    found, expected = with_fewer_triangles(combine_parts(parts), fewer), combine_parts(wanted)
+    names = [name for name in vars(type(found.tables)) if isinstance(getattr(found.tables, name), np.ndarray)]
+    assert len(names) == 23
+    for name in names:
+        assert np.array_equal(getattr(found.tables, name), getattr(expected.tables, name)), name
+    assert found.labels == [*combine_parts(parts).labels] and found.surfaces is expected.surfaces
 
 
 @pytest.mark.parametrize("again", range(12))
@@ -254,8 +282,8 @@ def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():
         edge_index=np.concatenate([one.edge_index, one.edge_index + len(one.edge_index)]),
         edge_class=np.concatenate([one.edge_class, one.edge_class]),
     )
-    kept, count = without_duplicates(twice)
-    assert count == len(one.triangles)
+    kept, staying = without_duplicates(twice)
+    assert staying.tolist() == list(range(len(one.triangles)))
     assert (kept.triangles == one.triangles).all()
     assert (kept.edge_nodes == np.concatenate([one.edge_nodes, one.edge_nodes])).all()
     scene = build(Tessellation([kept], []), 30.0, 0.05)
@@ -264,10 +292,11 @@ def test_repeated_faces_are_dropped_and_their_edges_run_along_those_that_stay():
     # Not the part of a face: where neighbours lap over each other, a triangle may be there twice and be needed.
     most = replace(twice, triangles=twice.triangles[:-1], triangle_face=twice.triangle_face[:-1].copy())
     most.triangle_face[-1] = twice.triangle_face[0]
-    assert without_duplicates(most)[1] < count
+    assert len(without_duplicates(most)[1]) > len(staying)
     # Not turned over: there two bodies touch.
     back = replace(twice, triangles=np.concatenate([one.triangles, one.triangles[:, ::-1] + n]).astype(np.int32))
-    assert without_duplicates(back) == (back, 0)
+    both, staying = without_duplicates(back)
+    assert both is back and len(staying) == len(back.triangles)
 
 
 @pytest.mark.parametrize(("crease", "sharp"), [(30.0, 12), (89.0, 12), (91.0, 0), (180.0, 0)])
