@@ -14,7 +14,7 @@ import pytest
 from hard.brep import compound
 
 import hlr
-from support.at_size import ALL_LINES
+from support.at_size import ALL_LINES, AT_SIZE
 
 ACCURACIES = [0.5, 0.1, 0.05, 0.01]
 RADIUS, WALL, LOW, TOP = 8.0, 1.0, -37.5, -15.0
@@ -62,6 +62,10 @@ def test_parts_that_touch_do_not_cross(model, turned, accuracy):
     parts = MODELS[model](turned)
     assert common_volume(parts) == pytest.approx(0.0, abs=1e-9)
     assert not crossings(parts, accuracy)
+
+
+def test_picture(picture):
+    picture(hlr.draw(compound(*sleeve(11.0)), "iso", **AT_SIZE))
 
 
 @pytest.mark.parametrize("accuracy", ACCURACIES)
