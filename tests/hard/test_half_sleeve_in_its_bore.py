@@ -71,9 +71,10 @@ def test_picture(picture):
 @pytest.mark.parametrize("accuracy", ACCURACIES)
 @pytest.mark.parametrize("model", MODELS)
 def test_parts_that_are_too_large_for_their_bore_cross(model, accuracy):
+    """By a little more than curved surfaces may and still count as touching."""
     parts = MODELS[model](11.0)
-    wider = MODELS[model](11.0, 1.1 * (RADIUS if model == "sleeve" else 4.0))
-    assert common_volume((parts[0], wider[1])) > 1.0
+    wider = MODELS[model](11.0, (RADIUS if model == "sleeve" else 4.0) + 3.5 * accuracy)
+    assert common_volume((parts[0], wider[1])) > 0.1
     assert crossings((parts[0], wider[1]), accuracy)
 
 

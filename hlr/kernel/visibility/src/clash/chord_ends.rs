@@ -3,9 +3,9 @@
 //! ```text
 //!        rim of a bore      The planar face around a bore ends in chords, which cut into the bore by up to the
 //!       ____                deflection. A planar face that ends at the bore's wall, as that of a half sleeve, then
-//!           \____           crosses it, for a short way: `way`. Both faces go far beyond each other's plane, so depth
-//!       face +---+======    does not tell this from a real intersection. The way does: moved by as much, across the
-//!           /way  half      border, the two faces would no longer meet.
+//!           \____           crosses it over a short stretch (+---+). Both faces go far beyond each other's plane, so
+//!       face +---+======    their depth does not tell this from a real intersection. The stretch does: moved by its
+//!           /     half      width across the border, the two faces would no longer meet.
 //!       ___/      sleeve
 //! ```
 
@@ -15,9 +15,12 @@ use super::reach::{Vec3, cross, dot, minus};
 use super::search::Clash;
 use hlr_mesh::topology::components;
 
-/// Lessens `beyond` of crossings of two planar faces to what their ways leave of it. `ends`, `depth`: per clash.
-/// `points`: the points that `ends` are indices of.
-pub fn lessen(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], depth: &mut [Depth]) {
+/// Of the deflection: a point this much farther from one border than from another lies on both.
+const ON: f64 = 1e-3;
+
+/// Limits `beyond` of crossings of two planar faces to the width of their stretches, less the chord errors of their ends.
+/// `ends`, `depth`: per clash. `points`: the points that `ends` are indices of.
+pub fn limit(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], depth: &mut [Depth]) {
     let faces = |i: usize| found[i].triangles.map(|t| bodies.face[t as usize]);
     let planar = |&i: &usize| {
         let brep = !bodies.groups(&found[i]).iter().any(|&g| bodies.without_brep[g]);
@@ -29,67 +32,90 @@ pub fn lessen(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec
         if !of_pair.iter().any(|&i| depth[i].beyond >= 0.0) {
             continue;
         }
-        for way in ways(of_pair, ends) {
-            let Some(left) = left_over(bodies, found, ends, points, &way) else { continue };
-            for i in way {
-                depth[i].beyond = depth[i].beyond.min(left);
+        for stretch in stretches(of_pair, ends) {
+            let Some(width) = width(bodies, found, ends, points, &stretch) else { continue };
+            for i in stretch {
+                depth[i].beyond = depth[i].beyond.min(width);
             }
         }
     }
 }
 
-/// The connected ways among segments of one line.
-fn ways(of_pair: &[usize], ends: &[[i32; 2]]) -> Vec<Vec<usize>> {
+/// The connected stretches among segments of one line.
+fn stretches(of_pair: &[usize], ends: &[[i32; 2]]) -> Vec<Vec<usize>> {
     let mut nodes: Vec<i32> = of_pair.iter().flat_map(|&i| ends[i]).collect();
     nodes.sort_unstable();
     nodes.dedup();
     let number = |end: i32| nodes.partition_point(|&n| n < end) as i32;
     let edges: Vec<[i32; 2]> = of_pair.iter().map(|&i| ends[i].map(number)).collect();
-    let mut ways: Vec<Vec<usize>> = Vec::new();
-    for (&i, way) in of_pair.iter().zip(components(&edges, nodes.len())) {
-        let way = way as usize;
-        ways.resize_with(ways.len().max(way + 1), Vec::new);
-        ways[way].push(i);
+    let mut out: Vec<Vec<usize>> = Vec::new();
+    for (&i, stretch) in of_pair.iter().zip(components(&edges, nodes.len())) {
+        let stretch = stretch as usize;
+        out.resize_with(out.len().max(stretch + 1), Vec::new);
+        out[stretch].push(i);
     }
-    ways
+    out
 }
 
-/// How much of a way the chord errors of its ends do not explain, in model units; None where neither end has any.
-fn left_over(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], way: &[usize]) -> Option<f64> {
+/// How wide a stretch is across the curved borders at its ends, less their chord errors, in model units; None where
+/// neither end is at a curved border.
+fn width(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], stretch: &[usize]) -> Option<f64> {
     let at = |end: i32| &points[end as usize];
-    let first = ends[way[0]];
+    let first = ends[stretch[0]];
     let along = minus(at(first[1]), at(first[0]));
-    let place = |end: i32| dot(at(end), &along);
-    let of_way = || way.iter().flat_map(|&i| ends[i].map(|end| (end, i)));
-    let low = of_way().min_by(|a, b| place(a.0).total_cmp(&place(b.0)))?;
-    let high = of_way().max_by(|a, b| place(a.0).total_cmp(&place(b.0)))?;
-    let whole = minus(at(high.0), at(low.0));
-    let across: Vec<f64> = [low, high]
+    let by_place = |a: &i32, b: &i32| dot(at(*a), &along).total_cmp(&dot(at(*b), &along));
+    let every = || stretch.iter().flat_map(|&i| ends[i]);
+    let outer = [every().min_by(by_place)?, every().max_by(by_place)?];
+    let whole = minus(at(outer[1]), at(outer[0]));
+    let across: Vec<f64> = outer
         .into_iter()
-        .filter_map(|(end, i)| curved_border(bodies, &found[i], at(end)))
-        .map(|border| {
-            let over = cross(&whole, &border);
-            (dot(&over, &over) / dot(&border, &border)).sqrt()
+        .filter_map(|end| {
+            let there = stretch.iter().filter(|&&i| ends[i].contains(&end)).map(|&i| &found[i]);
+            width_at(bodies, &borders(bodies, there, at(end)), &whole)
         })
         .collect();
     let least = across.iter().copied().reduce(f64::min)?;
     Some(least - across.len() as f64 * bodies.deflection)
 }
 
-/// The side of one of two triangles on which an end of their common segment lies, if the face beyond it is curved.
-fn curved_border(bodies: &Bodies, clash: &Clash, end: &Vec3) -> Option<Vec3> {
+/// A side of a triangle at which its face ends.
+struct Border {
+    /// From a point.
+    distance: f64,
+    along: Vec3,
+    /// The face beyond is curved, so this may be a chord.
+    curved: bool,
+}
+
+/// The borders of the faces that cross in these clashes.
+fn borders<'a>(bodies: &Bodies, clashes: impl Iterator<Item = &'a Clash>, point: &Vec3) -> Vec<Border> {
     let sheet = &bodies.sheet;
-    let sides = clash.triangles.into_iter().flat_map(|t| {
-        let corners = sheet.triangles[t as usize].map(|v| &sheet.points[v as usize]);
-        [0, 1, 2].map(|k| {
-            let (from, side) = (minus(end, corners[k]), minus(corners[(k + 1) % 3], corners[k]));
-            let over = cross(&from, &side);
-            (dot(&over, &over) / dot(&side, &side), t, k, side)
-        })
+    let border = |t: u32, k: usize| {
+        // Where there is not one face beyond, nothing is known of the border.
+        let beyond = sheet.beyond(t, k).map(|(beyond, _)| bodies.face[beyond as usize]);
+        let [start, end] = [k, (k + 1) % 3].map(|k| &sheet.points[sheet.triangles[t as usize][k] as usize]);
+        let along = minus(end, start);
+        let over = cross(&minus(point, start), &along);
+        let distance = (dot(&over, &over) / dot(&along, &along)).sqrt();
+        let curved = beyond == Some(NO_PLANE);
+        (beyond != Some(bodies.face[t as usize])).then_some(Border { distance, along, curved })
+    };
+    clashes.flat_map(|clash| clash.triangles).flat_map(|t| (0..3).filter_map(move |k| border(t, k))).collect()
+}
+
+/// The width of a crossing `whole` across the border on which it ends: of several the greatest, None if one of them is no
+/// chord.
+fn width_at(bodies: &Bodies, borders: &[Border], whole: &Vec3) -> Option<f64> {
+    let nearest = borders.iter().map(|border| border.distance).fold(f64::INFINITY, f64::min);
+    let here = || borders.iter().filter(|border| border.distance <= nearest + ON * bodies.deflection);
+    if !here().all(|border| border.curved) {
+        return None;
+    }
+    let across = here().map(|Border { along, .. }| {
+        let over = cross(whole, along);
+        (dot(&over, &over) / dot(along, along)).sqrt()
     });
-    let (_, t, k, side) = sides.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let (beyond, _) = sheet.beyond(t, k)?;
-    (bodies.face[beyond as usize] == NO_PLANE).then_some(side)
+    across.reduce(f64::max)
 }
 
 #[cfg(test)]
@@ -101,9 +127,9 @@ mod tests {
 
     const DEFLECTION: f64 = 0.1;
 
-    /// What is left of 5.0 where an upright planar face crosses a level one from x = 0 to x = `long`, where the level one
+    /// What becomes of a depth of 5.0 where an upright planar face crosses a level one from x = 0 to x = `long`, where the level one
     /// ends in a border at 45 degrees. `beyond`: the face on the other side of that border.
-    fn left(long: f64, beyond: i32) -> f64 {
+    fn limited(long: f64, beyond: i32) -> f64 {
         let (a, b, c) = ([long - 1.0, -1.0, 0.0], [long + 1.0, 1.0, 0.0], [-9.0, 0.0, 0.0]);
         let below = [0.0, 0.0, -9.0];
         let upright = [[0.0, 0.0, -5.0], [9.0, 0.0, 0.0], [0.0, 0.0, 5.0]];
@@ -126,20 +152,20 @@ mod tests {
         };
         let clash = Clash { triangles: [0, 2], meeting: Meeting { ends: [[0; 3]; 2], depth: 0.0, sine: 1.0 } };
         let mut depth = [Depth { touch: 1.0, level: 5.0, beyond: 5.0, reach: 5.0 }];
-        lessen(&bodies, &[clash], &[[0, 1]], &[[0.0, 0.0, 0.0], [long, 0.0, 0.0]], &mut depth);
+        limit(&bodies, &[clash], &[[0, 1]], &[[0.0, 0.0, 0.0], [long, 0.0, 0.0]], &mut depth);
         depth[0].beyond
     }
 
     #[test]
-    fn a_way_is_measured_across_a_curved_border_and_lessened_by_its_chord_error() {
+    fn a_stretch_is_measured_across_a_curved_border_and_lessened_by_its_chord_error() {
         for long in [0.1, 0.5, 3.0] {
-            assert!((left(long, NO_PLANE) - (long / 2.0f64.sqrt() - DEFLECTION)).abs() < 1e-12);
+            assert!((limited(long, NO_PLANE) - (long / 2.0f64.sqrt() - DEFLECTION)).abs() < 1e-12);
         }
-        assert_eq!(left(20.0, NO_PLANE), 5.0);
+        assert_eq!(limited(20.0, NO_PLANE), 5.0);
     }
 
     #[test]
     fn between_planar_faces_a_border_is_exact() {
-        assert_eq!(left(0.01, 2), 5.0);
+        assert_eq!(limited(0.01, 2), 5.0);
     }
 }

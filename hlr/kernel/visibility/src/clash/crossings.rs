@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::chord_ends::lessen;
+use super::chord_ends;
 use super::contacts::real;
 use super::depth::{Bodies, Depth};
 use super::planar_faces::{Edges, NO_PLANE, PlanarFaces};
@@ -84,7 +84,7 @@ pub fn crossings(
         bodies.depth(clash, &[0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2.0))
     };
     let mut depth: Vec<Depth> = found.par_iter().zip(ends).with_min_len(FEW_CLASHES).map(depth).collect();
-    lessen(&bodies, found, ends, points, &mut depth);
+    chord_ends::limit(&bodies, found, ends, points, &mut depth);
     let width: Vec<f64> =
         scene.bodies.low.iter().zip(&scene.bodies.high).map(|(low, high)| widest(low, high)).collect();
     let (real, through) = real(&bodies, found, ends, &depth, points, &width);
