@@ -1,7 +1,9 @@
 //! A point of a surface with its first and second derivatives.
 
-use super::surface::upright;
-use super::vector::{Vector, add, along, cross, dot, length, scaled};
+use super::vector::{Vector, add, along, cross, dot, length, scaled, unit};
+
+/// Share of the square of the longer derivative: if |du x dv| is below that, the surface has no normal there.
+const SINGULAR: f64 = 1e-13;
 
 /// A point of a surface with its derivatives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,4 +27,11 @@ impl Jet {
         };
         Some((normal, [of(&self.duu, &self.duv), of(&self.duv, &self.dvv)]))
     }
+}
+
+/// The unit normal of these derivatives; None where one is 0 or they are parallel.
+pub(super) fn upright(du: &Vector, dv: &Vector) -> Option<Vector> {
+    let n = cross(du, dv);
+    let longest = dot(du, du).max(dot(dv, dv));
+    if dot(&n, &n) > SINGULAR * longest * longest { unit(&n) } else { None }
 }

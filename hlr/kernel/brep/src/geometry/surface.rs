@@ -14,6 +14,7 @@
 use std::f64::consts::TAU;
 
 use super::curve::Curve;
+use super::jet::upright;
 use super::spline_surface::SplineSurface;
 use super::vector::{Vector, add, along, cross, dot, length, scaled, sub, unit};
 
@@ -41,8 +42,6 @@ pub enum Surface {
     Offset(Box<Surface>, f64),
 }
 
-/// Share of the square of the longer derivative: if |du x dv| is below that, the surface has no normal there.
-const SINGULAR: f64 = 1e-13;
 /// Share of the way to a nearby point at which the normal of a singular point is evaluated.
 const BESIDE: f64 = 1e-8;
 
@@ -180,13 +179,6 @@ impl Surface {
             unit(&cross(&du, &dv))
         })
     }
-}
-
-/// The unit normal of these derivatives; None where one is 0 or they are parallel.
-pub(super) fn upright(du: &Vector, dv: &Vector) -> Option<Vector> {
-    let n = cross(du, dv);
-    let longest = dot(du, du).max(dot(dv, dv));
-    if dot(&n, &n) > SINGULAR * longest * longest { unit(&n) } else { None }
 }
 
 impl Frame {

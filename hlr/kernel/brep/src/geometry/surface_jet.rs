@@ -217,4 +217,24 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn changes_of_the_normal_are_those_of_normals_beside() {
+        let h = 1e-5;
+        for surface in surfaces() {
+            for uv in [[0.3, 0.25], [0.7, 0.8]] {
+                let (normal, changes) = surface.jet(uv).normal().unwrap();
+                assert!(length(&sub(&normal, &surface.normal(uv).unwrap())) < 1e-9, "{surface:?}");
+                for k in 0..2 {
+                    let beside = [-h, h].map(|step| {
+                        let mut at = uv;
+                        at[k] += step;
+                        surface.normal(at).unwrap()
+                    });
+                    let want = scaled(&sub(&beside[1], &beside[0]), 0.5 / h);
+                    assert!(length(&sub(&changes[k], &want)) < 1e-5, "{surface:?} {uv:?} {k}: {changes:?} {want:?}");
+                }
+            }
+        }
+    }
 }

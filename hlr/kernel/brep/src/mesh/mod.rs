@@ -110,7 +110,7 @@ fn bends_both_ways(surface: &Surface) -> bool {
 pub fn points_inside(surface: &Surface, deflection: f64, angle: f64) -> Option<usize> {
     match surface {
         Surface::Sphere(_, radius) => {
-            let step = (6.0 * deflection / radius).sqrt().min(angle);
+            let step = (8.0 * deflection / radius).sqrt().min(angle);
             Some((4.0 * PI / (step * step)) as usize)
         }
         _ => (!bends_both_ways(surface)).then_some(0),

@@ -72,9 +72,11 @@ impl<'a> Face<'a> {
         let jet = self.surface.jet(uv);
         let (normal, changes) = jet.normal()?;
         let sight = self.sight_of(&jet.point);
-        let speed = [length(&jet.du), length(&jet.dv)];
+        let speed = [&jet.du, &jet.dv].map(|d| length(&self.turned(d)));
         let f = dot(&self.outward(Some(normal))?, &sight);
-        let slope = [0, 1].map(|k| self.sign * dot(&self.turned(&changes[k]), &sight) / speed[k]);
+        // A placement may scale.
+        let scale = self.sign * length(&self.turned(&normal));
+        let slope = [0, 1].map(|k| dot(&self.turned(&changes[k]), &sight) / (scale * speed[k]));
         Some((f, slope, speed))
     }
 

@@ -13,10 +13,8 @@ use super::depth::{Bodies, Depth};
 use super::planar_faces::NO_PLANE;
 use super::reach::{Vec3, cross, dot, minus};
 use super::search::Clash;
+use hlr_accuracy::SAME_BORDER;
 use hlr_mesh::topology::components;
-
-/// Of the deflection: a point this much farther from one border than from another lies on both.
-const ON: f64 = 1e-3;
 
 /// Limits `beyond` of crossings of two planar faces to the width of their stretches, less the chord errors of their ends.
 /// `ends`, `depth`: per clash. `points`: the points that `ends` are indices of.
@@ -107,7 +105,7 @@ fn borders<'a>(bodies: &Bodies, clashes: impl Iterator<Item = &'a Clash>, point:
 /// chord.
 fn width_at(bodies: &Bodies, borders: &[Border], whole: &Vec3) -> Option<f64> {
     let nearest = borders.iter().map(|border| border.distance).fold(f64::INFINITY, f64::min);
-    let here = || borders.iter().filter(|border| border.distance <= nearest + ON * bodies.deflection);
+    let here = || borders.iter().filter(|border| border.distance <= nearest + SAME_BORDER * bodies.deflection);
     if !here().all(|border| border.curved) {
         return None;
     }
