@@ -41,8 +41,9 @@ pub const FLUSH: f64 = 0.25;
 pub const CONTACT_OF_ONE_SOLID: f64 = 0.1;
 /// Of the contact depth: a figure of intersection is real where it is deeper than this. Rounding goes less deep.
 pub const CONTACT_REAL: f64 = 0.03;
-/// Of the deflection: an end of a crossing that is this much farther from one border than from another lies on both.
-pub const SAME_BORDER: f64 = 1e-3;
+/// Of the deflection: a crossing that is shorter is a point, and a point that is this much farther from one border than
+/// from another lies on both.
+pub const CONTACT_POINT: f64 = 1e-3;
 
 // Outlines.
 

@@ -1,4 +1,4 @@
-//! Planar faces that cross only because their curved borders are chords.
+//! Planar faces that cross only because their curved borders are chords, or hardly at all.
 //!
 //! ```text
 //!        rim of a bore      The planar face around a bore ends in chords, which cut into the bore by up to the
@@ -13,17 +13,14 @@ use super::depth::{Bodies, Depth};
 use super::planar_faces::NO_PLANE;
 use super::reach::{Vec3, cross, dot, minus};
 use super::search::Clash;
-use hlr_accuracy::SAME_BORDER;
+use hlr_accuracy::{CONTACT_POINT, FLUSH};
 use hlr_mesh::topology::components;
 
 /// Limits `beyond` of crossings of two planar faces to the width of their stretches, less the chord errors of their ends.
 /// `ends`, `depth`: per clash. `points`: the points that `ends` are indices of.
 pub fn limit(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], depth: &mut [Depth]) {
     let faces = |i: usize| found[i].triangles.map(|t| bodies.face[t as usize]);
-    let planar = |&i: &usize| {
-        let brep = !bodies.groups(&found[i]).iter().any(|&g| bodies.without_brep[g]);
-        brep && !faces(i).contains(&NO_PLANE)
-    };
+    let planar = |&i: &usize| bodies.of_breps(&found[i]) && !faces(i).contains(&NO_PLANE);
     let mut all: Vec<usize> = (0..found.len()).filter(planar).collect();
     all.sort_by_key(|&i| faces(i));
     for of_pair in all.chunk_by(|&a, &b| faces(a) == faces(b)) {
@@ -55,8 +52,8 @@ fn stretches(of_pair: &[usize], ends: &[[i32; 2]]) -> Vec<Vec<usize>> {
     out
 }
 
-/// How wide a stretch is across the curved borders at its ends, less their chord errors, in model units; None where
-/// neither end is at a curved border.
+/// How wide a stretch is across the borders at its ends, less the chord errors of curved ones, in model units; None where
+/// no end is at a border.
 fn width(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], stretch: &[usize]) -> Option<f64> {
     let at = |end: i32| &points[end as usize];
     let first = ends[stretch[0]];
@@ -65,15 +62,22 @@ fn width(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], s
     let every = || stretch.iter().flat_map(|&i| ends[i]);
     let outer = [every().min_by(by_place)?, every().max_by(by_place)?];
     let whole = minus(at(outer[1]), at(outer[0]));
-    let across: Vec<f64> = outer
+    let across: Vec<Across> = outer
         .into_iter()
         .filter_map(|end| {
             let there = stretch.iter().filter(|&&i| ends[i].contains(&end)).map(|&i| &found[i]);
-            width_at(bodies, &borders(bodies, there, at(end)), &whole)
+            across(&borders(bodies, there, at(end)), &whole, bodies.deflection)
         })
         .collect();
-    let least = across.iter().copied().reduce(f64::min)?;
-    Some(least - across.len() as f64 * bodies.deflection)
+    let least = across.iter().map(|across| across.width).reduce(f64::min)?;
+    let chords = across.iter().filter(|across| across.chord).count() as f64;
+    Some(least - chords.max(FLUSH) * bodies.deflection)
+}
+
+/// A crossing at one of its ends: how wide it is across the border, and whether that is a chord.
+struct Across {
+    width: f64,
+    chord: bool,
 }
 
 /// A side of a triangle at which its face ends.
@@ -101,19 +105,16 @@ fn borders<'a>(bodies: &Bodies, clashes: impl Iterator<Item = &'a Clash>, point:
     clashes.flat_map(|clash| clash.triangles).flat_map(|t| (0..3).filter_map(move |k| border(t, k))).collect()
 }
 
-/// The width of a crossing `whole` across the border on which it ends: of several the greatest, None if one of them is no
-/// chord.
-fn width_at(bodies: &Bodies, borders: &[Border], whole: &Vec3) -> Option<f64> {
+/// Of several borders on which the crossing `whole` ends, the one across which it is widest; a chord only if all are.
+fn across(borders: &[Border], whole: &Vec3, deflection: f64) -> Option<Across> {
     let nearest = borders.iter().map(|border| border.distance).fold(f64::INFINITY, f64::min);
-    let here = || borders.iter().filter(|border| border.distance <= nearest + SAME_BORDER * bodies.deflection);
-    if !here().all(|border| border.curved) {
-        return None;
-    }
-    let across = here().map(|Border { along, .. }| {
+    let here = || borders.iter().filter(|border| border.distance <= nearest + CONTACT_POINT * deflection);
+    let width = |Border { along, .. }: &Border| {
         let over = cross(whole, along);
         (dot(&over, &over) / dot(along, along)).sqrt()
-    });
-    across.reduce(f64::max)
+    };
+    let width = here().map(width).reduce(f64::max)?;
+    Some(Across { width, chord: here().all(|border| border.curved) })
 }
 
 #[cfg(test)]
@@ -122,6 +123,7 @@ mod tests {
     use super::super::reach::Sheet;
     use super::super::triangle_pair::Meeting;
     use super::*;
+    use hlr_mesh::kinds::INTERIOR;
 
     const DEFLECTION: f64 = 0.1;
 
@@ -139,6 +141,7 @@ mod tests {
                 edges: &[[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [4, 5], [4, 6], [5, 6]],
                 offsets: &[0, 2, 3, 4, 5, 6, 7, 8, 9],
                 incident: &[0, 1, 0, 1, 0, 1, 2, 2, 2],
+                kinds: &[INTERIOR; 8],
                 normals: &[[0.0, 0.0, 1.0]; 3],
             },
             group: &[0, 0, 1],
@@ -164,6 +167,6 @@ mod tests {
 
     #[test]
     fn between_planar_faces_a_border_is_exact() {
-        assert_eq!(limited(0.01, 2), 5.0);
+        assert!((limited(0.5, 2) - (0.5 / 2.0f64.sqrt() - FLUSH * DEFLECTION)).abs() < 1e-12);
     }
 }

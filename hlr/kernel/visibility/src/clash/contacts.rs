@@ -201,6 +201,7 @@ mod tests {
             edges: &edges,
             offsets: &[0],
             incident: &[],
+            kinds: &[],
             normals: &normals,
         };
         let (planes, touch) = (Planes::default(), [1.0; 2]);

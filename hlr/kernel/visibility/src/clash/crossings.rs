@@ -7,10 +7,11 @@ use super::contacts::real;
 use super::depth::{Bodies, Depth};
 use super::planar_faces::{Edges, NO_PLANE, PlanarFaces};
 use super::planes::planes;
-use super::reach::{Sheet, Vec3};
+use super::reach::{Sheet, Vec3, dot, minus};
 use super::search::{Clash, Clashes};
 use super::surfaces::Surfaces;
 use super::weld::weld;
+use hlr_accuracy::CONTACT_POINT;
 use hlr_exact::snap::Grid;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::Scene;
@@ -75,13 +76,17 @@ pub fn crossings(
     let met = met(&tables.points, (triangles, group, &planar), &scene.folded, stopped)?;
     let (found, ends, points) = (&met.clashes.found[..], &met.ends[..], &met.points[..]);
     let without_brep: Vec<bool> = scene.bodies.part_of.iter().map(|&p| !tables.brep[p as usize]).collect();
-    let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, normals: &facts.normals };
+    let (kinds, normals) = (&scene.kind[..], &facts.normals[..]);
+    let sheet = Sheet { points: &tables.points, triangles, edges, offsets, incident, kinds, normals };
     let planes = planes(&sheet, &planar.of, found);
     let (face, planes) = (&planar.of[..], &planes);
     let bodies = Bodies { sheet, group, face, planes, without_brep: &without_brep, touch, deflection };
-    let depth = |(clash, [a, b]): (&Clash, &[i32; 2])| {
-        let ends = [a, b].map(|&end| &points[end as usize]);
-        bodies.depth(clash, &[0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2.0))
+    let depth = |(clash, ends): (&Clash, &[i32; 2])| {
+        let [a, b] = ends.map(|end| &points[end as usize]);
+        let depth = bodies.depth(clash, &[0, 1, 2].map(|k| (a[k] + b[k]) / 2.0));
+        // A corner that touches: there is no direction in which its depth could be measured.
+        let short = dot(&minus(b, a), &minus(b, a)).sqrt() <= CONTACT_POINT * deflection;
+        if short && bodies.of_breps(clash) { Depth { beyond: f64::NEG_INFINITY, ..depth } } else { depth }
     };
     let mut depth: Vec<Depth> = found.par_iter().zip(ends).with_min_len(FEW_CLASHES).map(depth).collect();
     chord_ends::limit(&bodies, found, ends, points, &mut depth);

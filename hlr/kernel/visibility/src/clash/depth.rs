@@ -71,10 +71,15 @@ impl Bodies<'_> {
         clash.triangles.map(|t| self.group[t as usize] as usize)
     }
 
+    /// Whether both surfaces have a B-rep.
+    pub fn of_breps(&self, clash: &Clash) -> bool {
+        !self.groups(clash).iter().any(|&g| self.without_brep[g])
+    }
+
     /// The depth of a clash. `middle`: the middle of the segment in which the two triangles cross.
     pub fn depth(&self, clash: &Clash, middle: &Vec3) -> Depth {
         let groups = self.groups(clash);
-        let solid = !groups.iter().any(|&g| self.without_brep[g]);
+        let solid = self.of_breps(clash);
         let mut touch = groups.iter().fold(0.0f64, |most, &g| most.max(self.touch[g]));
         if groups[0] == groups[1] && solid {
             touch *= CONTACT_OF_ONE_SOLID;

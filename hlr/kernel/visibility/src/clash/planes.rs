@@ -127,6 +127,7 @@ mod tests {
                 edges: &[],
                 offsets: &[],
                 incident: &[],
+                kinds: &[],
                 normals: &normals,
             };
             let meeting = Meeting { ends: [[0; 3]; 2], depth: 0.0, sine: 1.0 };

@@ -9,13 +9,16 @@
 //!             ¯
 //! ```
 
-/// A mesh with its edges, ascending, and the triangles at each.
+use hlr_mesh::kinds::SHARP;
+
+/// A mesh with its edges, ascending, and the triangles and the class of each (`hlr_mesh::kinds`).
 pub struct Sheet<'a> {
     pub points: &'a [Vec3],
     pub triangles: &'a [[i32; 3]],
     pub edges: &'a [[i32; 2]],
     pub offsets: &'a [i32],
     pub incident: &'a [i32],
+    pub kinds: &'a [u8],
     pub normals: &'a [Vec3],
 }
 
@@ -24,6 +27,8 @@ pub type Vec3 = [f64; 3];
 /// Cosine of an angle: a surface that turns by more between two triangles has a sharp edge there. Chords turn by at
 /// most half a radian.
 const SMOOTH: f64 = 0.77;
+/// The same for an edge of the source that is sharp. At less the two faces may be facets of one surface.
+const SHALLOW: f64 = 0.937;
 /// Sine of an angle: a section that climbs less has turned parallel to the plane and ends there.
 const LEVEL: f64 = 0.1;
 /// The same as a share of the sine at the start: a section that begins flat may become flatter.
@@ -74,7 +79,8 @@ impl Sheet<'_> {
                 return height;
             }
             let Some((next, entry)) = self.beyond(triangle, exit.side) else { return height };
-            if dot(&self.normals[triangle as usize], &self.normals[next as usize]) < SMOOTH {
+            let turn = dot(&self.normals[triangle as usize], &self.normals[next as usize]);
+            if turn < SMOOTH || (turn < SHALLOW && self.sharp(triangle, exit.side)) {
                 return height;
             }
             let corners = self.corners(next, at);
@@ -95,11 +101,21 @@ impl Sheet<'_> {
         self.triangles[triangle as usize].map(|v| minus(&self.points[v as usize], at))
     }
 
-    /// The triangle beyond a side, and which side of its own that is; None where there is not exactly one.
-    pub fn beyond(&self, triangle: u32, side: usize) -> Option<(u32, usize)> {
+    /// The number of a side's edge.
+    fn edge(&self, triangle: u32, side: usize) -> Option<usize> {
         let own = self.triangles[triangle as usize];
         let (a, b) = (own[side], own[(side + 1) % 3]);
-        let e = self.edges.binary_search(&[a.min(b), a.max(b)]).ok()?;
+        self.edges.binary_search(&[a.min(b), a.max(b)]).ok()
+    }
+
+    fn sharp(&self, triangle: u32, side: usize) -> bool {
+        self.edge(triangle, side).is_some_and(|e| self.kinds[e] == SHARP)
+    }
+
+    /// The triangle beyond a side, and which side of its own that is; None where there is not exactly one.
+    pub fn beyond(&self, triangle: u32, side: usize) -> Option<(u32, usize)> {
+        let e = self.edge(triangle, side)?;
+        let [a, b] = self.edges[e];
         let [s, t] = self.incident[self.offsets[e] as usize..self.offsets[e + 1] as usize] else { return None };
         let next = if s == triangle as i32 { t } else { s };
         let corners = self.triangles[next as usize];
@@ -134,14 +150,21 @@ pub fn cross(a: &Vec3, b: &Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hlr_mesh::kinds::INTERIOR;
     use hlr_mesh::topology;
 
     /// The reach of the surface around triangle `of` beyond triangle 0.
     fn reach(points: &[Vec3], triangles: &[[i32; 3]], of: u32, at: Vec3, most: f64) -> f64 {
+        reach_with(INTERIOR, points, triangles, of, at, most)
+    }
+
+    /// The same, all edges being of this class.
+    fn reach_with(kind: u8, points: &[Vec3], triangles: &[[i32; 3]], of: u32, at: Vec3, most: f64) -> f64 {
         let t = topology::topology(triangles, points.len());
-        let normals = topology::normals(points, triangles);
+        let normals = &topology::normals(points, triangles)[..];
         let (edges, offsets, incident) = (&t.edges[..], &t.offsets[..], &t.incident[..]);
-        Sheet { points, triangles, edges, offsets, incident, normals: &normals }.reach(&normals[0], of, &at, most)
+        let sheet = Sheet { points, triangles, edges, offsets, incident, kinds: &vec![kind; edges.len()], normals };
+        sheet.reach(&normals[0], of, &at, most)
     }
 
     /// The plane z = 0, and a wall through it along x, from z = -low to z = high, cut into `strips` that lean along x;
@@ -196,5 +219,20 @@ mod tests {
         assert!((found - 1.0 - cosine).abs() < 1e-12, "{found}");
         (points[7], points[8]) = ([0.0, 1.0, -1.5], [1.0, 1.0, -1.5]);
         assert!((reach(&points, &triangles, 1, at, 100.0) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_surface_ends_at_a_sharp_edge_that_turns_more_than_facets_do() {
+        for (degrees, ends) in [(30.0f64, true), (10.0, false)] {
+            let (mut points, mut triangles) = wall(0.25, 5.0, 1, 0.0, None);
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            points.extend([[0.0, sine, -0.25 - cosine], [1.0, sine, -0.25 - cosine]]);
+            triangles.extend([[5, 3, 7], [5, 7, 8]]);
+            let at = [0.3, 0.0, 0.0];
+            let whole = reach(&points, &triangles, 1, at, 100.0);
+            assert!((whole - 0.25 - cosine).abs() < 1e-12, "{whole}");
+            let found = reach_with(SHARP, &points, &triangles, 1, at, 100.0);
+            assert!((found - if ends { 0.25 } else { whole }).abs() < 1e-12, "{degrees}: {found}");
+        }
     }
 }
