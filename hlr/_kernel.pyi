@@ -785,6 +785,12 @@ class PartTables:
     def placed(self, part: Ints, transform: Floats, precision: Floats) -> PartTables:
         """These parts (m,), any of them any number of times, each moved by its transform (m, 3, 4)."""
 
+    def with_triangles(self, chosen: Bools, edge_nodes: Ints) -> PartTables:
+        """These parts with the chosen (t,) triangles alone, and with other points as nodes of the edges.
+
+        ValueError: a length or a number is out of range.
+        """
+
     def within(self, largest: float) -> bool:
         """Whether all coordinates are finite and nearer to the origin than this."""
 

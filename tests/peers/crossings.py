@@ -130,13 +130,13 @@ class Compared:
 def compare(drawing: Drawing, parts: Floats, common: Common) -> Compared:
     """parts: their boxes (p, 6), in the order of the drawing."""
     solid = [_nearest(box, common.boxes) for box in parts]
-    drawn, untold = set(), 0
+    near, drawn, untold = set(_overlapping(common.boxes)), set(), 0
     for one, other in {(line.part, line.other) for line in drawing.lines if line.kind == "intersection"}:
         if other is None or one == other:
             continue
         a, b = solid[one], solid[other]
         pair = None if a is None or b is None else (min(a, b), max(a, b))
-        if pair is None or (pair not in common.thickness and pair in _overlapping(common.boxes)):
+        if pair is None or (pair in near and pair not in common.thickness):
             untold += 1
         else:
             drawn.add(pair)

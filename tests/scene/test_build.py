@@ -229,6 +229,15 @@ def test_leaving_triangles_out_of_some_parts_gives_what_putting_all_parts_togeth
     for name in names:
         assert np.array_equal(getattr(found.tables, name), getattr(expected.tables, name)), name
     assert found.labels == [*combine_parts(parts).labels] and found.surfaces is expected.surfaces
+    tables = found.tables
+    chosen = np.ones(len(tables.triangles), bool)
+    for wrong in (
+        (chosen[1:], tables.edge_nodes),
+        (chosen, tables.edge_nodes[1:]),
+        (chosen, tables.edge_nodes + 10**6),
+    ):
+        with pytest.raises(ValueError, match=r"chosen|edge_nodes"):
+            tables.with_triangles(*wrong)
 
 
 @pytest.mark.parametrize("again", range(12))

@@ -105,6 +105,25 @@ impl Tables {
         Ok(out)
     }
 
+    /// These tables with the chosen triangles alone, and with other points as nodes of the edges.
+    pub fn with_triangles(&self, chosen: &[bool], edge_nodes: &[i32]) -> Tables {
+        fn keep<T>(rows: &mut Vec<T>, chosen: &[bool]) {
+            let mut next = chosen.iter();
+            rows.retain(|_| *next.next().unwrap_or(&false));
+        }
+        let mut out = self.clone();
+        keep(&mut out.triangles, chosen);
+        keep(&mut out.triangle_face, chosen);
+        keep(&mut out.origin, chosen);
+        keep(&mut out.corner, chosen);
+        let count = |own: &[i32]| chosen[own[0] as usize..own[1] as usize].iter().filter(|&&c| c).count() as i32;
+        for (p, own) in self.triangle_start.windows(2).enumerate() {
+            out.triangle_start[p + 1] = out.triangle_start[p] + count(own);
+        }
+        out.edge_nodes = edge_nodes.to_vec();
+        out
+    }
+
     fn add_root(&mut self, mut root: PartMesh, planar: &[bool]) {
         let (point, node) = (self.points.len() as i32, self.uv.len() as i32);
         if point > 0 {

@@ -12,8 +12,7 @@ use super::view::{Flat, Rows};
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::Scene;
 use hlr_mesh::tables::Tables;
-use hlr_visibility::clash::boxes_meet as boxes;
-use hlr_visibility::clash::crossings::{self as library, met};
+use hlr_visibility::clash::crossings;
 use hlr_visibility::clash::planar_faces::{NO_PLANE, PlanarFaces};
 
 /// Result of a search: the outer None for points that are not finite, the inner None for a search that was stopped.
@@ -43,7 +42,7 @@ pub fn clashes<'py>(
     expect_below("triangle_group", group.iter().copied(), itself.len())?;
     let found = told(run(py, triangles.len(), |stopped| {
         let planar = PlanarFaces::without_neighbours(vec![NO_PLANE; triangles.len()]);
-        let found = met(points, (triangles, group, &planar), itself, stopped)?;
+        let found = crossings::met(points, (triangles, group, &planar), itself, stopped)?;
         Some((!stopped()).then_some(found))
     })?)?;
     let out = PyDict::new(py);
@@ -72,7 +71,7 @@ pub fn crossings<'py>(
 ) -> PyResult<Crossings<'py>> {
     expect_len("touch", touch.len(), scene.folded.len())?;
     let found = told(run(py, tables.triangles.len(), |stopped| {
-        let found = library::crossings((tables, facts, scene), touch, deflection, stopped)?;
+        let found = crossings::crossings((tables, facts, scene), touch, deflection, stopped)?;
         Some((!stopped()).then_some(found))
     })?)?;
     Ok((
@@ -93,7 +92,7 @@ pub fn boxes_meet<'py>(
 ) -> PyResult<Bound<'py, PyArray1<bool>>> {
     let (low, high) = (rows::<f64, 3>(&low, "low")?, rows::<f64, 3>(&high, "high")?);
     expect_len("high", high.len(), low.len())?;
-    let Some(meets) = boxes::boxes_meet(low, high) else {
+    let Some(meets) = hlr_visibility::clash::boxes_meet::boxes_meet(low, high) else {
         return Err(PyValueError::new_err("boxes hold coordinates that are not finite"));
     };
     Ok(meets.into_pyarray(py))

@@ -189,6 +189,20 @@ arrays! { PartTables {
         Ok(PartTables(Arc::new(found)))
     }
 
+    /// These parts with the chosen triangles alone, and with other points as nodes of the edges.
+    fn with_triangles(
+        &self,
+        py: Python<'_>,
+        chosen: PyReadonlyArray1<'_, bool>,
+        edge_nodes: PyReadonlyArray1<'_, i32>,
+    ) -> PyResult<PartTables> {
+        let (chosen, nodes) = (slice(&chosen, "chosen")?, slice(&edge_nodes, "edge_nodes")?);
+        expect_len("chosen", chosen.len(), self.0.triangles.len())?;
+        expect_len("edge_nodes", nodes.len(), self.0.edge_nodes.len())?;
+        expect_below("edge_nodes", nodes.iter().copied(), self.0.points.len())?;
+        Ok(PartTables(Arc::new(py.detach(|| self.0.with_triangles(chosen, nodes)))))
+    }
+
     /// Whether all coordinates are finite and nearer to the origin than this.
     fn within(&self, largest: f64) -> bool {
         self.0.within(largest)

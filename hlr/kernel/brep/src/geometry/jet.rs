@@ -21,11 +21,16 @@ impl Jet {
     pub fn normal(&self) -> Option<(Vector, [Vector; 2])> {
         let normal = upright(&self.du, &self.dv)?;
         let size = length(&cross(&self.du, &self.dv));
+        Some((normal, self.changes(&normal, size)))
+    }
+
+    /// The derivatives of the unit normal by u and v. size: of du x dv.
+    pub(super) fn changes(&self, normal: &Vector, size: f64) -> [Vector; 2] {
         let of = |du: &Vector, dv: &Vector| {
             let change = add(&cross(du, &self.dv), &cross(&self.du, dv));
-            scaled(&along(&change, &normal, -dot(&normal, &change)), 1.0 / size)
+            scaled(&along(&change, normal, -dot(normal, &change)), 1.0 / size)
         };
-        Some((normal, [of(&self.duu, &self.duv), of(&self.duv, &self.dvv)]))
+        [of(&self.duu, &self.duv), of(&self.duv, &self.dvv)]
     }
 }
 

@@ -119,11 +119,7 @@ fn offset(basis: &Surface, distance: f64, uv: [f64; 2]) -> Jet {
             return (j.point, j.du, j.dv);
         }
         let unit = scaled(&n, 1.0 / size);
-        let turned = |a: &Vector, b: &Vector| {
-            let d = add(&cross(a, &j.dv), &cross(&j.du, b));
-            scaled(&along(&d, &unit, -dot(&d, &unit)), distance / size)
-        };
-        let (nu, nv) = (turned(&j.duu, &j.duv), turned(&j.duv, &j.dvv));
+        let [nu, nv] = j.changes(&unit, size).map(|change| scaled(&change, distance));
         (along(&j.point, &unit, distance), add(&j.du, &nu), add(&j.dv, &nv))
     };
     let (point, du, dv) = first(uv);

@@ -5,7 +5,7 @@ use crate::scan::box_tree::{Aabb, BoxTree};
 use hlr_exact::snap::Grid;
 
 /// Per box (low, high) whether it comes near another one: always true where it does, rarely where it does not. A box
-/// that is not finite is near none. None where no box is finite.
+/// that is not finite is near none. None where they lie too far apart for a grid.
 pub fn boxes_meet(low: &[Vec3], high: &[Vec3]) -> Option<Vec<bool>> {
     let finite = |i: &usize| low[*i].iter().chain(&high[*i]).all(|c| c.is_finite());
     let used: Vec<usize> = (0..low.len()).filter(finite).collect();

@@ -56,11 +56,14 @@ fn stretches(of_pair: &[usize], ends: &[[i32; 2]]) -> Vec<Vec<usize>> {
 /// no end is at a border.
 fn width(bodies: &Bodies, found: &[Clash], ends: &[[i32; 2]], points: &[Vec3], stretch: &[usize]) -> Option<f64> {
     let at = |end: i32| &points[end as usize];
-    let first = ends[stretch[0]];
-    let along = minus(at(first[1]), at(first[0]));
-    let by_place = |a: &i32, b: &i32| dot(at(*a), &along).total_cmp(&dot(at(*b), &along));
-    let every = || stretch.iter().flat_map(|&i| ends[i]);
-    let outer = [every().min_by(by_place)?, every().max_by(by_place)?];
+    // The end farthest from any end is an outer one, and the one farthest from that the other.
+    let farthest = |from: i32| {
+        let away = |end: &i32| minus(at(*end), at(from));
+        let every = stretch.iter().flat_map(|&i| ends[i]);
+        every.max_by(|a, b| dot(&away(a), &away(a)).total_cmp(&dot(&away(b), &away(b))))
+    };
+    let one = farthest(ends[stretch[0]][0])?;
+    let outer = [one, farthest(one)?];
     let whole = minus(at(outer[1]), at(outer[0]));
     let across: Vec<Across> = outer
         .into_iter()
@@ -127,9 +130,15 @@ mod tests {
 
     const DEFLECTION: f64 = 0.1;
 
-    /// What becomes of a depth of 5.0 where an upright planar face crosses a level one from x = 0 to x = `long`, where the level one
-    /// ends in a border at 45 degrees. `beyond`: the face on the other side of that border.
+    /// What becomes of a depth of 5.0 where an upright planar face crosses a level one from x = 0 to x = `long`, where the
+    /// level one ends in a border at 45 degrees. `beyond`: the face on the other side of that border.
     fn limited(long: f64, beyond: i32) -> f64 {
+        limited_in(&[0.0, long], &[[0, 1]], beyond)
+    }
+
+    /// The same where the stretch consists of these segments between these places.
+    fn limited_in(places: &[f64], ends: &[[i32; 2]], beyond: i32) -> f64 {
+        let long = places[places.len() - 1];
         let (a, b, c) = ([long - 1.0, -1.0, 0.0], [long + 1.0, 1.0, 0.0], [-9.0, 0.0, 0.0]);
         let below = [0.0, 0.0, -9.0];
         let upright = [[0.0, 0.0, -5.0], [9.0, 0.0, 0.0], [0.0, 0.0, 5.0]];
@@ -152,8 +161,10 @@ mod tests {
             deflection: DEFLECTION,
         };
         let clash = Clash { triangles: [0, 2], meeting: Meeting { ends: [[0; 3]; 2], depth: 0.0, sine: 1.0 } };
-        let mut depth = [Depth { touch: 1.0, level: 5.0, beyond: 5.0, reach: 5.0 }];
-        limit(&bodies, &[clash], &[[0, 1]], &[[0.0, 0.0, 0.0], [long, 0.0, 0.0]], &mut depth);
+        let mut depth = vec![Depth { touch: 1.0, level: 5.0, beyond: 5.0, reach: 5.0 }; ends.len()];
+        let at: Vec<Vec3> = places.iter().map(|&x| [x, 0.0, 0.0]).collect();
+        limit(&bodies, &vec![clash; ends.len()], ends, &at, &mut depth);
+        assert!(depth.iter().all(|each| each.beyond == depth[0].beyond));
         depth[0].beyond
     }
 
@@ -163,6 +174,13 @@ mod tests {
             assert!((limited(long, NO_PLANE) - (long / 2.0f64.sqrt() - DEFLECTION)).abs() < 1e-12);
         }
         assert_eq!(limited(20.0, NO_PLANE), 5.0);
+    }
+
+    #[test]
+    fn a_stretch_may_consist_of_several_segments_and_of_points() {
+        for ends in [&[[1, 1], [0, 1], [1, 2]][..], &[[2, 1], [0, 1]], &[[2, 2], [1, 2], [1, 1], [1, 0]]] {
+            assert_eq!(limited_in(&[0.0, 1e-9, 3.0], ends, NO_PLANE), limited(3.0, NO_PLANE));
+        }
     }
 
     #[test]

@@ -7,11 +7,10 @@ use super::contacts::real;
 use super::depth::{Bodies, Depth};
 use super::planar_faces::{Edges, NO_PLANE, PlanarFaces};
 use super::planes::planes;
-use super::reach::{Sheet, Vec3, dot, minus};
+use super::reach::{Sheet, Vec3};
 use super::search::{Clash, Clashes};
 use super::surfaces::Surfaces;
 use super::weld::weld;
-use hlr_accuracy::CONTACT_POINT;
 use hlr_exact::snap::Grid;
 use hlr_mesh::facts::Facts;
 use hlr_mesh::scene::Scene;
@@ -81,13 +80,7 @@ pub fn crossings(
     let planes = planes(&sheet, &planar.of, found);
     let (face, planes) = (&planar.of[..], &planes);
     let bodies = Bodies { sheet, group, face, planes, without_brep: &without_brep, touch, deflection };
-    let depth = |(clash, ends): (&Clash, &[i32; 2])| {
-        let [a, b] = ends.map(|end| &points[end as usize]);
-        let depth = bodies.depth(clash, &[0, 1, 2].map(|k| (a[k] + b[k]) / 2.0));
-        // A corner that touches: there is no direction in which its depth could be measured.
-        let short = dot(&minus(b, a), &minus(b, a)).sqrt() <= CONTACT_POINT * deflection;
-        if short && bodies.of_breps(clash) { Depth { beyond: f64::NEG_INFINITY, ..depth } } else { depth }
-    };
+    let depth = |(clash, ends): (&Clash, &[i32; 2])| bodies.depth(clash, ends.map(|end| &points[end as usize]));
     let mut depth: Vec<Depth> = found.par_iter().zip(ends).with_min_len(FEW_CLASHES).map(depth).collect();
     chord_ends::limit(&bodies, found, ends, points, &mut depth);
     let width: Vec<f64> =

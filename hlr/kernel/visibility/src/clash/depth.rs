@@ -13,7 +13,7 @@
 use super::planes::{Plane, Planes};
 use super::reach::{Sheet, Vec3, dot, minus};
 use super::search::Clash;
-use hlr_accuracy::{CONTACT_OF_ONE_SOLID, FLUSH};
+use hlr_accuracy::{CONTACT_OF_ONE_SOLID, CONTACT_POINT, FLUSH};
 
 /// Sine of an angle: two tessellations of one curved surface never cross at more, as chords turn by at most half a
 /// radian.
@@ -76,8 +76,9 @@ impl Bodies<'_> {
         !self.groups(clash).iter().any(|&g| self.without_brep[g])
     }
 
-    /// The depth of a clash. `middle`: the middle of the segment in which the two triangles cross.
-    pub fn depth(&self, clash: &Clash, middle: &Vec3) -> Depth {
+    /// The depth of a clash. `ends`: of the segment in which the two triangles cross.
+    pub fn depth(&self, clash: &Clash, ends: [&Vec3; 2]) -> Depth {
+        let middle = &[0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2.0);
         let groups = self.groups(clash);
         let solid = self.of_breps(clash);
         let mut touch = groups.iter().fold(0.0f64, |most, &g| most.max(self.touch[g]));
@@ -101,6 +102,11 @@ impl Bodies<'_> {
                 _ => touch,
             };
             beyond = beyond.min(level[k] - forgiven);
+        }
+        let way = minus(ends[1], ends[0]);
+        if solid && dot(&way, &way).sqrt() <= CONTACT_POINT * self.deflection {
+            // A corner that touches: there is no direction in which its depth could be measured.
+            beyond = f64::NEG_INFINITY;
         }
         Depth { touch, level: level[0].min(level[1]), beyond, reach }
     }
