@@ -47,7 +47,12 @@ def stray_note(source: Source, camera: Camera) -> Note | None:
 def strays(low: Floats, high: Floats) -> list[int]:
     """Numbers of the parts that lie apart, by the corners (n, 2) of their boxes on paper; none where there are many."""
     whole, kept, out = _diagonal(low, high), np.arange(len(low)), []
-    for _ in range(min(MOST, len(low) // 4)):
+    most = min(MOST, len(low) // 4)
+    # With so many taken out, the rest reaches at least as far as this: nearly always enough to say that there are none.
+    least = np.hypot(*(np.partition(high, -1 - most, axis=0)[-1 - most] - np.partition(low, most, axis=0)[most]))
+    if least * STRETCH > whole:
+        return []
+    for _ in range(most):
         # Of the parts that touch the box around all, take out the one that leaves the smallest rest.
         rim = {int(i) for i in (*low[kept].argmin(axis=0), *high[kept].argmax(axis=0))}
         rests = {i: np.delete(kept, i) for i in sorted(rim)}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from hlr.common.types import Floats
@@ -30,8 +32,16 @@ def compose(outer: MatrixRows, inner: MatrixRows) -> MatrixRows:
 
 def matrix4(rows: MatrixRows) -> Floats:
     """The matrix (4, 4) of a placement; minus zeros become zeros."""
-    whole: Floats = np.array((*rows, 0.0, 0.0, 0.0, 1.0)).reshape(4, 4)
-    whole += 0.0
+    whole: Floats = matrices4([rows])[0]
+    return whole
+
+
+def matrices4(placements: Sequence[MatrixRows]) -> Floats:
+    """The matrices (n, 4, 4) of placements; minus zeros become zeros."""
+    whole = np.zeros((len(placements), 4, 4))
+    whole[:, :3] = np.array(placements, np.float64).reshape(-1, 3, 4)
+    whole[:, :3] += 0.0
+    whole[:, 3, 3] = 1.0
     return whole
 
 

@@ -81,6 +81,8 @@ class BrepSource:
         """Set the parts that are drawn, and forget what was computed for others."""
         self._parts = list(parts)
         self._used_prototypes = sorted({part.prototype for part in parts})
+        self._prototype_numbers: Ints = np.array([part.prototype for part in self._parts], np.int32)
+        self._places: Floats = np.array([part.transform for part in self._parts])
         self._corners: tuple[Floats, Floats] | None = None
         self._bounds: Floats | None = None
         self._tessellator: Tessellator | None = None
@@ -126,16 +128,12 @@ class BrepSource:
 
         May be a little too far: splines count by the control points of small pieces.
         """
-        numbers = np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
-        return self._part_tessellator.reach(numbers, self._places, right, up)
+        return self._part_tessellator.reach(self._used_numbers, self._places, right, up)
 
     @property
-    def _prototype_numbers(self) -> Ints:
-        return np.array([part.prototype for part in self._parts], np.int32)
-
-    @property
-    def _places(self) -> Floats:
-        return np.array([part.transform for part in self._parts])
+    def _used_numbers(self) -> Ints:
+        """(p,) the number of each part's prototype among those that are used."""
+        return np.searchsorted(self._used_prototypes, self._prototype_numbers).astype(np.int32)
 
     @property
     def _placed(self) -> tuple[Floats, Floats]:
@@ -216,25 +214,22 @@ class BrepSource:
             raise SourceError(
                 f"{self._name} would have more than 16 million triangles: give a coarser accuracy, or a smaller scale."
             ) from None
-        number = {prototype: i for i, prototype in enumerate(self._used_prototypes)}
-        starts = tables.triangle_start
-        counts = (starts[1:] - starts[:-1]).tolist()
-        notes, kept = [], []
-        for part in self._parts:
-            prototype = number[part.prototype]
-            if faults:
-                a, b = tables.face_start[prototype : prototype + 2]
+        numbers = self._used_numbers
+        triangles = np.diff(tables.triangle_start)[numbers]
+        meshed = (triangles > 0) | ~np.array(self._prototypes.has_faces)[self._prototype_numbers]
+        kept, notes = self._parts, []
+        if faults or not meshed.all():
+            kept = [part for part, is_meshed in zip(self._parts, meshed, strict=True) if is_meshed]
+            for part, number, is_meshed in zip(self._parts, numbers.tolist(), meshed.tolist(), strict=True):
+                a, b = tables.face_start[number : number + 2]
                 notes += faults.notes(part.name, tables.face_shape[a:b])
-            if counts[prototype] or not self._prototypes.has_faces[part.prototype]:
-                kept.append(part)
-            else:
-                text = f'Part "{part.name}" has no triangles and was left out.'
-                notes.append(Note("part-left-out", text))
+                if not is_meshed:
+                    text = f'Part "{part.name}" has no triangles and was left out.'
+                    notes.append(Note("part-left-out", text))
         if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
-        check_triangle_count(sum(counts[number[part.prototype]] for part in kept))
-        prototypes = np.array([number[part.prototype] for part in kept], np.int32)
-        transforms = np.array([part.transform[:3] for part in kept])
+        check_triangle_count(int(triangles.sum()))
+        prototypes, transforms = numbers[meshed], self._places[meshed, :3]
         placed = tables.placed(prototypes, transforms, _precisions(tables)[prototypes])
 
         def edge_curves(part: Ints, edge: Ints) -> EdgeCurves:

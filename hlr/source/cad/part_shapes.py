@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from hlr.source.cad.prototypes import DividedPrototypes, LivePrototypes, Prototypes, divided_by_kernel
 from hlr.source.transforms import IDENTITY, MatrixRows
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(NamedTuple):
     """A solid of a shape, or all that lies outside its solids.
 
     prototype  its index among the prototypes
@@ -156,5 +155,4 @@ class LiveShapes(OcctShapes):
             [Piece(part, IDENTITY if place is None else tuple(place), solid, None) for part, solid, place in each]
             for each in pieces
         ]
-
         return Division(of, DividedPrototypes(model, lambda: OcctShapes.divided(self, shapes).prototypes.shapes))

@@ -11,7 +11,7 @@ from hlr.common.types import Color, Floats, Rgba
 from hlr.drawing.notes import Note
 from hlr.source.cad.part_shapes import PartShapes, Piece
 from hlr.source.model import DEFAULT_COLOR, Appearance, rgba
-from hlr.source.transforms import compose, matrix4
+from hlr.source.transforms import MatrixRows, compose, matrices4
 
 
 @dataclass(slots=True)
@@ -62,7 +62,6 @@ class PartCollector:
     def __init__(self, shapes: PartShapes, leaves: Sequence[Leaf]) -> None:
         """Args: shapes: knows the shapes of the leaves, which are all of one kind."""
         self._shapes = shapes
-        self.parts: list[Part] = []
         self.notes: list[Note] = []
         self._colors: dict[tuple[int, int], Color | None] = {}
         self._names: set[str] = set()
@@ -80,26 +79,33 @@ class PartCollector:
         division = shapes.divided(list(distinct.values()))
         self.prototypes = division.prototypes
         pieces = dict(zip(distinct, division.pieces, strict=True))
+        placed: list[tuple[Leaf, str, Piece, MatrixRows]] = []
         for key, leaf in instances:
-            self._add(leaf, pieces[key])
+            placed += self._placed(leaf, pieces[key])
+        transforms = matrices4([place for *_, place in placed])
+        self.parts = [
+            Part(
+                name=name,
+                product=leaf.name,
+                color=self._piece_color(leaf, piece) or leaf.color,
+                prototype=piece.prototype,
+                transform=transform,
+                transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
+                appearance=partial(_appearance, leaf, piece.shape, shapes),
+            )
+            for (leaf, name, piece, _), transform in zip(placed, transforms, strict=True)
+        ]
 
-    def _add(self, leaf: Leaf, pieces: Sequence[Piece]) -> None:
-        """Make parts of the pieces of a leaf."""
+    def _placed(self, leaf: Leaf, pieces: Sequence[Piece]) -> list[tuple[Leaf, str, Piece, MatrixRows]]:
+        """The pieces of a leaf, each with its leaf, its name, and where it stands."""
         place = self._shapes.place(leaf.shape)
         several = sum(piece.solid for piece in pieces) > 1
+        found = []
         for piece in pieces:
             suffix = "" if piece.solid or len(pieces) == 1 else ":loose"
-            self.parts.append(
-                Part(
-                    name=self._unique(leaf.name + suffix, several and piece.solid),
-                    product=leaf.name,
-                    color=self._piece_color(leaf, piece) or leaf.color,
-                    prototype=piece.prototype,
-                    transform=matrix4(compose(place, piece.place)),
-                    transparent=leaf.opacity < 1.0 or bool(leaf.opacities),
-                    appearance=partial(_appearance, leaf, piece.shape, self._shapes),
-                )
-            )
+            name = self._unique(leaf.name + suffix, several and piece.solid)
+            found.append((leaf, name, piece, compose(place, piece.place)))
+        return found
 
     def _unique(self, name: str, numbered: bool) -> str:
         while True:

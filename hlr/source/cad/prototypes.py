@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import io
 import math
 from collections.abc import Callable, Sequence
@@ -154,6 +155,10 @@ def divided_by_kernel(shapes: Sequence[Any]) -> tuple[_kernel.BrepModel, list[li
         return None
 
 
+LONG_STREAM = 1 << 20
+"""Bytes of a stream beyond which its writer is released on a thread of its own. A thread takes 0.1 ms to start."""
+
+
 def shape_stream(shapes: Sequence[Any]) -> bytes | None:
     """OpenCASCADE's stream of a compound of the shapes, without triangles: written in half the time of a dump.
 
@@ -167,8 +172,14 @@ def shape_stream(shapes: Sequence[Any]) -> bytes | None:
     if writer is None:
         return None
     stream = io.BytesIO()
-    writer().Write(make_compound(list(shapes)), stream)
-    return stream.getvalue()
+    writers = [writer()]
+    writers[0].Write(make_compound(list(shapes)), stream)
+    found = stream.getvalue()
+    if len(found) > LONG_STREAM:
+        # That takes a third as long as writing. The kernel reads the stream meanwhile.
+        _thread.start_new_thread(writers.clear, ())
+    return found
+
 
 
 def binary_dump(shapes: Sequence[Any]) -> bytes:

@@ -43,13 +43,11 @@ impl Segment {
         minus(&self.b, &self.a)
     }
 
-    /// Places in the middle of equal pieces, each at most `step` long; and the length of a piece.
-    pub fn places(&self, step: f64) -> (impl Iterator<Item = Vec2> + use<>, f64) {
+    /// Places in the middle of equal pieces, each at most `step` long.
+    pub fn places(&self, step: f64) -> impl Iterator<Item = Vec2> + use<> {
         let (a, way) = (self.a, self.way());
-        let size = length(&way);
-        let count = (size / step).ceil().max(1.0);
-        let at = move |k: usize| [0, 1].map(|i| a[i] + way[i] * ((k as f64 + 0.5) / count));
-        ((0..count as usize).map(at), size / count)
+        let count = (length(&way) / step).ceil().max(1.0);
+        (0..count as usize).map(move |k| [0, 1].map(|i| a[i] + way[i] * ((k as f64 + 0.5) / count)))
     }
 }
 

@@ -121,7 +121,7 @@ fn between_others(lines: &Lines, visible: bool, pen: f64, tolerance: f64, order:
 /// Whether everywhere along a line one of the `counting` lines lies within a pen: on both sides, or on one.
 fn everywhere(grid: &Grid<'_>, own: &[Segment], pen: f64, counting: impl Fn(u32) -> bool, both: bool) -> bool {
     own.iter().all(|segment| {
-        segment.places(PIECE * pen).0.all(|place| {
+        segment.places(PIECE * pen).all(|place| {
             let (mut left, mut right) = (false, false);
             let mut found = false;
             grid.beside(segment, &place, pen, |offset, other| {

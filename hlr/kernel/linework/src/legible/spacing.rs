@@ -4,17 +4,17 @@ use rayon::prelude::*;
 
 use super::grid::{Grid, NOWHERE, STEPS, Segment, ink, measurable, rounded, segments};
 use crate::fit::arc::grow;
-use crate::fit::plane::Vec2;
+use crate::fit::plane::{Vec2, length};
 use crate::lines::drawing::Lines;
 
 /// Bins per millimetre of the distance.
 pub const BINS: f64 = 64.0;
 
-/// The longest piece of a line of which one place is looked at, millimetres.
+/// The longest piece of a line of which one place is looked at, millimetres. A line has one piece at least: where it is
+/// crowded all along, it is found wherever it is looked at.
 const PIECE: f64 = 0.5;
 
-/// Pieces are longer where there would be more than this many: so many places tell a share to a percent. A line that
-/// is crowded all along is found wherever it is looked at.
+/// Pieces are longer where there would be more than this many: so many places tell a share to a percent.
 const PLACES: f64 = 4_096.0;
 
 /// With fewer lines, or segments, a second thread gains nothing.
@@ -51,13 +51,14 @@ pub fn spacing(lines: &Lines, visible: bool, reach: f64) -> Option<Spacing> {
     let count = (reach * BINS) as usize;
     let all_ink = ink(&all);
     let step = (PIECE * STEPS).max(all_ink / PLACES);
-    let bins = all
+    let of_lines: Vec<&[Segment]> = all.chunk_by(|a, b| a.line == b.line).collect();
+    let bins = of_lines
         .par_iter()
         .with_min_len(ALONE)
         .fold(
             || vec![0u64; count],
-            |mut bins, segment| {
-                add(&grid, segment, step, reach * STEPS, &mut bins);
+            |mut bins, line| {
+                add(&grid, line, step, reach * STEPS, &mut bins);
                 bins
             },
         )
@@ -72,16 +73,29 @@ fn size(points: &[Vec2]) -> f64 {
     (around[1][0] - around[0][0]).max(around[1][1] - around[0][1]) / STEPS
 }
 
-fn add(grid: &Grid<'_>, segment: &Segment, step: f64, reach: f64, bins: &mut [u64]) {
-    let (places, piece) = segment.places(step);
-    for place in places {
-        let mut nearest = reach;
-        grid.beside(segment, &place, reach, |offset, _| {
-            nearest = nearest.min(offset.abs());
-            nearest > NEAR
-        });
-        if let Some(bin) = bins.get_mut((nearest / STEPS * BINS) as usize) {
-            *bin += piece.round() as u64;
+/// Adds the pieces of a line, each by the distance of what is nearest beside its middle.
+fn add(grid: &Grid<'_>, line: &[Segment], step: f64, reach: f64, bins: &mut [u64]) {
+    let ink = ink(line);
+    let count = (ink / step).ceil().max(1.0);
+    let piece = ink / count;
+    let (mut k, mut before) = (0.0, 0.0);
+    for segment in line {
+        let way = segment.way();
+        let size = length(&way);
+        let end = before + size.round();
+        while k < count && (k + 0.5) * piece < end {
+            let share = (((k + 0.5) * piece - before) / size).min(1.0);
+            let place = [0, 1].map(|i| segment.a[i] + way[i] * share);
+            let mut nearest = reach;
+            grid.beside(segment, &place, reach, |offset, _| {
+                nearest = nearest.min(offset.abs());
+                nearest > NEAR
+            });
+            if let Some(bin) = bins.get_mut((nearest / STEPS * BINS) as usize) {
+                *bin += piece.round() as u64;
+            }
+            k += 1.0;
         }
+        before = end;
     }
 }

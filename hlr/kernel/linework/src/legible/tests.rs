@@ -98,6 +98,21 @@ fn spacing_counts_lines_alongside_and_neither_crossings_nor_what_goes_on() {
 }
 
 #[test]
+fn all_ink_of_a_line_is_counted_however_many_chords_it_has() {
+    // Two lines side by side, in one piece or in many: each piece of ink lies a millimetre from the other line.
+    let ink = |chords: usize| {
+        let at = |k: usize| 20.0 * k as f64 / chords as f64;
+        let along = |y: f64| line((0..=chords).map(|k| [at(k), y]).collect());
+        spacing(&Lines(vec![along(0.0), along(1.0)]), true, 2.0).expect("little ink").bins[64]
+    };
+    assert_eq!([1, 2, 20, 640].map(ink), [40.0; 4]);
+    // So it is where a place lies in the last of its chords, or each chord is shorter than a piece.
+    let uneven = line([0.0, 0.1, 0.15, 7.3, 19.99, 20.0].map(|x| [x, 0.0]).to_vec());
+    let found = spacing(&Lines(vec![uneven, line(vec![[0.0, 1.0], [20.0, 1.0]])]), true, 2.0).expect("little ink");
+    assert!((found.bins[64] - 40.0).abs() < 0.01);
+}
+
+#[test]
 fn what_meets_no_sought_line_changes_nothing_about_those() {
     let mut state = 5u64;
     let mut random = |n: u64| {
