@@ -181,7 +181,6 @@ def shape_stream(shapes: Sequence[Any]) -> bytes | None:
     return found
 
 
-
 def binary_dump(shapes: Sequence[Any]) -> bytes:
     """OpenCASCADE's binary dump of a compound of the shapes, without triangles except where they are all there is."""
     from OCP.BinTools import BinTools, BinTools_FormatVersion
