@@ -699,6 +699,9 @@ class BrepMesh:
     def turned(self) -> list[tuple[int, int]]:
         """Faces with loops that run the wrong way: number, and how many loops."""
 
+    def off_their_edges(self, most: float) -> list[tuple[int, float]]:
+        """Faces whose edges are farther off their surface than `most` (model units): number, and how far."""
+
     def replace(
         self, face: int, points: Floats, uv: Floats, triangles: Ints, borders: list[tuple[list[int], list[float]]]
     ) -> bool:

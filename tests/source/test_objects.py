@@ -114,6 +114,9 @@ def test_a_mesher_that_fails_on_one_part(monkeypatch):
         def turned(self):
             return []
 
+        def off_their_edges(self, most):
+            return []
+
         def parts(self, planar):
             found = self.meshed.parts(planar)
             nameless = [PartLabel("", None, np.eye(4))] * len(found)

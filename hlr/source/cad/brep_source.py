@@ -228,6 +228,9 @@ class BrepSource:
                     notes.append(Note("part-left-out", text))
         if not kept:
             raise SourceError(f"{self._name}: none of its faces could be meshed.")
+        starts = tables.face_start
+        faces = (tables.face_shape[starts[i] : starts[i + 1]] for i in numbers)
+        notes += faults.off_note((part.name, own) for part, own in zip(self._parts, faces, strict=True))
         check_triangle_count(int(triangles.sum()))
         prototypes, transforms = numbers[meshed], self._places[meshed, :3]
         placed = tables.placed(prototypes, transforms, _precisions(tables)[prototypes])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,11 +21,13 @@ class MeshingFaults:
     lost      without triangles
     rescued   meshed by OpenCASCADE's mesher, not by the kernel
     turned    a loop of the face has the wrong orientation; it was meshed as if it had the right one
+    off       their edges lie off their surface in the model itself, and how far, in model units: those where it shows
     """
 
     lost: list[int] = field(default_factory=list)
     rescued: list[int] = field(default_factory=list)
     turned: list[int] = field(default_factory=list)
+    off: dict[int, float] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
         return bool(self.lost or self.rescued or self.turned)
@@ -48,6 +51,21 @@ class MeshingFaults:
             what = f"{have} an outline or a hole that runs the wrong way round"
             notes.append(Note("loops-turned", f"{of.format(len(turned))} {what} ({_listed(turned)})."))
         return notes
+
+    def off_note(self, parts: Iterable[tuple[str, Ints]]) -> list[Note]:
+        """One note on all faces that lie off their edges. parts: of each its name, and `face_shape` as above."""
+        if not self.off:
+            return []
+        farthest = max(self.off, key=lambda number: self.off[number])
+        places = ((name, np.flatnonzero(face_shape == farthest)) for name, face_shape in parts)
+        name, face = next((name, int(found[0])) for name, found in places if len(found))
+        where, far = f'face {face} of part "{name}"', f"up to {self.off[farthest]:.2g} mm off"
+        if len(self.off) == 1:
+            found = f"{where} lies {far} its own edges"
+        else:
+            found = f"{len(self.off)} faces lie {far} their own edges (the farthest is {where})"
+        text = f"In the model itself {found}: lines there cannot be more exact than that."
+        return [Note("faces-off-edges", text)]
 
 
 def _listed(faces: list[int]) -> str:

@@ -209,7 +209,7 @@ fn ordered(
         normals: order.iter().map(|i| surface.and_then(|s| s.normal(pick(i))).unwrap_or([0.0; 3])).collect(),
         turned: Vec::new(),
     };
-    MeshedFace { mesh, nodes, fault: None }
+    MeshedFace { mesh, nodes, ..MeshedFace::default() }
 }
 
 #[cfg(test)]

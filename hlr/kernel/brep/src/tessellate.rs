@@ -51,6 +51,8 @@ pub struct MeshedFace {
     pub nodes: Vec<Node>,
     /// The reason if there is no mesh.
     pub fault: Option<Fault>,
+    /// How far the edges of the face are off its surface, at most.
+    pub off: f64,
 }
 
 /// Progress of the work, and the request to stop it.
@@ -299,7 +301,7 @@ fn try_face(
     if !coarse.is_empty() {
         return Tried { waits: true, ..failed(Fault::NotCertified(f64::INFINITY), coarse) };
     }
-    let Border { mut loops, nodes, chords, .. } = found;
+    let Border { mut loops, nodes, chords, off } = found;
     // Two edges that consist of the same single chord enclose nothing at this deflection.
     let encloses = |l: &Vec<crate::mesh::LoopPoint>| l.len() > 2;
     let kept: Vec<usize> = (0..loops.loops.len()).filter(|&i| encloses(&loops.loops[i])).collect();
@@ -314,7 +316,7 @@ fn try_face(
     let chords: Vec<_> = kept.iter().map(|&i| &chords[i]).collect();
     loops.loops.retain(encloses);
     match mesh_face(surface, &loops, deflection, angle, steps) {
-        Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None }, coarse: Vec::new(), waits: false },
+        Ok(mesh) => Tried { face: MeshedFace { mesh, nodes, fault: None, off }, coarse: Vec::new(), waits: false },
         Err(fault) => {
             let coarse = match &fault {
                 Fault::Crossing(pairs) => {

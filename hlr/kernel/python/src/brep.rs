@@ -242,6 +242,13 @@ impl BrepMesh {
         count.enumerate().filter(|&(_, loops)| loops > 0).collect()
     }
 
+    /// Numbers of the faces whose edges are farther off their surface than `most` (model units), each with how far.
+    fn off_their_edges(&self, most: f64) -> Vec<(usize, f64)> {
+        let meshed = self.meshed.lock().unwrap_or_else(PoisonError::into_inner);
+        let off = meshed.faces.iter().map(|face| face.off);
+        off.enumerate().filter(|&(_, off)| off > most).collect()
+    }
+
     /// Gives a face the triangles of another mesher: points (n, 3) in the face's frame, uv (n, 2), triangles (m, 3)
     /// counterclockwise in (u, v), and for each edge in each wire its nodes and their parameters, in the edge's sense.
     /// Returns whether they fit the face.

@@ -28,6 +28,8 @@ pub struct Border {
     pub nodes: Vec<Node>,
     /// For each chord of each loop its edge and its number along the edge; None between the ends of two edges.
     pub chords: Vec<Vec<Option<(u32, u32)>>>,
+    /// How far its points are off the surface, at most.
+    pub off: f64,
 }
 
 impl Border {
@@ -84,7 +86,9 @@ pub fn border(model: &Model, face: &Face, polylines: &[Option<Polyline>], deflec
         let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), uv| (l.min(uv[k]), h.max(uv[k])));
         high - low
     });
-    let mut out = Border { loops: FaceLoops { loops: Vec::new(), periods }, nodes: Vec::new(), chords: Vec::new() };
+    let off = wires.iter().flatten().map(|run| run.off).fold(0.0, f64::max);
+    let loops = FaceLoops { loops: Vec::new(), periods };
+    let mut out = Border { loops, nodes: Vec::new(), chords: Vec::new(), off };
     let count = all().count();
     out.nodes.reserve(count);
     let mut numbers: FxHashMap<Node, u32> = FxHashMap::with_capacity_and_hasher(count, FxBuildHasher);

@@ -5,7 +5,7 @@ use crate::edges::Polyline;
 use crate::format::{Orientation, moved};
 use crate::geometry::curve::Curve;
 use crate::geometry::surface::Surface;
-use crate::geometry::vector::{Vector, dot, length, sub};
+use crate::geometry::vector::{Vector, cross, dot, length, sub};
 use crate::mesh::Fault;
 use crate::model::Model;
 use crate::shapes::{Use, Vertex};
@@ -20,6 +20,8 @@ pub struct Run {
     pub ends: [Vertex; 2],
     pub uv: Vec<[f64; 2]>,
     pub points: Vec<Vector>,
+    /// How far the points are off the surface at (u, v), at most.
+    pub off: f64,
 }
 
 impl Run {
@@ -48,11 +50,8 @@ pub fn run(
     let place = |p: &Vector| used.place.as_ref().map_or(*p, |m| moved(m, p));
     let mut points: Vec<Vector> = line.points.iter().map(place).collect();
     let curve = used.curve2.and_then(|(curve, range)| Some((model.curves2[curve].as_ref()?, range)));
-    let mut uv = match (surface, curve) {
-        (Surface::Plane(_), _) => {
-            let (origin, x, y) = surface.d1([0.0; 2]);
-            points.iter().map(|p| sub(p, &origin)).map(|d| [dot(&d, &x), dot(&d, &y)]).collect()
-        }
+    let (mut uv, off) = match (surface, curve) {
+        (Surface::Plane(_), _) => on_plane(surface, &points),
         (_, Some((curve, range))) => {
             let limit = (EDGE_IN_FACE * deflection).min(tolerance.max(edge.tolerance)).max(1e-9 * extent(&points));
             by_curve(surface, curve, range, edge.range, line, &points, limit)
@@ -69,14 +68,25 @@ pub fn run(
         points.reverse();
         ends.reverse();
     }
-    Ok(Some(Run { edge: used.edge, location: used.location, backward, degenerate: edge.degenerate, ends, uv, points }))
+    let degenerate = edge.degenerate;
+    Ok(Some(Run { edge: used.edge, location: used.location, backward, degenerate, ends, uv, points, off }))
 }
 
 fn extent(points: &[Vector]) -> f64 {
     points.iter().flatten().fold(0.0, |most: f64, c| most.max(c.abs()))
 }
 
+/// The run in a plane, and how far it is off the plane at most.
+fn on_plane(surface: &Surface, points: &[Vector]) -> (Vec<[f64; 2]>, f64) {
+    let (origin, x, y) = surface.d1([0.0; 2]);
+    let normal = cross(&x, &y);
+    let from_origin = || points.iter().map(|p| sub(p, &origin));
+    let uv = from_origin().map(|d| [dot(&d, &x), dot(&d, &y)]).collect();
+    (uv, from_origin().map(|d| dot(&d, &normal).abs()).fold(0.0, f64::max))
+}
+
 /// The run by the edge's curve in (u, v); where that is off the edge in space, by inversion of the edge's own points.
+/// And how far the run is off the surface then, at most.
 fn by_curve(
     surface: &Surface,
     curve: &Curve,
@@ -85,33 +95,38 @@ fn by_curve(
     line: &Polyline,
     points: &[Vector],
     limit: f64,
-) -> Vec<[f64; 2]> {
+) -> (Vec<[f64; 2]>, f64) {
     let same = first == range[0] && last == range[1];
     let scale = (last - first) / (range[1] - range[0]);
-    let mut out = Vec::with_capacity(points.len());
+    let (mut out, mut most) = (Vec::with_capacity(points.len()), 0.0f64);
     for (&t, point) in line.parameters.iter().zip(points) {
         let [u, v, _] = curve.point(if same { t } else { first + (t - range[0]) * scale });
         let mut uv = [u, v];
-        let off = length(&sub(point, &surface.point(uv)));
+        let from_surface = |uv: &[f64; 2]| length(&sub(point, &surface.point(*uv)));
+        let mut off = from_surface(&uv);
         if off > limit
             && let Some(better) = near(surface, point, uv)
-            && length(&sub(point, &surface.point(better))) < 0.5 * off
+            && from_surface(&better) < 0.5 * off
         {
-            uv = better;
+            (uv, off) = (better, from_surface(&better));
         }
+        most = most.max(off);
         out.push(uv);
     }
-    out
+    (out, most)
 }
 
-fn by_points(surface: &Surface, points: &[Vector]) -> Option<Vec<[f64; 2]>> {
+/// The same, of an edge without a curve in (u, v).
+fn by_points(surface: &Surface, points: &[Vector]) -> Option<(Vec<[f64; 2]>, f64)> {
     let size = extent(points);
     let domain = surface.domain(size);
-    let mut out: Vec<[f64; 2]> = Vec::with_capacity(points.len());
+    let (mut out, mut most): (Vec<[f64; 2]>, f64) = (Vec::with_capacity(points.len()), 0.0);
     for point in points {
         let found = out.last().and_then(|before| near(surface, point, *before));
-        let close = |uv: &[f64; 2]| length(&sub(point, &surface.point(*uv))) <= 1e-4 * size;
-        out.push(found.filter(close).or_else(|| anywhere(surface, point, domain))?);
+        let from_surface = |uv: &[f64; 2]| length(&sub(point, &surface.point(*uv)));
+        let uv = found.filter(|uv| from_surface(uv) <= 1e-4 * size).or_else(|| anywhere(surface, point, domain))?;
+        most = most.max(from_surface(&uv));
+        out.push(uv);
     }
-    Some(out)
+    Some((out, most))
 }
