@@ -52,3 +52,26 @@ def test_damaged_streams_are_refused():
         with pytest.raises(ValueError):
             _kernel.BrepModel.divided(stream[:end])
     assert _kernel.BrepModel.divided(stream)[0].n_faces > 0
+
+
+def test_loose_edges_beside_a_solid_do_not_make_the_kernel_read_it_again(monkeypatch):
+    import cadquery as cq
+
+    from hlr.source import open_source
+    from hlr.source.cad import prototypes
+
+    def unwanted(shapes):
+        raise AssertionError("the shapes are written once more")
+
+    box, edge = cq.Workplane().box(30, 20, 10).val(), cq.Edge.makeLine(cq.Vector(), cq.Vector(9, 9, 90))
+    other = cq.Workplane().box(5, 5, 5).val().moved(cq.Location(cq.Vector(40, 0, 0)))
+    alone = open_source([box, other])
+    monkeypatch.setattr(prototypes, "binary_dump", unwanted)
+    beside = open_source([cq.Compound.makeCompound([edge, box]), other])
+    assert [note.code for note in beside.notes] == ["wires-left-out"]
+    assert np.array_equal(beside.bounds(), alone.bounds())
+    one, two = (source.mesh(0.1, 0.5).parts.tables for source in (alone, beside))
+    assert np.array_equal(one.points, two.points) and np.array_equal(one.triangles, two.triangles)
+    # Of chosen parts alone the kernel reads no other.
+    with pytest.raises(AssertionError, match="written once more"):
+        beside.of_parts({beside.names()[0]}, None).mesh(0.1, 0.5)

@@ -80,7 +80,9 @@ class BrepSource:
     def _set_parts(self, parts: Sequence[Part]) -> None:
         """Set the parts that are drawn, and forget what was computed for others."""
         self._parts = list(parts)
-        self._used_prototypes = sorted({part.prototype for part in parts})
+        used = {part.prototype for part in parts}
+        # A prototype without faces takes no time to mesh, whereas a model without it would have to be read anew.
+        self._used_prototypes = [i for i, has in enumerate(self._prototypes.has_faces) if i in used or not has]
         self._prototype_numbers: Ints = np.array([part.prototype for part in self._parts], np.int32)
         self._places: Floats = np.array([part.transform for part in self._parts])
         self._corners: tuple[Floats, Floats] | None = None
